@@ -1,0 +1,114 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// Pressure over time. Between table points linear; before the first point its value, after the last point its value.
+struct PressureTable {
+  std::vector<std::pair<double, double>> points;  ///< (ms, kPa), times not decreasing; equal times make a jump
+
+  /// Mean pressure over [from, to] in kPa: the load of a step, so that the impulse does not depend on the time step.
+  double mean(double from, double to) const;
+  double at_end() const { return points.empty() ? 0.0 : points.back().second; }
+};
+
+/// [mesh]: `file`, or `level` made on demand beside the case file.
+struct MeshData {
+  std::filesystem::path file;  ///< absolute, or relative to the working directory once read
+  std::string level;           ///< "coarse", "intermediate", "fine", or empty
+};
+
+/// [fluid]
+struct FluidData {
+  double density = 0;    ///< mg/mm^3
+  double viscosity = 0;  ///< kPa ms
+  bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (design, section 3)
+};
+
+/// [structure.layers.NAME]
+struct MaterialData {
+  std::string material;   ///< "neo-hookean", "mooney-rivlin" or "artery"
+  double c10 = 0;         ///< kPa
+  double c01 = 0;         ///< kPa, mooney-rivlin
+  double k1 = 0;          ///< kPa, artery
+  double k2 = 0;          ///< -, artery
+  double alpha = 0;       ///< degrees between fibre and circumference, artery
+  double fibre_scale = 1;  ///< 0.5 gives the paper's printed fibre stress (design, section 2, item 3)
+};
+
+/// [structure]
+struct StructureData {
+  double density = 0;         ///< mg/mm^3
+  double bulk_modulus = 0;    ///< kPa
+  double stabilisation = 0.5;  ///< alpha in tau = alpha h^2 / (2 mu)
+  Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
+  Point axis_direction{0, 0, 1};  ///< need not be normalised
+  std::map<std::string, MaterialData> layers;
+};
+
+/// [time]; absent in a static case
+struct TimeData {
+  double step = 0;          ///< ms
+  double end = 0;           ///< ms
+  double newmark_beta = 1;
+  double newmark_gamma = 1;
+  int predictor = 1;        ///< order of the extrapolated start of each step: 0, 1 or 2
+
+  int steps() const;  ///< number of steps; `end` is hit exactly
+};
+
+/// [static]: a wall without inertia, the load raised in equal steps
+struct StaticData {
+  int load_steps = 10;
+};
+
+/// [monolithic]
+struct MonolithicData {
+  std::string linear_solver = "direct";
+  std::string mode = "kept";       ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
+  double newton_tolerance = 1e-8;  ///< increment relative to the first one of the step
+  double residual_tolerance = 0;   ///< optional further demand: residual relative to the first of the step; 0: none
+  int max_iterations = 30;
+};
+
+/// [partitioned]
+struct PartitionedData {
+  std::string scheme = "aitken";  ///< "constant" or "aitken"
+  double tolerance = 1e-6;        ///< ||d~ - d|| <= tolerance ||d~|| on the interface
+  double relaxation = 0;          ///< constant factor, or Aitken's first; 0 lets the scheme choose
+  int max_iterations = 200;
+};
+
+/// [output]
+struct OutputData {
+  std::vector<std::string> fields{"displacement", "velocity", "pressure"};
+  int every = 8;             ///< steps between entries of fields.h5; 0: no fields
+  int checkpoint_every = 1;  ///< steps between checkpoints; 0: none
+};
+
+/// A whole scene as the case file states it. Sections that a scene does not need are absent.
+struct Case {
+  std::filesystem::path path;  ///< of the case file
+  std::string title;
+  std::string element = "p1";
+  MeshData mesh;
+  std::optional<FluidData> fluid;
+  std::optional<StructureData> structure;
+  std::optional<PressureTable> inlet;  ///< [inlet]: pressure on the fluid's inlet
+  std::optional<PressureTable> load;   ///< [load]: pressure on the inner face of a wall without fluid
+  std::optional<TimeData> time;
+  std::optional<StaticData> static_load;
+  MonolithicData monolithic;
+  PartitionedData partitioned;
+  OutputData output;
+};
+
+}  // namespace fsi
