@@ -23,10 +23,13 @@ double PressureTable::mean(double from, double to) const {
                     points.back().second * std::max(0.0, to - std::max(from, points.back().first));
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     if (points[i + 1].first > points[i].first)
-      integral += integral_of_segment(points[i].first, points[i].second, points[i + 1].first, points[i + 1].second, from, to);
+      integral +=
+          integral_of_segment(points[i].first, points[i].second, points[i + 1].first, points[i + 1].second, from, to);
   return integral / (to - from);
 }
 
-int TimeData::steps() const { return static_cast<int>(std::lround(std::ceil(end / step - 1e-9))); }
+int TimeData::steps() const {
+  return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
+}
 
 }  // namespace fsi

@@ -28,27 +28,27 @@ struct MeshData {
 
 /// [fluid]
 struct FluidData {
-  double density = 0;    ///< mg/mm^3
-  double viscosity = 0;  ///< kPa ms
+  double density = 0;     ///< mg/mm^3
+  double viscosity = 0;   ///< kPa ms
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (design, section 3)
 };
 
 /// [structure.layers.NAME]
 struct MaterialData {
-  std::string material;   ///< "neo-hookean", "mooney-rivlin" or "artery"
-  double c10 = 0;         ///< kPa
-  double c01 = 0;         ///< kPa, mooney-rivlin
-  double k1 = 0;          ///< kPa, artery
-  double k2 = 0;          ///< -, artery
-  double alpha = 0;       ///< degrees between fibre and circumference, artery
+  std::string material;    ///< "neo-hookean", "mooney-rivlin" or "artery"
+  double c10 = 0;          ///< kPa
+  double c01 = 0;          ///< kPa, mooney-rivlin
+  double k1 = 0;           ///< kPa, artery
+  double k2 = 0;           ///< -, artery
+  double alpha = 0;        ///< degrees between fibre and circumference, artery
   double fibre_scale = 1;  ///< 0.5 gives the paper's printed fibre stress (design, section 2, item 3)
 };
 
 /// [structure]
 struct StructureData {
-  double density = 0;         ///< mg/mm^3
-  double bulk_modulus = 0;    ///< kPa
-  double stabilisation = 0.5;  ///< alpha in tau = alpha h^2 / (2 mu)
+  double density = 0;             ///< mg/mm^3
+  double bulk_modulus = 0;        ///< kPa
+  double stabilisation = 0.5;     ///< alpha in tau = alpha h^2 / (2 mu)
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
   std::map<std::string, MaterialData> layers;
@@ -56,11 +56,11 @@ struct StructureData {
 
 /// [time]; absent in a static case
 struct TimeData {
-  double step = 0;          ///< ms
-  double end = 0;           ///< ms
+  double step = 0;  ///< ms
+  double end = 0;   ///< ms
   double newmark_beta = 1;
   double newmark_gamma = 1;
-  int predictor = 1;        ///< order of the extrapolated start of each step: 0, 1 or 2
+  int predictor = 1;  ///< order of the extrapolated start of each step: 0, 1 or 2
 
   int steps() const;  ///< number of steps; `end` is hit exactly
 };
@@ -73,7 +73,7 @@ struct StaticData {
 /// [monolithic]
 struct MonolithicData {
   std::string linear_solver = "direct";
-  std::string mode = "kept";       ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
+  std::string mode = "kept";  ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
   double newton_tolerance = 1e-8;  ///< increment relative to the first one of the step
   double residual_tolerance = 0;   ///< optional further demand: residual relative to the first of the step; 0: none
   int max_iterations = 30;

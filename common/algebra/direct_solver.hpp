@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/sparse_matrix.hpp"
+
+namespace fsi {
+
+/// Sparse LU factorisation (UMFPACK, 64-bit indices). The symbolic analysis is made at the first factorisation and
+/// kept: the pattern must not change.
+class DirectSolver {
+ public:
+  /// Fill-reducing ordering and pivoting strategy, by name; the defaults are what measurement favoured
+  /// (docs/direct-solver.md).
+  struct Options {
+    std::string ordering = "metis";        ///< "amd", "metis", "best"
+    std::string strategy = "unsymmetric";  ///< "auto", "unsymmetric", "symmetric"
+    int refinement_steps = 0;              ///< of each solve
+  };
+
+  DirectSolver();
+  explicit DirectSolver(const Options& options);
+  ~DirectSolver();
+  DirectSolver(DirectSolver&&) noexcept;
+  DirectSolver& operator=(DirectSolver&&) noexcept;
+
+  /// \throws ConvergenceError when the matrix is singular to working precision
+  void factorise(const SparseMatrix& a);
+  bool factorised() const;
+  void discard();
+
+  /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
+  void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const;
+
+  /// Entries of both factors, for reports.
+  long long factor_nonzeros() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Threads of the dense kernels inside factorisations.
+void set_dense_threads(int count);
+
+}  // namespace fsi

@@ -1,0 +1,199 @@
+#include "driver/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "algebra/direct_solver.hpp"
+#include "base/error.hpp"
+#include "base/threads.hpp"
+#include "base/version.hpp"
+#include "driver/field_output.hpp"
+#include "driver/load_mesh.hpp"
+#include "driver/observables.hpp"
+#include "driver/state_checkpoint.hpp"
+#include "io/case_hash.hpp"
+#include "io/case_reader.hpp"
+#include "io/command_line.hpp"
+#include "io/console.hpp"
+#include "io/program.hpp"
+#include "io/run_log.hpp"
+#include "io/summary.hpp"
+#include "scene/build_scene.hpp"
+#include "scene/numbering.hpp"
+
+namespace fsi {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+nlohmann::json scene_json(const std::string& program, const Case& setup, const TetrahedralMesh& mesh,
+                          const Scene<P1Tetrahedron>& scene) {
+  nlohmann::json json;
+  json["program"] = program;
+  json["version"] = version;
+  json["title"] = setup.title;
+  json["case"] = setup.path.string();
+  json["case_hash"] = hash_of_case(setup);
+  json["threads"] = threads();
+  json["mesh"] = {{"name", mesh_name(setup)},
+                  {"hash", hash_of_mesh(mesh)},
+                  {"nodes", mesh.nodes.size()},
+                  {"tetrahedra", mesh.cells.size()},
+                  {"fluid_nodes", scene.fluid ? scene.fluid->node_count() : 0},
+                  {"wall_nodes", scene.wall ? scene.wall->node_count() : 0},
+                  {"interface_nodes", scene.interface.size()}};
+  const Numbering all = number_scene(scene);
+  json["unknowns"] = {{"coupled", all.size},
+                      {"fluid", scene.fluid ? number_fluid(scene).size : 0},
+                      {"wall", scene.wall ? number_wall(scene).size : 0},
+                      {"mesh_motion", scene.coupled() ? number_mesh_motion(scene).size : 0}};
+  return json;
+}
+
+/// One run: everything from the scene at rest, or a checkpoint, to the last step.
+class Run {
+ public:
+  Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperFactory& make_stepper)
+      : program_(program),
+        line_(line),
+        setup_(setup),
+        mesh_(load_mesh(setup)),
+        scene_(build_scene(setup, mesh_)),
+        loads_(setup),
+        stepper_(make_stepper(*scene_, loads_, setup)),
+        state_(scene_->at_rest()),
+        observables_(setup, mesh_, *scene_) {}
+
+  void march() {
+    const bool restarted = !line_.restart.empty();
+    if (restarted) recall();
+    ResultFolder folder = restarted ? ResultFolder(line_.output, observables_.tables(), line_.restart, state_.time)
+                                    : ResultFolder(line_.output, observables_.tables());
+    RunLog log(line_.output, restarted && line_.output == line_.restart);
+    FieldOutput fields(setup_, *scene_, loads_.steps(), line_.output, line_.restart, state_.step);
+    Console console(loads_.steps(), Console::style_for(line_.quiet));
+
+    summary_ = scene_json(program_, setup_, mesh_, *scene_);
+    if (restarted) summary_["restarted_from_step"] = state_.step;
+    write("running");
+    announce(console, log);
+    if (!restarted) fields.write(state_);
+    try {
+      while (state_.step < loads_.steps()) step(folder, fields, console, log);
+    } catch (const ConvergenceError& failure) {
+      log.error(failure.what());
+      if (state_.step > 0) save();
+      summary_["failure"] = failure.what();
+      write("not converged");
+      throw ConvergenceError(state_.step > 0
+                                 ? fmt::format("{} [the state after step {} is saved; continue with --restart {}]",
+                                               failure.what(), state_.step, line_.output.string())
+                                 : failure.what(),
+                             "");
+    }
+    write("done");
+    log.info("done");
+  }
+
+ private:
+  void step(ResultFolder& folder, FieldOutput& fields, Console& console, RunLog& log) {
+    const auto start = Clock::now();
+    console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
+    const StepReport report = stepper_->advance(state_);
+    StepRecord record;
+    record.step = state_.step;
+    record.time = state_.time;
+    record.outer_iterations = report.outer_iterations;
+    record.newton_iterations = report.newton_iterations;
+    record.linear_iterations = report.linear_iterations;
+    record.wall_seconds = seconds_since(start);
+    total_.outer_iterations += record.outer_iterations;
+    total_.newton_iterations += record.newton_iterations;
+    total_.linear_iterations += record.linear_iterations;
+    {
+      const auto phase = scene_->profile.phase("output");
+      observables_.write(state_, folder);
+      folder.write_iterations(record);
+      fields.write(state_);
+      const int every = setup_.output.checkpoint_every;
+      if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
+    }
+    log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}", record.step, record.time,
+                         record.outer_iterations, record.newton_iterations));
+    for (const auto& entry : report.history) log.info("  " + entry);
+    console.step_done(record);
+  }
+
+  void announce(Console& console, RunLog& log) {
+    const auto text = fmt::format("{} {}: {} | {} nodes, {} tetrahedra, {} unknowns, {} threads, {} steps", program_,
+                                  version, setup_.title, mesh_.nodes.size(), mesh_.cells.size(),
+                                  summary_["unknowns"]["coupled"].get<long>(), threads(), loads_.steps());
+    console.line(text);
+    log.info(text);
+    if (state_.step > 0) log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+  }
+
+  void save() {
+    Checkpoint checkpoint;
+    checkpoint.program = program_;
+    checkpoint.case_hash = hash_of_case(setup_);
+    checkpoint.mesh_hash = hash_of_mesh(mesh_);
+    store(state_, stepper_->memory(), checkpoint);
+    write_checkpoint(checkpoint_file(line_.output), checkpoint);
+  }
+
+  void recall() {
+    const auto file = checkpoint_file(line_.restart);
+    const Checkpoint checkpoint = read_checkpoint(file);
+    require_same_run(file, checkpoint, program_, hash_of_case(setup_), hash_of_mesh(mesh_));
+    stepper_->recall(restore(file, checkpoint, state_));
+  }
+
+  void write(const std::string& status) {
+    summary_["status"] = status;
+    summary_["totals"] = {{"steps", state_.step},
+                          {"outer_iterations", total_.outer_iterations},
+                          {"newton_iterations", total_.newton_iterations},
+                          {"linear_iterations", total_.linear_iterations},
+                          {"wall_s", seconds_since(start_)}};
+    summary_["peak_memory_MiB"] = peak_memory_mib();
+    summary_.update(profile_json(scene_->profile));
+    write_summary(line_.output, summary_);
+  }
+
+  Clock::time_point start_ = Clock::now();
+  std::string program_;
+  const CommandLine& line_;
+  const Case& setup_;
+  TetrahedralMesh mesh_;
+  std::unique_ptr<Scene<P1Tetrahedron>> scene_;
+  Loads loads_;
+  std::unique_ptr<Stepper> stepper_;
+  State state_;
+  Observables observables_;
+  StepRecord total_;
+  nlohmann::json summary_;
+};
+
+}  // namespace
+
+int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
+               const StepperFactory& make_stepper) {
+  return run_program(program, [&] {
+    const auto line = parse_command_line(program, description, argc, argv);
+    if (!line) return static_cast<int>(exit_done);
+    set_dense_threads(set_threads(line->threads));
+    const Case setup = read_case(line->case_file, line->overrides);
+    Run(program, *line, setup, make_stepper).march();
+    return static_cast<int>(exit_done);
+  });
+}
+
+}  // namespace fsi

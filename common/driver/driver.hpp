@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "fem/p1_tetrahedron.hpp"
+#include "scene/case.hpp"
+#include "scene/loads.hpp"
+#include "scene/scene.hpp"
+#include "scene/stepper.hpp"
+
+namespace fsi {
+
+/// Makes the stepper that tells one driver from another.
+using StepperFactory =
+    std::function<std::unique_ptr<Stepper>(Scene<P1Tetrahedron>& scene, const Loads& loads, const Case& setup)>;
+
+/// The whole of a driver: parse the command line, read case and mesh, build the scene, march it in time, write the
+/// results. Returns the exit code.
+int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
+               const StepperFactory& make_stepper);
+
+}  // namespace fsi

@@ -1,0 +1,73 @@
+#include "driver/field_output.hpp"
+
+#include <algorithm>
+
+namespace fsi {
+
+namespace {
+
+constexpr int n = P1Tetrahedron::components;
+
+FieldGrid grid_of(const std::string& name, const Submesh<3>& part) {
+  FieldGrid grid;
+  grid.name = name;
+  grid.points = part.nodes;
+  for (const auto& cell : part.cells) grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
+  grid.layer = part.cell_region;
+  return grid;
+}
+
+/// `count` numbers per node out of arrays with `stride` numbers per node.
+std::vector<double> taken(const std::vector<double>& from, int stride, int first, int count) {
+  std::vector<double> to;
+  to.reserve(from.size() / stride * count);
+  for (std::size_t node = 0; node < from.size() / stride; ++node)
+    for (int k = 0; k < count; ++k) to.push_back(from[node * stride + first + k]);
+  return to;
+}
+
+}  // namespace
+
+FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, int steps,
+                         const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
+                         int first_step)
+    : scene_(scene) {
+  if (setup.output.every == 0 || setup.output.fields.empty()) return;
+  const auto wanted = [&](const char* field) {
+    return std::find(setup.output.fields.begin(), setup.output.fields.end(), field) != setup.output.fields.end();
+  };
+  const auto describe = [&](FieldGrid grid, bool moves, bool flows) {
+    if (wanted("displacement") && moves) grid.fields.push_back({"displacement", n, "mm"});
+    if (wanted("velocity") && flows) grid.fields.push_back({"velocity", n, "mm/ms"});
+    if (wanted("pressure")) grid.fields.push_back({"pressure", 1, "kPa"});
+    if (!grid.fields.empty()) grids_.push_back(std::move(grid));
+  };
+  if (scene.fluid) describe(grid_of("fluid", scene.fluid->part()), scene.coupled(), true);
+  if (scene.wall) describe(grid_of("wall", scene.wall->part()), true, !scene.scheme.is_static());
+  if (grids_.empty()) return;
+  const double step_size = setup.time ? setup.time->step : 1.0 / steps;
+  const auto planned = planned_field_steps(steps, setup.output.every, step_size);
+  if (restarted_from.empty())
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
+  else
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, first_step);
+}
+
+void FieldOutput::write(const State& state) {
+  if (!writer_ || !writer_->wants(state.step)) return;
+  FieldValues values;
+  for (const auto& grid : grids_)
+    for (const auto& field : grid.fields) {
+      const bool fluid = grid.name == "fluid";
+      auto& to = values[{grid.name, field.name}];
+      if (field.name == "pressure")
+        to = taken(fluid ? state.now.flow : state.now.wall, n + 1, n, 1);
+      else if (field.name == "displacement")
+        to = fluid ? state.now.mesh : taken(state.now.wall, n + 1, 0, n);
+      else
+        to = fluid ? taken(state.now.flow, n + 1, 0, n) : state.wall_velocity;
+    }
+  writer_->write(state.step, values);
+}
+
+}  // namespace fsi

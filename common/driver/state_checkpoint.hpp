@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "io/checkpoint.hpp"
+#include "scene/state.hpp"
+#include "scene/stepper.hpp"
+
+namespace fsi {
+
+/// Adds the finished levels of a state and what the stepper keeps between steps.
+void store(const State& state, const Memory& memory, Checkpoint& checkpoint);
+
+/// The reverse; `state` comes at rest, for the sizes. \throws InputError naming `file` for arrays missing or of another
+/// size
+Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, State& state);
+
+}  // namespace fsi

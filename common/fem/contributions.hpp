@@ -1,0 +1,118 @@
+#pragma once
+
+#include <vector>
+
+#include "fem/interpolation.hpp"
+
+namespace fsi {
+
+/// What a weak form returns at a point: the integrand of its residual is
+///   source . v + flux : grad v + scalar_source q + scalar_flux . grad q
+/// for a vector test function v and a scalar one q, all on the reference domain.
+template <class T>
+struct Integrand {
+  Vec3<T> source;
+  Mat3<T> flux;
+  T scalar_source;
+  Vec3<T> scalar_flux;
+};
+
+/// Residual rows of one pack, [node][component], the scalar test function's row last, with as many derivatives as the
+/// integrand carries.
+template <class Element, class T>
+struct ElementRows {
+  static constexpr int rows = Element::components + 1;
+  T at[Element::nodes][rows];
+
+  void set_zero() {
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int r = 0; r < rows; ++r) at[a][r] = T(0.0);
+  }
+
+  /// Adds the integrand's terms with test gradients.
+  void add_fluxes(const Integrand<T>& f, const PointGeometry<Element::nodes>& g, Pack weight) {
+    for (int a = 0; a < Element::nodes; ++a) {
+      const Vec3<Pack> weighted = weight * g.gradient[a];
+      for (int k = 0; k < Element::components; ++k) {
+        const int i = Element::axis[k];
+        at[a][k] += f.flux(i, 0) * weighted[0] + f.flux(i, 1) * weighted[1] + f.flux(i, 2) * weighted[2];
+      }
+      if constexpr (Element::axisymmetric) at[a][0] += f.flux(1, 1) * (weight * g.hoop[a]);
+      if (a < Element::scalar_nodes)
+        at[a][rows - 1] +=
+            f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
+    }
+  }
+
+  /// Adds the integrand's terms with test values.
+  void add_sources(const Integrand<T>& f, const PointGeometry<Element::nodes>& g) {
+    for (int a = 0; a < Element::nodes; ++a) {
+      const Pack weighted = g.weight * Pack(g.shape[a]);
+      for (int k = 0; k < Element::components; ++k) at[a][k] += f.source[Element::axis[k]] * weighted;
+      if (a < Element::scalar_nodes) at[a][rows - 1] += f.scalar_source * weighted;
+    }
+  }
+};
+
+/// Integrates one pack: prepare(point geometry) does what depends on gradients alone and is called once where gradients
+/// are constant; integrand(prepared, point geometry, point) returns the Integrand.
+template <class Element, class T, class Prepare, class Evaluate>
+inline void integrate(ElementRows<Element, T>& rows, const typename Element::Geometry& geometry, Prepare prepare,
+                      Evaluate integrand) {
+  rows.set_zero();
+  if constexpr (Element::constant_gradients) {
+    const auto first = Element::at(geometry, 0);
+    const auto prepared = prepare(first);
+    Integrand<T> total = integrand(prepared, first, 0);
+    rows.add_sources(total, first);
+    for (int q = 1; q < Element::points; ++q) {
+      const auto g = Element::at(geometry, q);
+      const Integrand<T> f = integrand(prepared, g, q);
+      rows.add_sources(f, g);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) total.flux(i, j) += f.flux(i, j);
+        total.scalar_flux[i] += f.scalar_flux[i];
+      }
+    }
+    rows.add_fluxes(total, first, first.weight);  // the points of these elements weigh the same
+  } else {
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(geometry, q);
+      const Integrand<T> f = integrand(prepare(g), g, q);
+      rows.add_sources(f, g);
+      rows.add_fluxes(f, g, g.weight);
+    }
+  }
+}
+
+/// Adds a pack's residual to the global one, (components + 1) entries per node.
+template <class Element, class T>
+inline void scatter_residual(const ElementRows<Element, T>& rows,
+                             const typename ElementPacks<Element>::ElementPack& pack, double* residual) {
+  constexpr int n = ElementRows<Element, T>::rows;
+  for (int a = 0; a < Element::nodes; ++a)
+    for (int lane = 0; lane < pack_width; ++lane)
+      if (pack.position[a * Element::nodes + a][lane] >= 0) {
+        double* to = residual + static_cast<std::size_t>(pack.node[a][lane]) * n;
+        for (int r = 0; r < n; ++r) to[r] += value_of(rows.at[a][r])[lane];
+      }
+}
+
+/// Adds the derivatives with respect to node b's seeds First ... First + Columns - 1 to blocks (a, b) of a matrix with
+/// `components + 1` rows and `Columns` columns a block.
+template <class Element, int Seeds, int First, int Columns>
+inline void scatter_blocks(const ElementRows<Element, Dual<Seeds>>& rows,
+                           const typename ElementPacks<Element>::ElementPack& pack, int b, double* blocks) {
+  constexpr int n = Element::components + 1;
+  for (int a = 0; a < Element::nodes; ++a) {
+    const auto& position = pack.position[a * Element::nodes + b];
+    for (int lane = 0; lane < pack_width; ++lane)
+      if (position[lane] >= 0) {
+        double* to = blocks + static_cast<std::size_t>(position[lane]) * (n * Columns);
+        for (int r = 0; r < n; ++r)
+          for (int s = 0; s < Columns; ++s) to[r * Columns + s] += rows.at[a][r].slope[First + s].lanes[lane];
+      }
+  }
+}
+
+}  // namespace fsi

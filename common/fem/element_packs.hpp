@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "algebra/node_graph.hpp"
+#include "base/threads.hpp"
+#include "math/tensor.hpp"
+
+namespace fsi {
+
+/// The elements of one sub-problem (or of one wall layer) made ready for vectorised, threaded assembly: packs of
+/// elements with their constant geometry and the stored positions of their blocks in the sparse matrices.
+///
+/// Threads own rows, not elements: thread t adds only to the rows of its range of nodes and visits every element that
+/// touches one of them, so elements on the border of two ranges are evaluated by both. No two threads write to one
+/// place, nothing is coloured or locked, and every entry is summed in the order of the elements whatever the number of
+/// threads: results do not depend on it. Rows of distributed memory will be owned in the same way.
+template <class Element>
+class ElementPacks {
+ public:
+  static constexpr int nodes = Element::nodes;
+  using Lanes = std::array<int, pack_width>;
+
+  struct ElementPack {
+    typename Element::Geometry geometry;
+    Lanes node[nodes];              ///< node numbers; empty lanes repeat the last element
+    Lanes position[nodes * nodes];  ///< block (a, b) in the graph; -1: not this thread's row, or an empty lane
+    Lanes cell;                     ///< element numbers, as in the submesh
+  };
+
+  /// \param node_positions  reference coordinates, mm
+  /// \param cells           all cells of the submesh; `subset` lists those to take
+  /// \param graph           the node graph that matrices are stored on
+  template <class Point, class Cell>
+  ElementPacks(const std::vector<Point>& node_positions, const std::vector<Cell>& cells, const std::vector<int>& subset,
+               const NodeGraph& graph)
+      : packs_of_thread_(threads()) {
+    const int thread_count = threads();
+    const int node_count = static_cast<int>(node_positions.size());
+    for (int t = 0; t < thread_count; ++t) {
+      const int first = static_cast<int>(static_cast<long>(node_count) * t / thread_count);
+      const int last = static_cast<int>(static_cast<long>(node_count) * (t + 1) / thread_count);
+      std::vector<int> mine;
+      for (int c : subset)
+        if (std::any_of(cells[c].begin(), cells[c].end(), [&](int n) { return n >= first && n < last; }))
+          mine.push_back(c);
+      auto& packs = packs_of_thread_[t];
+      packs.resize((mine.size() + pack_width - 1) / pack_width);
+      for (std::size_t p = 0; p < packs.size(); ++p) fill(packs[p], p, mine, node_positions, cells, graph, first, last);
+    }
+    element_count_ = subset.size();
+  }
+
+  std::size_t element_count() const { return element_count_; }
+  int thread_count() const { return static_cast<int>(packs_of_thread_.size()); }
+  const std::vector<ElementPack>& of_thread(int t) const { return packs_of_thread_[t]; }
+
+ private:
+  template <class Point, class Cell>
+  static void fill(ElementPack& pack, std::size_t index, const std::vector<int>& mine, const std::vector<Point>& x,
+                   const std::vector<Cell>& cells, const NodeGraph& graph, int first, int last) {
+    Vec3<Pack> corner[nodes];
+    for (int lane = 0; lane < pack_width; ++lane) {
+      const std::size_t at = index * pack_width + lane;
+      const bool empty = at >= mine.size();
+      const int c = empty ? mine.back() : mine[at];
+      pack.cell[lane] = c;
+      for (int a = 0; a < nodes; ++a) {
+        const int node = cells[c][a];
+        pack.node[a][lane] = node;
+        for (int i = 0; i < 3; ++i) corner[a][i].set(lane, x[node][i]);
+        const bool owned = !empty && node >= first && node < last;
+        for (int b = 0; b < nodes; ++b) pack.position[a * nodes + b][lane] = owned ? graph.find(node, cells[c][b]) : -1;
+      }
+    }
+    pack.geometry = Element::geometry(corner);
+  }
+
+  std::vector<std::vector<ElementPack>> packs_of_thread_;
+  std::size_t element_count_ = 0;
+};
+
+/// Runs visit(thread, packs of that thread) on every thread.
+template <class Element, class Visit>
+void for_each_thread(const ElementPacks<Element>& packs, Visit visit) {
+  const int count = packs.thread_count();
+#pragma omp parallel for schedule(static, 1) num_threads(count)
+  for (int t = 0; t < count; ++t) visit(t, packs.of_thread(t));
+}
+
+}  // namespace fsi

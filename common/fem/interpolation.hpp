@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "fem/element_packs.hpp"
+#include "fem/p1_tetrahedron.hpp"
+
+namespace fsi {
+
+/// The scalar of a kernel: a pack, or a pack with Seeds derivatives.
+template <int Seeds>
+struct SeededScalar {
+  using Type = Dual<Seeds>;
+};
+template <>
+struct SeededScalar<0> {
+  using Type = Pack;
+};
+template <int Seeds>
+using Seeded = typename SeededScalar<Seeds>::Type;
+
+/// Nodal values of a vector field in one pack, [node][component].
+template <class Element>
+struct NodalVector {
+  Pack at[Element::nodes][Element::components];
+};
+/// Nodal values of a scalar field in one pack.
+template <class Element>
+struct NodalScalar {
+  Pack at[Element::scalar_nodes];
+};
+
+/// Loads one pack's nodal values from an array with `stride` numbers per node.
+template <class Element>
+inline void gather(NodalVector<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,
+                   const double* from, int stride = Element::components) {
+  for (int a = 0; a < Element::nodes; ++a)
+    for (int lane = 0; lane < pack_width; ++lane) {
+      const double* node = from + static_cast<std::size_t>(pack.node[a][lane]) * stride;
+      for (int i = 0; i < Element::components; ++i) to.at[a][i].lanes[lane] = node[i];
+    }
+}
+template <class Element>
+inline void gather(NodalScalar<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,
+                   const double* from, int stride) {
+  for (int a = 0; a < Element::scalar_nodes; ++a)
+    for (int lane = 0; lane < pack_width; ++lane)
+      to.at[a].lanes[lane] = from[static_cast<std::size_t>(pack.node[a][lane]) * stride];
+}
+
+/// Gradient of a vector field as a 3 x 3 tensor, (i, j) = d u_i / d X_j.
+template <class Element>
+inline Mat3<Pack> gradient_of(const NodalVector<Element>& u, const PointGeometry<Element::nodes>& g) {
+  Mat3<Pack> h;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) h(i, j) = Pack(0.0);
+  for (int a = 0; a < Element::nodes; ++a) {
+    for (int k = 0; k < Element::components; ++k)
+      for (int j = 0; j < 3; ++j) h(Element::axis[k], j) += u.at[a][k] * g.gradient[a][j];
+    if constexpr (Element::axisymmetric) h(1, 1) += u.at[a][0] * g.hoop[a];
+  }
+  return h;
+}
+template <class Element>
+inline Vec3<Pack> gradient_of(const NodalScalar<Element>& p, const PointGeometry<Element::nodes>& g) {
+  Vec3<Pack> h{{Pack(0.0), Pack(0.0), Pack(0.0)}};
+  for (int a = 0; a < Element::scalar_nodes; ++a)
+    for (int j = 0; j < 3; ++j) h[j] += p.at[a] * g.gradient[a][j];
+  return h;
+}
+template <class Element>
+inline Vec3<Pack> value_of(const NodalVector<Element>& u, const PointGeometry<Element::nodes>& g) {
+  Vec3<Pack> v{{Pack(0.0), Pack(0.0), Pack(0.0)}};
+  for (int a = 0; a < Element::nodes; ++a)
+    for (int k = 0; k < Element::components; ++k) v[Element::axis[k]] += g.shape[a] * u.at[a][k];
+  return v;
+}
+template <class Element>
+inline Pack value_of(const NodalScalar<Element>& p, const PointGeometry<Element::nodes>& g) {
+  Pack v(0.0);
+  for (int a = 0; a < Element::scalar_nodes; ++a) v += g.shape[a] * p.at[a];
+  return v;
+}
+
+/// Attaches to a quantity at a point its derivatives with respect to the unknowns of node b, which occupy the seeds
+/// from First on: one per component of a vector, one of a scalar. Without seeds the quantity itself.
+template <class Element, int Seeds, int First>
+inline auto seed_gradient(const Mat3<Pack>& h, const PointGeometry<Element::nodes>& g, int b) {
+  if constexpr (Seeds == 0) {
+    return h;
+  } else {
+    Mat3<Dual<Seeds>> s;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) s(i, j) = Dual<Seeds>(h(i, j));
+    for (int k = 0; k < Element::components; ++k)
+      for (int j = 0; j < 3; ++j) s(Element::axis[k], j).slope[First + k] = g.gradient[b][j];
+    if constexpr (Element::axisymmetric) s(1, 1).slope[First] = g.hoop[b];
+    return s;
+  }
+}
+template <class Element, int Seeds, int First>
+inline auto seed_gradient(const Vec3<Pack>& h, const PointGeometry<Element::nodes>& g, int b) {
+  if constexpr (Seeds == 0) {
+    return h;
+  } else {
+    Vec3<Dual<Seeds>> s;
+    for (int j = 0; j < 3; ++j) {
+      s[j] = Dual<Seeds>(h[j]);
+      if (b < Element::scalar_nodes) s[j].slope[First] = g.gradient[b][j];
+    }
+    return s;
+  }
+}
+/// \param factor  derivative of the quantity with respect to the interpolated unknown, e.g. 1 / dt for a rate
+template <class Element, int Seeds, int First>
+inline auto seed_value(const Vec3<Pack>& v, const PointGeometry<Element::nodes>& g, int b, double factor = 1.0) {
+  if constexpr (Seeds == 0) {
+    return v;
+  } else {
+    Vec3<Dual<Seeds>> s;
+    for (int i = 0; i < 3; ++i) s[i] = Dual<Seeds>(v[i]);
+    for (int k = 0; k < Element::components; ++k) s[Element::axis[k]].slope[First + k] = Pack(factor * g.shape[b]);
+    return s;
+  }
+}
+template <class Element, int Seeds, int First>
+inline auto seed_value(const Pack& v, const PointGeometry<Element::nodes>& g, int b) {
+  if constexpr (Seeds == 0) {
+    return v;
+  } else {
+    Dual<Seeds> s(v);
+    if (b < Element::scalar_nodes) s.slope[First] = Pack(g.shape[b]);
+    return s;
+  }
+}
+
+}  // namespace fsi

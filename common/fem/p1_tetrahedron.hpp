@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cmath>
+
+#include "math/tensor.hpp"
+
+namespace fsi {
+
+/// What a weak form may know of an element at one quadrature point: shape values, three-dimensional shape gradients and
+/// the integration weight. `hoop` holds N_a / r for axisymmetric elements and is unused otherwise.
+template <int Nodes>
+struct PointGeometry {
+  Pack weight;                 ///< mm^3
+  double shape[Nodes];         ///< N_a
+  Vec3<Pack> gradient[Nodes];  ///< grad N_a on the reference domain, 1/mm
+  Pack hoop[Nodes];            ///< N_a / r, 1/mm
+};
+
+/// The linear tetrahedron, equal order for vectors and scalars, with the four-point rule exact for quadratics: mass and
+/// convection are integrated exactly.
+struct P1Tetrahedron {
+  static constexpr int dim = 3;
+  static constexpr int nodes = 4;         ///< nodes of vector fields
+  static constexpr int scalar_nodes = 4;  ///< the first of them carry scalar fields
+  static constexpr int points = 4;
+  static constexpr int components = 3;       ///< of a vector field
+  static constexpr int axis[3] = {0, 1, 2};  ///< the space axis of each component
+  static constexpr bool constant_gradients = true;
+  static constexpr bool axisymmetric = false;
+
+  /// Constant data of one pack of elements, computed once from the reference coordinates.
+  struct Geometry {
+    Pack measure;                ///< volume, mm^3
+    Vec3<Pack> gradient[nodes];  ///< grad N_a, 1/mm
+    Sym3<Pack> metric;           ///< (dxi/dX)^T (dxi/dX), xi on the regular tetrahedron of unit edge, 1/mm^2
+    Pack size_squared;           ///< h^2, h the edge of the regular tetrahedron of the same volume, mm^2
+  };
+
+  /// \param x  reference coordinates of the nodes, mm
+  static Geometry geometry(const Vec3<Pack> x[nodes]) {
+    const Vec3<Pack> e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0];
+    const Vec3<Pack> c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);
+    const Pack six_volumes = dot(e1, c1);
+    const Pack inverse = Pack(1.0) / six_volumes;
+    Geometry g;
+    g.measure = six_volumes * Pack(1.0 / 6.0);
+    g.gradient[1] = inverse * c1;
+    g.gradient[2] = inverse * c2;
+    g.gradient[3] = inverse * c3;
+    for (int i = 0; i < 3; ++i) g.gradient[0][i] = -(g.gradient[1][i] + g.gradient[2][i] + g.gradient[3][i]);
+    // Regular tetrahedron: xi = sum_a N_a xi_a with |xi_a - xi_b| = 1, so that
+    // (dxi/dX)^T (dxi/dX) = sum_ab grad N_a (xi_a . xi_b) grad N_b^T = 1/2 sum_a grad N_a grad N_a^T, as sum_a grad N_a
+    // = 0.
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) {
+        g.metric(i, j) = Pack(0.0);
+        for (int a = 0; a < nodes; ++a) g.metric(i, j) += 0.5 * g.gradient[a][i] * g.gradient[a][j];
+      }
+    const Pack h = cbrt(g.measure * Pack(6.0 * std::sqrt(2.0)));
+    g.size_squared = h * h;
+    return g;
+  }
+
+  static constexpr double near = 0.58541019662496845446, far = 0.13819660112501051518;
+  static double shape(int point, int node) { return point == node ? near : far; }
+
+  static PointGeometry<nodes> at(const Geometry& g, int point) {
+    PointGeometry<nodes> p;
+    p.weight = g.measure * Pack(0.25);
+    for (int a = 0; a < nodes; ++a) {
+      p.shape[a] = shape(point, a);
+      p.gradient[a] = g.gradient[a];
+    }
+    return p;
+  }
+
+  /// The element's faces: linear triangles.
+  struct Facet {
+    static constexpr int nodes = 3;
+    static constexpr int points = 3;
+    static double shape(int point, int node) { return point == node ? 2.0 / 3.0 : 1.0 / 6.0; }
+    /// Normal times integration weight at a point, mm^2, from the node positions x (reference or current).
+    template <class T>
+    static Vec3<T> weighted_normal(const Vec3<T> x[nodes], int /*point*/) {
+      return Pack(1.0 / 6.0) * cross(x[1] - x[0], x[2] - x[0]);
+    }
+  };
+};
+
+}  // namespace fsi

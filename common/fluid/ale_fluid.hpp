@@ -1,0 +1,92 @@
+#pragma once
+
+#include "fem/contributions.hpp"
+#include "math/kinematics.hpp"
+
+namespace fsi {
+
+/// Incompressible Navier-Stokes equations in arbitrary Lagrangian-Eulerian form, pulled back to the reference domain,
+/// with equal-order SUPG and PSPG stabilisation (design, section 3). With F = I + grad d_m, J = det F, w the mesh
+/// velocity and c = u - w the residual is, for test functions v and q,
+///   (rho J (du/dt + grad u F^-1 c), v) + (J sigma F^-T, grad v) - (J F^-T : grad u, q)
+///   + sum over elements (J tau r, grad v F^-1 c) - (J tau r / rho, F^-T grad q),
+///   sigma = mu (grad u F^-1 + (grad u F^-1)^T) - p I,   r = rho (du/dt + grad u F^-1 c) + F^-T grad p,
+///   tau = ((2/dt)^2 + c . G c + 36 nu^2 G : G)^(-1/2),  G = F^-T (dxi/dX)^T (dxi/dX) F^-1,
+/// optionally + (rho J tau_C F^-T : grad u, F^-T : grad v), tau_C = 1 / (tau tr G).
+/// Everything is differentiated through, tau included.
+struct AleFluid {
+  double density;    ///< mg/mm^3
+  double viscosity;  ///< kPa ms
+  double step;       ///< ms
+  bool grad_div = false;
+
+  static constexpr double inverse_estimate = 36.0;  ///< C_I
+
+  /// What depends on gradients alone. M: scalar of the domain's motion, T: of everything else.
+  template <class M, class T>
+  struct Prepared {
+    Mat3<M> inverse_gradient;   ///< F^-1
+    Mat3<M> cofactor_gradient;  ///< J F^-T
+    M volume_ratio;             ///< J
+    Sym3<M> metric;             ///< G
+    M viscous_rate_squared;     ///< (2/dt)^2 + 36 nu^2 G : G
+    Mat3<T> velocity_gradient;  ///< grad u F^-1
+    T divergence;               ///< its trace
+    Vec3<T> pressure_gradient;  ///< F^-T grad p
+  };
+
+  /// \param grad_d, grad_u, grad_p  reference gradients of mesh displacement, velocity and pressure
+  /// \param reference_metric        (dxi/dX)^T (dxi/dX)
+  template <class M, class U>
+  auto prepare(const Mat3<M>& grad_d, const Mat3<U>& grad_u, const Vec3<U>& grad_p,
+               const Sym3<Pack>& reference_metric) const {
+    Prepared<M, Product<M, U>> k;
+    const auto f = deformation(grad_d);
+    k.volume_ratio = f.volume_ratio;
+    k.cofactor_gradient = f.cofactor_gradient;
+    const M inverse_ratio = Pack(1.0) / f.volume_ratio;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) k.inverse_gradient(i, j) = inverse_ratio * f.cofactor_gradient(j, i);
+    k.metric = congruence(reference_metric, k.inverse_gradient);
+    const double nu = viscosity / density;
+    k.viscous_rate_squared =
+        Pack(4.0 / (step * step)) + Pack(inverse_estimate * nu * nu) * contract(k.metric, k.metric);
+    k.velocity_gradient = grad_u * k.inverse_gradient;
+    k.divergence = trace(k.velocity_gradient);
+    k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
+    return k;
+  }
+
+  /// \param rate        du/dt at the point, mm/ms^2
+  /// \param convection  c = u - w, mm/ms
+  /// \param pressure    kPa
+  template <class M, class T, class U>
+  Integrand<T> integrand(const Prepared<M, T>& k, const Vec3<U>& rate, const Vec3<T>& convection,
+                         const U& pressure) const {
+    const auto& c = convection;
+    const Vec3<T> inertia = Pack(density) * (rate + k.velocity_gradient * c);
+    const Vec3<T> strong_residual = inertia + k.pressure_gradient;
+    const T tau = Pack(1.0) / sqrt(k.viscous_rate_squared + dot(c, k.metric * c));
+
+    // Stress, streamline and (optional) divergence stabilisation share the test gradient: one current tensor, pulled
+    // back.
+    Mat3<T> stress;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        stress(i, j) = Pack(viscosity) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i)) +
+                       (tau * strong_residual[i]) * c[j];
+    T isotropic = -pressure + T(0.0);
+    if (grad_div) isotropic += Pack(density) * k.divergence / (tau * trace(k.metric));
+    for (int i = 0; i < 3; ++i) stress(i, i) += isotropic;
+
+    Integrand<T> f;
+    f.source = k.volume_ratio * inertia;
+    f.flux = stress * k.cofactor_gradient;
+    f.scalar_source = -(k.volume_ratio * k.divergence);
+    const Vec3<T> scaled = (tau * Pack(-1.0 / density)) * strong_residual;
+    f.scalar_flux = transposed_times(k.cofactor_gradient, scaled);  // J F^-1 r
+    return f;
+  }
+};
+
+}  // namespace fsi

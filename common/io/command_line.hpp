@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [-q]`.
+struct CommandLine {
+  std::filesystem::path case_file;
+  std::filesystem::path output;        ///< result folder; the restarted one when --restart is given without -o
+  std::filesystem::path restart;       ///< result folder to continue; empty: start at rest
+  std::vector<std::string> overrides;  ///< `key=value` of each --set, in order
+  int threads = 0;                     ///< 0: one per core
+  bool quiet = false;
+};
+
+/// Parses a driver's arguments. Empty when --help, --help-keys or --version was asked for and has been printed.
+/// \param program      name of the program, for help and version
+/// \param description  one sentence for the help
+/// \throws InputError naming the option and the offending value
+std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
+                                              const char* const* argv);
+
+}  // namespace fsi

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "io/step_record.hpp"
+
+namespace fsi {
+
+/// Progress of a run: one line that is rewritten on a terminal, a plain line per step when piped, nothing when quiet.
+class Console {
+ public:
+  enum class Style { terminal, plain, quiet };
+
+  /// \param last_step  number of the run's last step
+  /// \param style      see style_for
+  /// \param stream     where to write, not owned
+  Console(std::int64_t last_step, Style style, std::FILE* stream = stdout);
+  /// Leaves the cursor on a fresh line.
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// quiet when asked for, terminal when the stream is one, else plain.
+  static Style style_for(bool quiet, std::FILE* stream = stdout);
+
+  /// A line of its own, e.g. the scene's size; not in quiet mode.
+  void line(const std::string& text);
+  /// What goes on inside a step, e.g. (3, 0.375, "newton 2, residual 1e-5"). Shown on a terminal only.
+  void working(std::int64_t step, double time, const std::string& what);
+  /// A finished step: time, iterations, estimated time left.
+  void step_done(const StepRecord& record);
+
+ private:
+  void rewrite(const std::string& text);
+  void end_rewritten_line();
+
+  std::int64_t last_step_;
+  Style style_;
+  std::FILE* stream_;
+  bool line_open_ = false;
+  std::int64_t steps_done_ = 0;
+  double seconds_done_ = 0;
+};
+
+/// "1 h 02 min", "3 min 20 s", "12 s".
+std::string readable_duration(double seconds);
+
+}  // namespace fsi

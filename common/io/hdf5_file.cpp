@@ -1,0 +1,202 @@
+#include "io/hdf5_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace fsi {
+
+namespace {
+
+template <class Value>
+hid_t native_type();
+template <>
+hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t native_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+hid_t native_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+hid_t native_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+
+/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library.
+Hdf5Handle access_properties() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(properties.id(), false, true);
+  return properties;
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
+  return type;
+}
+
+std::uint64_t product(const std::vector<std::uint64_t>& shape) {
+  std::uint64_t size = 1;
+  for (const auto n : shape) size *= n;
+  return size;
+}
+
+}  // namespace
+
+Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(close_, other.close_);
+  return *this;
+}
+
+bool Hdf5Handle::reset() {
+  const hid_t id = std::exchange(id_, -1);
+  return id < 0 || close_(id) >= 0;
+}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& file, std::uint64_t user_block) {
+  const auto access = access_properties();
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (user_block > 0) H5Pset_userblock(creation.id(), user_block);
+  Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
+  if (!created.file_.valid()) created.refuse_writing("");
+  return created;
+}
+
+Hdf5File Hdf5File::open(const std::filesystem::path& file, bool for_writing) {
+  const auto access = access_properties();
+  Hdf5File opened(file, {H5Fopen(file.c_str(), for_writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()), H5Fclose});
+  if (!opened.file_.valid()) opened.refuse_reading("");
+  return opened;
+}
+
+bool Hdf5File::has(const std::string& path) const {
+  // The library wants every step of the path to exist before it is asked for the next.
+  for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1))
+    if (H5Lexists(file_.id(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+  return H5Lexists(file_.id(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
+  const Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data.valid()) refuse_reading(dataset);
+  const Hdf5Handle space(H5Dget_space(data.id()), H5Sclose);
+  const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.id()) : -1;
+  if (rank < 0) refuse_reading(dataset);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  const Hdf5Handle opened(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
+  H5G_info_t info;
+  if (!opened.valid() || H5Gget_info(opened.id(), &info) < 0) refuse_reading(group);
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const auto name_of = [&](char* name, std::size_t size) {
+      return H5Lget_name_by_idx(opened.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name, size, H5P_DEFAULT);
+    };
+    const auto length = name_of(nullptr, 0);
+    if (length < 0) refuse_reading(group);
+    std::string name(static_cast<std::size_t>(length), '\0');
+    name_of(name.data(), name.size() + 1);
+    names.push_back(name);
+  }
+  return names;
+}
+
+template <class Value>
+void Hdf5File::create_dataset(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
+  H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  H5Pset_obj_track_times(creation.id(), false);
+  const Hdf5Handle data(
+      H5Dcreate2(file_.id(), dataset.c_str(), native_type<Value>(), space.id(), links.id(), creation.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!data.valid()) refuse_writing(dataset);
+}
+
+template <class Value>
+void Hdf5File::write(const std::string& dataset, const Value* values) {
+  if (product(shape(dataset)) == 0) return;
+  const Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data.valid() || H5Dwrite(data.id(), native_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    refuse_writing(dataset);
+}
+
+template <class Value>
+std::vector<Value> Hdf5File::read(const std::string& dataset) const {
+  std::vector<Value> values(product(shape(dataset)));
+  if (values.empty()) return values;
+  const Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data.valid() || H5Dread(data.id(), native_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    refuse_reading(dataset);
+  return values;
+}
+
+template void Hdf5File::create_dataset<double>(const std::string&, const std::vector<std::uint64_t>&);
+template void Hdf5File::create_dataset<std::int32_t>(const std::string&, const std::vector<std::uint64_t>&);
+template void Hdf5File::create_dataset<std::int64_t>(const std::string&, const std::vector<std::uint64_t>&);
+template void Hdf5File::create_dataset<std::uint8_t>(const std::string&, const std::vector<std::uint64_t>&);
+template void Hdf5File::write<double>(const std::string&, const double*);
+template void Hdf5File::write<std::int32_t>(const std::string&, const std::int32_t*);
+template void Hdf5File::write<std::int64_t>(const std::string&, const std::int64_t*);
+template void Hdf5File::write<std::uint8_t>(const std::string&, const std::uint8_t*);
+template std::vector<double> Hdf5File::read<double>(const std::string&) const;
+template std::vector<std::int32_t> Hdf5File::read<std::int32_t>(const std::string&) const;
+template std::vector<std::int64_t> Hdf5File::read<std::int64_t>(const std::string&) const;
+template std::vector<std::uint8_t> Hdf5File::read<std::uint8_t>(const std::string&) const;
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, const std::string& text) {
+  const Hdf5Handle owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const auto type = text_type(text.size());
+  const Hdf5Handle attribute(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.id(), type.id(), text.c_str()) < 0) refuse_writing(object);
+}
+
+std::string Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  if (!attribute.valid()) refuse_reading(object);
+  const Hdf5Handle stored(H5Aget_type(attribute.id()), H5Tclose);
+  std::string text(H5Tget_size(stored.id()), '\0');
+  if (H5Tget_class(stored.id()) != H5T_STRING || H5Aread(attribute.id(), stored.id(), text.data()) < 0)
+    refuse_reading(object);
+  text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+  return text;
+}
+
+void Hdf5File::flush() {
+  if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) refuse_writing("");
+}
+
+void Hdf5File::close() {
+  flush();
+  if (!file_.reset()) refuse_writing("");
+}
+
+void Hdf5File::refuse_reading(const std::string& object) const {
+  throw InputError(path_.string(), object, "cannot be read as HDF5", "give an undamaged result of this program");
+}
+
+void Hdf5File::refuse_writing(const std::string& object) const {
+  throw InputError(path_.string(), object, "cannot be written", "check permissions and free space of the folder");
+}
+
+}  // namespace fsi

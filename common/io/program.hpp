@@ -1,0 +1,12 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace fsi {
+
+/// Runs the body of a main() and turns what it throws into one line on stderr, `NAME: error: ...`, and an exit code:
+/// InputError 1, ConvergenceError 2, out of memory and anything unexpected 1. Otherwise returns the body's own code.
+int run_program(const std::string& name, const std::function<int()>& body);
+
+}  // namespace fsi

@@ -1,0 +1,140 @@
+#include "io/result_folder.hpp"
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "base/error.hpp"
+#include "io/atomic_file.hpp"
+
+namespace fsi {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pascal_per_kilopascal = 1000.0;
+
+struct Table {
+  const char* file;
+  const char* header;
+};
+constexpr Table centerline_table{"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa"};
+constexpr Table wall_table{"wall_displacement.csv", "time_ms,z_mm,radial_mm,axial_mm"};
+constexpr Table flow_table{"flow.csv",
+                           "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
+constexpr Table iterations_table{"iterations.csv",
+                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s"};
+
+/// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
+constexpr std::array<const char*, 9> result_files = {centerline_table.file, wall_table.file, flow_table.file,
+                                                     iterations_table.file, "summary.json",  "fields.h5",
+                                                     "fields.xdmf",         "checkpoint.h5", "run.log"};
+
+bool is_result_file(const fs::path& name) {
+  for (const auto* file : result_files)
+    if (name == file || name == temporary_name(file)) return true;
+  return false;
+}
+
+std::vector<Table> tables_of(const ResultTables& wanted) {
+  std::vector<Table> tables{iterations_table};
+  if (wanted.centerline_pressure) tables.push_back(centerline_table);
+  if (wanted.wall_displacement) tables.push_back(wall_table);
+  if (wanted.flow) tables.push_back(flow_table);
+  return tables;
+}
+
+/// Creates the folder where needed and checks that files can be created in it, before hours are computed.
+void prepare(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw InputError(folder.string(), "", "is a file", "give a folder to -o");
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string(), "", "cannot be created (" + error.message() + ")",
+                     "give -o a folder that you may write");
+  const auto probe = temporary_name(folder / "summary.json");
+  if (!std::ofstream(probe))
+    throw InputError(folder.string(), "", "cannot be written", "give -o a folder that you may write");
+  fs::remove(probe, error);
+}
+
+/// The results of an earlier run make way; anything else in the folder is not ours to delete.
+void remove_old_results(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!is_result_file(entry.path().filename()) || entry.is_directory(error))
+      throw InputError(folder.string(), "", "holds '" + entry.path().filename().string() + "', which is no result file",
+                       "give -o a new folder, or one with nothing but the results of an earlier run");
+    old.push_back(entry.path());
+  }
+  if (error)
+    throw InputError(folder.string(), "", "cannot be read (" + error.message() + ")", "give -o another folder");
+  for (const auto& file : old) {
+    fs::remove(file, error);
+    if (error)
+      throw InputError(file.string(), "", "cannot be replaced (" + error.message() + ")",
+                       "give -o a folder that you may write");
+  }
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables) : folder_(std::move(folder)) {
+  prepare(folder_);
+  remove_old_results(folder_);
+  open_tables(tables, false);
+}
+
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs::path& from, double time)
+    : folder_(std::move(folder)) {
+  std::error_code error;
+  if (!fs::is_directory(from, error))
+    throw InputError(from.string(), "", "is no folder", "give --restart the result folder of an earlier run");
+  prepare(folder_);
+  if (!fs::equivalent(folder_, from, error)) remove_old_results(folder_);
+  for (const auto& table : tables_of(tables))
+    copy_csv_until(from / table.file, folder_ / table.file, table.header, time);
+  open_tables(tables, true);
+}
+
+void ResultFolder::open_tables(const ResultTables& tables, bool append) {
+  const auto open = [&](std::optional<CsvFile>& place, const Table& table) {
+    place.emplace(folder_ / table.file, table.header, append);
+  };
+  open(iterations_, iterations_table);
+  if (tables.centerline_pressure) open(centerline_, centerline_table);
+  if (tables.wall_displacement) open(wall_, wall_table);
+  if (tables.flow) open(flow_, flow_table);
+}
+
+void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], pascal_per_kilopascal * pressure.at(i)});
+  centerline_.value().write(rows);
+}
+
+void ResultFolder::write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
+                              const std::vector<double>& axial) {
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
+  wall_.value().write(rows);
+}
+
+void ResultFolder::write_flow(double time, const FlowRecord& flow) {
+  flow_.value().write({time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
+                       pascal_per_kilopascal * flow.outlet_pressure});
+}
+
+void ResultFolder::write_iterations(const StepRecord& record) {
+  iterations_.value().write({static_cast<double>(record.step), record.time,
+                             static_cast<double>(record.outer_iterations),
+                             static_cast<double>(record.newton_iterations),
+                             static_cast<double>(record.linear_iterations), record.wall_seconds});
+}
+
+}  // namespace fsi

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "io/csv_file.hpp"
+#include "io/step_record.hpp"
+
+namespace fsi {
+
+/// Which tables a scene has besides iterations.csv.
+struct ResultTables {
+  bool centerline_pressure = false;  ///< scenes with fluid
+  bool wall_displacement = false;    ///< scenes with a wall
+  bool flow = false;                 ///< scenes with fluid
+};
+
+/// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
+struct FlowRecord {
+  double inlet_flow = 0;       ///< mm^3/ms, into the fluid
+  double outlet_flow = 0;      ///< mm^3/ms, out of the fluid
+  double inlet_pressure = 0;   ///< kPa; written in Pa
+  double outlet_pressure = 0;  ///< kPa; written in Pa
+};
+
+/// The folder of one run and its CSV tables, each row on disk when its step is done.
+class ResultFolder {
+ public:
+  /// A new run. Creates the folder; one that holds nothing but result files is emptied.
+  /// \throws InputError when the folder holds anything else, or cannot be created or written
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables);
+
+  /// Continues the run in `from` after `time` (ms): rows up to then are kept, or copied when `folder` is another one.
+  /// \throws InputError as above, and when a table of `from` is missing
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const std::filesystem::path& from,
+               double time);
+
+  const std::filesystem::path& path() const { return folder_; }
+
+  /// Pressures (kPa, written in Pa) at the axial positions z (mm); both of the same length.
+  void write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure);
+  /// Displacements (mm) of the inner wall at the axial positions z (mm); all of the same length.
+  void write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
+                  const std::vector<double>& axial);
+  void write_flow(double time, const FlowRecord& flow);
+  void write_iterations(const StepRecord& record);
+
+ private:
+  void open_tables(const ResultTables& tables, bool append);
+
+  std::filesystem::path folder_;
+  std::optional<CsvFile> centerline_, wall_, flow_, iterations_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/profile.hpp"
+
+namespace fsi {
+
+/// {"phases": {NAME: {"seconds", "calls"}}, "counters": {NAME: count}}
+nlohmann::json profile_json(const Profile& profile);
+
+/// DIR/summary.json, replaced atomically. The drivers write it at the start with "status": "running", at the end with
+/// "done", "not converged" or "failed". \throws InputError when the file cannot be written
+void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary);
+
+}  // namespace fsi

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "materials/strain.hpp"
+
+namespace fsi {
+
+/// Arterial layer with two families of collagen fibres, active in extension only (Holzapfel, Gasser and Ogden 2000):
+///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
+/// The paper misprints energy and stress; this is design, section 2, item 3. The tangent jumps at J_i = 1.
+struct Artery {
+  using FibreData = Fibres;
+  double c10;              ///< kPa
+  double k1;               ///< kPa
+  double k2;               ///< -
+  double fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
+
+  double shear_modulus() const { return c10; }
+
+  template <class T>
+  T energy(const Strain<T>& s, const Fibres& fibres) const {
+    T psi = Pack(0.5 * c10) * (s.i1 * s.isochoric - 3.0);
+    for (const auto& a : fibres.direction) {
+      const T stretch = s.isochoric * dot(a, s.c * a) - 1.0;
+      psi +=
+          select(stretch > 0.0, Pack(fibre_scale * k1 / (2 * k2)) * (exp(Pack(k2) * stretch * stretch) - 1.0), T(0.0));
+    }
+    return psi;
+  }
+
+  /// S' = c10 I_3^(-1/3) (I - I_1/3 C^-1)
+  ///    + 2 k1 sum over J_i > 1 of exp(k2 (J_i - 1)^2) (J_i - 1) I_3^(-1/3) (a_i a_i^T - (a_i . C a_i)/3 C^-1)
+  template <class T>
+  Sym3<T> stress(const Strain<T>& s, const Fibres& fibres) const {
+    Sym3<T> total = (Pack(c10) * s.isochoric) * (identity<T>() - (s.i1 * Pack(1.0 / 3.0)) * s.c_inverse);
+    for (const auto& a : fibres.direction) {
+      const T i4 = dot(a, s.c * a);
+      const T stretch = s.isochoric * i4 - 1.0;
+      const auto active = stretch > 0.0;
+      if (!any(active)) continue;
+      const T tension = select(
+          active, Pack(2 * fibre_scale * k1) * exp(Pack(k2) * stretch * stretch) * stretch * s.isochoric, T(0.0));
+      const Sym3<Pack> aa = dyad(a);
+      for (int k = 0; k < 6; ++k) total.c[k] += tension * (Pack(aa.c[k]) - (i4 * Pack(1.0 / 3.0)) * s.c_inverse.c[k]);
+    }
+    return total;
+  }
+};
+
+}  // namespace fsi

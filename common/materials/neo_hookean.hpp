@@ -1,0 +1,26 @@
+#pragma once
+
+#include "materials/strain.hpp"
+
+namespace fsi {
+
+/// Psi = c10/2 (J_1 - 3), J_1 = I_1 I_3^(-1/3); paper, equation for the neo-Hookean energy.
+struct NeoHookean {
+  using FibreData = NoFibres;
+  double c10;  ///< kPa
+
+  double shear_modulus() const { return c10; }
+
+  template <class T>
+  T energy(const Strain<T>& s, const NoFibres&) const {
+    return Pack(0.5 * c10) * (s.i1 * s.isochoric - 3.0);
+  }
+
+  /// S' = 2 dPsi/dC = c10 I_3^(-1/3) (I - I_1/3 C^-1)
+  template <class T>
+  Sym3<T> stress(const Strain<T>& s, const NoFibres&) const {
+    return (Pack(c10) * s.isochoric) * (identity<T>() - (s.i1 * Pack(1.0 / 3.0)) * s.c_inverse);
+  }
+};
+
+}  // namespace fsi

@@ -1,0 +1,136 @@
+#include "mesh/gmsh_writer.hpp"
+
+#include <gmsh.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <system_error>
+#include <vector>
+
+#include "base/error.hpp"
+#include "mesh/gmsh_reader.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The library between its initialize and finalize.
+class GmshSession {
+ public:
+  GmshSession() {
+    gmsh::initialize(0, nullptr, false);  // no configuration files: a user's own options must not change the mesh
+    gmsh::option::setNumber("General.Terminal", 0);
+  }
+  ~GmshSession() { gmsh::finalize(); }
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+};
+
+/// A file that is removed again unless it was moved to its final name.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& final_name)
+      : final_name_(final_name),
+        path_(final_name.parent_path() / ("." + final_name.stem().string() + "." + std::to_string(getpid()) + ".msh")) {
+  }  // the suffix picks gmsh's writer
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void move_into_place() const {
+    std::error_code failure;
+    std::filesystem::rename(path_, final_name_, failure);
+    if (failure)
+      throw InputError(final_name_.string(), "", "cannot be written: " + failure.message(), "choose another file");
+  }
+
+ private:
+  std::filesystem::path final_name_, path_;
+};
+
+void fill_model(const TetrahedralMesh& mesh) {
+  constexpr int triangle = 2, tetrahedron = 4;  // gmsh's numbers of the element types
+  const int volumes = static_cast<int>(mesh.regions.size()), surfaces = static_cast<int>(mesh.facet_groups.size());
+
+  std::vector<std::size_t> node_tags(mesh.nodes.size());
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * mesh.nodes.size());
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    node_tags[i] = i + 1;
+    coordinates.insert(coordinates.end(), mesh.nodes[i].begin(), mesh.nodes[i].end());
+  }
+
+  gmsh::model::add("mesh");
+  for (int g = 0; g < surfaces; ++g) gmsh::model::addDiscreteEntity(2, g + 1);
+  for (int r = 0; r < volumes; ++r) gmsh::model::addDiscreteEntity(3, r + 1);
+  gmsh::model::mesh::addNodes(3, 1, node_tags, coordinates);
+
+  std::size_t next_element = 1;
+  const auto add_elements = [&](int entity, int type, const std::vector<std::size_t>& nodes, std::size_t count) {
+    std::vector<std::size_t> tags(count);
+    for (auto& tag : tags) tag = next_element++;
+    gmsh::model::mesh::addElementsByType(entity, type, tags, nodes);
+  };
+  for (int g = 0; g < surfaces; ++g) {
+    std::vector<std::size_t> nodes;
+    for (const auto& facet : mesh.facet_groups[g].facets)
+      for (const int node : facet) nodes.push_back(node + 1);
+    add_elements(g + 1, triangle, nodes, mesh.facet_groups[g].facets.size());
+    gmsh::model::addPhysicalGroup(2, {g + 1}, g + 1);
+    gmsh::model::setPhysicalName(2, g + 1, mesh.facet_groups[g].name);
+  }
+  for (int r = 0; r < volumes; ++r) {
+    std::vector<std::size_t> nodes;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      if (mesh.cell_region[c] != r) continue;
+      ++count;
+      for (const int node : mesh.cells[c]) nodes.push_back(node + 1);
+    }
+    add_elements(r + 1, tetrahedron, nodes, count);
+    gmsh::model::addPhysicalGroup(3, {r + 1}, surfaces + r + 1);
+    gmsh::model::setPhysicalName(3, surfaces + r + 1, mesh.regions[r]);
+  }
+}
+
+}  // namespace
+
+void write_gmsh(const TetrahedralMesh& mesh, const std::filesystem::path& file, const GmshFormat& format) {
+  if (format.version != "4.1" && format.version != "2.2")
+    throw InputError(file.string(), "format", "there is no writer for version '" + format.version + "'",
+                     "use 4.1 or 2.2");
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (!file.has_filename() || std::filesystem::is_directory(file))
+    throw InputError(file.string(), "", "is a folder", "give the name of a file");
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(file.string(), "", "there is no folder " + folder.string(), "make it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError(file.string(), "", "folder " + folder.string() + " is not writable", "choose another place");
+
+  const TemporaryFile temporary(file);
+  std::string failure;
+  {
+    const GmshSession session;
+    try {
+      fill_model(mesh);
+      gmsh::option::setNumber("Mesh.MshFileVersion", format.version == "4.1" ? 4.1 : 2.2);
+      gmsh::option::setNumber("Mesh.Binary", format.binary ? 1 : 0);
+      gmsh::write(temporary.path().string());
+    } catch (...) {  // the type thrown differs between versions of the library
+      gmsh::logger::getLastError(failure);
+      if (failure.empty()) failure = "unknown reason";
+    }
+  }
+  if (!failure.empty())
+    throw InputError(file.string(), "", "the gmsh library cannot write it: " + failure, "choose another place");
+  // The library reports a full disk on its console only, so look at what arrived.
+  if (read_gmsh(temporary.path(), mesh.regions).cells.size() != mesh.cells.size())
+    throw InputError(file.string(), "", "was not written completely", "check the space on the disk");
+  temporary.move_into_place();
+}
+
+}  // namespace fsi

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+struct GmshFormat {
+  std::string version = "4.1";  ///< "4.1" or "2.2"
+  bool binary = false;
+};
+
+/// Writes a mesh by the gmsh library: regions as physical volumes, facet groups as physical surfaces, node and element
+/// numbers from 1 in the order of the mesh. The same mesh gives the same bytes. The file appears complete or not at all
+/// (written beside, read back, then renamed). Not thread-safe: the library has one global model.
+/// Throws InputError for an unknown version or a place that cannot be written.
+void write_gmsh(const TetrahedralMesh& mesh, const std::filesystem::path& file, const GmshFormat& format);
+
+}  // namespace fsi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+namespace fsi {
+
+/// Names of physical groups with a meaning of their own (design, section 6). Every other volume is a wall layer named
+/// in the case file; every other surface is ignored by the programs.
+namespace group {
+inline constexpr const char* fluid = "fluid";  ///< volume
+inline constexpr const char* inlet = "inlet";  ///< surfaces from here on
+inline constexpr const char* outlet = "outlet";
+inline constexpr const char* wall_ends = "wall_ends";  ///< clamped end faces of all wall layers
+inline constexpr const char* outer = "outer";          ///< free outer face of the wall, optional
+inline constexpr const char* inner = "inner";          ///< loaded face of a wall without fluid
+inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};
+}  // namespace group
+
+}  // namespace fsi

@@ -1,0 +1,151 @@
+#include "mesh/renumber.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace fsi {
+
+namespace {
+
+/// Nodes that share a cell, as compressed rows, ascending.
+struct NodeGraph {
+  std::vector<int> start, neighbour;
+
+  explicit NodeGraph(const TetrahedralMesh& mesh) {
+    std::vector<std::pair<int, int>> edges;
+    edges.reserve(12 * mesh.cells.size());
+    for (const auto& cell : mesh.cells)
+      for (const int a : cell)
+        for (const int b : cell)
+          if (a != b) edges.emplace_back(a, b);
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    start.assign(mesh.nodes.size() + 1, 0);
+    neighbour.reserve(edges.size());
+    for (const auto& [a, b] : edges) {
+      ++start[a + 1];
+      neighbour.push_back(b);
+    }
+    std::partial_sum(start.begin(), start.end(), start.begin());
+  }
+  int degree(int node) const { return start[node + 1] - start[node]; }
+};
+
+/// Breadth-first levels from `root` over nodes not yet `placed`. Leaves the visited nodes in `order`, level by level,
+/// and returns the number of levels; `last_level` is where the last one starts. `seen` carries a stamp per sweep.
+int levels_from(const NodeGraph& graph, int root, const std::vector<char>& placed, std::vector<int>& seen, int stamp,
+                std::vector<int>& order, std::size_t& last_level) {
+  order.assign(1, root);
+  seen[root] = stamp;
+  int levels = 0;
+  for (std::size_t begin = 0; begin < order.size();) {
+    last_level = begin;
+    const std::size_t end = order.size();
+    ++levels;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int e = graph.start[order[i]]; e < graph.start[order[i] + 1]; ++e) {
+        const int next = graph.neighbour[e];
+        if (placed[next] || seen[next] == stamp) continue;
+        seen[next] = stamp;
+        order.push_back(next);
+      }
+    begin = end;
+  }
+  return levels;
+}
+
+}  // namespace
+
+Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh) {
+  const NodeGraph graph(mesh);
+  const int count = static_cast<int>(mesh.nodes.size());
+  const auto lower_degree = [&](int a, int b) {
+    return std::make_tuple(graph.degree(a), a) < std::make_tuple(graph.degree(b), b);
+  };
+
+  Renumbering result;
+  auto& order = result.node_new_to_old;
+  order.reserve(count);
+  std::vector<char> placed(count, 0);
+  std::vector<int> seen(count, -1), sweep;
+  int stamp = 0;
+  for (int first = 0; first < count; ++first) {
+    if (placed[first]) continue;
+
+    // Walk to the far end until the number of levels grows no more.
+    int root = first;
+    std::size_t last_level = 0;
+    int levels = levels_from(graph, root, placed, seen, stamp++, sweep, last_level);
+    for (;;) {
+      const int candidate = *std::min_element(sweep.begin() + static_cast<long>(last_level), sweep.end(), lower_degree);
+      const int reached = levels_from(graph, candidate, placed, seen, stamp++, sweep, last_level);
+      if (reached <= levels) break;
+      levels = reached;
+      root = candidate;
+    }
+
+    std::size_t head = order.size();
+    order.push_back(root);
+    placed[root] = 1;
+    for (; head < order.size(); ++head) {
+      const std::size_t begin = order.size();
+      for (int e = graph.start[order[head]]; e < graph.start[order[head] + 1]; ++e) {
+        const int next = graph.neighbour[e];
+        if (placed[next]) continue;
+        placed[next] = 1;
+        order.push_back(next);
+      }
+      std::sort(order.begin() + static_cast<long>(begin), order.end(), lower_degree);
+    }
+  }
+  std::reverse(order.begin(), order.end());
+
+  const auto old_to_new = inverse_permutation(order);
+  std::vector<std::array<int, 5>> keys(mesh.cells.size());  // new nodes ascending, then old index
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    for (int i = 0; i < 4; ++i) keys[c][i] = old_to_new[mesh.cells[c][i]];
+    std::sort(keys[c].begin(), keys[c].begin() + 4);
+    keys[c][4] = static_cast<int>(c);
+  }
+  std::sort(keys.begin(), keys.end());
+  result.cell_new_to_old.reserve(keys.size());
+  for (const auto& key : keys) result.cell_new_to_old.push_back(key[4]);
+  return result;
+}
+
+TetrahedralMesh renumbered(const TetrahedralMesh& mesh, const Renumbering& order) {
+  const auto old_to_new = inverse_permutation(order.node_new_to_old);
+  TetrahedralMesh result;
+  result.regions = mesh.regions;
+  result.nodes.reserve(mesh.nodes.size());
+  for (const int old : order.node_new_to_old) result.nodes.push_back(mesh.nodes[old]);
+  for (const int old : order.cell_new_to_old) {
+    auto cell = mesh.cells[old];
+    for (int& node : cell) node = old_to_new[node];
+    result.cells.push_back(cell);
+    result.cell_region.push_back(mesh.cell_region[old]);
+  }
+  result.facet_groups = mesh.facet_groups;
+  for (auto& group : result.facet_groups)
+    for (auto& facet : group.facets)
+      for (int& node : facet) node = old_to_new[node];
+  return result;
+}
+
+std::vector<int> inverse_permutation(const std::vector<int>& permutation) {
+  std::vector<int> inverse(permutation.size());
+  for (std::size_t i = 0; i < permutation.size(); ++i) inverse[permutation[i]] = static_cast<int>(i);
+  return inverse;
+}
+
+int bandwidth(const TetrahedralMesh& mesh) {
+  int widest = 0;
+  for (const auto& cell : mesh.cells) {
+    const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
+    widest = std::max(widest, *high - *low);
+  }
+  return widest;
+}
+
+}  // namespace fsi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "fem/p1_tetrahedron.hpp"
+#include "scene/case.hpp"
+#include "scene/scene.hpp"
+
+namespace fsi {
+
+/// Builds the sub-problems that the case has on a checked mesh (check_scene_mesh): boundary conditions of the design,
+/// section 1, the interface found from the cells.
+/// \param mesh  as read, regions and surface groups by name
+std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const TetrahedralMesh& mesh);
+
+extern template class FluidProblem<P1Tetrahedron>;
+extern template class WallProblem<P1Tetrahedron>;
+
+}  // namespace fsi

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/case.hpp"
+#include "scene/state.hpp"
+#include "scene/time_scheme.hpp"
+
+namespace fsi {
+
+/// The pressures of a case, step by step. A step's load is the mean of the table over it, so that the impulse does not
+/// depend on the time step; a static load rises in equal steps to the table's last value.
+class Loads {
+ public:
+  explicit Loads(const Case& setup) : setup_(setup) {}
+
+  int steps() const { return setup_.time ? setup_.time->steps() : setup_.static_load->load_steps; }
+
+  /// Time at the end of a step, ms; the fraction of the load in statics.
+  double time_of(int step) const {
+    if (!setup_.time) return static_cast<double>(step) / steps();
+    return step == steps() ? setup_.time->end : step * setup_.time->step;
+  }
+
+  /// Data of the step that follows the state's last one.
+  StepData next(const State& state, const TimeScheme& scheme) const {
+    StepData data;
+    const int step = state.step + 1;
+    data.time = time_of(step);
+    const double from = time_of(step - 1);
+    if (setup_.inlet) data.inlet_pressure = setup_.inlet->mean(from, data.time);
+    if (setup_.load)
+      data.wall_pressure = setup_.time ? setup_.load->mean(from, data.time) : data.time * setup_.load->at_end();
+    data.acceleration_history = scheme.acceleration_history(state);
+    return data;
+  }
+
+ private:
+  const Case& setup_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "scene/loads.hpp"
+#include "scene/stepper.hpp"
+#include "scene/system.hpp"
+
+namespace fsi {
+
+/// Lines of the paper's Table 3: iteration, increment, residual.
+inline void append_history(const NewtonReport& report, std::vector<std::string>& lines,
+                           const std::string& indent = "") {
+  int k = 0;
+  for (const auto& it : report.iterations)
+    lines.push_back(fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}", indent, ++k, it.increment,
+                                it.residual, it.step < 1 ? fmt::format("  step {:g}", it.step) : "",
+                                it.linearised ? "  new jacobian" : ""));
+}
+
+/// A linearisation point as numbers to remember, and back.
+inline void remember(const std::string& name, const LinearisationPoint& point, Memory& memory) {
+  memory.arrays[name + ".mesh"] = point.now.mesh;
+  memory.arrays[name + ".flow"] = point.now.flow;
+  memory.arrays[name + ".wall"] = point.now.wall;
+  memory.arrays[name + ".old_mesh"] = point.old.mesh;
+  memory.arrays[name + ".old_flow"] = point.old.flow;
+  memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
+}
+inline bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point) {
+  const auto pressure = memory.numbers.find(name + ".wall_pressure");
+  if (pressure == memory.numbers.end()) return false;
+  const auto array = [&](const char* part) {
+    const auto found = memory.arrays.find(name + part);
+    return found == memory.arrays.end() ? std::vector<double>() : found->second;
+  };
+  point.now = {array(".mesh"), array(".flow"), array(".wall")};
+  point.old = {array(".old_mesh"), array(".old_flow"), {}};
+  point.wall_pressure = pressure->second;
+  return true;
+}
+
+/// Advances a whole scene at once by Newton's method: the monolithic method for fluid and wall, and the only one there
+/// is for a scene with one of them.
+template <class Element>
+class NewtonStepper : public Stepper {
+ public:
+  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options)
+      : scene_(scene), loads_(loads), options_(std::move(options)), system_("coupled", scene, number_scene(scene)) {}
+
+  const System<Element>& system() const { return system_; }
+
+  StepReport advance(State& state) override {
+    const StepData data = loads_.next(state, scene_.scheme);
+    StepReport report;
+    NewtonReport solved = solve(state, data, scene_.scheme, report);
+    if (!solved.converged && scene_.scheme.predictor > 0 && state.step > 0) {
+      // The extrapolated start can be the culprit, after a jump of the load for example.
+      report.history.push_back(solved.failure + "; again from the last time level");
+      TimeScheme cautious = scene_.scheme;
+      cautious.predictor = 0;
+      solved = solve(state, data, cautious, report);
+    }
+    if (!solved.converged)
+      throw ConvergenceError(
+          fmt::format("step {} (to t = {:g} ms): Newton's method stopped after {} iterations: {}", state.step + 1,
+                      data.time, solved.count(), solved.failure),
+          "a smaller time.step (or more static.load_steps), a smaller load, or monolithic.mode = \"full\"");
+    scene_.scheme.accept(state, data);
+    return report;
+  }
+
+  Memory memory() const override {
+    Memory memory;
+    if (options_.keep_jacobian && system_.linearised()) remember("kept", system_.linearisation_point(), memory);
+    return memory;
+  }
+
+  void recall(const Memory& memory) override {
+    LinearisationPoint point;
+    if (fsi::recall("kept", memory, point)) system_.linearise_at(point);
+  }
+
+ private:
+  NewtonReport solve(State& state, const StepData& data, const TimeScheme& scheme, StepReport& report) {
+    scheme.predict(state);
+    scene_.impose_interface(state);
+    system_.work_on(state, data);
+    const NewtonReport solved = newton(system_, options_);
+    scene_.impose_interface(state);  // exactly, not to the rounding of the increments
+    report.newton_iterations += solved.count();
+    report.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
+    append_history(solved, report.history);
+    return solved;
+  }
+
+  Scene<Element>& scene_;
+  const Loads& loads_;
+  NewtonOptions options_;
+  System<Element> system_;
+};
+
+}  // namespace fsi

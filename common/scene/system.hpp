@@ -1,0 +1,216 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algebra/direct_solver.hpp"
+#include "algebra/gathered_matrix.hpp"
+#include "fem/gather_blocks.hpp"
+#include "scene/numbering.hpp"
+#include "solvers/newton.hpp"
+
+namespace fsi {
+
+/// The data a Jacobian was made from: enough to make the same one again after a restart.
+struct LinearisationPoint {
+  Solution now, old;
+  double wall_pressure = 0;
+};
+
+/// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and direct
+/// solve, as Newton's method asks for them. Works on a State that it does not own.
+template <class Element>
+class System : public NewtonProblem {
+ public:
+  static constexpr int n = Element::components;
+
+  /// \param name  for the profile: "coupled", "fluid", "wall"
+  System(std::string name, Scene<Element>& scene, Numbering numbering, const DirectSolver::Options& options = {})
+      : name_(std::move(name)),
+        scene_(scene),
+        numbering_(std::move(numbering)),
+        derivatives_(numbering_.flow.empty()   ? FluidDerivatives::none
+                     : numbering_.mesh.empty() ? FluidDerivatives::flow
+                                               : FluidDerivatives::flow_and_domain),
+        solver_(options),
+        increment_(numbering_.size),
+        weights_(norm_weights()) {}
+
+  const Numbering& numbering() const { return numbering_; }
+  const std::vector<double>& residual() const { return residual_; }
+  const SparseMatrix& matrix() const { return matrix_.matrix(); }
+  const DirectSolver& solver() const { return solver_; }
+  const LinearisationPoint& linearisation_point() const { return point_; }
+  /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
+  const std::vector<double>& fluid_residual() const { return fluid_residual_; }
+
+  /// The state and step that evaluate(), linearise() and move() refer to from now on.
+  void work_on(State& state, const StepData& data) {
+    state_ = &state;
+    data_ = &data;
+  }
+
+  double evaluate() override {
+    const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
+    const AssemblyResult result = assemble(false);
+    if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();
+    double sum = 0;
+    for (double r : residual_) sum += r * r;
+    return std::sqrt(sum);
+  }
+
+  void linearise() override {
+    {
+      const auto phase = scene_.profile.phase("assembly: " + name_ + " jacobian");
+      assemble(true);
+      if (!gathered_) gather();
+      matrix_.update();
+    }
+    {
+      const auto phase = scene_.profile.phase("factorisation: " + name_);
+      solver_.factorise(matrix_.matrix());
+    }
+    point_.now = state_->now;
+    point_.old = state_->before[0];
+    point_.wall_pressure = data_->wall_pressure;
+  }
+  bool linearised() const override { return solver_.factorised(); }
+
+  /// Makes the Jacobian of an earlier step again, bit for bit (restart).
+  void linearise_at(const LinearisationPoint& point) {
+    State state;
+    state.now = point.now;
+    state.before[0] = point.old;
+    StepData data;
+    data.wall_pressure = point.wall_pressure;
+    if (!scene_.scheme.is_static() && scene_.wall)
+      data.acceleration_history.assign(static_cast<std::size_t>(scene_.wall->node_count()) * n, 0.0);
+    work_on(state, data);
+    linearise();
+    state_ = nullptr;
+    data_ = nullptr;
+  }
+
+  double solve() override {
+    const auto phase = scene_.profile.phase("solve: " + name_);
+    solver_.solve(matrix_.matrix(), residual_, increment_);
+    double sum = 0;
+    for (std::size_t i = 0; i < increment_.size(); ++i) {
+      increment_[i] = -increment_[i];
+      sum += weights_[i] * increment_[i] * increment_[i];
+    }
+    return std::sqrt(sum);
+  }
+
+  void move(double step) override {
+    if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
+    if (!numbering_.flow.empty()) add_to_field(numbering_.flow, increment_, step, state_->now.flow);
+    if (!numbering_.wall.empty()) add_to_field(numbering_.wall, increment_, step, state_->now.wall);
+  }
+
+  double size() const override {
+    return std::sqrt(weighted(mesh_volumes_, n, state_->now.mesh, !numbering_.mesh.empty()) +
+                     weighted(flow_volumes_, n + 1, state_->now.flow, !numbering_.flow.empty()) +
+                     weighted(wall_volumes_, n + 1, state_->now.wall, !numbering_.wall.empty()));
+  }
+
+ private:
+  AssemblyResult assemble(bool derivatives) {
+    AssemblyResult result;
+    residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
+    if (!numbering_.mesh_rows.empty()) {
+      mesh_residual_.resize(state_->now.mesh.size());
+      multiply_mesh_motion<Element>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
+      add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
+    }
+    if (!numbering_.flow_rows.empty()) {
+      result.include(scene_.fluid->assemble(scene_.fluid_input(*state_), data_->inlet_pressure, fluid_residual_,
+                                            derivatives ? derivatives_ : FluidDerivatives::none));
+      add_to_system(numbering_.flow_rows, fluid_residual_, residual_);
+    }
+    if (!numbering_.wall_rows.empty()) {
+      result.include(scene_.wall->assemble(scene_.wall_input(*state_, *data_), data_->wall_pressure, state_->now.wall,
+                                           wall_residual_, derivatives));
+      if (!data_->interface_load.empty())
+        for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
+      add_to_system(numbering_.wall_rows, wall_residual_, residual_);
+    }
+    return result;
+  }
+
+  void gather() {
+    GatheredMatrix::Builder builder(numbering_.size);
+    if (!numbering_.wall_rows.empty())
+      gather_blocks(builder, scene_.wall->jacobian(), numbering_.wall_rows, numbering_.wall);
+    if (!numbering_.flow_rows.empty()) {
+      auto& jacobian = scene_.fluid->jacobian(derivatives_);
+      gather_blocks(builder, jacobian.flow, numbering_.flow_rows, numbering_.flow);
+      if (!numbering_.mesh.empty()) gather_blocks(builder, jacobian.mesh_motion, numbering_.flow_rows, numbering_.mesh);
+    }
+    if (!numbering_.mesh_rows.empty())
+      gather_diagonal_blocks(builder, scene_.mesh_motion, numbering_.mesh_rows, numbering_.mesh);
+    matrix_ = GatheredMatrix(std::move(builder));
+    gathered_ = true;
+  }
+
+  static double weighted(const std::vector<double>& volumes, int entries, const std::vector<double>& field,
+                         bool present) {
+    double sum = 0;
+    if (present)
+      for (std::size_t i = 0; i < field.size(); ++i) sum += volumes[i / entries] * field[i] * field[i];
+    return sum;
+  }
+
+  /// Volume that belongs to each node: the lumped mass of the L2 norm.
+  template <class Part>
+  static std::vector<double> nodal_volumes(const Part& part) {
+    std::vector<double> volumes(part.nodes.size(), 0.0);
+    for (const auto& cell : part.cells) {
+      Vec3<Pack> x[Element::nodes];
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int i = 0; i < 3; ++i) x[a][i] = Pack(part.nodes[cell[a]][i]);
+      const auto geometry = Element::geometry(x);
+      for (int q = 0; q < Element::points; ++q) {
+        const auto g = Element::at(geometry, q);
+        for (int a = 0; a < Element::nodes; ++a) volumes[cell[a]] += g.weight[0] * g.shape[a];
+      }
+    }
+    return volumes;
+  }
+
+  /// Weights per unknown of the squared L2 norm of an increment of all fields (paper, algorithm 1), mm, mm/ms and kPa
+  /// added up as they are.
+  std::vector<double> norm_weights() {
+    std::vector<double> weights(static_cast<std::size_t>(numbering_.size), 0.0);
+    const auto add = [&](const UnknownMap& map, const std::vector<double>& volumes, int entries) {
+      for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
+    };
+    if (!numbering_.flow.empty() || !numbering_.mesh.empty()) flow_volumes_ = nodal_volumes(scene_.fluid->part());
+    mesh_volumes_ = flow_volumes_;
+    if (!numbering_.wall.empty()) wall_volumes_ = nodal_volumes(scene_.wall->part());
+    add(numbering_.mesh, mesh_volumes_, n);
+    add(numbering_.flow, flow_volumes_, n + 1);
+    add(numbering_.wall, wall_volumes_, n + 1);
+    return weights;
+  }
+
+  std::string name_;
+  Scene<Element>& scene_;
+  Numbering numbering_;
+  FluidDerivatives derivatives_;
+  GatheredMatrix matrix_;
+  bool gathered_ = false;
+  DirectSolver solver_;
+  State* state_ = nullptr;
+  const StepData* data_ = nullptr;
+  LinearisationPoint point_;
+  std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
+  std::vector<double> mesh_volumes_, flow_volumes_, wall_volumes_;
+  std::vector<double> weights_;
+};
+
+}  // namespace fsi

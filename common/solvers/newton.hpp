@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// What Newton's method needs of a problem R(x) = 0. The problem keeps the iterate, its residual and the last
+/// increment.
+class NewtonProblem {
+ public:
+  virtual ~NewtonProblem() = default;
+  /// Evaluates the residual at the iterate; returns its norm, or NaN where it does not exist (inverted element).
+  virtual double evaluate() = 0;
+  /// Builds and factorises the Jacobian at the iterate.
+  virtual void linearise() = 0;
+  virtual bool linearised() const = 0;
+  /// Increment = -J^-1 R with the last Jacobian; returns its norm.
+  virtual double solve() = 0;
+  /// Iterate += step * increment.
+  virtual void move(double step) = 0;
+  /// Norm of the iterate, in the norm of the increments.
+  virtual double size() const = 0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-8;        ///< converged when the increment's norm is below this times `reference`
+  double reference = 0;           ///< 0: the norm of the first increment (paper, algorithm 1)
+  double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
+  int max_iterations = 30;
+  bool keep_jacobian = true;      ///< use a Jacobian, of earlier calls too, while the residual keeps falling
+  double keep_contraction = 0.2;  ///< a kept Jacobian is renewed when an iteration contracts the residual less
+  int max_halvings = 8;           ///< of the step in backtracking
+};
+
+/// One row of the convergence history.
+struct NewtonIteration {
+  double increment = 0;     ///< norm of the increment, as taken
+  double residual = 0;      ///< norm of the residual after it
+  double step = 1;          ///< length of the step: 1 unless backtracking cut it
+  bool linearised = false;  ///< a new Jacobian was made for it
+};
+
+struct NewtonReport {
+  bool converged = false;
+  double first_residual = 0;
+  std::vector<NewtonIteration> iterations;
+  std::string failure;  ///< why it stopped, when it did not converge
+
+  int count() const { return static_cast<int>(iterations.size()); }
+};
+
+/// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.
+/// The increment cannot fall below rounding: one of 1e-14 times the iterate counts as converged.
+NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options);
+
+}  // namespace fsi

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "fem/contributions.hpp"
+#include "materials/strain.hpp"
+
+namespace fsi {
+
+/// Nearly incompressible hyperelastic wall in mixed displacement-pressure form, PSPG-stabilised (design, section 3).
+/// With F = I + grad d, J = det F, acceleration a and test functions v and q the residual is
+///   (rho a, v) + (F S' - p J F^-T, grad v) - (J - 1, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T
+///   grad q), tau = alpha h^2 / (2 mu); no inertia in the stabilisation's residual (it would destabilise small steps).
+template <class Material>
+struct Hyperelastic {
+  double density;        ///< mg/mm^3; 0 in statics
+  double bulk_modulus;   ///< kappa, kPa
+  double stabilisation;  ///< alpha
+  Material material;
+
+  template <class T>
+  struct Prepared {
+    Mat3<T> isochoric_flux;      ///< F S'
+    Mat3<T> cofactor_gradient;   ///< J F^-T
+    T volume_change;             ///< J - 1
+    T volume_ratio;              ///< J
+    Vec3<T> stabilisation_flux;  ///< -tau J F^-1 F^-T grad p
+  };
+
+  /// \param size_squared  h^2 of the reference element, mm^2
+  template <class T>
+  Prepared<T> prepare(const Mat3<T>& grad_d, const Vec3<T>& grad_p, Pack size_squared,
+                      const typename Material::FibreData& fibres) const {
+    const Deformation<T> f = deformation(grad_d);
+    Prepared<T> k;
+    k.cofactor_gradient = f.cofactor_gradient;
+    k.volume_change = f.volume_change;
+    k.volume_ratio = f.volume_ratio;
+    k.isochoric_flux = f.gradient * material.stress(strain_of(f), fibres);
+    const Pack tau = Pack(stabilisation / (2 * material.shear_modulus())) * size_squared;
+    const T scale = -tau / f.volume_ratio;
+    k.stabilisation_flux = scale * transposed_times(f.cofactor_gradient, f.cofactor_gradient * grad_p);
+    return k;
+  }
+
+  /// \param acceleration  mm/ms^2
+  /// \param pressure      kPa
+  template <class T>
+  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure) const {
+    Integrand<T> f;
+    f.source = Pack(density) * acceleration;
+    f.flux = k.isochoric_flux - pressure * k.cofactor_gradient;
+    f.scalar_source = -k.volume_change - Pack(1.0 / bulk_modulus) * pressure;
+    f.scalar_flux = k.stabilisation_flux;
+    return f;
+  }
+};
+
+}  // namespace fsi

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "fem/assembly_result.hpp"
+#include "fem/contributions.hpp"
+#include "fem/element_packs.hpp"
+#include "materials/material.hpp"
+#include "structure/hyperelastic.hpp"
+
+namespace fsi {
+
+/// What the wall's residual depends on. The acceleration is acceleration_factor d + acceleration_history, as a Newmark
+/// scheme makes it; the history is null in statics.
+struct StructureInput {
+  const double* wall = nullptr;                  ///< (d_s, p_s), components + 1 numbers per node, mm and kPa
+  const double* acceleration_history = nullptr;  ///< `components` numbers per node, mm/ms^2
+  double acceleration_factor = 0;                ///< 1/ms^2
+};
+
+/// One layer of the wall: its elements and its material, with fibre directions per pack where the material has fibres.
+template <class Element>
+struct WallLayer {
+  ElementPacks<Element> packs;
+  Material material;
+  std::vector<std::vector<Fibres>> fibres;  ///< [thread][pack], empty for materials without
+};
+
+/// Blocks with rows (momentum, volume) and columns (d, p).
+template <class Element>
+using StructureMatrix = BlockMatrix<Element::components + 1, Element::components + 1>;
+
+namespace detail {
+
+template <class Element, bool Derivatives, class M>
+AssemblyResult layer_packs(const Hyperelastic<M>& form,
+                           const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+                           const std::vector<Fibres>* fibres, const StructureInput& in, double* residual,
+                           double* blocks) {
+  constexpr int n = Element::components;
+  constexpr int seeds = Derivatives ? n + 1 : 0;
+  using T = Seeded<seeds>;
+
+  AssemblyResult result;
+  NodalVector<Element> d{}, acceleration{};
+  NodalScalar<Element> p{};
+  ElementRows<Element, T> rows;
+  for (std::size_t index = 0; index < packs.size(); ++index) {
+    const auto& pack = packs[index];
+    typename M::FibreData fibre{};
+    if constexpr (std::is_same_v<typename M::FibreData, Fibres>) fibre = (*fibres)[index];
+    gather(d, pack, in.wall, n + 1);
+    gather(p, pack, in.wall + n, n + 1);
+    if (in.acceleration_history) {
+      gather(acceleration, pack, in.acceleration_history);
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
+    }
+    for (int b = 0; b < (Derivatives ? Element::nodes : 1); ++b) {
+      integrate(
+          rows, pack.geometry,
+          [&](const auto& g) {
+            const auto k = form.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
+                                        seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b),
+                                        pack.geometry.size_squared, fibre);
+            if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
+            return k;
+          },
+          [&](const auto& k, const auto& g, int) {
+            return form.integrand(
+                k, seed_value<Element, seeds, 0>(value_of(acceleration, g), g, b, in.acceleration_factor),
+                seed_value<Element, seeds, n>(value_of(p, g), g, b));
+          });
+      if (b == 0) scatter_residual<Element>(rows, pack, residual);
+      if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, n + 1>(rows, pack, b, blocks);
+    }
+  }
+  return result;
+}
+
+}  // namespace detail
+
+/// What the layers of a wall have in common.
+struct WallConstants {
+  double density;        ///< mg/mm^3
+  double bulk_modulus;   ///< kPa
+  double stabilisation;  ///< alpha
+};
+
+/// Adds the wall's residual, components + 1 rows per node (momentum, volume), without boundary conditions, and
+/// overwrites the Jacobian if one is passed.
+template <class Element>
+AssemblyResult assemble_structure(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
+                                  const StructureInput& in, std::vector<double>& residual,
+                                  StructureMatrix<Element>* jacobian = nullptr) {
+  if (jacobian) jacobian->set_zero();
+  AssemblyResult all;
+  for (const auto& layer : layers)
+    std::visit(
+        [&](const auto& material) {
+          using M = std::decay_t<decltype(material)>;
+          const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0, wall.bulk_modulus,
+                                     wall.stabilisation, material};
+          std::vector<AssemblyResult> results(layer.packs.thread_count());
+          for_each_thread(layer.packs, [&](int t, const auto& mine) {
+            const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
+            results[t] = jacobian
+                             ? detail::layer_packs<Element, true>(form, mine, fibres, in, residual.data(),
+                                                                  jacobian->values.data())
+                             : detail::layer_packs<Element, false>(form, mine, fibres, in, residual.data(), nullptr);
+          });
+          all.include(reduced(results));
+        },
+        layer.material);
+  return all;
+}
+
+}  // namespace fsi

@@ -1,0 +1,1 @@
+"""Reads the result folders of finished runs and compares them. It never looks inside the other programs."""

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# From a fresh clone to a picture: builds the programs, runs the paper's neo-Hookean artery with both drivers on the
+# coarse mesh and compares the pressure waves. May be run again; it replaces its own results only.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+build=build/release-quickstart
+results=results/quickstart
+case_file=meshes/artery/neo-hookean.toml
+mesh=meshes/artery/artery-coarse.msh
+
+stages=()
+stage() {
+  local name=$1 start=$EPOCHREALTIME
+  shift
+  echo "== $name"
+  "$@"
+  local end=$EPOCHREALTIME
+  # EPOCHREALTIME has microseconds behind a point or a comma, as the locale wants it
+  local ms=$(((${end/[.,]/} - ${start/[.,]/}) / 1000))
+  stages+=("$(printf '%-24s %6d.%d s' "$name" $((ms / 1000)) $((ms % 1000 / 100)))")
+}
+
+configure_and_build() {
+  cmake --preset release -B "$build" -DFSI_TESTS=OFF -DFSI_BENCHMARKS=OFF
+  cmake --build "$build"
+}
+
+rm -rf "$results"
+mkdir -p "$results"
+stage "packages" scripts/install_packages.sh
+stage "build" configure_and_build
+stage "mesh" "$build/bin/fsi-mesh" artery --level coarse -o "$mesh"
+stage "monolithic run" "$build/bin/fsi-monolithic" "$case_file" --set mesh.file="$PWD/$mesh" -o "$results/monolithic"
+stage "partitioned run" "$build/bin/fsi-partitioned" "$case_file" --set mesh.file="$PWD/$mesh" -o "$results/partitioned"
+stage "comparison" "$build/bin/fsi-compare" pressure "$results/monolithic" "$results/partitioned" -o "$results/compare"
+
+echo
+printf '%s\n' "${stages[@]}"
+echo
+echo "Open $PWD/$results/compare/pressure_waves.png: the pressure along the centre line from both drivers."

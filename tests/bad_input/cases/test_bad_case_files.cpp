@@ -1,0 +1,419 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "example_cases.hpp"
+#include "io/case_reader.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+struct BadCase {
+  const char* name;
+  const std::string& valid;
+  const char* from;     ///< this text of the valid case ...
+  const char* to;       ///< ... is replaced by that one
+  std::string message;  ///< expected, in full
+  std::vector<std::string> overrides = {};
+};
+
+void PrintTo(const BadCase& bad, std::ostream* stream) {
+  *stream << bad.name;
+}
+std::string name_of(const testing::TestParamInfo<BadCase>& info) {
+  return info.param.name;
+}
+
+/// What the reader says; empty when it accepts the case.
+std::string complaint_about(const BadCase& bad) {
+  try {
+    parse_case(with(bad.valid, bad.from, bad.to), "case.toml", bad.overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Only the beginning is ours; the rest comes from the TOML library.
+const std::vector<BadCase>& syntax_errors() {
+  static const std::vector<BadCase> cases = {
+      {"UnclosedString", coupled_case, "\"coarse\"", "\"coarse", "case.toml:4: no valid TOML: "},
+      {"ValueMissing", coupled_case, "density = 1.0", "density =", "case.toml:6: no valid TOML: "},
+      {"KeyTwice", coupled_case, "viscosity = 3.5e-3", "density = 3.5e-3", "case.toml:7: no valid TOML: "},
+      {"SectionTwice", coupled_case, "[partitioned]", "[monolithic]", "case.toml:30: no valid TOML: "},
+      {"SectionUnclosed", coupled_case, "[fluid]", "[fluid", "case.toml:5: no valid TOML: "},
+      {"NotUtf8", coupled_case, "a coupled",
+       "a c\xff"
+       "oupled",
+       "case.toml:1: no valid TOML: "},
+  };
+  return cases;
+}
+
+const std::vector<BadCase>& bad_cases() {
+  static const std::vector<BadCase> cases = {
+      // Names of keys and sections
+      {"UnknownSection", coupled_case, "[fluid]", "[fluids]",
+       "case.toml:5: fluids: unknown section; did you mean fluid?"},
+      {"UnknownSubsection", coupled_case, "[monolithic]", "[monolithic.solver]",
+       "case.toml:27: monolithic.solver: unknown section; did you mean monolithic.mode?"},
+      {"UnknownKey", coupled_case, "viscosity", "viscocity",
+       "case.toml:7: fluid.viscocity: unknown key; did you mean fluid.viscosity?"},
+      {"UnknownKeyAtTop", coupled_case, "element", "elements",
+       "case.toml:2: elements: unknown key; did you mean element?"},
+      {"UnknownKeyOfLayer", coupled_case, "alpha", "alfa",
+       "case.toml:16: structure.layers.media.alfa: unknown key; did you mean structure.layers.media.alpha?"},
+      {"MaterialKeyMisspelt", coupled_case, "material = \"artery\"", "meterial = \"artery\"",
+       "case.toml:12: structure.layers.media.meterial: unknown key; did you mean structure.layers.media.material?"},
+      {"KeyNothingIsLike", coupled_case, "until = 0.125", "end = 0.125",
+       "case.toml:23: inlet.end: unknown key; did you mean inlet.until?"},
+      {"FirstOfTwoUnknownKeys", coupled_case, "viscosity = 3.5e-3", "zeta = 1\nalpha = 2",
+       "case.toml:7: fluid.zeta: unknown key; did you mean fluid.density?"},
+      {"ParameterOfAnotherMaterial", static_case, "c10 = 3", "c10 = 3\nk1 = 2",
+       "case.toml:10: structure.layers.wall.k1: is no parameter of neo-hookean but of artery; remove it (neo-hookean "
+       "takes c10)"},
+      {"SectionIsNumber", static_case, "title = \"a wall under pressure\"", "output = 3",
+       "case.toml:1: output: 3 is a whole number; make it a section [output]"},
+      {"SectionIsArray", static_case, "[static]", "[[static]]",
+       "case.toml:12: static: [a section] is an array; make it a section [static]"},
+      {"LayersIsText", static_case, "[structure.layers.wall]\nmaterial = \"neo-hookean\"\nc10 = 3\n",
+       "layers = \"wall\"\n",
+       "case.toml:7: structure.layers: \"wall\" is a string; make it a section [structure.layers]"},
+      {"LayerIsNumber", static_case, "[structure.layers.wall]\nmaterial = \"neo-hookean\"\nc10 = 3\n",
+       "layers.wall = 3\n",
+       "case.toml:7: structure.layers.wall: 3 is a whole number; make it a section [structure.layers.wall]"},
+      {"NumberIsSection", coupled_case, "step = 0.125", "step.size = 0.125",
+       "case.toml:25: time.step: is a section; give a number (time step in ms)"},
+      // Types
+      {"NumberIsText", coupled_case, "viscosity = 3.5e-3", "viscosity = \"3.5e-3\"",
+       "case.toml:7: fluid.viscosity: \"3.5e-3\" is a string; give a number (dynamic viscosity in kPa ms)"},
+      {"NumberIsBoolean", coupled_case, "step = 0.125", "step = true",
+       "case.toml:25: time.step: true is a boolean; give a number (time step in ms)"},
+      {"NumberIsDate", coupled_case, "step = 0.125", "step = 2020-01-01",
+       "case.toml:25: time.step: 2020-01-01 is a date or time; give a number (time step in ms)"},
+      {"NumberIsArray", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = [1e5, 2e5]",
+       "case.toml:10: structure.bulk_modulus: [100000, 200000] is an array; give a number (bulk modulus in kPa)"},
+      {"NumberIsNan", coupled_case, "viscosity = 3.5e-3", "viscosity = nan",
+       "case.toml:7: fluid.viscosity: nan is not finite; give a finite number (dynamic viscosity in kPa ms)"},
+      {"NumberIsInfinite", coupled_case, "end = 12.0", "end = inf",
+       "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of the "
+       "step)"},
+      {"WholeNumberIsDecimal", coupled_case, "every = 8", "every = 8.5",
+       "case.toml:35: output.every: 8.5 is a decimal number; give a whole number (steps between entries of fields.h5, "
+       "default 8; 0: no fields)"},
+      {"WholeNumberTooLarge", coupled_case, "every = 8", "every = 99999999999",
+       "case.toml:35: output.every: 99999999999 is too large; give at most 2147483647 (steps between entries of "
+       "fields.h5, default 8; 0: no fields)"},
+      {"BooleanIsNumber", fluid_case, "density = 1.0", "density = 1.0\ngrad_div = 1",
+       "case.toml:6: fluid.grad_div: 1 is a whole number; give true or false (grad-div stabilisation, default false)"},
+      {"TextIsNumber", coupled_case, "\"a coupled case\"", "42",
+       "case.toml:1: title: 42 is a whole number; give a string in quotes (what the case is, for people)"},
+      {"FieldsIsText", coupled_case, "[\"displacement\", \"velocity\", \"pressure\"]", "\"pressure\"",
+       "case.toml:34: output.fields: \"pressure\" is a string; give an array (fields in fields.h5: any of "
+       "displacement, velocity, pressure; default all)"},
+      {"FieldIsNumber", coupled_case, "\"velocity\"", "2",
+       "case.toml:34: output.fields[1]: 2 is a whole number; give a string in quotes"},
+      // Missing
+      {"ViscosityMissing", coupled_case, "viscosity = 3.5e-3\n", "",
+       "case.toml:5: fluid.viscosity: missing; add it (dynamic viscosity in kPa ms)"},
+      {"StepMissing", coupled_case, "step = 0.125\n", "", "case.toml:24: time.step: missing; add it (time step in ms)"},
+      {"PressureMissing", coupled_case, "pressure = 1.332\n", "",
+       "case.toml:21: inlet.pressure: missing; add it (pressure in kPa, or a table of [time in ms, pressure in kPa], "
+       "linear in between)"},
+      {"MaterialMissing", static_case, "material = \"neo-hookean\"\n", "",
+       "case.toml:7: structure.layers.wall.material: missing; add it (its model: artery, mooney-rivlin or "
+       "neo-hookean)"},
+      {"FibreParameterMissing", coupled_case, "k2 = 0.8393\n", "",
+       "case.toml:11: structure.layers.media.k2: missing; add it (fibre exponent)"},
+      {"LayersMissing", static_case, "[structure.layers.wall]\nmaterial = \"neo-hookean\"\nc10 = 3\n", "",
+       "case.toml:4: structure.layers: missing; add it (a section [structure.layers.NAME] per volume group of the "
+       "wall)"},
+      {"LayersEmpty", static_case, "[structure.layers.wall]\nmaterial = \"neo-hookean\"\nc10 = 3\n",
+       "[structure.layers]\n",
+       "case.toml:7: structure.layers: has no layer; add a section [structure.layers.NAME] per volume group of the "
+       "wall"},
+      {"MeshMissing", fluid_case, "[mesh]\nfile = \"tube.msh\"\n", "",
+       "case.toml: mesh: missing; add it (where the mesh comes from)"},
+      {"MeshEmpty", fluid_case, "file = \"tube.msh\"\n", "",
+       "case.toml:2: mesh: neither file nor level; give file = \"NAME.msh\" or level = \"coarse\""},
+      {"MeshFileEmpty", fluid_case, "\"tube.msh\"", "\"\"",
+       "case.toml:3: mesh.file: \"\" is empty; give the path of a gmsh file (gmsh mesh, path relative to the case "
+       "file)"},
+      {"MeshTwice", coupled_case, "level = \"coarse\"", "level = \"coarse\"\nfile = \"a.msh\"",
+       "case.toml:4: mesh.level: both file and level; keep one of them"},
+      // Unphysical values
+      {"DensityNegative", coupled_case, "density = 1.0", "density = -1.0",
+       "case.toml:6: fluid.density: -1 is not positive; give a number > 0 (density in mg/mm^3)"},
+      {"ViscosityZero", coupled_case, "viscosity = 3.5e-3", "viscosity = 0",
+       "case.toml:7: fluid.viscosity: 0 is not positive; give a number > 0 (dynamic viscosity in kPa ms)"},
+      {"WallDensityZero", coupled_case, "density = 1.2", "density = 0.0",
+       "case.toml:9: structure.density: 0 is not positive; give a number > 0 (density in mg/mm^3)"},
+      {"BulkModulusNegative", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = -1e5",
+       "case.toml:10: structure.bulk_modulus: -100000 is not positive; give a number > 0 (bulk modulus in kPa)"},
+      {"StabilisationZero", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\nstabilisation = 0",
+       "case.toml:11: structure.stabilisation: 0 is not positive; give a number > 0 (alpha in tau = alpha h^2/(2 mu), "
+       "default 0.5)"},
+      {"C10Zero", static_case, "c10 = 3", "c10 = 0",
+       "case.toml:9: structure.layers.wall.c10: 0 is not positive; give a number > 0 (isotropic stiffness in kPa)"},
+      {"C01Negative", coupled_case, "c01 = 0.2", "c01 = -0.2",
+       "case.toml:20: structure.layers.adventitia.c01: -0.2 is negative; give a number >= 0 (second isotropic "
+       "stiffness in kPa)"},
+      {"K1Negative", coupled_case, "k1 = 2.3632", "k1 = -2.3632",
+       "case.toml:14: structure.layers.media.k1: -2.3632 is negative; give a number >= 0 (fibre stiffness in kPa)"},
+      {"K2Zero", coupled_case, "k2 = 0.8393", "k2 = 0",
+       "case.toml:15: structure.layers.media.k2: 0 is not positive; give a number > 0 (fibre exponent)"},
+      {"AlphaTooLarge", coupled_case, "alpha = 29.0", "alpha = 119.0",
+       "case.toml:16: structure.layers.media.alpha: 119 is out of range; give a number >= 0 and <= 90 (degrees between "
+       "fibres and circumference)"},
+      {"FibreScaleZero", coupled_case, "alpha = 29.0", "alpha = 29.0\nfibre_scale = 0",
+       "case.toml:17: structure.layers.media.fibre_scale: 0 is not positive; give a number > 0 (factor on the fibre "
+       "energy, default 1)"},
+      {"AxisTooShort", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_direction = [0, 1]",
+       "case.toml:7: structure.axis_direction: [0, 1] is no point; give [x, y, z] (direction of the artery's axis, "
+       "default [0, 0, 1])"},
+      {"AxisZero", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_direction = [0, 0, 0]",
+       "case.toml:7: structure.axis_direction: [0, 0, 0] has no direction; give a vector other than 0 (direction of "
+       "the artery's axis, default [0, 0, 1])"},
+      {"AxisOfText", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_origin = [0, \"0\", 0]",
+       "case.toml:7: structure.axis_origin[1]: \"0\" is a string; give a number"},
+      {"LayerNamedFluid", coupled_case, "[structure.layers.adventitia]", "[structure.layers.fluid]",
+       "case.toml:17: structure.layers.fluid: \"fluid\" cannot be a layer; use the name of a volume group of the wall"},
+      // Pressure
+      {"UntilZero", coupled_case, "until = 0.125", "until = 0",
+       "case.toml:23: inlet.until: 0 is not positive; give a time > 0 (time in ms at which a constant pressure falls "
+       "to 0; without it the pressure stays)"},
+      {"TableEmpty", fluid_case, "[[0, 0], [1, 2.5], [1, 0], [3, 1]]", "[]",
+       "case.toml:8: inlet.pressure: [] is empty; give at least one row [time, pressure]"},
+      {"TableOfNumbers", fluid_case, "[[0, 0], [1, 2.5], [1, 0], [3, 1]]", "[0, 1]",
+       "case.toml:8: inlet.pressure[0]: 0 is no pair; give [time, pressure]"},
+      {"TableOfTriples", fluid_case, "[1, 2.5]", "[1, 2.5, 3]",
+       "case.toml:8: inlet.pressure[1]: [1, 2.5, 3] is no pair; give [time, pressure]"},
+      {"TableOfText", fluid_case, "[1, 2.5]", "[1, \"high\"]",
+       "case.toml:8: inlet.pressure[1][1]: \"high\" is a string; give a number"},
+      {"TableNotSorted", fluid_case, "[3, 1]", "[0.5, 1]",
+       "case.toml:8: inlet.pressure[3]: [0.5, 1] comes before the time 1 of the row above; sort the table by time"},
+      {"TableTimeThrice", fluid_case, "[3, 1]", "[1, 1]",
+       "case.toml:8: inlet.pressure[3]: [1, 1] is the third row with this time; give two rows for a jump"},
+      {"TableWithUntil", fluid_case, "[time]", "until = 2\n[time]",
+       "case.toml:9: inlet.until: stands beside a table of pressures; remove it; the table says when the pressure "
+       "ends"},
+      // Time
+      {"StepZero", coupled_case, "step = 0.125", "step = 0",
+       "case.toml:25: time.step: 0 is not positive; give a number > 0 (time step in ms)"},
+      {"EndNegative", coupled_case, "end = 12.0", "end = -12",
+       "case.toml:26: time.end: -12 is not positive; give a number > 0 (end of the run in ms, a multiple of the step)"},
+      {"EndBeforeStep", coupled_case, "end = 12.0", "end = 0.1",
+       "case.toml:26: time.end: 0.1 is less than one step of 0.125; give an end >= step"},
+      {"EndNoMultiple", coupled_case, "end = 12.0", "end = 12.3",
+       "case.toml:26: time.end: 12.3 is no multiple of the step 0.125; give 12.25 or 12.375"},
+      {"StepsTooMany", coupled_case, "step = 0.125", "step = 1e-9",
+       "case.toml:25: time.step: 1e-09 would take 1.2e+10 steps to 12; give a step that takes at most 1000000"},
+      {"NewmarkBetaZero", coupled_case, "end = 12.0", "end = 12.0\nnewmark_beta = 0",
+       "case.toml:27: time.newmark_beta: 0 is out of range; give a number > 0 and <= 1 (Newmark's beta of the wall, "
+       "default 1)"},
+      {"NewmarkGammaLarge", coupled_case, "end = 12.0", "end = 12.0\nnewmark_gamma = 1.5",
+       "case.toml:27: time.newmark_gamma: 1.5 is out of range; give a number > 0 and <= 1 (Newmark's gamma of the "
+       "wall, default 1)"},
+      {"PredictorOfOrderThree", coupled_case, "end = 12.0", "end = 12.0\npredictor = 3",
+       "case.toml:27: time.predictor: 3 is out of range; give a whole number from 0 to 2 (order of the extrapolated "
+       "start of each step, default 1)"},
+      {"LoadStepsZero", static_case, "load_steps = 5", "load_steps = 0",
+       "case.toml:13: static.load_steps: 0 is out of range; give a whole number from 1 to 1000000 (equal steps in "
+       "which the load is raised, default 10)"},
+      // Names and numbers of solvers and output
+      {"ElementUnknown", coupled_case, "\"p1\"", "\"q1\"", "case.toml:2: element: \"q1\" is unknown; give p1"},
+      {"ElementNotYet", coupled_case, "\"p1\"", "\"p2p1\"",
+       "case.toml:2: element: \"p2p1\" is not available yet; give p1"},
+      {"LevelUnknown", coupled_case, "\"coarse\"", "\"corase\"",
+       "case.toml:4: mesh.level: \"corase\" is unknown; did you mean coarse? There are coarse, intermediate or fine"},
+      {"MaterialUnknown", coupled_case, "\"mooney-rivlin\"", "\"money-rivlin\"",
+       "case.toml:18: structure.layers.adventitia.material: \"money-rivlin\" is unknown; did you mean mooney-rivlin? "
+       "There are artery, mooney-rivlin or neo-hookean"},
+      {"LinearSolverUnknown", coupled_case, "\"direct\"", "\"gmres\"",
+       "case.toml:28: monolithic.linear_solver: \"gmres\" is unknown; give direct"},
+      {"LinearSolverNotYet", coupled_case, "\"direct\"", "\"fast\"",
+       "case.toml:28: monolithic.linear_solver: \"fast\" is not available yet; give direct"},
+      {"ModeUnknown", coupled_case, "linear_solver = \"direct\"", "mode = \"keep\"",
+       "case.toml:28: monolithic.mode: \"keep\" is unknown; did you mean kept? There are kept or full"},
+      {"SchemeUnknown", coupled_case, "\"aitken\"", "\"aitkin\"",
+       "case.toml:31: partitioned.scheme: \"aitkin\" is unknown; did you mean aitken? There are aitken or constant"},
+      {"SchemeNotYet", coupled_case, "\"aitken\"", "\"iqn-ils\"",
+       "case.toml:31: partitioned.scheme: \"iqn-ils\" is not available yet; give aitken or constant"},
+      {"FieldUnknown", coupled_case, "\"velocity\"", "\"velocities\"",
+       "case.toml:34: output.fields[1]: \"velocities\" is unknown; did you mean velocity? There are displacement, "
+       "velocity or pressure"},
+      {"FieldTwice", coupled_case, "\"velocity\"", "\"pressure\"",
+       "case.toml:34: output.fields[2]: \"pressure\" is named twice; name each field once"},
+      {"EveryNegative", coupled_case, "every = 8", "every = -1",
+       "case.toml:35: output.every: -1 is out of range; give a whole number >= 0 (steps between entries of fields.h5, "
+       "default 8; 0: no fields)"},
+      {"NewtonToleranceZero", coupled_case, "newton_tolerance = 1e-8", "newton_tolerance = 0",
+       "case.toml:29: monolithic.newton_tolerance: 0 is out of range; give a number > 0 and < 1 (last increment "
+       "relative to the first of the step, default 1e-8)"},
+      {"ToleranceOne", coupled_case, "tolerance = 1e-6", "tolerance = 1",
+       "case.toml:32: partitioned.tolerance: 1 is out of range; give a number > 0 and < 1 (interface change relative "
+       "to its displacement, default 1e-6)"},
+      {"ResidualToleranceNegative", coupled_case, "newton_tolerance = 1e-8", "residual_tolerance = -1",
+       "case.toml:29: monolithic.residual_tolerance: -1 is out of range; give a number >= 0 and < 1 (residual relative "
+       "to the first of the step, default 0: not demanded)"},
+      {"MaxIterationsZero", coupled_case, "tolerance = 1e-6", "max_iterations = 0",
+       "case.toml:32: partitioned.max_iterations: 0 is out of range; give a whole number >= 1 (coupling iterations per "
+       "step, default 200)"},
+      {"RelaxationTwo", coupled_case, "tolerance = 1e-6", "relaxation = 2.0",
+       "case.toml:32: partitioned.relaxation: 2 is out of range; give a number > 0 and < 2 (constant factor or "
+       "Aitken's first; without it the scheme chooses)"},
+      // Sections that do not go together
+      {"NeitherFluidNorWall", fluid_case, "[fluid]\ndensity = 1.0\nviscosity = 3.5e-3\n", "",
+       "case.toml: neither [fluid] nor [structure]; add at least one of them"},
+      {"InletMissing", fluid_case, "[inlet]\npressure = [[0, 0], [1, 2.5], [1, 0], [3, 1]]\n", "",
+       "case.toml: no [inlet]; add [inlet] with pressure, since there is a fluid"},
+      {"InletWithoutFluid", static_case, "[load]", "[inlet]",
+       "case.toml:10: inlet: stands in a case without fluid; rename it to [load], or add [fluid]"},
+      {"LoadMissing", static_case, "[load]\npressure = 2.0\n", "",
+       "case.toml: no [load]; add [load] with pressure, since there is no fluid"},
+      {"LoadWithFluid", fluid_case, "[time]", "[load]\npressure = 1\n[time]",
+       "case.toml:9: load: is for a wall without fluid; rename it to [inlet], or remove it"},
+      {"StaticWithTime", static_case, "[static]", "[time]\nstep = 1\nend = 2\n[static]",
+       "case.toml:15: static: stands beside [time]; keep one of the two"},
+      {"StaticWithFluid", fluid_case, "[time]\nstep = 0.1\nend = 3\n", "[static]\n",
+       "case.toml:9: static: is for a wall without fluid; replace it by [time]"},
+      {"NeitherTimeNorStatic", static_case, "[static]\nload_steps = 5\n", "",
+       "case.toml: neither [time] nor [static]; add [time] with step and end, or [static]"},
+      {"FluidWithoutTime", fluid_case, "[time]\nstep = 0.1\nend = 3\n", "",
+       "case.toml: no [time]; add [time] with step and end"},
+      {"StaticLoadInTime", static_case, "pressure = 2.0", "pressure = [[0, 0], [1, 2]]",
+       "case.toml:10: load: changes in time, but the case is static; give one pressure, without until"},
+      {"StaticLoadUntil", static_case, "pressure = 2.0", "pressure = 2.0\nuntil = 1",
+       "case.toml:10: load: changes in time, but the case is static; give one pressure, without until"},
+      // --set
+      {"SetUnknownKey",
+       coupled_case,
+       "",
+       "",
+       "--set: fluid.viscocity: unknown key; did you mean fluid.viscosity?",
+       {"fluid.viscocity=1"}},
+      {"SetUnknownSection",
+       coupled_case,
+       "",
+       "",
+       "--set: fluids: unknown section; did you mean fluid?",
+       {"fluids.density=1"}},
+      {"SetNewSection",
+       static_case,
+       "",
+       "",
+       "--set: fluid.viscosity: missing; add it (dynamic viscosity in kPa ms)",
+       {"fluid.density=1"}},
+      {"SetBadValue",
+       coupled_case,
+       "",
+       "",
+       "--set: structure.layers.media.c10: -3 is not positive; give a number > 0 (isotropic stiffness in kPa)",
+       {"structure.layers.media.c10=-3"}},
+      {"SetBareWord",
+       coupled_case,
+       "",
+       "",
+       "--set: time.step: \"fast\" is a string; give a number (time step in ms)",
+       {"time.step=fast"}},
+      {"SetBelowNumber",
+       coupled_case,
+       "",
+       "",
+       "--set: time.step.size=1: time.step is no section; see --help-keys for valid keys",
+       {"time.step.size=1"}},
+      {"SetWithoutValue",
+       coupled_case,
+       "",
+       "",
+       "--set: time.step: has no '='; write --set key=value, e.g. time.end=6.0",
+       {"time.step"}},
+      {"SetWithoutKey",
+       coupled_case,
+       "",
+       "",
+       "--set: =3: has no key; write --set key=value, e.g. time.end=6.0",
+       {"=3"}},
+      {"SetEmptyPart",
+       coupled_case,
+       "",
+       "",
+       "--set: time..step=3: has no key; write --set key=value, e.g. time.end=6.0",
+       {"time..step=3"}},
+      {"SetNothing",
+       coupled_case,
+       "",
+       "",
+       "--set: time.step: \"\" is a string; give a number (time step in ms)",
+       {"time.step="}},
+      {"SetTwoMeshes",
+       coupled_case,
+       "",
+       "",
+       "--set: mesh.level: both file and level; keep one of them",
+       {"mesh.level=fine", "mesh.file=a.msh"}},
+      {"SetTwoLines",
+       coupled_case,
+       "",
+       "",
+       "--set: time.step: \"1 end=2\" is a string; give a number (time step in ms)",
+       {"time.step=1\nend=2"}},
+      {"SetSectionToNumber",
+       coupled_case,
+       "",
+       "",
+       "--set: fluid: 3 is a whole number; make it a section [fluid]",
+       {"fluid=3"}},
+  };
+  return cases;
+}
+
+class BadCaseFile : public testing::TestWithParam<BadCase> {};
+class BadSyntax : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadCaseFile, IsRefusedInOneLine) {
+  EXPECT_EQ(complaint_about(GetParam()), GetParam().message);
+}
+
+TEST_P(BadSyntax, IsRefusedInOneLine) {
+  const auto message = complaint_about(GetParam());
+  EXPECT_EQ(message.substr(0, GetParam().message.size()), GetParam().message);
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadCaseFile, testing::ValuesIn(bad_cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, BadSyntax, testing::ValuesIn(syntax_errors()), name_of);
+
+TEST(BadCaseFile, IsMissing) {
+  try {
+    read_case("no-such-folder/case.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "no-such-folder/case.toml: no such file; give the path of a case file");
+  }
+}
+
+TEST(BadCaseFile, IsFolder) {
+  try {
+    read_case("/");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "/: is a folder; give the path of a case file");
+  }
+}
+
+TEST(BadCaseFile, IsEmpty) {
+  try {
+    parse_case("", "case.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "case.toml: mesh: missing; add it (where the mesh comes from)");
+  }
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,125 @@
+"""The picture: complete, readable in grey, and the same each time."""
+
+import struct
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from synthetic import TIMES, Z, gaussian
+
+from fsi_compare.pictures import LINES, pressure_figure, time_text, write_pressure_waves
+from fsi_compare.pressure_waves import PressureWaves
+
+PAPER = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0]
+
+
+def waves(speed, height=50.0):
+    wave = gaussian(speed, height=height)
+    return PressureWaves(TIMES, Z, np.array([wave(t, Z) for t in TIMES]))
+
+
+def lightness(color):
+    red, green, blue = to_rgb(color)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+class Files(unittest.TestCase):
+    def write(self, folder, labels=("monolithic", "partitioned"), title="Rabbit carotid artery"):
+        return write_pressure_waves(folder, [waves(0.66), waves(0.7)], labels, PAPER, title)
+
+    def test_png_and_svg(self):
+        with tempfile.TemporaryDirectory() as folder:
+            png, svg = self.write(Path(folder))
+            head = png.read_bytes()[:24]
+            self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+            width, height = struct.unpack(">II", head[16:24])
+            self.assertEqual(width, 1480)  # 7.4 inches at 200 dpi
+            self.assertTrue(1300 < height < 1600, height)
+            text = svg.read_text()
+            for part in ("z in mm", "pressure in Pa", "t = 1.50 ms", "t = 9.00 ms", "monolithic", "partitioned",
+                         "Rabbit carotid artery"):
+                self.assertIn(part, text)
+            self.assertEqual(sorted(path.name for path in Path(folder).iterdir()),
+                             ["pressure_waves.png", "pressure_waves.svg"])
+
+    def test_same_bytes_each_time(self):
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
+            for a, b in zip(self.write(Path(one)), self.write(Path(two))):
+                self.assertEqual(a.read_bytes(), b.read_bytes())
+
+    def test_odd_labels(self):
+        with tempfile.TemporaryDirectory() as folder:
+            _, svg = self.write(Path(folder), labels=("_a $x", "b $ c $ <d> & {e}"), title="100 $ \\ 5_3^2")
+            self.assertIn("_a $x", svg.read_text())
+
+
+class Layout(unittest.TestCase):
+    def test_panels_in_reading_order(self):
+        figure = pressure_figure([waves(0.66)], ["a"], PAPER, "title")
+        self.assertEqual([axes.get_title() for axes in figure.axes],
+                         ["t = 1.50 ms", "t = 3.00 ms", "t = 4.50 ms", "t = 6.00 ms", "t = 7.50 ms", "t = 9.00 ms"])
+        grid = figure.axes[0].get_subplotspec().get_gridspec()
+        self.assertEqual((grid.nrows, grid.ncols), (3, 2))
+
+    def test_curves_are_the_data(self):
+        figure = pressure_figure([waves(0.66), waves(0.7)], ["a", "b"], PAPER, "title")
+        curve = figure.axes[2].get_lines()[1]
+        np.testing.assert_array_equal(curve.get_xdata(), Z)
+        np.testing.assert_array_equal(curve.get_ydata(), waves(0.7).at(4.5))
+
+    def test_legend_and_title_cover_no_panel(self):
+        for runs in (1, 2, 3, 6):
+            for label in ("run %d", "a rather long name of run number %d on the intermediate mesh, element p2p1"):
+                for times in (PAPER, [1.5], PAPER[:3], list(np.arange(1, 10.0))):
+                    with self.subTest(runs=runs, label=label, times=len(times)):
+                        figure = pressure_figure([waves(0.6 + 0.02 * i) for i in range(runs)],
+                                                 [label % i for i in range(runs)], times, "A title " * 12)
+                        figure.canvas.draw()
+                        renderer = figure.canvas.get_renderer()
+                        legend = figure.legends[0].get_window_extent(renderer)
+                        title = figure._suptitle.get_window_extent(renderer)
+                        self.assertTrue(legend.x0 >= 0 and legend.x1 <= figure.bbox.x1 and legend.y0 >= 0)
+                        self.assertTrue(title.x0 >= 0 and title.x1 <= figure.bbox.x1 and title.y1 <= figure.bbox.y1)
+                        for axes in figure.axes:
+                            if axes.get_visible():
+                                box = axes.get_tightbbox(renderer)
+                                self.assertGreater(box.y0, legend.y1)
+                                self.assertLess(box.y1, title.y0)
+
+    def test_row_shares_its_scale_unless_one_panel_would_be_flat(self):
+        def wave(t, z):  # 90 Pa at 1.5 ms, 9 Pa at 3 ms, 8 Pa afterwards
+            return (90 if t < 2 else 9 if t < 4 else 8) * np.exp(-((z - t) ** 2))
+        run = PressureWaves(TIMES, Z, np.array([wave(t, Z) for t in TIMES]))
+        axes = pressure_figure([run], ["a"], PAPER, "title").axes
+        self.assertGreater(axes[0].get_ylim()[1], 5 * axes[1].get_ylim()[1])
+        self.assertEqual(axes[2].get_ylim(), axes[3].get_ylim())
+
+    def test_times(self):
+        self.assertEqual([time_text(t) for t in (1.5, 10.5, 0.125, 3)], ["1.50", "10.50", "0.125", "3.00"])
+
+
+class ReadableInGrey(unittest.TestCase):
+    def test_all_line_styles_differ(self):
+        self.assertEqual(len({str(line["linestyle"]) for line in LINES}), len(LINES))
+
+    def test_paper_order(self):
+        self.assertEqual([line["linestyle"] for line in LINES[:4]], ["-", "--", "-.", ":"])
+
+    def test_first_curves_differ_in_lightness(self):
+        grey = [lightness(line["color"]) for line in LINES[:3]]
+        for i in range(3):
+            self.assertLess(grey[i], 0.7, "too light for white paper")
+            for j in range(i):
+                self.assertGreater(abs(grey[i] - grey[j]), 0.15)
+
+    def test_lines_of_the_figure(self):
+        figure = pressure_figure([waves(0.6), waves(0.7), waves(0.8)], ["a", "b", "c"], PAPER, "title")
+        for axes in figure.axes:
+            curves = axes.get_lines()[:3]
+            self.assertEqual(len({curve.get_linestyle() for curve in curves}), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

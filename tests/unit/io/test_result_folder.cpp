@@ -1,0 +1,146 @@
+#include "io/result_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "io/summary.hpp"
+#include "temporary_folder.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ResultTables all_tables{true, true, true};
+
+void write_step(ResultFolder& results, int step) {
+  const double time = 0.1 * step;
+  results.write_centerline(time, {0, 0.1}, {1.332 / step, 1.0 / 3.0});
+  results.write_wall(time, {0.5}, {1e-17}, {-0.25});
+  results.write_flow(time, {1, 2, 0.003, 0.004});
+  results.write_iterations({step, time, 4, 9, 0, 0.75});
+}
+
+class Results : public FolderTest {
+ protected:
+  fs::path run_ = "";
+  void SetUp() override {
+    FolderTest::SetUp();
+    run_ = folder_ / "run";
+  }
+};
+
+TEST_F(Results, TablesHaveTheColumnsThatScriptsRelyOn) {
+  ResultFolder results(run_, all_tables);
+  write_step(results, 1);
+  // Read before the folder is closed: rows are there when their step is done.
+  EXPECT_EQ(contents_of(run_ / "centerline_pressure.csv"),
+            "time_ms,z_mm,pressure_Pa\n0.1,0,1332\n0.1,0.1,333.3333333333333\n");
+  EXPECT_EQ(contents_of(run_ / "wall_displacement.csv"), "time_ms,z_mm,radial_mm,axial_mm\n0.1,0.5,1e-17,-0.25\n");
+  EXPECT_EQ(contents_of(run_ / "flow.csv"),
+            "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa\n0.1,1,2,3,4\n");
+  EXPECT_EQ(contents_of(run_ / "iterations.csv"),
+            "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n1,0.1,4,9,0,0.75\n");
+}
+
+TEST_F(Results, HoldOnlyTheTablesOfTheScene) {
+  ResultFolder results(run_, {false, true, false});
+  EXPECT_FALSE(fs::exists(run_ / "centerline_pressure.csv"));
+  EXPECT_FALSE(fs::exists(run_ / "flow.csv"));
+  EXPECT_TRUE(fs::exists(run_ / "wall_displacement.csv"));
+  EXPECT_TRUE(fs::exists(run_ / "iterations.csv"));
+}
+
+TEST_F(Results, ReplaceThoseOfAnEarlierRun) {
+  {
+    ResultFolder results(run_, all_tables);
+    write_step(results, 1);
+    write_text(run_ / "checkpoint.h5", "old");
+    write_text(run_ / "fields.h5.tmp", "old");
+  }
+  ResultFolder results(run_, {false, false, false});
+  EXPECT_FALSE(fs::exists(run_ / "flow.csv"));
+  EXPECT_FALSE(fs::exists(run_ / "checkpoint.h5"));
+  EXPECT_FALSE(fs::exists(run_ / "fields.h5.tmp"));
+}
+
+TEST_F(Results, NeverReplaceOtherFiles) {
+  fs::create_directories(run_);
+  write_text(run_ / "flow.csv", "old");
+  write_text(run_ / "thesis.tex", "dear");
+  try {
+    ResultFolder results(run_, all_tables);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), run_.string() +
+                                ": holds 'thesis.tex', which is no result file; give -o a new folder, or one "
+                                "with nothing but the results of an earlier run");
+  }
+  EXPECT_EQ(contents_of(run_ / "flow.csv"), "old");
+}
+
+TEST_F(Results, RefuseAFolderThatIsAFileOrCannotBeWritten) {
+  write_text(folder_ / "file", "");
+  EXPECT_THROW(ResultFolder(folder_ / "file", all_tables), InputError);
+  EXPECT_THROW(ResultFolder(folder_ / "file" / "below", all_tables), InputError);
+  EXPECT_THROW(ResultFolder("/proc/fsi", all_tables), InputError);
+}
+
+TEST_F(Results, ContinueAfterTheCheckpointInPlace) {
+  {
+    ResultFolder results(run_, all_tables);
+    for (int step = 1; step <= 4; ++step) write_step(results, step);
+  }
+  // As a kill leaves it: rows of a step beyond the checkpoint, the last one torn.
+  write_text(run_ / "flow.csv", contents_of(run_ / "flow.csv") + "0.5,1,2,3");
+  {
+    ResultFolder results(run_, all_tables, run_, 0.1 * 3);
+    for (int step = 4; step <= 5; ++step) write_step(results, step);
+  }
+  ResultFolder whole(folder_ / "whole", all_tables);
+  for (int step = 1; step <= 5; ++step) write_step(whole, step);
+  for (const auto* table : {"centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "iterations.csv"})
+    EXPECT_EQ(contents_of(run_ / table), contents_of(folder_ / "whole" / table)) << table;
+}
+
+TEST_F(Results, ContinueInAnotherFolderAndLeaveTheFirst) {
+  {
+    ResultFolder results(run_, all_tables);
+    for (int step = 1; step <= 3; ++step) write_step(results, step);
+  }
+  const auto before = contents_of(run_ / "flow.csv");
+  {
+    ResultFolder results(folder_ / "other", all_tables, run_, 0.2);
+    write_step(results, 3);
+  }
+  EXPECT_EQ(contents_of(run_ / "flow.csv"), before);
+  EXPECT_EQ(contents_of(folder_ / "other" / "flow.csv"), before);
+}
+
+TEST_F(Results, ContinueOnlyWhatIsComplete) {
+  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, folder_ / "missing", 0.2), InputError);
+  { ResultFolder results(run_, {false, true, false}); }
+  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, run_, 0.2), InputError);
+}
+
+TEST_F(Results, SummaryTellsTimesAndCounts) {
+  Profile profile;
+  profile.count("factorisations", 3);
+  { const auto scope = profile.phase("assembly"); }
+  write_summary(folder_, {{"status", "running"}});
+  auto summary = profile_json(profile);
+  summary["status"] = "done";
+  summary["title"] = "not \xff UTF-8";
+  write_summary(folder_, summary);
+  const auto read = nlohmann::json::parse(contents_of(folder_ / "summary.json"));
+  EXPECT_EQ(read["status"], "done");
+  EXPECT_EQ(read["counters"]["factorisations"], 3);
+  EXPECT_EQ(read["phases"]["assembly"]["calls"], 1);
+  EXPECT_GE(read["phases"]["assembly"]["seconds"], 0.0);
+  EXPECT_FALSE(fs::exists(folder_ / "summary.json.tmp"));
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/quality.hpp"
+#include "meshes.hpp"
+
+namespace fsi {
+namespace {
+
+const std::array<Point, 4> regular{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
+const std::array<Point, 4> corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+std::array<Point, 4> swapped(std::array<Point, 4> x) {
+  std::swap(x[2], x[3]);
+  return x;
+}
+
+TEST(Quality, RegularTetrahedron) {
+  EXPECT_NEAR(std::abs(mean_ratio(regular)), 1, 1e-14);
+  EXPECT_NEAR(smallest_dihedral(regular), std::acos(1.0 / 3) * 180 / M_PI, 1e-12);
+}
+
+TEST(Quality, CornerTetrahedron) {
+  // V = 1/6, edges 3 x 1 and 3 x sqrt(2): eta = 12 (1/2)^(2/3) / 9; between a leg face and the slanted one acos(1/sqrt
+  // 3)
+  EXPECT_NEAR(mean_ratio(corner), 12 * std::pow(0.5, 2.0 / 3) / 9, 1e-14);
+  EXPECT_NEAR(smallest_dihedral(corner), std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
+}
+
+TEST(Quality, InvertedIsNegativeAndFlatIsZero) {
+  EXPECT_DOUBLE_EQ(mean_ratio(swapped(corner)), -mean_ratio(corner));
+  EXPECT_EQ(mean_ratio({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}), 0);
+}
+
+TEST(Quality, CountsLayersAcrossTheWall) {
+  ArteryOptions options;
+  options.media = 1.0;
+  options.adventitia = 0.5;
+  options.length = 4;
+  const auto mesh = generate_artery(options);  // rings of 0.35 * 0.75 mm: 4 and 2
+  EXPECT_EQ(element_layers(mesh, 0), 0);
+  EXPECT_EQ(element_layers(mesh, 1), 4);
+  EXPECT_EQ(element_layers(mesh, 2), 2);
+}
+
+TEST(Quality, ReportAddsUp) {
+  const auto mesh = test::short_artery();
+  const auto quality = measure_quality(mesh);
+  std::size_t tetrahedra = 0;
+  for (const auto& region : quality.regions) tetrahedra += region.tetrahedra;
+  EXPECT_EQ(tetrahedra, mesh.cells.size());
+  EXPECT_EQ(quality.nodes, mesh.nodes.size());
+  EXPECT_LE(quality.min_eta, quality.mean_eta);
+  const auto text = to_text(quality);
+  EXPECT_NE(text.find("adventitia"), std::string::npos);
+  EXPECT_NE(text.find("smallest dihedral"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsi
