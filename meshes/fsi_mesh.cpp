@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
   auto* stretched = artery->add_option("--axial-size", axial_size, "Element size along the axis");
   artery->add_option("--format", request.format.version, "4.1 or 2.2")->capture_default_str();
   artery->add_flag("--binary", request.format.binary, "Write binary data");
-  artery->add_option("--threads", request.threads, "Taken as by all programs; one is all this needs");
+  artery->add_option("--threads", request.threads, "Taken as by all programs; one is all this needs")
+      ->check(CLI::Range(0, 1024));
   artery->add_flag("-q,--quiet", request.quiet, "No quality report");
 
   try {

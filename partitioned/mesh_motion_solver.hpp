@@ -34,7 +34,7 @@ class MeshMotionSolver {
   Scene<Element>& scene_;
   Numbering numbering_;
   GatheredMatrix matrix_;
-  DirectSolver solver_{{"amd", "symmetric", 0}};
+  DirectSolver solver_;
   std::vector<double> residual_, right_hand_side_, increment_;
 };
 

@@ -16,7 +16,7 @@ class DirectSolver {
   /// (docs/direct-solver.md).
   struct Options {
     std::string ordering = "metis";        ///< "amd", "metis", "best"
-    std::string strategy = "unsymmetric";  ///< "auto", "unsymmetric", "symmetric"
+    std::string strategy = "auto";  ///< "auto", "unsymmetric", "symmetric"
     int refinement_steps = 0;              ///< of each solve
   };
 

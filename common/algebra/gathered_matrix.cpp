@@ -39,7 +39,7 @@ GatheredMatrix::GatheredMatrix(Builder&& builder) {
 
 void GatheredMatrix::update() {
   const auto entries = static_cast<std::int64_t>(matrix_.values.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (entries > 100000)
   for (std::int64_t e = 0; e < entries; ++e) {
     double sum = 0;
     for (std::int64_t k = term_offsets_[e]; k < term_offsets_[e + 1]; ++k) sum += factors_[k] * *numbers_[k];

@@ -35,7 +35,9 @@ std::string grid_text(const FieldGrid& grid, const FinishedStep& finished) {
   const auto nodes = grid.points.size();
   const auto cells = grid.cells.size() / static_cast<std::size_t>(grid.nodes_per_cell);
   const auto prefix = "/" + grid.name;
-  std::string text = fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(grid.name));
+  std::string text =
+      fmt::format("        <Grid Name=\"step {}\" GridType=\"Uniform\">\n          <Time Value=\"{}\"/>\n",
+                  finished.step.step, finished.step.time);
   text += fmt::format("          <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n",
                       grid.nodes_per_cell == 4 ? "Tetrahedron" : "Triangle", cells,
                       data_item(fmt::format("{} {}", cells, grid.nodes_per_cell), false, prefix + "/cells"));
@@ -69,12 +71,11 @@ std::string xdmf_text(const std::vector<FieldGrid>& grids, const std::vector<Fin
       "<?xml version=\"1.0\"?>\n"
       "<Xdmf Version=\"2.0\">\n"
       "  <Domain>\n"
-      "    <Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const auto& step : finished) {
-    text += fmt::format("      <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n",
-                        step.step.step);
-    text += fmt::format("        <Time Value=\"{}\"/>\n", step.step.time);
-    for (const auto& grid : grids) text += grid_text(grid, step);
+      "    <Grid Name=\"media\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
+  for (const auto& grid : grids) {
+    text += fmt::format("      <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+                        escaped(grid.name));
+    for (const auto& step : finished) text += grid_text(grid, step);
     text += "      </Grid>\n";
   }
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";

@@ -16,7 +16,9 @@ struct FinishedStep {
   std::vector<std::pair<std::string, std::string>> fields;
 };
 
-/// XDMF 2 text that presents fields.h5 as a temporal collection of spatial collections, one grid per medium.
+/// XDMF 2 text that presents fields.h5 as a spatial collection of temporal ones, one per medium. The other way round,
+/// time outside, ParaView would number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked in
+/// one step would be lost in the next.
 std::string xdmf_text(const std::vector<FieldGrid>& grids, const std::vector<FinishedStep>& finished);
 
 }  // namespace fsi

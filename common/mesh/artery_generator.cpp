@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
+#include <cstdint>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
@@ -71,13 +70,15 @@ Divisions divide(const ArteryOptions& o) {
 
 /// A triangulated cross-section of lumen and wall.
 struct CrossSection {
-  std::vector<std::array<double, 2>> nodes;
+  /// At angle 2 pi step / steps; the centre has steps = 0.
+  struct Node {
+    double radius;
+    int step, steps;
+  };
+  std::vector<Node> nodes;                      ///< from the centre outwards
   std::vector<std::array<int, 3>> triangles;    ///< counter-clockwise
   std::vector<int> region;                      ///< per triangle: 0 fluid, 1 media, 2 adventitia
   std::vector<std::array<int, 2>> outer_edges;  ///< counter-clockwise
-  /// Per node its place in the order that cuts the prisms: the diagonal of an extruded edge starts, below, from the
-  /// node that comes first.
-  std::vector<int> order;
 };
 
 /// Where node `j` of ring `k` of the disk stands in the node list; ring 0 is the centre, ring k has 6k nodes.
@@ -87,32 +88,15 @@ int disk_index(int k, int j) {
 
 CrossSection cross_section(const ArteryOptions& options, const Divisions& divisions) {
   CrossSection section;
-  // Sort key of the cutting order. Wall: columns (nodes at one angle) alternately first and last, so that a triangle,
-  // having two nodes in one column, never gets its short radial edge as the extreme pair, which is the flattest cut,
-  // and diagonals lean both ways in turn around the tube. Lumen: the three colours of the hexagonal lattice.
-  std::vector<std::tuple<int, int, int>> key;
-  const auto add_node = [&](double radius, double angle, int first, int second) {
-    key.emplace_back(first, second, static_cast<int>(section.nodes.size()));
-    section.nodes.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-  };
   const auto add_triangle = [&](int a, int b, int c, int region) {
     section.triangles.push_back({a, b, c});
     section.region.push_back(region);
   };
 
   const int rings = divisions.disk_rings, around = divisions.around();
-  add_node(0, 0, 1, 0);
+  section.nodes.push_back({0, 0, 0});
   for (int k = 1; k <= rings; ++k)
-    for (int j = 0; j < 6 * k; ++j) {
-      const int sector = j / k, step = j % k;
-      // Lattice coordinates along the sector's two sides; a - b modulo 3 colours a triangular lattice.
-      static constexpr int side[7][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}, {1, 0}};
-      const int a = side[sector][0] * (k - step) + side[sector + 1][0] * step;
-      const int b = side[sector][1] * (k - step) + side[sector + 1][1] * step;
-      const int colour = ((a - b) % 3 + 3) % 3;
-      const double radius = options.inner_radius * k / rings, angle = 2 * pi * j / (6 * k);
-      add_node(radius, angle, k < rings ? colour : 2 * (j % 2), k < rings ? 0 : j % 2);
-    }
+    for (int j = 0; j < 6 * k; ++j) section.nodes.push_back({options.inner_radius * k / rings, j, 6 * k});
   for (int k = 1; k <= rings; ++k)
     for (int sector = 0; sector < 6; ++sector)
       for (int i = 0; i < k; ++i) {
@@ -128,12 +112,11 @@ CrossSection cross_section(const ArteryOptions& options, const Divisions& divisi
     for (int r = 1; r <= count; ++r) {
       ++ring;
       const int above = static_cast<int>(section.nodes.size());
-      for (int j = 0; j < around; ++j)
-        add_node(radius + thickness * r / count, 2 * pi * j / around, 2 * (j % 2), (j + ring) % 2);
+      for (int j = 0; j < around; ++j) section.nodes.push_back({radius + thickness * r / count, j, around});
       for (int j = 0; j < around; ++j) {
         const int next = (j + 1) % around;
         const int a = below + j, b = below + next, c = above + next, d = above + j;
-        if ((j + ring) % 2 == 0) {
+        if ((j + ring) % 2 == 0) {  // diagonals lean both ways in turn
           add_triangle(a, d, c, region);
           add_triangle(a, c, b, region);
         } else {
@@ -148,12 +131,49 @@ CrossSection cross_section(const ArteryOptions& options, const Divisions& divisi
   add_layer(options.media, divisions.media, 1);
   if (divisions.adventitia > 0) add_layer(options.adventitia, divisions.adventitia, 2);
   for (int j = 0; j < around; ++j) section.outer_edges.push_back({below + j, below + (j + 1) % around});
-
-  std::sort(key.begin(), key.end());
-  section.order.resize(key.size());
-  for (std::size_t i = 0; i < key.size(); ++i) section.order[std::get<2>(key[i])] = static_cast<int>(i);
   return section;
 }
+
+/// Cross-sections stacked along the axis, every second one turned by half a step around: triangles on the cylinders
+/// come out nearly equilateral instead of right-angled, which lifts the mean ratio by a tenth.
+class Stack {
+ public:
+  Stack(const CrossSection& section, const Divisions& divisions, const ArteryOptions& options)
+      : section_(section), stations_(divisions.axial + 1), length_(options.length) {
+    // Stations closer than half an edge around are better left in line.
+    const double edge = 2 * pi * options.inner_radius / divisions.around();
+    turn_ = length_ / divisions.axial >= 0.5 * edge ? pi / divisions.around() : 0.0;
+  }
+
+  Point node(int station, int i) const {
+    const auto& node = section_.nodes[i];
+    const double z = length_ * station / (stations_ - 1);
+    if (node.steps == 0) return {0, 0, z};
+    const double angle = 2 * pi * node.step / node.steps + (station % 2 == 1 ? turn_ : 0.0);
+    return {node.radius * std::cos(angle), node.radius * std::sin(angle), z};
+  }
+
+  /// Whether the diagonal of the face over edge ab starts from a below (and ends at b above): the shorter one, that
+  /// leans against the turn. Adjacent prisms agree, as it depends on the edge only; within a triangle it is an order,
+  /// so that the three diagonals of a prism never chase each other and three tetrahedra fill it (J. Dompierre et al.,
+  /// 8th Int. Meshing Roundtable, 1999). Where lengths are equal, inner nodes come first.
+  bool starts_below(int a, int b, int slab) const {
+    const auto &from = section_.nodes[a], &to = section_.nodes[b];
+    if (from.steps == 0 || to.steps == 0) return from.steps == 0;
+    const std::int64_t full = static_cast<std::int64_t>(from.steps) * to.steps;
+    std::int64_t ahead =
+        static_cast<std::int64_t>(from.step) * to.steps - static_cast<std::int64_t>(to.step) * from.steps;
+    if (2 * ahead > full) ahead -= full;
+    if (2 * ahead < -full) ahead += full;
+    if (ahead == 0) return a < b;
+    return (ahead > 0) == (slab % 2 == 0);
+  }
+
+ private:
+  const CrossSection& section_;
+  int stations_;
+  double length_, turn_;
+};
 
 }  // namespace
 
@@ -195,6 +215,7 @@ void refuse_flat(const TetrahedralMesh& mesh) {
 TetrahedralMesh generate_artery(const ArteryOptions& options) {
   const auto divisions = divide(options);
   const auto section = cross_section(options, divisions);
+  const Stack stack(section, divisions, options);
   const int per_station = static_cast<int>(section.nodes.size());
 
   TetrahedralMesh mesh;
@@ -202,21 +223,19 @@ TetrahedralMesh generate_artery(const ArteryOptions& options) {
   if (divisions.adventitia > 0) mesh.regions.emplace_back("adventitia");
   mesh.nodes.reserve(static_cast<std::size_t>(per_station) * (divisions.axial + 1));
   for (int station = 0; station <= divisions.axial; ++station)
-    for (const auto& [x, y] : section.nodes) mesh.nodes.push_back({x, y, options.length * station / divisions.axial});
+    for (int i = 0; i < per_station; ++i) mesh.nodes.push_back(stack.node(station, i));
 
-  // One order of the cross-section's nodes for all prisms gives both prisms at a vertical face the same diagonal, and a
-  // prism never three diagonals that chase each other (J. Dompierre et al., 8th Int. Meshing Roundtable, 1999).
   mesh.cells.reserve(3 * section.triangles.size() * divisions.axial);
   for (int slab = 0; slab < divisions.axial; ++slab)
     for (std::size_t t = 0; t < section.triangles.size(); ++t) {
       auto triangle = section.triangles[t];
       const auto first = std::min_element(triangle.begin(), triangle.end(),
-                                          [&](int a, int b) { return section.order[a] < section.order[b]; });
+                                          [&](int a, int b) { return stack.starts_below(a, b, slab); });
       std::rotate(triangle.begin(), first, triangle.end());
       const int p = triangle[0] + slab * per_station, q = triangle[1] + slab * per_station,
                 r = triangle[2] + slab * per_station;
       const int p1 = p + per_station, q1 = q + per_station, r1 = r + per_station;
-      if (section.order[triangle[1]] < section.order[triangle[2]])
+      if (stack.starts_below(triangle[1], triangle[2], slab))
         mesh.cells.insert(mesh.cells.end(), {{p, q, r, r1}, {p, q, r1, q1}, {p, q1, r1, p1}});
       else
         mesh.cells.insert(mesh.cells.end(), {{p, q, r, q1}, {p, r, r1, q1}, {p, q1, r1, p1}});
@@ -235,7 +254,7 @@ TetrahedralMesh generate_artery(const ArteryOptions& options) {
   for (int slab = 0; slab < divisions.axial; ++slab)
     for (const auto& [i, j] : section.outer_edges) {
       const int a = i + slab * per_station, b = j + slab * per_station, a1 = a + per_station, b1 = b + per_station;
-      if (section.order[i] < section.order[j])
+      if (stack.starts_below(i, j, slab))
         outer.facets.insert(outer.facets.end(), {{a, b, b1}, {a, b1, a1}});
       else
         outer.facets.insert(outer.facets.end(), {{a, b, a1}, {b, b1, a1}});

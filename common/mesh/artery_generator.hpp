@@ -30,10 +30,11 @@ ArteryOptions artery_level(const std::string& level);
 /// `outer`. Every node of an interface or of the outer face lies on its cylinder.
 ///
 /// The cross-section (a hexagonal pattern of triangles bent into the disk, then rings of triangles) is extruded into
-/// prisms, and each prism cut into three tetrahedra. Sizes are met as nearly as whole numbers allow: the circumference
-/// has a multiple of six edges, never fewer than twelve; a layer is cut into rings of about 0.35 `size`.
-/// Throws InputError with the fsi-mesh option at fault for dimensions that are not positive and finite, for sizes that
-/// ask for more than `max_artery_nodes` nodes, or when all that gives a tetrahedron of mean ratio below 1e-3.
+/// prisms, turned half a step from station to station and back, and each prism cut into three tetrahedra. Sizes are met
+/// as nearly as whole numbers allow: the circumference has a multiple of six edges, never fewer than twelve; a layer is
+/// cut into rings of about 0.35 `size`. Throws InputError with the fsi-mesh option at fault for dimensions that are not
+/// positive and finite, for sizes that ask for more than `max_artery_nodes` nodes, or when all that gives a tetrahedron
+/// of mean ratio below 1e-3.
 TetrahedralMesh generate_artery(const ArteryOptions& options);
 
 inline constexpr double max_artery_nodes = 2e7;

@@ -162,7 +162,7 @@ class Reader {
     for (std::size_t r = 0; r < mesh_.regions.size(); ++r)
       if (std::find(mesh_.cell_region.begin(), mesh_.cell_region.end(), static_cast<int>(r)) == mesh_.cell_region.end())
         fail(mesh_.regions[r], "the physical volume is empty: no element belongs to it",
-             "assign the volume's entities to the group and mesh in three dimensions before saving");
+             "assign the volume's entities to the group, mesh in three dimensions, and save without Mesh.SaveAll");
   }
 
   void check_shapes() const {

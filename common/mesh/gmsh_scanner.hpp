@@ -17,6 +17,9 @@ class GmshScanner {
   /// Loads the whole file. Throws when it is missing, a folder or unreadable.
   explicit GmshScanner(const std::filesystem::path& path);
 
+  /// Whether the file begins with this text.
+  bool begins_with(const std::string& text) const { return data_.compare(0, text.size(), text) == 0; }
+
   /// Advances to the next `$Name` line and returns "Name", or "" at the end of the file.
   std::string begin_section();
   /// Expects the `$EndName` line of the section begun last.

@@ -23,11 +23,11 @@ struct SimplexMesh {
     std::vector<Facet> facets;
   };
 
-  std::vector<Point> nodes;               ///< mm
-  std::vector<Cell> cells;                ///< node indices, positively oriented
-  std::vector<int> cell_region;           ///< per cell, index into `regions`
-  std::vector<std::string> regions;       ///< names of the volume groups
-  std::vector<FacetGroup> facet_groups;   ///< named surface groups
+  std::vector<Point> nodes;              ///< mm
+  std::vector<Cell> cells;               ///< node indices, positively oriented
+  std::vector<int> cell_region;          ///< per cell, index into `regions`
+  std::vector<std::string> regions;      ///< names of the volume groups
+  std::vector<FacetGroup> facet_groups;  ///< named surface groups
 
   /// Index of a region, -1 when there is none of that name.
   int region_index(const std::string& name) const {

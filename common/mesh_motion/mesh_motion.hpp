@@ -32,7 +32,7 @@ template <class Element>
 void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element>& matrix) {
   constexpr int n = Element::components;
   matrix.set_zero();
-  for_each_thread(packs, [&](int, const auto& mine) {
+  for_each_thread(packs, serial_jacobian_elements, [&](int, const auto& mine) {
     const HarmonicMeshMotion form;
     const NodalVector<Element> zero{};
     ElementRows<Element, Dual<n>> rows;
@@ -56,7 +56,7 @@ template <class Element>
 void multiply_mesh_motion(const MeshMotionMatrix<Element>& matrix, const std::vector<double>& d, std::vector<double>& r) {
   constexpr int n = Element::components;
   const auto& graph = *matrix.graph;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (graph.blocks() > 200000)
   for (int row = 0; row < graph.rows(); ++row) {
     double sum[n] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at)

@@ -104,7 +104,8 @@ AssemblyResult assemble_structure(const WallConstants& wall, const std::vector<W
           const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0, wall.bulk_modulus,
                                      wall.stabilisation, material};
           std::vector<AssemblyResult> results(layer.packs.thread_count());
-          for_each_thread(layer.packs, [&](int t, const auto& mine) {
+          const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
+          for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
             const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
             results[t] = jacobian
                              ? detail::layer_packs<Element, true>(form, mine, fibres, in, residual.data(),

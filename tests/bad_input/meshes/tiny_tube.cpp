@@ -189,8 +189,8 @@ TinyFile tiny_tube() {
             ++corner[step];
             nodes.push_back(tube_node(corner[0], corner[1], corner[2]));
           }
-          const bool odd = (order[0] > order[1]) != (order[0] > order[2]) != (order[1] > order[2]);
-          if (odd) std::swap(nodes[2], nodes[3]);
+          const int inversions = (order[0] > order[1]) + (order[0] > order[2]) + (order[1] > order[2]);
+          if (inversions % 2 == 1) std::swap(nodes[2], nodes[3]);
           tetrahedra.push_back({4, {group}, nodes});
           for (int skip = 0; skip < 4; ++skip) {
             std::array<std::int64_t, 3> facet{};

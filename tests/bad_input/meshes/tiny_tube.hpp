@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "mesh/mesh_checks.hpp"
@@ -38,24 +39,18 @@ struct TinyFile {
 
   /// Positions in `elements` of the tetrahedra or triangles of a physical tag.
   std::vector<std::size_t> of_group(int tag) const;
-  /// Gives all elements of a group their own copies of the nodes for which `chosen` holds.
-  template <class Chosen>
-  void detach(int group, const Chosen& chosen) {
-    std::vector<std::pair<std::int64_t, std::int64_t>> copies;
+  /// Gives the elements of some groups their own copies of the nodes for which `chosen` holds, moved by `moved`.
+  template <class Chosen, class Moved>
+  void detach(const std::vector<int>& groups, const Chosen& chosen, const Moved& moved) {
+    std::map<std::int64_t, std::int64_t> copies;
     for (auto& element : elements) {
-      if (element.physical != std::vector<int>{group}) continue;
+      if (std::find(groups.begin(), groups.end(), element.physical.front()) == groups.end()) continue;
       for (auto& tag : element.nodes) {
         const Point x = nodes[tag - 1].x;
         if (!chosen(x)) continue;
-        std::int64_t copy = 0;
-        for (const auto& [from, to] : copies)
-          if (from == tag) copy = to;
-        if (copy == 0) {
-          copy = static_cast<std::int64_t>(nodes.size()) + 1;
-          nodes.push_back({copy, x});
-          copies.emplace_back(tag, copy);
-        }
-        tag = copy;
+        const auto [entry, is_new] = copies.emplace(tag, static_cast<std::int64_t>(nodes.size()) + 1);
+        if (is_new) nodes.push_back({entry->second, moved(x)});
+        tag = entry->second;
       }
     }
   }

@@ -38,7 +38,7 @@ TEST_F(ConsoleOutput, RewritesOneLineOnATerminal) {
             "8 nodes\n"
             "\r\033[Kstep 1/4, t = 0.125 ms: newton 1"
             "\r\033[Kstep 1/4, t = 0.125 ms: 3 Newton iterations, 2 s, 6 s left"
-            "\r\033[Kstep 2/4, t = 0.25 ms: 5 coupling, 10 Newton, 120 linear iterations, 4 s, 6 s"
+            "\r\033[Kstep 2/4, t = 0.25 ms: 5 coupling, 10 Newton, 120 linear iterations, 4 s, 6 s l"  // 79 columns
             "\n");
 }
 

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algebra/direct_solver.hpp"
+#include "algebra/gathered_matrix.hpp"
+#include "fem/gather_blocks.hpp"
+#include "fluid/fluid_problem.hpp"
+#include "mesh_motion/mesh_motion.hpp"
+#include "solvers/newton.hpp"
+#include "structure/wall_problem.hpp"
+#include "support/nodal_arrays.hpp"
+
+namespace fsi::test {
+
+/// Own unknowns for all entries of a nodal array that `prescribed(node, entry)` does not hold.
+template <class Prescribed>
+std::pair<UnknownMap, std::int64_t> number_entries(int nodes, int entries, Prescribed prescribed) {
+  UnknownMap map(static_cast<std::size_t>(nodes) * entries);
+  std::int64_t next = 0;
+  for (int a = 0; a < nodes; ++a)
+    for (int k = 0; k < entries; ++k)
+      if (!prescribed(a, k)) map[static_cast<std::size_t>(a) * entries + k] = {next++, 1.0};
+  return {map, next};
+}
+
+/// One sub-problem with prescribed entries of any kind and a load vector: what the programs do not need but manufactured
+/// solutions and symmetry planes do. Residual and Jacobian are the sub-problem's own.
+class SubProblem : public NewtonProblem {
+ public:
+  std::vector<double> solution;  ///< nodal array; prescribed entries hold their values
+  std::vector<double> load;      ///< subtracted from the residual; empty: none
+
+  SubProblem(UnknownMap map, std::int64_t size) : map_(std::move(map)), size_(size), increment_(size) {}
+
+  double evaluate() override {
+    std::vector<double> nodal;
+    if (assemble(solution, nodal, false).inverted()) return std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < load.size(); ++i) nodal[i] -= load[i];
+    residual_.assign(static_cast<std::size_t>(size_), 0.0);
+    add_to_system(map_, nodal, residual_);
+    return norm(residual_);
+  }
+  void linearise() override {
+    std::vector<double> nodal;
+    assemble(solution, nodal, true);
+    if (matrix_.matrix().size() <= 0) {
+      GatheredMatrix::Builder builder(size_);
+      gather(builder, map_);
+      matrix_ = GatheredMatrix(std::move(builder));
+    }
+    matrix_.update();
+    solver_.factorise(matrix_.matrix());
+  }
+  bool linearised() const override { return solver_.factorised(); }
+  double solve() override {
+    solver_.solve(matrix_.matrix(), residual_, increment_);
+    for (double& x : increment_) x = -x;
+    return norm(increment_);
+  }
+  void move(double step) override { add_to_field(map_, increment_, step, solution); }
+  double size() const override { return norm(solution); }
+
+ protected:
+  virtual AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) = 0;
+  virtual void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) = 0;
+
+ private:
+  UnknownMap map_;
+  std::int64_t size_;
+  std::vector<double> residual_, increment_;
+  GatheredMatrix matrix_;
+  DirectSolver solver_;
+};
+
+/// One backward Euler step of the fluid on a given moving mesh.
+template <class Element>
+class FluidStep : public SubProblem {
+ public:
+  std::vector<double> mesh, mesh_old, flow_old;
+  double inlet_pressure = 0;
+
+  template <class Prescribed>
+  FluidStep(FluidProblem<Element>& fluid, Prescribed prescribed)
+      : FluidStep(fluid, number_entries(fluid.node_count(), Element::components + 1, prescribed)) {}
+
+ private:
+  FluidStep(FluidProblem<Element>& fluid, std::pair<UnknownMap, std::int64_t> numbered)
+      : SubProblem(std::move(numbered.first), numbered.second), fluid_(fluid) {
+    const auto nodes = static_cast<std::size_t>(fluid.node_count());
+    solution.assign(nodes * (Element::components + 1), 0.0);
+    flow_old = solution;
+    mesh.assign(nodes * Element::components, 0.0);
+    mesh_old = mesh;
+  }
+  AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
+    return fluid_.assemble({mesh.data(), mesh_old.data(), at.data(), flow_old.data()}, inlet_pressure, residual,
+                           derivatives ? FluidDerivatives::flow : FluidDerivatives::none);
+  }
+  void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
+    gather_blocks(builder, fluid_.jacobian(FluidDerivatives::flow).flow, map, map);
+  }
+
+  FluidProblem<Element>& fluid_;
+};
+
+/// The wall in statics.
+template <class Element>
+class WallEquilibrium : public SubProblem {
+ public:
+  double pressure = 0;  ///< kPa on the pressurised facets
+
+  template <class Prescribed>
+  WallEquilibrium(WallProblem<Element>& wall, Prescribed prescribed)
+      : WallEquilibrium(wall, number_entries(wall.node_count(), Element::components + 1, prescribed)) {}
+
+ private:
+  WallEquilibrium(WallProblem<Element>& wall, std::pair<UnknownMap, std::int64_t> numbered)
+      : SubProblem(std::move(numbered.first), numbered.second), wall_(wall) {
+    solution.assign(static_cast<std::size_t>(wall.node_count()) * (Element::components + 1), 0.0);
+  }
+  AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
+    return wall_.assemble({at.data(), nullptr, 0.0}, pressure, at, residual, derivatives);
+  }
+  void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
+    gather_blocks(builder, wall_.jacobian(), map, map);
+  }
+
+  WallProblem<Element>& wall_;
+};
+
+/// Harmonic mesh motion, values prescribed on the boundary.
+template <class Element>
+class MeshMotionEquilibrium : public SubProblem {
+ public:
+  template <class Prescribed>
+  MeshMotionEquilibrium(const MeshMotionMatrix<Element>& matrix, Prescribed prescribed)
+      : MeshMotionEquilibrium(matrix, number_entries(matrix.graph->rows(), Element::components, prescribed)) {}
+
+ private:
+  MeshMotionEquilibrium(const MeshMotionMatrix<Element>& matrix, std::pair<UnknownMap, std::int64_t> numbered)
+      : SubProblem(std::move(numbered.first), numbered.second), matrix_(matrix) {
+    solution.assign(static_cast<std::size_t>(matrix.graph->rows()) * Element::components, 0.0);
+  }
+  AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool) override {
+    residual.resize(at.size());
+    multiply_mesh_motion<Element>(matrix_, at, residual);
+    return {};
+  }
+  void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
+    gather_diagonal_blocks(builder, matrix_, map, map);
+  }
+
+  const MeshMotionMatrix<Element>& matrix_;
+};
+
+}  // namespace fsi::test

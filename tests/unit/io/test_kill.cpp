@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "io/checkpoint.hpp"
+#include "io/hash.hpp"
+#include "io/result_folder.hpp"
+#include "sample_fields.hpp"
+#include "temporary_folder.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ResultTables no_fluid{false, true, false};
+constexpr int last_step = 200;
+constexpr double step_size = 0.25;  // exact in binary, so that times can be compared
+
+/// What a run writes in a step, in the drivers' order: tables, fields, checkpoint.
+void write_step(ResultFolder& results, FieldsWriter& fields, const std::vector<FieldGrid>& grids, int step) {
+  const double time = step_size * step;
+  results.write_wall(time, {0, 1, 2}, {time, time, time}, {0, 0, 0});
+  results.write_iterations({step, time, 1, 3, 0, 0.5});
+  fields.write(step, sample_values(grids, time));
+  Checkpoint checkpoint;
+  checkpoint.step = step;
+  checkpoint.time = time;
+  checkpoint.arrays["state"].assign(1000, time);
+  write_checkpoint(checkpoint_file(results.path()), checkpoint);
+}
+
+class Kill : public FolderTest {};
+
+TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
+  const auto grids = sample_grids();
+  const auto planned = planned_field_steps(last_step, 1, step_size);
+  // Some milliseconds after the first checkpoint, so that the kills fall into all parts of a step.
+  for (int milliseconds = 0; milliseconds < 30; milliseconds += 2) {
+    const auto run = folder_ / std::to_string(milliseconds);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      ResultFolder results(run, no_fluid);
+      FieldsWriter fields(run, grids, planned);
+      for (int step = 0; step <= last_step; ++step) write_step(results, fields, grids, step);
+      _exit(0);
+    }
+    for (int tries = 0; tries < 20000 && !fs::exists(checkpoint_file(run)); ++tries) usleep(1000);
+    usleep(static_cast<useconds_t>(milliseconds) * 1000);
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+
+    const auto checkpoint = read_checkpoint(checkpoint_file(run));
+    const int step = static_cast<int>(checkpoint.step);
+    ASSERT_LT(step, last_step);
+    EXPECT_EQ(checkpoint.arrays.at("state"), std::vector<double>(1000, checkpoint.time));
+    {
+      ResultFolder results(run, no_fluid, run, checkpoint.time);
+      FieldsWriter fields(run, grids, planned, run, checkpoint.step);
+      write_step(results, fields, grids, step + 1);
+    }
+
+    const auto reference = folder_ / "reference";
+    {
+      ResultFolder results(reference, no_fluid);
+      FieldsWriter fields(reference, grids, planned);
+      for (int s = 0; s <= step + 1; ++s) write_step(results, fields, grids, s);
+    }
+    for (const auto* file : {"wall_displacement.csv", "iterations.csv", "fields.xdmf", "checkpoint.h5"})
+      EXPECT_EQ(contents_of(run / file), contents_of(reference / file))
+          << file << " killed after " << milliseconds << " ms";
+    EXPECT_EQ(hash_of_file(run / "fields.h5"), hash_of_file(reference / "fields.h5"));
+  }
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fluid/fluid_problem.hpp"
+#include "mesh_motion/mesh_motion.hpp"
+#include "structure/wall_problem.hpp"
+#include "support/differences.hpp"
+#include "support/random.hpp"
+
+namespace fsi::test {
+
+/// Deformed, moving, convecting: nothing vanishes and the three terms of tau are of like size.
+template <class Element>
+struct FluidState {
+  std::vector<double> mesh, mesh_old, flow, flow_old;
+
+  explicit FluidState(const std::vector<Point>& x) {
+    constexpr int n = Element::components;
+    mesh = random_field(x, n, 0.15, 0.02, 1);
+    mesh_old = random_field(x, n, 0.15, 0.02, 2);
+    flow = random_field(x, n + 1, 3.0, 0.5, 3);
+    flow_old = random_field(x, n + 1, 3.0, 0.5, 4);
+  }
+  FluidInput input() const { return {mesh.data(), mesh_old.data(), flow.data(), flow_old.data()}; }
+};
+
+/// (2/dt)^2 = 16, c . G c about 30 and 36 nu^2 G : G about 10 on a unit box with three elements a side.
+inline AleFluid strongly_coupled_fluid(bool grad_div) {
+  return {/*density=*/1.3, /*viscosity=*/0.03, /*step=*/0.5, grad_div};
+}
+
+enum class Order { second, exact };
+
+/// What the difference of each block of the fluid's Jacobian must look like; exact where the residual is at most quadratic
+/// in the unknown.
+struct FluidBlock {
+  const char* row;
+  int first_row, rows;
+  const char* column;
+  Order order;
+};
+
+/// Every block of the fluid's Jacobian against differences of its residual.
+template <class Element>
+void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>& state, const std::string& name,
+                        const std::vector<unsigned>& seeds) {
+  constexpr int n = Element::components;
+  const auto& x = fluid.part().nodes;
+  std::vector<double> at_state;
+  const auto assembled = fluid.assemble(state.input(), 0, at_state, FluidDerivatives::flow_and_domain);
+  ASSERT_FALSE(assembled.inverted());
+  const auto jacobian = fluid.jacobian(FluidDerivatives::flow_and_domain);
+
+  std::vector<double> without_derivatives;
+  fluid.assemble(state.input(), 0, without_derivatives);
+  EXPECT_LT(norm(difference(at_state, without_derivatives)), 1e-14 * norm(at_state)) << "two loops, one residual";
+
+  const FluidBlock blocks[] = {
+      {"momentum", 0, n, "mesh displacement", Order::second}, {"continuity", n, 1, "mesh displacement", Order::second},
+      {"momentum", 0, n, "velocity", Order::second},          {"continuity", n, 1, "velocity", Order::second},
+      {"momentum", 0, n, "pressure", Order::exact},           {"continuity", n, 1, "pressure", Order::exact}};
+  for (const auto& block : blocks)
+    for (unsigned seed : seeds) {
+      const bool domain = std::string(block.column) == "mesh displacement";
+      std::vector<double> direction;
+      std::vector<double> product;
+      if (domain) {
+        direction = random_field(x, n, 0.3, 0.1, 100 + seed);
+        product = multiply(jacobian.mesh_motion, direction);
+      } else {
+        const bool velocity = std::string(block.column) == "velocity";
+        direction = only(random_field(x, n + 1, 4.0, 1.0, 200 + seed), n + 1, velocity ? 0 : n, velocity ? n : 1);
+        product = multiply(jacobian.flow, direction);
+      }
+      const auto residual = [&](double t) {
+        FluidState<Element> there = state;
+        (domain ? there.mesh : there.flow) = moved(domain ? state.mesh : state.flow, t, direction);
+        std::vector<double> r;
+        fluid.assemble(there.input(), 0, r);
+        return only(r, n + 1, block.first_row, block.rows);
+      };
+      const auto table =
+          central_differences(name + ": " + block.row + " by " + block.column, residual,
+                              only(product, n + 1, block.first_row, block.rows), 0.05, 16);
+      block.order == Order::second ? expect_second_order(table) : expect_exact(table);
+    }
+}
+
+/// Every block of the wall's Jacobian, Newmark's inertia and the follower pressure included.
+template <class Element>
+void check_wall_blocks(WallProblem<Element>& wall, std::vector<double> solution, const std::vector<double>& history,
+                       double acceleration_factor, double pressure, const std::string& name,
+                       const std::vector<unsigned>& seeds) {
+  constexpr int n = Element::components;
+  const auto& x = wall.part().nodes;
+  const auto residual_at = [&](const std::vector<double>& at, bool derivatives = false) {
+    std::vector<double> r;
+    const auto result = wall.assemble({at.data(), history.data(), acceleration_factor}, pressure, at, r, derivatives);
+    EXPECT_FALSE(result.inverted()) << name;
+    return r;
+  };
+  const auto at_state = residual_at(solution, true);
+  const auto jacobian = wall.jacobian();
+  EXPECT_LT(norm(difference(at_state, residual_at(solution))), 1e-14 * norm(at_state)) << "two loops, one residual";
+
+  for (const auto& [row, first_row, rows] : {std::tuple{"momentum", 0, n}, std::tuple{"volume", n, 1}})
+    for (const auto& [column, first_column, columns, order] :
+         {std::tuple{"displacement", 0, n, Order::second}, std::tuple{"pressure", n, 1, Order::exact}})
+      for (unsigned seed : seeds) {
+        const auto direction = only(random_field(x, n + 1, 0.3, 0.1, 300 + seed), n + 1, first_column, columns);
+        const auto product = only(multiply(jacobian, direction), n + 1, first_row, rows);
+        const auto residual = [&, first = first_row, count = rows](double t) {
+          return only(residual_at(moved(solution, t, direction)), n + 1, first, count);
+        };
+        const auto table = central_differences(name + ": " + row + " by " + column, residual, product, 0.05, 16);
+        order == Order::second ? expect_second_order(table) : expect_exact(table);
+      }
+}
+
+/// The constant operator of the mesh motion is the derivative of its own weak form, (grad d, grad v), and multiplies right.
+/// The weak form is evaluated here on its own: integrand and element, no derivatives.
+template <class Element>
+std::vector<double> mesh_motion_residual(const ElementPacks<Element>& packs, const std::vector<double>& mesh) {
+  constexpr int n = Element::components;
+  std::vector<double> padded(mesh.size() / n * (n + 1), 0.0);
+  for (int t = 0; t < packs.thread_count(); ++t)
+    for (const auto& pack : packs.of_thread(t)) {
+      NodalVector<Element> d{};
+      gather(d, pack, mesh.data());
+      ElementRows<Element, Pack> rows;
+      integrate(
+          rows, pack.geometry, [&](const auto& g) { return gradient_of(d, g); },
+          [](const auto& grad_d, const auto&, int) { return HarmonicMeshMotion{}.integrand(grad_d); });
+      scatter_residual<Element>(rows, pack, padded.data());
+    }
+  std::vector<double> residual(mesh.size());
+  for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = padded[i / n * (n + 1) + i % n];
+  return residual;
+}
+
+}  // namespace fsi::test
