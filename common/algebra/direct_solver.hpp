@@ -15,9 +15,9 @@ class DirectSolver {
   /// Fill-reducing ordering and pivoting strategy, by name; the defaults are what measurement favoured
   /// (docs/direct-solver.md).
   struct Options {
-    std::string ordering = "metis";        ///< "amd", "metis", "best"
-    std::string strategy = "auto";  ///< "auto", "unsymmetric", "symmetric"
-    int refinement_steps = 0;              ///< of each solve
+    std::string ordering = "metis";  ///< "amd", "metis", "best"
+    std::string strategy = "auto";   ///< "auto", "unsymmetric", "symmetric"
+    int refinement_steps = 0;        ///< of each solve
   };
 
   DirectSolver();

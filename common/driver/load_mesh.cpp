@@ -54,7 +54,9 @@ TetrahedralMesh load_mesh(const Case& setup) {
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const TetrahedralMesh mesh = read_or_make(setup, needs.layers, needs);
   check_scene_mesh(mesh, needs, mesh_name(setup));
-  return renumbered(mesh, reverse_cuthill_mckee(mesh));
+  // Made meshes come in a good order already.
+  TetrahedralMesh ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
+  return bandwidth(ordered) < bandwidth(mesh) ? ordered : mesh;
 }
 
 std::string hash_of_mesh(const TetrahedralMesh& mesh) {

@@ -86,8 +86,8 @@ class ElementPacks {
 /// million elements a second) and those that differentiate (some 500,000).
 inline constexpr std::size_t serial_residual_elements = 20000, serial_jacobian_elements = 500;
 
-/// Runs visit(thread, packs of that thread) for every thread's packs, on all threads unless there are fewer elements than
-/// `serial_below`. The numbers assembled do not depend on that choice.
+/// Runs visit(thread, packs of that thread) for every thread's packs, on all threads unless there are fewer elements
+/// than `serial_below`. The numbers assembled do not depend on that choice.
 template <class Element, class Visit>
 void for_each_thread(const ElementPacks<Element>& packs, std::size_t serial_below, Visit visit) {
   const int count = packs.thread_count();

@@ -102,8 +102,7 @@ AssemblyResult assemble_fluid(const AleFluid& form, const ElementPacks<Element>&
   if (derivatives != FluidDerivatives::none) jacobian->flow.set_zero();
   if (derivatives == FluidDerivatives::flow_and_domain) jacobian->mesh_motion.set_zero();
   std::vector<AssemblyResult> results(packs.thread_count());
-  const auto serial_below =
-      derivatives == FluidDerivatives::none ? serial_residual_elements : serial_jacobian_elements;
+  const auto serial_below = derivatives == FluidDerivatives::none ? serial_residual_elements : serial_jacobian_elements;
   for_each_thread(packs, serial_below, [&](int t, const auto& mine) {
     using D = FluidDerivatives;
     const auto run = [&](auto which, auto moving) {

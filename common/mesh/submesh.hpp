@@ -12,11 +12,11 @@ struct Submesh {
   using Cell = typename SimplexMesh<Dim>::Cell;
   using Facet = typename SimplexMesh<Dim>::Facet;
 
-  std::vector<Point> nodes;         ///< mm, per local node
-  std::vector<int> mesh_node;       ///< per local node, its number in the whole mesh
-  std::vector<int> local_node;      ///< per mesh node, its local number, -1 outside
-  std::vector<Cell> cells;          ///< local node numbers
-  std::vector<int> cell_region;     ///< per cell, region of the whole mesh
+  std::vector<Point> nodes;      ///< mm, per local node
+  std::vector<int> mesh_node;    ///< per local node, its number in the whole mesh
+  std::vector<int> local_node;   ///< per mesh node, its local number, -1 outside
+  std::vector<Cell> cells;       ///< local node numbers
+  std::vector<int> cell_region;  ///< per cell, region of the whole mesh
 
   int node_count() const { return static_cast<int>(nodes.size()); }
   /// The facet in local node numbers.

@@ -22,8 +22,8 @@ struct HarmonicMeshMotion {
   }
 };
 
-/// The operator of the mesh motion: components do not couple, each node pair holds one number per component. Constant, so
-/// assembled once.
+/// The operator of the mesh motion: components do not couple, each node pair holds one number per component. Constant,
+/// so assembled once.
 template <class Element>
 using MeshMotionMatrix = BlockMatrix<1, Element::components>;
 
@@ -39,7 +39,8 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
     for (const auto& pack : mine)
       for (int b = 0; b < Element::nodes; ++b) {
         integrate(
-            rows, pack.geometry, [&](const auto& g) { return seed_gradient<Element, n, 0>(gradient_of(zero, g), g, b); },
+            rows, pack.geometry,
+            [&](const auto& g) { return seed_gradient<Element, n, 0>(gradient_of(zero, g), g, b); },
             [&](const auto& grad_d, const auto&, int) { return form.integrand(grad_d); });
         for (int a = 0; a < Element::nodes; ++a)
           for (int lane = 0; lane < pack_width; ++lane) {
@@ -53,14 +54,16 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
 
 /// r = A d, `components` entries per node.
 template <class Element>
-void multiply_mesh_motion(const MeshMotionMatrix<Element>& matrix, const std::vector<double>& d, std::vector<double>& r) {
+void multiply_mesh_motion(const MeshMotionMatrix<Element>& matrix, const std::vector<double>& d,
+                          std::vector<double>& r) {
   constexpr int n = Element::components;
   const auto& graph = *matrix.graph;
 #pragma omp parallel for schedule(static) if (graph.blocks() > 200000)
   for (int row = 0; row < graph.rows(); ++row) {
     double sum[n] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at)
-      for (int k = 0; k < n; ++k) sum[k] += matrix.block(at)[k] * d[static_cast<std::size_t>(graph.columns[at]) * n + k];
+      for (int k = 0; k < n; ++k)
+        sum[k] += matrix.block(at)[k] * d[static_cast<std::size_t>(graph.columns[at]) * n + k];
     for (int k = 0; k < n; ++k) r[static_cast<std::size_t>(row) * n + k] = sum[k];
   }
 }
