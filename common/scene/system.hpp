@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -115,6 +116,24 @@ class System : public NewtonProblem {
     return std::sqrt(weighted(mesh_volumes_, n, state_->now.mesh, !numbering_.mesh.empty()) +
                      weighted(flow_volumes_, n + 1, state_->now.flow, !numbering_.flow.empty()) +
                      weighted(wall_volumes_, n + 1, state_->now.wall, !numbering_.wall.empty()));
+  }
+
+  /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual.
+  double rounding() const override {
+    std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
+    const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
+      for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].index >= 0) x[map[i].index] = std::max(x[map[i].index], std::abs(field[i] / map[i].factor));
+    };
+    values(numbering_.mesh, state_->now.mesh);
+    values(numbering_.flow, state_->now.flow);
+    values(numbering_.wall, state_->now.wall);
+    const SparseMatrix& a = matrix_.matrix();
+    for (std::int64_t c = 0; c < a.size(); ++c)
+      for (std::int64_t k = a.offsets[c]; k < a.offsets[c + 1]; ++k) terms[a.rows[k]] += std::abs(a.values[k]) * x[c];
+    double sum = 0;
+    for (double t : terms) sum += t * t;
+    return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
   }
 
  private:

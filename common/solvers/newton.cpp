@@ -8,17 +8,15 @@ namespace fsi {
 namespace {
 
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
-constexpr double rounding_residual = 1e-9;    // relative to the step's first residual: below, a rise is no alarm
+constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
 
-/// Moves by the increment, halving the step while the residual rises or does not exist. Returns the step length taken,
-/// 0 when even the shortest step would not do (the iterate is then where it was).
-double backtrack(NewtonProblem& problem, double residual, double first_residual, int max_halvings,
-                 double& new_residual) {
+/// Moves by the increment, halving the step while the residual exceeds `bound` or does not exist. Returns the step length
+/// taken, 0 when even the shortest step would not do (the iterate is then where it was).
+double backtrack(NewtonProblem& problem, double bound, int max_halvings, double& new_residual) {
   double step = 1;
   problem.move(step);
   for (int halvings = 0;; ++halvings) {
     new_residual = problem.evaluate();
-    const double bound = std::max(residual, rounding_residual * first_residual);
     if (std::isfinite(new_residual) && new_residual <= bound) return step;
     if (halvings == max_halvings) break;
     problem.move(-0.5 * step);
@@ -39,19 +37,20 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     report.failure = "the start holds an inverted element or a value that is not finite";
     return report;
   }
-  double reference = options.reference;
+  double reference = options.reference, rounding = 0;
   bool renew = !options.keep_jacobian || !problem.linearised();
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
     iteration.linearised = renew;
     if (renew) problem.linearise();
+    if (renew || report.count() == 0) rounding = rounding_margin * problem.rounding();
     const double increment = problem.solve();
     if (!std::isfinite(increment)) {
       report.failure = "the linear solver returned a value that is not finite";
       return report;
     }
     double new_residual = 0;
-    iteration.step = backtrack(problem, residual, report.first_residual, options.max_halvings, new_residual);
+    iteration.step = backtrack(problem, std::max(residual, rounding), options.max_halvings, new_residual);
     if (iteration.step == 0) {
       if (renew) {
         report.failure = "no step along Newton's direction lowers the residual";
@@ -66,15 +65,16 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (reference == 0) reference = increment;
 
     const bool small = iteration.step == 1 && (iteration.increment <= options.tolerance * reference ||
-                                               iteration.increment <= rounding_increment * problem.size());
+                                               iteration.increment <= rounding_increment * problem.size() ||
+                                               new_residual <= rounding);
     const bool solved =
-        options.residual_tolerance == 0 || new_residual <= options.residual_tolerance * report.first_residual;
+        options.residual_tolerance == 0 ||
+        new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {
       report.converged = true;
       return report;
     }
-    renew = !options.keep_jacobian || (new_residual > options.keep_contraction * residual &&
-                                       new_residual > rounding_residual * report.first_residual);
+    renew = !options.keep_jacobian || (new_residual > options.keep_contraction * residual && new_residual > rounding);
     residual = new_residual;
   }
   report.failure = "the iteration limit was reached";

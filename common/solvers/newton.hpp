@@ -22,6 +22,8 @@ class NewtonProblem {
   virtual void move(double step) = 0;
   /// Norm of the iterate, in the norm of the increments.
   virtual double size() const = 0;
+  /// Norm of the rounding error that the residual carries: it cannot be made smaller. 0: unknown. Asked when linearised.
+  virtual double rounding() const { return 0; }
 };
 
 struct NewtonOptions {
@@ -52,7 +54,8 @@ struct NewtonReport {
 };
 
 /// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.
-/// The increment cannot fall below rounding: one of 1e-14 times the iterate counts as converged.
+/// Neither increment nor residual can fall below rounding: an increment of 1e-14 times the iterate, or a residual that is
+/// nothing but the rounding error of its own evaluation, counts as converged.
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options);
 
 }  // namespace fsi

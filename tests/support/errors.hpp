@@ -94,6 +94,10 @@ class ConvergenceTable {
   /// Order observed between the last two rows.
   double last_order(int column) const { return order(rows_.size() - 1, column); }
   double last_error(int column) const { return rows_.back().second[column]; }
+  /// Of Richardson's extrapolation of the last two rows for first order and errors of one sign, h halved.
+  double extrapolated_error(int column) const {
+    return std::abs(2 * rows_.back().second[column] - rows_[rows_.size() - 2].second[column]);
+  }
 
   void print() const {
     fmt::print("{}\n  {:>10}", title_, "h");

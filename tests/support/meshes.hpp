@@ -185,6 +185,32 @@ inline std::vector<char> boundary_marks(const TriangleMesh& mesh) {
   return marks;
 }
 
+/// Gives cells of region 1 and up their own copies of the nodes they share with region 0, and lists (node, copy): for fields
+/// that jump between regions, with the others tied together again.
+template <int Dim>
+std::vector<std::pair<int, int>> split_off_first_region(SimplexMesh<Dim>& mesh) {
+  std::vector<char> in_first(mesh.nodes.size(), 0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cell_region[c] == 0)
+      for (int node : mesh.cells[c]) in_first[node] = 1;
+  std::vector<int> copy(mesh.nodes.size(), -1);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cell_region[c] > 0)
+      for (int& node : mesh.cells[c]) {
+        if (!in_first[node]) continue;
+        if (copy[node] < 0) {
+          copy[node] = static_cast<int>(mesh.nodes.size());
+          pairs.push_back({node, copy[node]});
+          const Point x = mesh.nodes[node];
+          mesh.nodes.push_back(x);
+          in_first.push_back(0);
+        }
+        node = copy[node];
+      }
+  return pairs;
+}
+
 /// The whole mesh as one part.
 template <int Dim>
 Submesh<Dim> whole(const SimplexMesh<Dim>& mesh) {

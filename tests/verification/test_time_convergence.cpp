@@ -1,0 +1,129 @@
+// Observed order of the time schemes on fixed meshes: backward Euler for the fluid, Newmark with beta = gamma = 1 for the
+// wall. tau of the fluid's stabilisation depends on the step; for steps so short that 2/dt prevails in it, the solution on a
+// given mesh goes on changing with the step. The fluids here are viscous enough to keep clear of that.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/newton_stepper.hpp"
+#include "support/errors.hpp"
+#include "support/problems.hpp"
+#include "support/scenes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+using Tet = P1Tetrahedron;
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+/// Orders observed from results with successively halved steps, from the quotient of successive differences: it needs no
+/// exact solution and the error of the mesh drops out.
+std::vector<double> orders_of(const std::string& title, const std::vector<std::vector<double>>& results, double first_step) {
+  fmt::print("{}\n        dt   difference to dt/2   order\n", title);
+  std::vector<double> orders;
+  double last = 0;
+  for (std::size_t k = 0; k + 1 < results.size(); ++k) {
+    const double change = norm(difference(results[k], results[k + 1])) / norm(results.back());
+    fmt::print("  {:8.5f}           {:10.3e}", first_step / std::pow(2.0, k), change);
+    if (k > 0) {
+      orders.push_back(std::log2(last / change));
+      fmt::print("   {:5.2f}", orders.back());
+    }
+    fmt::print("\n");
+    last = change;
+  }
+  return orders;
+}
+
+// Decaying Beltrami flow u = e^(-nu k^2 t) U(x) in a box that pulsates: du/dt = nu Laplace u, and (grad u) u is balanced by
+// the pressure, so no load is needed.
+TEST(TimeConvergence, DecayingBeltramiFlowOnAPulsatingMeshIsOfFirstOrder) {
+  const double nu = 0.16, k = 2.5, end = 1;
+  const auto velocity = [&](const Point& x, double t) {
+    const double e = std::exp(-nu * k * k * t);
+    return Point{e * (std::sin(k * x[2]) + 0.5 * std::cos(k * x[1])), e * (0.7 * std::sin(k * x[0]) + std::cos(k * x[2])),
+                 e * (0.5 * std::sin(k * x[1]) + 0.7 * std::cos(k * x[0]))};
+  };
+  const auto displacement = [](const Point& x, double t) {
+    const double s = 0.1 * std::sin(3 * t);
+    return Point{s * std::sin(2 * x[1] + 1) * x[2], s * x[0] * x[2], s * std::cos(2 * x[0]) * x[1]};
+  };
+  const auto mesh = irregular_cube(5);
+  const auto boundary = boundary_marks(mesh);
+  std::vector<std::vector<double>> velocities, pressures;
+  const double first_step = 0.1;
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    const int steps = static_cast<int>(std::lround(end / first_step)) << halvings;
+    const double dt = end / steps;
+    FluidProblem<Tet> fluid(whole(mesh), {1.0, nu, dt, false}, {}, {});
+    FluidStep<Tet> step(fluid, [&](int a, int i) { return i < 3 ? boundary[a] != 0 : a == 0; });
+    const auto set = [&](double t, bool everywhere) {
+      for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+        Point x = mesh.nodes[a];
+        const Point d = displacement(x, t);
+        for (int i = 0; i < 3; ++i) {
+          step.mesh[3 * a + i] = d[i];
+          x[i] += d[i];
+        }
+        if (everywhere || boundary[a])
+          for (int i = 0; i < 3; ++i) step.solution[4 * a + i] = velocity(x, t)[i];
+      }
+    };
+    set(0, true);
+    for (int s = 1; s <= steps; ++s) {
+      step.mesh_old = step.mesh;
+      step.flow_old = step.solution;
+      set(s * dt, false);
+      NewtonOptions options;
+      options.tolerance = 1e-10;
+      const auto report = newton(step, options);
+      ASSERT_TRUE(report.converged) << report.failure;
+    }
+    velocities.push_back(only(step.solution, 4, 0, 3));
+    pressures.push_back(only(step.solution, 4, 3, 1));
+  }
+  EXPECT_NEAR(orders_of("velocity of a decaying Beltrami flow", velocities, first_step).back(), 1, 0.1);
+  EXPECT_NEAR(orders_of("its pressure", pressures, first_step).back(), 1, 0.1);
+}
+
+/// Marches a case to its end.
+State march(const Case& setup, const TetrahedralMesh& mesh) {
+  const auto scene = build_scene(setup, mesh);
+  const Loads loads(setup);
+  NewtonOptions options;
+  options.tolerance = 1e-10;
+  NewtonStepper<Tet> stepper(*scene, loads, options);
+  State state = scene->at_rest();
+  for (int step = 0; step < loads.steps(); ++step) stepper.advance(state);
+  EXPECT_DOUBLE_EQ(state.time, setup.time->end);
+  return state;
+}
+
+// A pressure that rises at the inlet of a viscous fluid lifts the wall above it.
+TEST(TimeConvergence, CoupledMotionIsOfFirstOrder) {
+  Case setup = coupled_case("artery");
+  setup.fluid->viscosity = 1;
+  setup.structure->axis_origin = {0.5, 0.5, -1};
+  setup.structure->axis_direction = {0, 1, 0};
+  setup.structure->bulk_modulus = 1e3;
+  setup.inlet = PressureTable{{{0, 0}, {2, 2}}};
+  setup.time->end = 2;
+  const auto mesh = fluid_and_wall_box(2);
+  std::vector<std::vector<double>> flows, walls;
+  const double first_step = 0.2;
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    setup.time->step = first_step / (1 << halvings);
+    const auto state = march(setup, mesh);
+    walls.push_back(only(state.now.wall, 4, 0, 3));
+    flows.push_back(only(state.now.flow, 4, 0, 3));
+  }
+  EXPECT_NEAR(orders_of("displacement of a wall above a viscous fluid", walls, first_step).back(), 1, 0.15);
+  EXPECT_NEAR(orders_of("velocity of the fluid", flows, first_step).back(), 1, 0.15);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
