@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "math/pack.hpp"
@@ -9,20 +9,21 @@ namespace fsi {
 
 /// What an element loop learns besides the assembled numbers.
 struct AssemblyResult {
-  double smallest_volume_ratio =
-      1;          ///< smallest J at a quadrature point; not positive (or NaN) when an element is inverted
-  int cell = -1;  ///< where
+  /// Smallest J at a quadrature point; not positive (or NaN) when an element is inverted.
+  double smallest_volume_ratio = 1;
+  int cell = -1;  ///< where, in the numbers of the sub-problem
 
   bool inverted() const { return !(smallest_volume_ratio > 0); }
   void include(Pack volume_ratio, const int* cells) {
-    for (int lane = 0; lane < pack_width; ++lane)
-      if (!(volume_ratio[lane] >= smallest_volume_ratio)) {
-        smallest_volume_ratio = volume_ratio[lane];
-        cell = cells[lane];
-      }
+    for (int lane = 0; lane < pack_width; ++lane) include(volume_ratio[lane], cells[lane]);
   }
-  void include(const AssemblyResult& other) {
-    if (!(other.smallest_volume_ratio >= smallest_volume_ratio)) *this = other;
+  void include(const AssemblyResult& other) { include(other.smallest_volume_ratio, other.cell); }
+
+ private:
+  void include(double volume_ratio, int of_cell) {
+    if (std::isnan(smallest_volume_ratio) || volume_ratio >= smallest_volume_ratio) return;  // NaN stays
+    smallest_volume_ratio = volume_ratio;
+    cell = of_cell;
   }
 };
 

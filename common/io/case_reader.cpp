@@ -22,8 +22,7 @@ namespace {
 constexpr int most_steps = 1'000'000;
 constexpr bool required = true, optional = false;
 
-// ---- Readers: how the value of a key gets into its place
-// --------------------------------------------------------------
+// Readers: how the value of a key gets into its place.
 
 template <class Target, class Value>
 using Member = Value Target::*;
@@ -137,8 +136,7 @@ CaseKey<Parent> section(const std::string& name, bool is_required, const std::st
   return key;
 }
 
-// ---- [mesh]
-// ------------------------------------------------------------------------------------------------------------
+// [mesh].
 
 /// Relative to the case file; given by --set, relative to the working directory if the file is there.
 void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
@@ -166,8 +164,7 @@ const std::vector<CaseKey<MeshData>>& mesh_keys() {
   return keys;
 }
 
-// ---- [fluid]
-// -----------------------------------------------------------------------------------------------------------
+// [fluid].
 
 const std::vector<CaseKey<FluidData>>& fluid_keys() {
   static const std::vector<CaseKey<FluidData>> keys = {
@@ -178,8 +175,7 @@ const std::vector<CaseKey<FluidData>>& fluid_keys() {
   return keys;
 }
 
-// ---- [structure]
-// -------------------------------------------------------------------------------------------------------
+// [structure].
 
 using Material = MaterialData;
 
@@ -276,8 +272,7 @@ const std::vector<CaseKey<StructureData>>& structure_keys() {
   return keys;
 }
 
-// ---- [inlet], [load]
-// ---------------------------------------------------------------------------------------------------
+// [inlet], [load].
 
 /// `pressure` and `until` as they stand in the file.
 struct PressureInput {
@@ -346,8 +341,7 @@ CaseKey<Case> pressure_section(const std::string& name, const std::string& about
           key.below};
 }
 
-// ---- [time], [static]
-// --------------------------------------------------------------------------------------------------
+// [time], [static].
 
 void check_time(const CaseEntry& entry, TimeData& time) {
   const auto end = entry.child("end");
@@ -384,8 +378,7 @@ const std::vector<CaseKey<StaticData>>& static_keys() {
   return keys;
 }
 
-// ---- Solvers and output
-// ------------------------------------------------------------------------------------------------
+// Solvers and output.
 
 constexpr Interval tolerance{0, 1, false, false};
 
@@ -440,8 +433,7 @@ const std::vector<CaseKey<OutputData>>& output_keys() {
   return keys;
 }
 
-// ---- The whole case
-// ----------------------------------------------------------------------------------------------------
+// The whole case.
 
 /// A section whose struct is an optional member of the case: present when the section is.
 template <class Data>
