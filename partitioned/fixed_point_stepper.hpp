@@ -36,7 +36,8 @@ class FixedPointStepper : public Stepper {
     interface_.fluid_iterations = interface_.wall_iterations = 0;
     relaxation_->start();
 
-    StepReport report;
+    report_ = {};
+    StepReport& report = report_;
     auto d = interface_.wall_displacement();
     double error = 0;
     for (report.outer_iterations = 1; report.outer_iterations <= options_.max_iterations; ++report.outer_iterations) {
@@ -86,7 +87,7 @@ class FixedPointStepper : public Stepper {
   }
   std::vector<double> solve_at(const std::vector<double>& d, const State& state, const StepData& data) {
     try {
-      return interface_.answer(d);
+      return interface_.answer(d, report_.history);
     } catch (const ConvergenceError& e) {
       throw ConvergenceError(fmt::format("step {} (to t = {:g} ms): {}", state.step + 1, data.time, e.what()), "");
     }

@@ -44,13 +44,15 @@ class InterfaceProblem {
     return d;
   }
 
-  /// d~ for d; leaves fluid and wall in state.now. \throws ConvergenceError when a sub-problem fails
-  std::vector<double> answer(const std::vector<double>& d) {
+  /// d~ for d; leaves fluid and wall in state.now.
+  /// \param history  receives the convergence history of a sub-problem that fails
+  /// \throws ConvergenceError when one does
+  std::vector<double> answer(const std::vector<double>& d, std::vector<std::string>& history) {
     impose_on_fluid(d);
     mesh_motion_.solve(state_->now.mesh);
-    fluid_iterations += solve("fluid", fluid_);
+    fluid_iterations += solve("fluid", fluid_, history);
     load_wall();
-    wall_iterations += solve("wall", wall_);
+    wall_iterations += solve("wall", wall_, history);
     return wall_displacement();
   }
 
@@ -88,15 +90,16 @@ class InterfaceProblem {
             fluid_.fluid_residual()[static_cast<std::size_t>(node.fluid) * (n + 1) + k];
   }
 
-  int solve(const std::string& name, System<Element>& system) {
+  int solve(const std::string& name, System<Element>& system, std::vector<std::string>& history) {
     NewtonOptions options = options_;
     options.reference = system.size();
     const NewtonReport report = newton(system, options);
-    if (!report.converged)
-      throw ConvergenceError(fmt::format("the {} sub-problem: Newton's method stopped after {} iterations: {}", name,
-                                         report.count(), report.failure),
-                             "a smaller partitioned.relaxation or a smaller time.step");
-    return report.count();
+    if (report.converged) return report.count();
+    history.push_back(fmt::format("{} sub-problem, first residual {:.3e}", name, report.first_residual));
+    append_history(report, history, "  ");
+    throw ConvergenceError(fmt::format("the {} sub-problem: Newton's method stopped after {} iterations: {}", name,
+                                       report.count(), report.failure),
+                           "a smaller partitioned.relaxation or a smaller time.step");
   }
 
   Scene<Element>& scene_;

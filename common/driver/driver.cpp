@@ -88,6 +88,7 @@ class Run {
     try {
       while (state_.step < loads_.steps()) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
+      for (const auto& entry : stepper_->report().history) log.info("  " + entry);
       log.error(failure.what());
       if (state_.step > 0) save();
       summary_["failure"] = failure.what();

@@ -13,10 +13,11 @@ namespace fsi {
 /// The elements of one sub-problem (or of one wall layer) made ready for vectorised, threaded assembly: packs of
 /// elements with their constant geometry and the stored positions of their blocks in the sparse matrices.
 ///
-/// Threads own rows, not elements: thread t adds only to the rows of its range of nodes and visits every element that
-/// touches one of them, so elements on the border of two ranges are evaluated by both. No two threads write to one
-/// place, nothing is coloured or locked, and every entry is summed in the order of the elements whatever the number of
-/// threads: results do not depend on it. Rows of distributed memory will be owned in the same way.
+/// Threads own rows, not elements: thread t adds only to the rows of its range of nodes and visits every pack that
+/// touches one of them, so packs on the border of two ranges are evaluated by both. No two threads write to one place
+/// and nothing is coloured or locked. Elements are packed once, in their order and whatever the number of threads, so
+/// that every entry is summed in one order: results do not depend on the number of threads. Rows of distributed memory
+/// will be owned in the same way.
 template <class Element>
 class ElementPacks {
  public:
@@ -42,13 +43,17 @@ class ElementPacks {
     for (int t = 0; t < thread_count; ++t) {
       const int first = static_cast<int>(static_cast<long>(node_count) * t / thread_count);
       const int last = static_cast<int>(static_cast<long>(node_count) * (t + 1) / thread_count);
-      std::vector<int> mine;
-      for (int c : subset)
-        if (std::any_of(cells[c].begin(), cells[c].end(), [&](int n) { return n >= first && n < last; }))
-          mine.push_back(c);
-      auto& packs = packs_of_thread_[t];
-      packs.resize((mine.size() + pack_width - 1) / pack_width);
-      for (std::size_t p = 0; p < packs.size(); ++p) fill(packs[p], p, mine, node_positions, cells, graph, first, last);
+      const auto touches = [&](int cell) {
+        return std::any_of(cells[cell].begin(), cells[cell].end(), [&](int n) { return n >= first && n < last; });
+      };
+      for (std::size_t begin = 0; begin < subset.size(); begin += pack_width) {
+        const auto from = subset.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto to = subset.begin() + static_cast<std::ptrdiff_t>(std::min(begin + pack_width, subset.size()));
+        if (std::none_of(from, to, touches)) continue;
+        packs_of_thread_[t].emplace_back();
+        fill(packs_of_thread_[t].back(), std::vector<int>(from, to), node_positions, cells, graph, first, last);
+      }
+      packs_of_thread_[t].shrink_to_fit();
     }
     element_count_ = subset.size();
   }
@@ -59,13 +64,12 @@ class ElementPacks {
 
  private:
   template <class Point, class Cell>
-  static void fill(ElementPack& pack, std::size_t index, const std::vector<int>& mine, const std::vector<Point>& x,
+  static void fill(ElementPack& pack, const std::vector<int>& elements, const std::vector<Point>& x,
                    const std::vector<Cell>& cells, const NodeGraph& graph, int first, int last) {
     Vec3<Pack> corner[nodes];
     for (int lane = 0; lane < pack_width; ++lane) {
-      const std::size_t at = index * pack_width + lane;
-      const bool empty = at >= mine.size();
-      const int c = empty ? mine.back() : mine[at];
+      const bool empty = lane >= static_cast<int>(elements.size());
+      const int c = empty ? elements.back() : elements[lane];
       pack.cell[lane] = c;
       for (int a = 0; a < nodes; ++a) {
         const int node = cells[c][a];

@@ -56,14 +56,14 @@ class NewtonStepper : public Stepper {
 
   StepReport advance(State& state) override {
     const StepData data = loads_.next(state, scene_.scheme);
-    StepReport report;
-    NewtonReport solved = solve(state, data, scene_.scheme, report);
+    report_ = {};
+    NewtonReport solved = solve(state, data, scene_.scheme);
     if (!solved.converged && scene_.scheme.predictor > 0 && state.step > 0) {
       // The extrapolated start can be the culprit, after a jump of the load for example.
-      report.history.push_back(solved.failure + "; again from the last time level");
+      report_.history.push_back(solved.failure + "; again from the last time level");
       TimeScheme cautious = scene_.scheme;
       cautious.predictor = 0;
-      solved = solve(state, data, cautious, report);
+      solved = solve(state, data, cautious);
     }
     if (!solved.converged)
       throw ConvergenceError(
@@ -71,7 +71,7 @@ class NewtonStepper : public Stepper {
                       data.time, solved.count(), solved.failure),
           "a smaller time.step (or more static.load_steps), a smaller load, or monolithic.mode = \"full\"");
     scene_.scheme.accept(state, data);
-    return report;
+    return report_;
   }
 
   Memory memory() const override {
@@ -86,15 +86,15 @@ class NewtonStepper : public Stepper {
   }
 
  private:
-  NewtonReport solve(State& state, const StepData& data, const TimeScheme& scheme, StepReport& report) {
+  NewtonReport solve(State& state, const StepData& data, const TimeScheme& scheme) {
     scheme.predict(state);
     scene_.impose_interface(state);
     system_.work_on(state, data);
     const NewtonReport solved = newton(system_, options_);
     scene_.impose_interface(state);  // exactly, not to the rounding of the increments
-    report.newton_iterations += solved.count();
-    report.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
-    append_history(solved, report.history);
+    report_.newton_iterations += solved.count();
+    report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
+    append_history(solved, report_.history);
     return solved;
   }
 

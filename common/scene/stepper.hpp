@@ -29,8 +29,13 @@ class Stepper {
   /// Solves the next step and makes it the latest level of the state.
   /// \throws ConvergenceError; the state's finished levels are then untouched
   virtual StepReport advance(State& state) = 0;
+  /// Of the last step, also of one that failed.
+  const StepReport& report() const { return report_; }
   virtual Memory memory() const = 0;
   virtual void recall(const Memory& memory) = 0;
+
+ protected:
+  StepReport report_;
 };
 
 }  // namespace fsi

@@ -118,7 +118,8 @@ class System : public NewtonProblem {
                      weighted(wall_volumes_, n + 1, state_->now.wall, !numbering_.wall.empty()));
   }
 
-  /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual.
+  /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Wall displacements count as
+  /// large as the elements, since stresses are differences of terms of order one (I - I_1/3 C^-1) whatever the strain.
   double rounding() const override {
     std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
     const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
@@ -128,6 +129,9 @@ class System : public NewtonProblem {
     values(numbering_.mesh, state_->now.mesh);
     values(numbering_.flow, state_->now.flow);
     values(numbering_.wall, state_->now.wall);
+    for (std::size_t i = 0; i < numbering_.wall.size(); ++i)
+      if (numbering_.wall[i].index >= 0 && i % (n + 1) < n)
+        x[numbering_.wall[i].index] += std::cbrt(wall_volumes_[i / (n + 1)]);
     const SparseMatrix& a = matrix_.matrix();
     for (std::int64_t c = 0; c < a.size(); ++c)
       for (std::int64_t k = a.offsets[c]; k < a.offsets[c + 1]; ++k) terms[a.rows[k]] += std::abs(a.values[k]) * x[c];

@@ -10,8 +10,8 @@ namespace {
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
 constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
 
-/// Moves by the increment, halving the step while the residual exceeds `bound` or does not exist. Returns the step length
-/// taken, 0 when even the shortest step would not do (the iterate is then where it was).
+/// Moves by the increment, halving the step while the residual exceeds `bound` or does not exist. Returns the step
+/// length taken, 0 when even the shortest step would not do (the iterate is then where it was).
 double backtrack(NewtonProblem& problem, double bound, int max_halvings, double& new_residual) {
   double step = 1;
   problem.move(step);
@@ -38,6 +38,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     return report;
   }
   double reference = options.reference, rounding = 0;
+  int kept_iterations = 0;
   bool renew = !options.keep_jacobian || !problem.linearised();
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
@@ -64,17 +65,19 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     report.iterations.push_back(iteration);
     if (reference == 0) reference = increment;
 
-    const bool small = iteration.step == 1 && (iteration.increment <= options.tolerance * reference ||
-                                               iteration.increment <= rounding_increment * problem.size() ||
-                                               new_residual <= rounding);
-    const bool solved =
-        options.residual_tolerance == 0 ||
-        new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
+    const bool small =
+        iteration.step == 1 && (iteration.increment <= options.tolerance * reference ||
+                                iteration.increment <= rounding_increment * problem.size() || new_residual <= rounding);
+    const bool solved = options.residual_tolerance == 0 ||
+                        new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {
       report.converged = true;
       return report;
     }
-    renew = !options.keep_jacobian || (new_residual > options.keep_contraction * residual && new_residual > rounding);
+    if (renew) kept_iterations = 0;
+    ++kept_iterations;
+    renew = !options.keep_jacobian || (new_residual > rounding && (new_residual > options.keep_contraction * residual ||
+                                                                   kept_iterations >= options.keep_iterations));
     residual = new_residual;
   }
   report.failure = "the iteration limit was reached";

@@ -22,7 +22,8 @@ class NewtonProblem {
   virtual void move(double step) = 0;
   /// Norm of the iterate, in the norm of the increments.
   virtual double size() const = 0;
-  /// Norm of the rounding error that the residual carries: it cannot be made smaller. 0: unknown. Asked when linearised.
+  /// Norm of the rounding error that the residual carries: it cannot be made smaller. 0: unknown. Asked when
+  /// linearised.
   virtual double rounding() const { return 0; }
 };
 
@@ -32,7 +33,8 @@ struct NewtonOptions {
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
   int max_iterations = 30;
   bool keep_jacobian = true;      ///< use a Jacobian, of earlier calls too, while the residual keeps falling
-  double keep_contraction = 0.2;  ///< a kept Jacobian is renewed when an iteration contracts the residual less
+  double keep_contraction = 0.4;  ///< a kept Jacobian is renewed when an iteration contracts the residual less,
+  int keep_iterations = 12;       ///< or after so many iterations of one call
   int max_halvings = 8;           ///< of the step in backtracking
 };
 
@@ -54,8 +56,8 @@ struct NewtonReport {
 };
 
 /// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.
-/// Neither increment nor residual can fall below rounding: an increment of 1e-14 times the iterate, or a residual that is
-/// nothing but the rounding error of its own evaluation, counts as converged.
+/// Neither increment nor residual can fall below rounding: an increment of 1e-14 times the iterate, or a residual that
+/// is nothing but the rounding error of its own evaluation, counts as converged.
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options);
 
 }  // namespace fsi
