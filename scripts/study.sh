@@ -47,6 +47,18 @@ for level in coarse intermediate; do
     "$results/$level-artery-monolithic" --labels neo-Hookean,Mooney-Rivlin,artery
 done
 
+# Independent reference: the axisymmetric wave. Python as fsi-compare's, found when the programs were configured.
+python=$(sed -n 's/^exec "\([^"]*\)".*/\1/p' "$programs/fsi-compare")
+run coarse-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05
+run intermediate-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05 \
+  --set mesh.level=intermediate
+for material in "${materials[@]}"; do
+  reference=$results/axisymmetric-$material.csv
+  [ -s "$reference" ] || "$programs/axisymmetric_wave" "$material" 8 "$reference"
+  "$python" scripts/reference_errors.py "$reference" "$results"/{coarse,intermediate}-"$material"-monolithic \
+    $(ls -d "$results"/{coarse,intermediate}-"$material"-weak-stabilisation 2>/dev/null)
+done | tee "$results/reference-errors.txt"
+
 for material in "${materials[@]}"; do
   for run in coarse-$material-full coarse-$material-monolithic coarse-$material-partitioned; do
     awk -F, -v name="$run" 'NR > 1 { n++; outer += $3; newton += $4; s += $6; if ($3 > most_outer) most_outer = $3; if ($4 > most_newton) most_newton = $4 }

@@ -22,7 +22,8 @@ FLOORS = (
     ("common/io",),
     ("common/driver",),
     ("meshes", "monolithic", "partitioned"),
-    ("tests", "benchmarks"),
+    ("tests",),
+    ("benchmarks",),
 )
 TOP_FOLDERS = ("common", "meshes", "monolithic", "partitioned", "tests", "benchmarks")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)

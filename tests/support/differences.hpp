@@ -11,9 +11,9 @@
 
 namespace fsi::test {
 
-/// Central differences of a residual along a direction against the derivative that the code under test gives, for a sequence
-/// of halved steps: an exact derivative leaves the differences' own error, which falls with the square of the step until
-/// rounding takes over. One tolerance at one step could not tell a small missing term from truncation.
+/// Central differences of a residual along a direction against the derivative that the code under test gives, for a
+/// sequence of halved steps: an exact derivative leaves the differences' own error, which falls with the square of the
+/// step until rounding takes over. One tolerance at one step could not tell a small missing term from truncation.
 struct DifferenceTable {
   struct Row {
     double step, error;  ///< error relative to the norm of the derivative
@@ -29,7 +29,8 @@ struct DifferenceTable {
   }
   std::string text() const {
     std::string lines = name + "\n        step   relative error   order\n";
-    for (const auto& row : rows) lines += fmt::format("  {:10.3e}       {:10.3e}   {:5.2f}\n", row.step, row.error, row.order);
+    for (const auto& row : rows)
+      lines += fmt::format("  {:10.3e}       {:10.3e}   {:5.2f}\n", row.step, row.error, row.order);
     return lines;
   }
 };
@@ -56,7 +57,8 @@ DifferenceTable central_differences(std::string name, Residual residual, const s
 /// Observed orders of all rows whose error stands clear of rounding, i.e. above `clear`.
 inline std::vector<double> observed_orders(const DifferenceTable& table, double clear = 1e-7) {
   std::vector<double> orders;
-  for (std::size_t k = 1; k < table.rows.size() && table.rows[k].error > clear; ++k) orders.push_back(table.rows[k].order);
+  for (std::size_t k = 1; k < table.rows.size() && table.rows[k].error > clear; ++k)
+    orders.push_back(table.rows[k].order);
   return orders;
 }
 

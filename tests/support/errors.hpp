@@ -14,14 +14,15 @@ namespace fsi::test {
 
 /// A point of a quadrature rule on one cell.
 struct CellPoint {
-  Point x;                        ///< mm
-  double weight;                  ///< mm^3
-  std::array<double, 4> shape;    ///< N_a
+  Point x;                               ///< mm
+  double weight;                         ///< mm^3
+  std::array<double, 4> shape;           ///< N_a
   const std::array<Point, 4>* gradient;  ///< grad N_a of the cell, 1/mm
 };
 
-/// Visits the 27 points of the conical Gauss rule on every tetrahedron, exact for polynomials of degree 3 and with an error
-/// of sixth order: negligible beside that of linear elements, and independent of the elements' own rule and gradients.
+/// Visits the 27 points of the conical Gauss rule on every tetrahedron, exact for polynomials of degree 3 and with an
+/// error of sixth order: negligible beside that of linear elements, and independent of the elements' own rule and
+/// gradients.
 template <class Cells, class Visit>
 void integrate_cells(const std::vector<Point>& nodes, const Cells& cells, Visit visit) {
   static const double s[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)}, w[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -115,7 +116,8 @@ class ConvergenceTable {
 
  private:
   double order(std::size_t row, int column) const {
-    return std::log(rows_[row - 1].second[column] / rows_[row].second[column]) / std::log(rows_[row - 1].first / rows_[row].first);
+    return std::log(rows_[row - 1].second[column] / rows_[row].second[column]) /
+           std::log(rows_[row - 1].first / rows_[row].first);
   }
 
   std::string title_;

@@ -15,10 +15,9 @@
 
 namespace fsi::test {
 
-/// A logical grid of n[0] x n[1] x n[2] boxes, each cut into six tetrahedra about its main diagonal (Kuhn's subdivision:
-/// conforming, all tetrahedra positively oriented when the placement keeps orientation).
-/// \param place   position of grid point (i, j, k)
-/// \param region  region of box (i, j, k), an index into `regions`
+/// A logical grid of n[0] x n[1] x n[2] boxes, each cut into six tetrahedra about its main diagonal (Kuhn's
+/// subdivision: conforming, all tetrahedra positively oriented when the placement keeps orientation). \param place
+/// position of grid point (i, j, k) \param region  region of box (i, j, k), an index into `regions`
 template <class Place, class Region>
 TetrahedralMesh grid_mesh(std::array<int, 3> n, const std::vector<std::string>& regions, Place place, Region region) {
   TetrahedralMesh mesh;
@@ -27,7 +26,8 @@ TetrahedralMesh grid_mesh(std::array<int, 3> n, const std::vector<std::string>& 
   for (int k = 0; k <= n[2]; ++k)
     for (int j = 0; j <= n[1]; ++j)
       for (int i = 0; i <= n[0]; ++i) mesh.nodes.push_back(place(i, j, k));
-  static constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};  // even ones first
+  static constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                       {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};  // even ones first
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
@@ -80,15 +80,20 @@ inline void distort(TetrahedralMesh& mesh, double amount, unsigned seed = 7) {
 /// The unit cube with n boxes a side, one region, irregular inside.
 inline TetrahedralMesh irregular_cube(int n, double distortion = 0.15, const std::string& region = "fluid") {
   const double h = 1.0 / n;
-  auto mesh = grid_mesh({n, n, n}, {region}, [&](int i, int j, int k) { return Point{i * h, j * h, k * h}; },
-                        [](int, int, int) { return 0; });
+  auto mesh = grid_mesh(
+      {n, n, n}, {region},
+      [&](int i, int j, int k) {
+        return Point{i * h, j * h, k * h};
+      },
+      [](int, int, int) { return 0; });
   distort(mesh, distortion * h);
   return mesh;
 }
 
 /// Boundary facets of a region all of whose nodes satisfy a predicate, normals out of the region.
 template <class Predicate>
-std::vector<TetrahedralMesh::Facet> facets_where(const TetrahedralMesh& mesh, const std::string& region, Predicate holds) {
+std::vector<TetrahedralMesh::Facet> facets_where(const TetrahedralMesh& mesh, const std::string& region,
+                                                 Predicate holds) {
   std::vector<TetrahedralMesh::Facet> found;
   for (const auto& facet : boundary_facets(mesh, {mesh.region_index(region)}))
     if (std::all_of(facet.nodes.begin(), facet.nodes.end(), [&](int node) { return holds(mesh.nodes[node]); }))
@@ -96,14 +101,17 @@ std::vector<TetrahedralMesh::Facet> facets_where(const TetrahedralMesh& mesh, co
   return found;
 }
 
-/// Fluid below, two wall layers above, conforming on z = 1: 0 < x, y < 1, fluid 0 < z < 1, media up to 1.26, adventitia up
-/// to 1.39. Inlet x = 0, outlet x = 1; the wall is held on its four sides and free on top.
+/// Fluid below, two wall layers above, conforming on z = 1: 0 < x, y < 1, fluid 0 < z < 1, media up to 1.26, adventitia
+/// up to 1.39. Inlet x = 0, outlet x = 1; the wall is held on its four sides and free on top.
 inline TetrahedralMesh fluid_and_wall_box(int n) {
   const double h = 1.0 / n;
   const auto height = [&](int k) { return k <= n ? k * h : (k == n + 1 ? 1.26 : 1.39); };
-  auto mesh = grid_mesh({n, n, n + 2}, {"fluid", "media", "adventitia"},
-                        [&](int i, int j, int k) { return Point{i * h, j * h, height(k)}; },
-                        [&](int, int, int k) { return k < n ? 0 : (k == n ? 1 : 2); });
+  auto mesh = grid_mesh(
+      {n, n, n + 2}, {"fluid", "media", "adventitia"},
+      [&](int i, int j, int k) {
+        return Point{i * h, j * h, height(k)};
+      },
+      [&](int, int, int k) { return k < n ? 0 : (k == n ? 1 : 2); });
   distort(mesh, 0.15 * h);
   const auto at = [](int axis, double value) {
     return [=](const Point& x) { return std::abs(x[axis] - value) < 1e-12; };
@@ -125,8 +133,8 @@ inline TetrahedralMesh fluid_and_wall_box(int n) {
   return mesh;
 }
 
-/// A logical grid of n[0] x n[1] quadrilaterals in the (r, z) plane, each cut into two triangles, counter-clockwise with r
-/// to the right and z upwards.
+/// A logical grid of n[0] x n[1] quadrilaterals in the (r, z) plane, each cut into two triangles, counter-clockwise
+/// with r to the right and z upwards.
 template <class Place, class Region>
 TriangleMesh triangle_grid(std::array<int, 2> n, const std::vector<std::string>& regions, Place place, Region region) {
   TriangleMesh mesh;
@@ -164,8 +172,12 @@ inline std::vector<TriangleMesh::Facet> boundary_sides(const TriangleMesh& mesh)
 /// A body of revolution 1 < r < 2, 0 < z < 1 with n quadrilaterals a side, irregular inside.
 inline TriangleMesh irregular_ring(int n, const std::string& region = "fluid", double first_radius = 1) {
   const double h = 1.0 / n;
-  auto mesh = triangle_grid({n, n}, {region}, [&](int i, int j) { return Point{first_radius + i * h, 0, j * h}; },
-                            [](int, int) { return 0; });
+  auto mesh = triangle_grid(
+      {n, n}, {region},
+      [&](int i, int j) {
+        return Point{first_radius + i * h, 0, j * h};
+      },
+      [](int, int) { return 0; });
   Random random(11);
   for (auto& x : mesh.nodes) {
     const double dr = 0.15 * h * random(), dz = 0.15 * h * random();
@@ -185,8 +197,8 @@ inline std::vector<char> boundary_marks(const TriangleMesh& mesh) {
   return marks;
 }
 
-/// Gives cells of region 1 and up their own copies of the nodes they share with region 0, and lists (node, copy): for fields
-/// that jump between regions, with the others tied together again.
+/// Gives cells of region 1 and up their own copies of the nodes they share with region 0, and lists (node, copy): for
+/// fields that jump between regions, with the others tied together again.
 template <int Dim>
 std::vector<std::pair<int, int>> split_off_first_region(SimplexMesh<Dim>& mesh) {
   std::vector<char> in_first(mesh.nodes.size(), 0);

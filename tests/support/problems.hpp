@@ -47,8 +47,8 @@ std::pair<UnknownMap, std::int64_t> tie_vectors(std::pair<UnknownMap, std::int64
   return numbered;
 }
 
-/// One sub-problem with prescribed entries of any kind and a load vector: what the programs do not need but manufactured
-/// solutions and symmetry planes do. Residual and Jacobian are the sub-problem's own.
+/// One sub-problem with prescribed entries of any kind and a load vector: what the programs do not need but
+/// manufactured solutions and symmetry planes do. Residual and Jacobian are the sub-problem's own.
 class SubProblem : public NewtonProblem {
  public:
   std::vector<double> solution;  ///< nodal array; prescribed entries hold their values
@@ -83,6 +83,13 @@ class SubProblem : public NewtonProblem {
   }
   void move(double step) override { add_to_field(map_, increment_, step, solution); }
   double size() const override { return norm(solution); }
+  /// eps |J| |x| with x the largest value of the solution: generous enough to cover the prescribed values' terms.
+  double rounding() const override {
+    const SparseMatrix& a = matrix_.matrix();
+    std::vector<double> terms(static_cast<std::size_t>(size_), 0.0);
+    for (std::size_t k = 0; k < a.rows.size(); ++k) terms[a.rows[k]] += std::abs(a.values[k]);
+    return std::numeric_limits<double>::epsilon() * largest(solution) * norm(terms);
+  }
 
  protected:
   virtual AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) = 0;

@@ -36,8 +36,8 @@ std::vector<double> random_field(const std::vector<Point>& x, int entries, doubl
     for (std::size_t a = 0; a < x.size(); ++a) {
       double value = rough * random();
       for (int m = 0; m < waves; ++m)
-        value += height[m] *
-                 std::sin(number[m][0] * x[a][0] + number[m][1] * x[a][1] + number[m][2] * x[a][2] + phase[m]);
+        value +=
+            height[m] * std::sin(number[m][0] * x[a][0] + number[m][1] * x[a][1] + number[m][2] * x[a][2] + phase[m]);
       field[a * entries + k] = value;
     }
   }

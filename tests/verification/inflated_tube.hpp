@@ -23,7 +23,9 @@ struct Tube {
   std::array<double, 9> table;
 };
 
-inline void PrintTo(const Tube& tube, std::ostream* out) { *out << tube.name; }
+inline void PrintTo(const Tube& tube, std::ostream* out) {
+  *out << tube.name;
+}
 
 inline constexpr double inner_radius = 1.43, middle_radius = 1.69, outer_radius = 1.82;  // mm
 inline constexpr std::array<double, 9> table_stretches = {1.001, 1.005, 1.01, 1.02, 1.05, 1.1, 1.2, 1.3, 1.4};
@@ -44,8 +46,8 @@ inline std::array<Tube, 3> tubes() {
                {.0033, .0167, .0332, .0658, .1612, .3140, .6174, .9620, 1.4252})};
 }
 
-/// sigma_theta - sigma_r of an incompressible layer at circumferential stretch s and axial stretch 1, from the energies of
-/// design, section 2: I_1 = I_2 = s^2 + 1/s^2 + 1 and J_4 = J_6 = s^2 cos^2 alpha + sin^2 alpha.
+/// sigma_theta - sigma_r of an incompressible layer at circumferential stretch s and axial stretch 1, from the energies
+/// of design, section 2: I_1 = I_2 = s^2 + 1/s^2 + 1 and J_4 = J_6 = s^2 cos^2 alpha + sin^2 alpha.
 inline double hoop_stress_difference(const LayerMaterial& layer, double s) {
   double difference = 0;
   std::visit([&](const auto& m) { difference = m.shear_modulus() * (s * s - 1 / (s * s)); }, layer.material);
@@ -56,8 +58,8 @@ inline double hoop_stress_difference(const LayerMaterial& layer, double s) {
   return difference;
 }
 
-/// Inner pressure of the tube inflated to inner radius a: p = integral of (sigma_theta - sigma_r) / r dr over the wall, with
-/// r^2 = R^2 + a^2 - R_i^2, by Gauss's rule of three points on 200 intervals a layer.
+/// Inner pressure of the tube inflated to inner radius a: p = integral of (sigma_theta - sigma_r) / r dr over the wall,
+/// with r^2 = R^2 + a^2 - R_i^2, by Gauss's rule of three points on 200 intervals a layer.
 inline double inflation_pressure(const Tube& tube, double a) {
   const double k = a * a - inner_radius * inner_radius;
   double p = 0;
@@ -65,7 +67,8 @@ inline double inflation_pressure(const Tube& tube, double a) {
     constexpr int intervals = 200;
     const double h = (layer.outer - layer.inner) / intervals;
     for (int i = 0; i < intervals; ++i)
-      for (const auto& [x, w] : {std::pair{-std::sqrt(0.6), 5.0 / 18}, std::pair{0.0, 8.0 / 18}, std::pair{std::sqrt(0.6), 5.0 / 18}}) {
+      for (const auto& [x, w] :
+           {std::pair{-std::sqrt(0.6), 5.0 / 18}, std::pair{0.0, 8.0 / 18}, std::pair{std::sqrt(0.6), 5.0 / 18}}) {
         const double big_r = layer.inner + h * (i + 0.5 + 0.5 * x), r2 = big_r * big_r + k;
         p += w * h * hoop_stress_difference(layer.material, std::sqrt(r2) / big_r) * big_r / r2;
       }
@@ -80,7 +83,8 @@ inline double neo_hookean_inflation_pressure(const Tube& tube, double a) {
   for (const auto& layer : tube.layers) {
     const double mu = std::get<NeoHookean>(layer.material.material).c10;
     const double inner = std::sqrt(layer.inner * layer.inner + k), outer = std::sqrt(layer.outer * layer.outer + k);
-    p += mu * (std::log(layer.outer * inner / (layer.inner * outer)) + 0.5 * k * (1 / (inner * inner) - 1 / (outer * outer)));
+    p += mu * (std::log(layer.outer * inner / (layer.inner * outer)) +
+               0.5 * k * (1 / (inner * inner) - 1 / (outer * outer)));
   }
   return p;
 }

@@ -33,8 +33,8 @@ inline AleFluid strongly_coupled_fluid(bool grad_div) {
 
 enum class Order { second, exact };
 
-/// What the difference of each block of the fluid's Jacobian must look like; exact where the residual is at most quadratic
-/// in the unknown.
+/// What the difference of each block of the fluid's Jacobian must look like; exact where the residual is at most
+/// quadratic in the unknown.
 struct FluidBlock {
   const char* row;
   int first_row, rows;
@@ -81,9 +81,8 @@ void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>&
         fluid.assemble(there.input(), 0, r);
         return only(r, n + 1, block.first_row, block.rows);
       };
-      const auto table =
-          central_differences(name + ": " + block.row + " by " + block.column, residual,
-                              only(product, n + 1, block.first_row, block.rows), 0.05, 16);
+      const auto table = central_differences(name + ": " + block.row + " by " + block.column, residual,
+                                             only(product, n + 1, block.first_row, block.rows), 0.05, 16);
       block.order == Order::second ? expect_second_order(table) : expect_exact(table);
     }
 }
@@ -119,8 +118,8 @@ void check_wall_blocks(WallProblem<Element>& wall, std::vector<double> solution,
       }
 }
 
-/// The constant operator of the mesh motion is the derivative of its own weak form, (grad d, grad v), and multiplies right.
-/// The weak form is evaluated here on its own: integrand and element, no derivatives.
+/// The constant operator of the mesh motion is the derivative of its own weak form, (grad d, grad v), and multiplies
+/// right. The weak form is evaluated here on its own: integrand and element, no derivatives.
 template <class Element>
 std::vector<double> mesh_motion_residual(const ElementPacks<Element>& packs, const std::vector<double>& mesh) {
   constexpr int n = Element::components;

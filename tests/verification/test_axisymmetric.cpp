@@ -1,4 +1,5 @@
-// The same weak forms on triangles of a body of revolution: Jacobians, patch states, observed orders are those of the element.
+// The same weak forms on triangles of a body of revolution: Jacobians, patch states, observed orders are those of the
+// element.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +79,8 @@ TEST(AxisymmetricPatch, MeshMotionReproducesHomogeneousStretch) {
   EXPECT_LT(largest(difference(problem.solution, exact)), 1e-13);
 }
 
-// F = diag(a, a, b) in (radial, hoop, axial) with p = -kappa (J - 1): constant and in equilibrium for isotropic materials.
+// F = diag(a, a, b) in (radial, hoop, axial) with p = -kappa (J - 1): constant and in equilibrium for isotropic
+// materials.
 TEST(AxisymmetricPatch, WallReproducesHomogeneousStretch) {
   const auto mesh = irregular_ring(4, "media");
   const auto boundary = boundary_marks(mesh);

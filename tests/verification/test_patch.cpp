@@ -25,7 +25,9 @@ struct NamedMaterial {
   const char* name;
   LayerMaterial layer;
 };
-void PrintTo(const NamedMaterial& material, std::ostream* out) { *out << material.name; }
+void PrintTo(const NamedMaterial& material, std::ostream* out) {
+  *out << material.name;
+}
 
 const NamedMaterial materials[] = {{"neo_Hookean", {NeoHookean{3}, 0}},
                                    {"Mooney_Rivlin", {MooneyRivlin{3, 0.3}, 0}},
@@ -51,7 +53,8 @@ Matrix rotation(double a, double b) {
                  {{{1, 0, 0}, {0, std::cos(b), -std::sin(b)}, {0, std::sin(b), std::cos(b)}}});
 }
 
-// --- wall --------------------------------------------------------------------------------------------------------------
+// --- wall
+// --------------------------------------------------------------------------------------------------------------
 
 class WallPatch : public testing::TestWithParam<NamedMaterial> {};
 INSTANTIATE_TEST_SUITE_P(Materials, WallPatch, testing::ValuesIn(materials),
@@ -139,7 +142,8 @@ TEST_P(WallPatch, FreeBodyUnderUniformPressureChangesItsVolumeAlone) {
   }
 }
 
-// --- fluid -------------------------------------------------------------------------------------------------------------
+// --- fluid
+// -------------------------------------------------------------------------------------------------------------
 
 /// The fluid in a cube whose boundary velocity is prescribed; the pressure is fixed at node 0.
 struct ClosedFluid {
@@ -191,8 +195,8 @@ TEST(FluidPatch, LinearShearFlowIsReproducedOnADeformedMesh) {
   }
 }
 
-// In creeping flow, here with a density so small that inertia vanishes, any linear solenoidal field with constant pressure
-// is a solution of Stokes' equations.
+// In creeping flow, here with a density so small that inertia vanishes, any linear solenoidal field with constant
+// pressure is a solution of Stokes' equations.
 TEST(FluidPatch, AnyLinearSolenoidalFieldIsReproducedInCreepingFlow) {
   ClosedFluid box({1e-13, 0.03, 0.5, false});
   box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, 1);
@@ -209,12 +213,18 @@ TEST(FluidPatch, AnyLinearSolenoidalFieldIsReproducedInCreepingFlow) {
 }
 
 // Geometric conservation. In this non-conservative form a uniform flow has no gradient and no acceleration whatever the
-// mesh does, so it stays uniform to rounding; a linear shear flow likewise, since u(x^n) - u(x^(n-1)) at the nodes is what
-// grad u w takes away, and the mesh velocity of linear elements is linear. Claimed for any motion that inverts no element.
+// mesh does, so it stays uniform to rounding; a linear shear flow likewise, since u(x^n) - u(x^(n-1)) at the nodes is
+// what grad u w takes away, and the mesh velocity of linear elements is linear. Claimed for any motion that inverts no
+// element.
 TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
   ClosedFluid box({1.0, 3.5e-3, 0.125, false});
-  const auto flows = {std::pair{"uniform", +[](const Point&) { return Flow{3.0, -1.0, 2.0, 0.7}; }},
-                      std::pair{"shear", +[](const Point& x) { return Flow{3.0 + 2 * x[2], -1.0, 0.0, 0.7}; }}};
+  const auto flows = {std::pair{"uniform",
+                                +[](const Point&) {
+                                  return Flow{3.0, -1.0, 2.0, 0.7};
+                                }},
+                      std::pair{"shear", +[](const Point& x) {
+                                  return Flow{3.0 + 2 * x[2], -1.0, 0.0, 0.7};
+                                }}};
   for (const auto& [name, flow] : flows) {
     const std::vector<double> at_rest(3 * box.mesh.nodes.size(), 0.0);
     box.step.mesh = at_rest;
@@ -242,8 +252,8 @@ TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
   }
 }
 
-// Uniform acceleration b in a closed box: u = b t, p = -rho b . x. Backward Euler is exact for linear growth and the PSPG
-// term sees a zero residual, so also this is reproduced, on a moving mesh.
+// Uniform acceleration b in a closed box: u = b t, p = -rho b . x. Backward Euler is exact for linear growth and the
+// PSPG term sees a zero residual, so also this is reproduced, on a moving mesh.
 TEST(GeometricConservation, UniformlyAcceleratedFlowWithItsLinearPressure) {
   ClosedFluid box({1.3, 3.5e-3, 0.125, false});
   const double b[3] = {2.0, -1.0, 0.5};
@@ -262,8 +272,8 @@ TEST(GeometricConservation, UniformlyAcceleratedFlowWithItsLinearPressure) {
   }
 }
 
-// A closed vessel with one open face under pressure p_in: at rest, p = p_in everywhere, while the mesh inside moves. Sign
-// of the inlet's traction, and the null space of the pressure gradient on moving meshes.
+// A closed vessel with one open face under pressure p_in: at rest, p = p_in everywhere, while the mesh inside moves.
+// Sign of the inlet's traction, and the null space of the pressure gradient on moving meshes.
 TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
   const auto mesh = irregular_cube(4, 0.2);
   const auto boundary = boundary_marks(mesh);
@@ -290,7 +300,8 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
   }
 }
 
-// --- mesh motion -----------------------------------------------------------------------------------------------------------
+// --- mesh motion
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(MeshMotionPatch, AffineDisplacementIsReproduced) {
   const auto mesh = irregular_cube(4, 0.2);

@@ -82,6 +82,8 @@ struct WallCase {
   double radial_stretch;  ///< the fibres lie across it: below 1 they are stretched, above 1 slack
 };
 
+void PrintTo(const WallCase& with, std::ostream* out) { *out << with.name; }
+
 class WallJacobian : public testing::TestWithParam<WallCase> {};
 
 TEST_P(WallJacobian, IsTheDerivativeOfTheResidualInEveryBlock) {
@@ -95,7 +97,8 @@ TEST_P(WallJacobian, IsTheDerivativeOfTheResidualInEveryBlock) {
 
   auto solution = random_field(part.nodes, 4, 0.08, 0.01, 21);
   for (std::size_t a = 0; a < part.nodes.size(); ++a) {
-    const double stretch[3] = {with.radial_stretch, 1 / std::sqrt(with.radial_stretch), 1 / std::sqrt(with.radial_stretch)};
+    const double stretch[3] = {with.radial_stretch, 1 / std::sqrt(with.radial_stretch),
+                               1 / std::sqrt(with.radial_stretch)};
     for (int i = 0; i < 3; ++i) solution[4 * a + i] += (stretch[i] - 1) * part.nodes[a][i];
     solution[4 * a + 3] *= 20;  // kPa
   }
@@ -144,10 +147,12 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfTheLoad) {
   load(solution, &jacobian);
   for (unsigned seed : {1, 2, 3}) {
     const auto direction = random_field(mesh.nodes, 4, 0.3, 0.1, seed);
-    expect_exact(central_differences("follower pressure", [&](double t) { return load(moved(solution, t, direction)); },
-                                     multiply(jacobian, direction)));
+    expect_exact(central_differences(
+        "follower pressure", [&](double t) { return load(moved(solution, t, direction)); },
+        multiply(jacobian, direction)));
   }
-  // Over a closed surface the pressure has no resultant: an independent sign and orientation check is in the patch tests.
+  // Over a closed surface the pressure has no resultant: an independent sign and orientation check is in the patch
+  // tests.
   const auto r = load(solution);
   for (int i = 0; i < 3; ++i) {
     double resultant = 0;

@@ -1,5 +1,5 @@
-// Jacobians of whole systems of equations: the coupled one with its interface columns and those of the partitioned split,
-// as Newton's method sees them.
+// Jacobians of whole systems of equations: the coupled one with its interface columns and those of the partitioned
+// split, as Newton's method sees them.
 
 #include <gtest/gtest.h>
 
@@ -19,20 +19,22 @@ using Tet = P1Tetrahedron;
 
 [[maybe_unused]] const int single_thread = set_threads(1);
 
-/// A scene in the middle of a step, every field and history nonzero and nothing in equilibrium. Softer volume, more viscous
-/// fluid and longer step than the artery's, so that no term drowns in another.
+/// A scene in the middle of a step, every field and history nonzero and nothing in equilibrium. Softer volume, more
+/// viscous fluid and longer step than the artery's, so that no term drowns in another.
 struct Scenario {
   std::unique_ptr<Scene<Tet>> scene;
   State state;
   StepData data;
 
-  /// \param across  stretch of the wall across its layers, about their middle: fibres of an artery are stretched below 1
+  /// \param across  stretch of the wall across its layers, about their middle: fibres of an artery are stretched below
+  /// 1
   ///                and slack above; all of them, because the tangent jumps where a fibre tightens
   explicit Scenario(const std::string& material, double across = 1, bool grad_div = false) {
     Case setup = coupled_case(material, 0.5);
     setup.fluid = FluidData{1.3, 0.03, grad_div};
     setup.structure->bulk_modulus = 50;
-    setup.structure->axis_origin = {0.4, 0.5, -1.0};  // fibres lie in planes near the layers', turning from element to element
+    setup.structure->axis_origin = {0.4, 0.5,
+                                    -1.0};  // fibres lie in planes near the layers', turning from element to element
     setup.structure->axis_direction = {0, 1, 0};
     scene = build_scene(setup, fluid_and_wall_box(3));
     state = scene->at_rest();
@@ -108,22 +110,24 @@ std::vector<double> part_of(const std::vector<double>& all, const std::vector<Gr
 
 /// A random change of all unknowns: displacements a tenth of an element, velocities of order 1, pressures of order 5.
 std::vector<double> direction_for(const std::vector<Group>& groups, unsigned seed) {
-  static const std::map<Group, double> scales{{Group::mesh, 0.1},      {Group::flow, 2},         {Group::fluid_pressure, 5},
-                                              {Group::interface, 0.1}, {Group::displacement, 0.1}, {Group::wall_pressure, 5}};
+  static const std::map<Group, double> scales{{Group::mesh, 0.1},         {Group::flow, 2},
+                                              {Group::fluid_pressure, 5}, {Group::interface, 0.1},
+                                              {Group::displacement, 0.1}, {Group::wall_pressure, 5}};
   Random random(seed);
   std::vector<double> direction(groups.size());
   for (std::size_t i = 0; i < direction.size(); ++i) direction[i] = scales.at(groups[i]) * random();
   return direction;
 }
 
-const std::map<Group, const char*> names{{Group::mesh, "mesh motion"},     {Group::flow, "momentum"},
-                                         {Group::fluid_pressure, "continuity"}, {Group::interface, "interface momentum"},
-                                         {Group::displacement, "wall momentum"}, {Group::wall_pressure, "wall volume"}};
+const std::map<Group, const char*> names{
+    {Group::mesh, "mesh motion"},           {Group::flow, "momentum"},
+    {Group::fluid_pressure, "continuity"},  {Group::interface, "interface momentum"},
+    {Group::displacement, "wall momentum"}, {Group::wall_pressure, "wall volume"}};
 
 constexpr double first_step = 0.05;  // larger ones leave the range of second order
 
-/// The assembled matrix against differences of the assembled residual, whole and group of equations by group: a block of
-/// small entries cannot hide behind one of large ones.
+/// The assembled matrix against differences of the assembled residual, whole and group of equations by group: a block
+/// of small entries cannot hide behind one of large ones.
 void check_system(const Scenario& scenario, Numbering numbering, const std::string& name) {
   System<Tet> system(name, *scenario.scene, std::move(numbering));
   State state = scenario.state;
@@ -254,8 +258,9 @@ TEST(JacobianControl, MissingTermsAreDetected) {
   };
   using Fluid = FluidJacobian<Tet>;
   expect_second_order(check("control, nothing spoiled", [](Numbering&, Fluid&) {}));
-  expect_detected(check("control, shape derivatives dropped", [](Numbering&, Fluid& fluid) { fluid.mesh_motion.set_zero(); }),
-                  1e-2);
+  expect_detected(
+      check("control, shape derivatives dropped", [](Numbering&, Fluid& fluid) { fluid.mesh_motion.set_zero(); }),
+      1e-2);
   expect_detected(check("control, interface velocity without 1/dt",
                         [&](Numbering& numbering, Fluid&) {
                           for (const auto& node : scenario.scene->interface)

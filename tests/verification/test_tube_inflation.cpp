@@ -1,5 +1,6 @@
 // Static inflation of the closed two-layer tube against the table of reference.md, section 2, with tetrahedra and with
-// triangles of a body of revolution: the same weak forms, assembly, numbering and follower load on two kinds of element.
+// triangles of a body of revolution: the same weak forms, assembly, numbering and follower load on two kinds of
+// element.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +34,8 @@ TEST(TubeReference, IntegralReproducesTheTableToItsLastDigit) {
 TEST(TubeReference, IntegralAgreesWithTheNeoHookeanClosedForm) {
   const auto tube = tubes()[0];
   for (double stretch : table_stretches)
-    EXPECT_NEAR(inflation_pressure(tube, stretch * inner_radius), neo_hookean_inflation_pressure(tube, stretch * inner_radius),
-                1e-12);
+    EXPECT_NEAR(inflation_pressure(tube, stretch * inner_radius),
+                neo_hookean_inflation_pressure(tube, stretch * inner_radius), 1e-12);
   EXPECT_NEAR(neo_hookean_inflation_pressure(tube, 1e4), 0.5234, 0.5e-4) << "the supremum";
 }
 
@@ -43,8 +44,8 @@ double radius(int i, int m) {
   return inner_radius + (outer_radius - inner_radius) * i / (3.0 * m);
 }
 
-/// Raises the pressure to each target's and returns, per target, how far the table's pressure at the radius found is from
-/// the pressure applied.
+/// Raises the pressure to each target's and returns, per target, how far the table's pressure at the radius found is
+/// from the pressure applied.
 template <class Problem, class MeanInnerRadius>
 std::vector<double> pressure_errors(Problem& problem, const Tube& tube, MeanInnerRadius mean_inner_radius) {
   std::vector<double> errors;
@@ -71,12 +72,12 @@ ConvergenceTable table_for(const std::string& title) {
   return ConvergenceTable(title + ": relative error of the pressure", columns);
 }
 
-/// How the layers' pressures meet: one continuous field, as in the programs, or a field of its own in each layer. The exact
-/// pressure jumps where the stiffness of the layers does, so the continuous one costs an order.
+/// How the layers' pressures meet: one continuous field, as in the programs, or a field of its own in each layer. The
+/// exact pressure jumps where the stiffness of the layers does, so the continuous one costs an order.
 enum class LayerPressure { shared, separate };
 
-/// A quarter of a short piece of the tube, 3 m elements through the wall, symmetric about x = 0, y = 0, and not stretched
-/// along z.
+/// A quarter of a short piece of the tube, 3 m elements through the wall, symmetric about x = 0, y = 0, and not
+/// stretched along z.
 std::vector<double> quarter_tube(const Tube& tube, int m, LayerPressure pressure) {
   const int around = 12 * m;
   const double quarter = std::acos(0.0), height = 0.13 / m;
@@ -90,13 +91,11 @@ std::vector<double> quarter_tube(const Tube& tube, int m, LayerPressure pressure
   std::vector<std::pair<int, int>> tied;
   if (pressure == LayerPressure::separate) tied = split_off_first_region(mesh);
   const auto inside = [](const Point& x) { return std::hypot(x[0], x[1]) < inner_radius + 1e-9; };
-  WallProblem<P1Tetrahedron> wall(whole(mesh), constants, {{0, tube.layers[0].material}, {1, tube.layers[1].material}}, {},
-                                  facets_where(mesh, "media", inside));
+  WallProblem<P1Tetrahedron> wall(whole(mesh), constants, {{0, tube.layers[0].material}, {1, tube.layers[1].material}},
+                                  {}, facets_where(mesh, "media", inside));
   WallEquilibrium<P1Tetrahedron> problem(
       wall,
-      [&](int a, int k) {
-        return k == 2 || (k == 0 && mesh.nodes[a][0] == 0) || (k == 1 && mesh.nodes[a][1] == 0);
-      },
+      [&](int a, int k) { return k == 2 || (k == 0 && mesh.nodes[a][0] == 0) || (k == 1 && mesh.nodes[a][1] == 0); },
       tied);
   return pressure_errors(problem, tube, [&](const std::vector<double>& solution) {
     double sum = 0;
@@ -116,15 +115,20 @@ std::vector<double> ring(const Tube& tube, int m, LayerPressure pressure) {
   using Triangle = P1AxisymmetricTriangle;
   const double height = 0.13 / m;
   auto mesh = triangle_grid(
-      {3 * m, 1}, {"media", "adventitia"}, [&](int i, int j) { return Point{radius(i, m), 0, j * height}; },
+      {3 * m, 1}, {"media", "adventitia"},
+      [&](int i, int j) {
+        return Point{radius(i, m), 0, j * height};
+      },
       [&](int i, int) { return i < 2 * m ? 0 : 1; });
   std::vector<TriangleMesh::Facet> inner;
   for (const auto& side : boundary_sides(mesh))
     if (mesh.nodes[side[0]][0] == inner_radius && mesh.nodes[side[1]][0] == inner_radius) inner.push_back(side);
   std::vector<std::pair<int, int>> tied;
   if (pressure == LayerPressure::separate) tied = split_off_first_region(mesh);
-  WallProblem<Triangle> wall(whole(mesh), constants, {{0, tube.layers[0].material}, {1, tube.layers[1].material}}, {}, inner);
-  WallEquilibrium<Triangle> problem(wall, [](int, int k) { return k == 1; }, tied);
+  WallProblem<Triangle> wall(whole(mesh), constants, {{0, tube.layers[0].material}, {1, tube.layers[1].material}}, {},
+                             inner);
+  WallEquilibrium<Triangle> problem(
+      wall, [](int, int k) { return k == 1; }, tied);
   return pressure_errors(problem, tube, [&](const std::vector<double>& solution) {
     double sum = 0;
     int count = 0;
@@ -157,7 +161,9 @@ void expect_first_order(const ConvergenceTable& table, double error) {
 // With a pressure per layer: second order. At a / R_i = 1.2 the artery's error passes through zero: no order there.
 void expect_second_order(const ConvergenceTable& table, double error) {
   for (int column = 0; column < 4; ++column) {
-    if (targets[column] < 1.15) EXPECT_GT(table.last_order(column), 1.9);
+    if (targets[column] < 1.15) {
+      EXPECT_GT(table.last_order(column), 1.9);
+    }
     EXPECT_LT(table.last_error(column), error);
   }
 }

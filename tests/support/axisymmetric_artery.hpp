@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/p1_axisymmetric_triangle.hpp"
+#include "scene/newton_stepper.hpp"
+
+namespace fsi::testing {
+
+/// The paper's artery as a body of revolution: the same weak forms, assembly, numbering and Newton stepper as in three
+/// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. Serves as independent reference: with the
+/// same element size it has a fiftieth of the unknowns.
+class AxisymmetricArtery {
+ public:
+  using Element = P1AxisymmetricTriangle;
+
+  /// \param material    "neo-hookean", "mooney-rivlin" or "artery"
+  /// \param refinement  1: 4 cells across the fluid, 2 the media, 1 the adventitia, 36 along the axis; 2: twice those
+  AxisymmetricArtery(const std::string& material, int refinement) : axial_cells_(36 * refinement) {
+    make_grid(refinement);
+    setup_.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
+    setup_.time = TimeData{};
+    setup_.time->step = 0.125;
+    setup_.time->end = 12;
+    make_scene(material);
+    loads_ = std::make_unique<Loads>(setup_);
+    stepper_ = std::make_unique<NewtonStepper<Element>>(*scene_, *loads_, NewtonOptions{});
+    state_ = scene_->at_rest();
+  }
+
+  void step() { stepper_->advance(state_); }
+  double time() const { return state_.time; }
+  std::int64_t unknowns() const { return stepper_->system().numbering().size; }
+
+  /// Pressure on the axis in Pa at z = 0, 0.1, ..., 18 mm.
+  std::vector<double> centre_line() const {
+    std::vector<double> pressure;
+    for (int i = 0; i <= 180; ++i) {
+      const double y = i * 0.1 / length * axial_cells_;
+      const int below = std::min(static_cast<int>(y), axial_cells_ - 1);
+      pressure.push_back(1000 * ((1 - (y - below)) * on_axis(below) + (y - below) * on_axis(below + 1)));
+    }
+    return pressure;
+  }
+
+ private:
+  static constexpr double inner = 1.43, media = 0.26, adventitia = 0.13, length = 18;
+
+  int node(int i, int k) const { return k * static_cast<int>(radii_.size()) + i; }
+  double on_axis(int k) const {
+    return state_.now.flow[static_cast<std::size_t>(scene_->fluid->part().local_node[node(0, k)]) * 3 + 2];
+  }
+
+  void make_grid(int refinement) {
+    fluid_cells_ = 4 * refinement;
+    const int media_cells = 2 * refinement, adventitia_cells = refinement;
+    for (int i = 0; i <= fluid_cells_; ++i) radii_.push_back(inner * i / fluid_cells_);
+    for (int i = 1; i <= media_cells; ++i) radii_.push_back(inner + media * i / media_cells);
+    for (int i = 1; i <= adventitia_cells; ++i) radii_.push_back(inner + media + adventitia * i / adventitia_cells);
+    mesh_.regions = {"fluid", "media", "adventitia"};
+    for (int k = 0; k <= axial_cells_; ++k)
+      for (double r : radii_) mesh_.nodes.push_back({r, 0, length * k / axial_cells_});
+    for (int k = 0; k < axial_cells_; ++k)
+      for (int i = 0; i + 1 < static_cast<int>(radii_.size()); ++i) {
+        const int a = node(i, k), b = node(i + 1, k), c = node(i + 1, k + 1), d = node(i, k + 1);
+        if ((i + k) % 2)
+          mesh_.cells.insert(mesh_.cells.end(), {{a, b, c}, {a, c, d}});
+        else
+          mesh_.cells.insert(mesh_.cells.end(), {{a, b, d}, {b, c, d}});
+        const int region = i < fluid_cells_ ? 0 : (i < fluid_cells_ + media_cells ? 1 : 2);
+        mesh_.cell_region.insert(mesh_.cell_region.end(), {region, region});
+      }
+  }
+
+  static LayerMaterial layer(const std::string& material, bool of_media) {
+    const double c10 = of_media ? 3.0 : 0.3, degree = std::acos(-1.0) / 180;
+    if (material == "mooney-rivlin") return {MooneyRivlin{c10, of_media ? 0.3 : 0.2}, 0};
+    if (material == "artery")
+      return {of_media ? Artery{c10, 2.3632, 0.8393, 1} : Artery{c10, 0.5620, 0.7112, 1},
+              (of_media ? 29 : 62) * degree};
+    return {NeoHookean{c10}, 0};
+  }
+
+  void make_scene(const std::string& material) {
+    scene_ = std::make_unique<Scene<Element>>();
+    scene_->scheme = {setup_.time->step, 1, 1, 1, Element::components};
+    auto fluid = submesh(mesh_, {0}), wall = submesh(mesh_, {1, 2});
+    std::vector<TriangleMesh::Facet> inlet, outlet;
+    for (int i = 0; i < fluid_cells_; ++i) {
+      inlet.push_back(fluid.local({node(i, 0), node(i + 1, 0)}));
+      outlet.push_back(fluid.local({node(i + 1, axial_cells_), node(i, axial_cells_)}));
+    }
+    const auto at_end = [](const Point& x) { return x[2] < 1e-9 || x[2] > length - 1e-9; };
+    for (const auto& x : wall.nodes) scene_->clamped.push_back(at_end(x));
+    for (int a = 0; a < fluid.node_count(); ++a) {
+      const bool end = at_end(fluid.nodes[a]), wet = fluid.nodes[a][0] > inner - 1e-9;
+      scene_->mesh_fixed.push_back(end);
+      scene_->no_slip.push_back(end && wet);
+      if (wet) scene_->interface.push_back({a, wall.local_node[fluid.mesh_node[a]], end});
+    }
+    scene_->wall = std::make_unique<WallProblem<Element>>(
+        std::move(wall), WallConstants{1.2, 1e5, 0.5},
+        std::vector<std::pair<int, LayerMaterial>>{{1, layer(material, true)}, {2, layer(material, false)}},
+        CylinderAxis{});
+    scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3, setup_.time->step},
+                                                            inlet, outlet);
+    scene_->mesh_motion = MeshMotionMatrix<Element>(scene_->fluid->graph());
+    assemble_mesh_motion(scene_->fluid->packs(), scene_->mesh_motion);
+  }
+
+  int axial_cells_, fluid_cells_ = 0;
+  std::vector<double> radii_;
+  TriangleMesh mesh_;
+  Case setup_;
+  std::unique_ptr<Scene<Element>> scene_;
+  std::unique_ptr<Loads> loads_;
+  std::unique_ptr<NewtonStepper<Element>> stepper_;
+  State state_;
+};
+
+}  // namespace fsi::testing
