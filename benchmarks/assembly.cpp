@@ -1,57 +1,13 @@
 // Elements per second of the coupled residual and Jacobian on the intermediate artery, per thread.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-
 #include "base/threads.hpp"
-#include "mesh/artery_generator.hpp"
-#include "mesh/renumber.hpp"
+#include "benchmarks/artery_case.hpp"
 #include "scene/build_scene.hpp"
 
 namespace {
 
 using namespace fsi;
-
-MaterialData layer(const std::string& material, double c10) {
-  MaterialData data;
-  data.material = material;
-  data.c10 = c10;
-  data.c01 = 0.3;
-  data.k1 = 2.3632;
-  data.k2 = 0.8393;
-  data.alpha = 29;
-  return data;
-}
-
-Case artery(const std::string& material) {
-  Case setup;
-  setup.fluid = FluidData{1.0, 3.5e-3, false};
-  StructureData wall;
-  wall.density = 1.2;
-  wall.bulk_modulus = 1e5;
-  wall.layers = {{"media", layer(material, 3.0)}, {"adventitia", layer(material, 0.3)}};
-  setup.structure = wall;
-  setup.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
-  TimeData time;
-  time.step = 0.125;
-  time.end = 12;
-  setup.time = time;
-  return setup;
-}
-
-/// A deformed, flowing state, smooth in space, so that no term vanishes.
-State moved(const Scene<P1Tetrahedron>& scene) {
-  State state = scene.at_rest();
-  const auto wave = [](const Point& x, int k) { return std::sin(0.7 * x[0] + 0.4 * x[1] + 0.3 * x[2] + k); };
-  for (int a = 0; a < scene.fluid->node_count(); ++a)
-    for (int k = 0; k < 3; ++k) {
-      state.now.mesh[a * 3 + k] = 0.01 * wave(scene.fluid->part().nodes[a], k);
-      state.now.flow[a * 4 + k] = 0.5 * wave(scene.fluid->part().nodes[a], k + 3);
-    }
-  for (int a = 0; a < scene.wall->node_count(); ++a)
-    for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene.wall->part().nodes[a], k);
-  return state;
-}
 
 struct Setup {
   Case setup;
@@ -62,9 +18,7 @@ struct Setup {
 
   Setup(const std::string& material, int thread_count) : setup(artery(material)) {
     set_threads(thread_count);
-    auto mesh = generate_artery(artery_level("intermediate"));
-    mesh = renumbered(mesh, reverse_cuthill_mckee(mesh));
-    scene = build_scene(setup, mesh);
+    scene = build_scene(setup, generate_artery(artery_level("intermediate")));
     state = moved(*scene);
     data.acceleration_history.assign(state.wall_velocity.size(), 0.0);
   }

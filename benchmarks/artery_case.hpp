@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "mesh/artery_generator.hpp"
+#include "scene/build_scene.hpp"
+
+namespace fsi {
+
+inline MaterialData layer(const std::string& material, double c10) {
+  MaterialData data;
+  data.material = material;
+  data.c10 = c10;
+  data.c01 = 0.3;
+  data.k1 = 2.3632;
+  data.k2 = 0.8393;
+  data.alpha = 29;
+  return data;
+}
+
+inline Case artery(const std::string& material) {
+  Case setup;
+  setup.fluid = FluidData{1.0, 3.5e-3, false};
+  StructureData wall;
+  wall.density = 1.2;
+  wall.bulk_modulus = 1e5;
+  wall.layers = {{"media", layer(material, 3.0)}, {"adventitia", layer(material, 0.3)}};
+  setup.structure = wall;
+  setup.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
+  TimeData time;
+  time.step = 0.125;
+  time.end = 12;
+  setup.time = time;
+  return setup;
+}
+
+/// A deformed, flowing state, smooth in space, so that no term vanishes.
+inline State moved(const Scene<P1Tetrahedron>& scene) {
+  State state = scene.at_rest();
+  const auto wave = [](const Point& x, int k) { return std::sin(0.7 * x[0] + 0.4 * x[1] + 0.3 * x[2] + k); };
+  for (int a = 0; a < scene.fluid->node_count(); ++a)
+    for (int k = 0; k < 3; ++k) {
+      state.now.mesh[a * 3 + k] = 0.01 * wave(scene.fluid->part().nodes[a], k);
+      state.now.flow[a * 4 + k] = 0.5 * wave(scene.fluid->part().nodes[a], k + 3);
+    }
+  for (int a = 0; a < scene.wall->node_count(); ++a)
+    for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene.wall->part().nodes[a], k);
+  return state;
+}
+
+}  // namespace fsi

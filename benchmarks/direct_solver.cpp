@@ -1,0 +1,59 @@
+// Fill-reducing orderings and pivoting strategies of the direct solver on the coupled system of the artery.
+#include <benchmark/benchmark.h>
+
+#include "base/threads.hpp"
+#include "benchmarks/artery_case.hpp"
+#include "scene/loads.hpp"
+#include "scene/system.hpp"
+
+namespace {
+
+using namespace fsi;
+
+/// One coupled system with its first Jacobian assembled and analysed.
+struct Coupled {
+  Case setup = artery("neo-hookean");
+  std::unique_ptr<Scene<P1Tetrahedron>> scene;
+  std::unique_ptr<Loads> loads;
+  std::unique_ptr<System<P1Tetrahedron>> system;
+  State state;
+  StepData data;
+
+  Coupled(const std::string& level, const DirectSolver::Options& options, int thread_count) {
+    set_dense_threads(set_threads(thread_count));
+    scene = build_scene(setup, generate_artery(artery_level(level)));
+    loads = std::make_unique<Loads>(setup);
+    system = std::make_unique<System<P1Tetrahedron>>("coupled", *scene, number_scene(*scene), options);
+    state = scene->at_rest();
+    data = loads->next(state, scene->scheme);
+    system->work_on(state, data);
+    system->evaluate();
+    system->linearise();
+  }
+};
+
+void factorise(benchmark::State& run, const char* level, const char* ordering, const char* strategy) {
+  Coupled coupled(level, {ordering, strategy, 0}, static_cast<int>(run.range(0)));
+  for (auto _ : run) coupled.system->linearise();
+  run.counters["million nonzeros"] = static_cast<double>(coupled.system->solver().factor_nonzeros()) / 1e6;
+}
+
+void solve(benchmark::State& run, const char* level, const char* ordering, const char* strategy) {
+  Coupled coupled(level, {ordering, strategy, 0}, static_cast<int>(run.range(0)));
+  for (auto _ : run) coupled.system->solve();
+}
+
+#define FSI_BENCHMARK(...) BENCHMARK_CAPTURE(__VA_ARGS__)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)
+#define FSI_ORDERINGS(routine, level)                                                \
+  FSI_BENCHMARK(routine, level##_amd_unsymmetric, #level, "amd", "unsymmetric");     \
+  FSI_BENCHMARK(routine, level##_amd_symmetric, #level, "amd", "symmetric");         \
+  FSI_BENCHMARK(routine, level##_metis_unsymmetric, #level, "metis", "unsymmetric"); \
+  FSI_BENCHMARK(routine, level##_metis_symmetric, #level, "metis", "symmetric");
+FSI_ORDERINGS(factorise, coarse)
+FSI_ORDERINGS(solve, coarse)
+FSI_ORDERINGS(factorise, intermediate)
+FSI_ORDERINGS(solve, intermediate)
+
+}  // namespace
+
+BENCHMARK_MAIN();
