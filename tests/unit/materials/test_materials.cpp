@@ -68,7 +68,7 @@ Mat3<Pack> random_gradient(const double (&stretch)[3], double amount, unsigned s
 }
 
 Mat3<Pack> rotation(double a, double b) {
-  const auto matrix = [](const double (&m)[3][3]) {
+  const auto matrix = [](const double(&m)[3][3]) {
     Mat3<Pack> r;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) r(i, j) = Pack(m[i][j]);
@@ -94,7 +94,7 @@ template <class M>
 void expect_stress_and_tangent(const M& material, const Sym3<Pack>& c0, const std::string& name) {
   const auto data = fibre_data(material);
   const auto c = values(c0);
-  const auto at = [&](const double (&dc)[6], double t) {
+  const auto at = [&](const double(&dc)[6], double t) {
     double there[6];
     for (int k = 0; k < 6; ++k) there[k] = c[k] + t * dc[k];
     return strain_from(sym3<Pack>(there));
@@ -115,8 +115,8 @@ void expect_stress_and_tangent(const M& material, const Sym3<Pack>& c0, const st
     double dc[6];
     for (double& component : dc) component = 0.2 * random();
     expect_second_order(central_differences(
-        name + ": S = 2 dPsi/dC",
-        [&](double t) { return std::vector<double>{material.energy(at(dc, t), data)[0]}; }, {power(stress, dc)}));
+        name + ": S = 2 dPsi/dC", [&](double t) { return std::vector<double>{material.energy(at(dc, t), data)[0]}; },
+        {power(stress, dc)}));
     std::vector<double> tangent(6, 0.0);
     for (int k = 0; k < 6; ++k)
       for (int m = 0; m < 6; ++m) tangent[k] += dual_stress.c[k].slope[m][0] * dc[m];
@@ -225,7 +225,8 @@ TYPED_TEST(EveryMaterial, StressAndEnergyIgnoreRotations) {
   const auto rotated = rotation(0.7, -1.9) * (identity_matrix() + h) - identity_matrix();
   const auto strain = strain_of(deformation(h)), rotated_strain = strain_of(deformation(rotated));
   const auto data = fibre_data(material);
-  EXPECT_LT(largest(difference(values(material.stress(strain, data)), values(material.stress(rotated_strain, data)))), 1e-13);
+  EXPECT_LT(largest(difference(values(material.stress(strain, data)), values(material.stress(rotated_strain, data)))),
+            1e-13);
   EXPECT_NEAR(material.energy(strain, data)[0], material.energy(rotated_strain, data)[0], 1e-13);
 }
 
@@ -234,8 +235,8 @@ TYPED_TEST(EveryMaterial, ShearModulusIsTheSlopeOfTheStressAtRest) {
   const auto material = this->material();
   const double t = 1e-6;
   // Slack fibres: compression in the plane that the fibres lie in.
-  const auto s = values(material.stress(strain_from(sym3<Pack>({1 + 2 * t, 1 - t, 1 - t, 0.5 * t, 0, 0})),
-                                        fibre_data(material)));
+  const auto s =
+      values(material.stress(strain_from(sym3<Pack>({1 + 2 * t, 1 - t, 1 - t, 0.5 * t, 0, 0})), fibre_data(material)));
   const double mu = std::is_same_v<TypeParam, MooneyRivlin> ? 3.3 : 3.0;
   EXPECT_DOUBLE_EQ(material.shear_modulus(), mu);
   const double expected[6] = {2 * mu * t, -mu * t, -mu * t, 0.5 * mu * t, 0, 0};
@@ -276,7 +277,8 @@ TEST(Artery, LanesOfAPackAreIndependent) {
   }
 }
 
-// Uniaxial isochoric stretch of a neo-Hookean: W = c10/2 (l^2 + 2/l - 3), Cauchy stress difference c10 (l^2 - 1/l), by hand.
+// Uniaxial isochoric stretch of a neo-Hookean: W = c10/2 (l^2 + 2/l - 3), Cauchy stress difference c10 (l^2 - 1/l), by
+// hand.
 TEST(NeoHookean, UniaxialStretchByHand) {
   const double l = 1.3;
   const auto strain = strain_from(sym3<Pack>({l * l, 1 / l, 1 / l, 0, 0, 0}));

@@ -38,18 +38,26 @@ const auto minus_one = [](double, double) { return -1.0; };
 
 TEST(Dual, ArithmeticOfTwoVariables) {
   const auto check = [](const D& z, auto f, auto fx, auto fy) { expect_dual(z, x0, y_start, f, fx, fy); };
-  check(x + y, [](double a, double b) { return a + b; }, one, one);
-  check(x - y, [](double a, double b) { return a - b; }, one, minus_one);
-  check(x * y, [](double a, double b) { return a * b; }, [](double, double b) { return b; }, [](double a, double) { return a; });
-  check(x / y, [](double a, double b) { return a / b; }, [](double, double b) { return 1 / b; },
-        [](double a, double b) { return -a / (b * b); });
-  check(-x, [](double a, double) { return -a; }, minus_one, zero);
+  check(
+      x + y, [](double a, double b) { return a + b; }, one, one);
+  check(
+      x - y, [](double a, double b) { return a - b; }, one, minus_one);
+  check(
+      x * y, [](double a, double b) { return a * b; }, [](double, double b) { return b; },
+      [](double a, double) { return a; });
+  check(
+      x / y, [](double a, double b) { return a / b; }, [](double, double b) { return 1 / b; },
+      [](double a, double b) { return -a / (b * b); });
+  check(
+      -x, [](double a, double) { return -a; }, minus_one, zero);
   D sum = x;
   sum += y;
-  check(sum, [](double a, double b) { return a + b; }, one, one);
+  check(
+      sum, [](double a, double b) { return a + b; }, one, one);
   D rest = x;
   rest -= y;
-  check(rest, [](double a, double b) { return a - b; }, one, minus_one);
+  check(
+      rest, [](double a, double b) { return a - b; }, one, minus_one);
 }
 
 TEST(Dual, ArithmeticWithConstants) {
@@ -57,31 +65,45 @@ TEST(Dual, ArithmeticWithConstants) {
   const auto two_and_half = [](double, double) { return 2.5; };
   for (const bool as_pack : {false, true}) {
     const auto with = [&](auto operation) { return as_pack ? operation(Pack(2.5)) : operation(2.5); };
-    check(with([](auto c) { return x + c; }), [](double a, double) { return a + 2.5; }, one);
-    check(with([](auto c) { return c + x; }), [](double a, double) { return a + 2.5; }, one);
-    check(with([](auto c) { return x - c; }), [](double a, double) { return a - 2.5; }, one);
-    check(with([](auto c) { return c - x; }), [](double a, double) { return 2.5 - a; }, minus_one);
-    check(with([](auto c) { return x * c; }), [](double a, double) { return 2.5 * a; }, two_and_half);
-    check(with([](auto c) { return c * x; }), [](double a, double) { return 2.5 * a; }, two_and_half);
-    check(with([](auto c) { return x / c; }), [](double a, double) { return a / 2.5; }, [](double, double) { return 0.4; });
-    check(with([](auto c) { return c / x; }), [](double a, double) { return 2.5 / a; },
-          [](double a, double) { return -2.5 / (a * a); });
+    check(
+        with([](auto c) { return x + c; }), [](double a, double) { return a + 2.5; }, one);
+    check(
+        with([](auto c) { return c + x; }), [](double a, double) { return a + 2.5; }, one);
+    check(
+        with([](auto c) { return x - c; }), [](double a, double) { return a - 2.5; }, one);
+    check(
+        with([](auto c) { return c - x; }), [](double a, double) { return 2.5 - a; }, minus_one);
+    check(
+        with([](auto c) { return x * c; }), [](double a, double) { return 2.5 * a; }, two_and_half);
+    check(
+        with([](auto c) { return c * x; }), [](double a, double) { return 2.5 * a; }, two_and_half);
+    check(
+        with([](auto c) { return x / c; }), [](double a, double) { return a / 2.5; },
+        [](double, double) { return 0.4; });
+    check(
+        with([](auto c) { return c / x; }), [](double a, double) { return 2.5 / a; },
+        [](double a, double) { return -2.5 / (a * a); });
   }
   D sum = x;
   sum += Pack(2.5);
-  check(sum, [](double a, double) { return a + 2.5; }, one);
+  check(
+      sum, [](double a, double) { return a + 2.5; }, one);
   D rest = x;
   rest -= Pack(2.5);
-  check(rest, [](double a, double) { return a - 2.5; }, one);
-  expect_dual(D(3.0), 0, 0, [](double, double) { return 3.0; }, zero, zero);
+  check(
+      rest, [](double a, double) { return a - 2.5; }, one);
+  expect_dual(
+      D(3.0), 0, 0, [](double, double) { return 3.0; }, zero, zero);
 }
 
 TEST(Dual, Functions) {
   const auto check = [](const D& z, auto f, auto fx) { expect_dual(z, x0, y_start, f, fx, zero); };
-  check(sqrt(x), [](double a, double) { return std::sqrt(a); }, [](double a, double) { return 0.5 / std::sqrt(a); });
-  check(exp(x), [](double a, double) { return std::exp(a); }, [](double a, double) { return std::exp(a); });
-  check(cbrt(x), [](double a, double) { return std::cbrt(a); },
-        [](double a, double) { return std::cbrt(a) / (3 * a); });
+  check(
+      sqrt(x), [](double a, double) { return std::sqrt(a); }, [](double a, double) { return 0.5 / std::sqrt(a); });
+  check(
+      exp(x), [](double a, double) { return std::exp(a); }, [](double a, double) { return std::exp(a); });
+  check(
+      cbrt(x), [](double a, double) { return std::cbrt(a); }, [](double a, double) { return std::cbrt(a) / (3 * a); });
 }
 
 TEST(Dual, SelectTakesValueAndSlopeLaneByLane) {
@@ -99,8 +121,9 @@ TEST(Dual, ChainRuleThroughACompositeFunction) {
   // f = exp(x y) / sqrt(x + y^2), f_x = f (y - 1/(2 (x + y^2))), f_y = f (x - y/(x + y^2)), by hand.
   const D z = exp(x * y) / sqrt(x + y * y);
   const auto f = [](double a, double b) { return std::exp(a * b) / std::sqrt(a + b * b); };
-  expect_dual(z, x0, y_start, f, [&](double a, double b) { return f(a, b) * (b - 0.5 / (a + b * b)); },
-              [&](double a, double b) { return f(a, b) * (a - b / (a + b * b)); });
+  expect_dual(
+      z, x0, y_start, f, [&](double a, double b) { return f(a, b) * (b - 0.5 / (a + b * b)); },
+      [&](double a, double b) { return f(a, b) * (a - b / (a + b * b)); });
 }
 
 TEST(Pack, LanesLoadAndStand) {

@@ -1,0 +1,73 @@
+"""The converged partitioned step and the monolithic step solve the same equations."""
+
+import unittest
+
+import numpy as np
+from programs import (ARTERY, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, PARTITIONED, FolderTest, difference, pressure, run,
+                      table, wall)
+
+STEPS = 8
+SETTINGS = ("time.end=1", "output.every=0")  # ms: 8 steps of 0.125
+
+
+class Agreement:
+    """Both drivers on one of the paper's cases, coarse mesh."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.monolithic = run(MONOLITHIC, cls.case, cls.base / "monolithic", *SETTINGS)
+        cls.converged = run(PARTITIONED, cls.case, cls.base / "converged", "partitioned.tolerance=1e-9", *SETTINGS)
+        cls.loose = run(PARTITIONED, cls.case, cls.base / "loose", "partitioned.tolerance=1e-2", *SETTINGS)
+
+    def test_pressure_agrees_at_every_time_level(self):
+        self.assertEqual(pressure(self.monolithic).shape[0], STEPS)
+        apart = difference(pressure(self.converged), pressure(self.monolithic))
+        print(f"{self.case.stem}: largest difference of pressure, relative, per step:", apart)
+        self.assertLess(apart.max(), 1e-6)  # the demand of the study
+
+    def test_wall_and_flow_agree_at_every_time_level(self):
+        for component in (2, 3):
+            apart = difference(wall(self.converged)[:, :, component], wall(self.monolithic)[:, :, component])
+            self.assertLess(apart.max(), 1e-6)
+        flows = [table(folder, "flow.csv")[:, 1:2] for folder in (self.converged, self.monolithic)]
+        self.assertLess(difference(*flows).max(), 1e-6)
+
+    def test_loose_coupling_changes_the_wave(self):
+        tight = difference(pressure(self.converged), pressure(self.monolithic)).max()
+        loose = difference(pressure(self.loose), pressure(self.monolithic))
+        peaks = [np.abs(pressure(folder)).max(axis=1) for folder in (self.loose, self.monolithic)]
+        print(f"{self.case.stem}: difference at tolerance 1e-2, per step:", loose, "ratio of peaks:", peaks[0] / peaks[1])
+        self.assertGreater(loose.max(), 1e-2)
+        self.assertGreater(loose.max(), 1e4 * tight)
+
+    def test_steps_took_the_iterations_they_report(self):
+        for folder, tolerance in ((self.converged, 1e-9), (self.loose, 1e-2)):
+            counts = table(folder, "iterations.csv")[:, 2]
+            errors = [float(line.split("|d~ - d| / |d~| = ")[1].split()[0])
+                      for line in (folder / "run.log").read_text().splitlines() if "|d~ - d|" in line]
+            self.assertEqual(len(errors), counts.sum())
+            last = np.cumsum(counts).astype(int) - 1
+            for i, error in enumerate(errors):
+                self.assertEqual(error <= tolerance, i in last, f"coupling iteration {i + 1}: {error}")
+
+
+class NeoHookean(Agreement, FolderTest):
+    case = NEO_HOOKEAN
+
+
+class MooneyRivlin(Agreement, FolderTest):
+    case = MOONEY_RIVLIN
+
+
+class Artery(Agreement, FolderTest):
+    case = ARTERY
+
+    def test_fibres_act(self):
+        """From rest the fibres are slack; they must have switched on for the agreement to mean anything."""
+        slack = run(MONOLITHIC, NEO_HOOKEAN, self.base / "slack", *SETTINGS)
+        self.assertGreater(difference(pressure(self.monolithic), pressure(slack)).max(), 1e-2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+"""What a user sees of the programs, and what they refuse at once."""
+
+import os
+import pty
+import re
+import subprocess
+import time
+import unittest
+
+from programs import DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute, make_small_mesh
+
+VERSION = os.environ["FSI_VERSION"]
+STEPS = 3
+
+
+class Console(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        mesh = make_small_mesh(cls.base / "small.msh")
+        cls.settings = (f"mesh.file={mesh}", f"time.end={0.125 * STEPS}", "partitioned.tolerance=1e-1")
+
+    def name(self, program):
+        return os.path.basename(program)
+
+    def test_quiet_is_silent(self):
+        for program in DRIVERS:
+            process = attempt(program, NEO_HOOKEAN, "-q", folder=self.base / "quiet", settings=self.settings)
+            self.assertEqual((process.returncode, process.stdout, process.stderr), (0, "", ""))
+        process = execute(MESH, "artery", "-q", "-o", self.base / "quiet.msh")
+        self.assertEqual((process.returncode, process.stdout, process.stderr), (0, "", ""))
+
+    def test_piped_progress_is_a_plain_line_per_step(self):
+        for program in DRIVERS:
+            process = attempt(program, NEO_HOOKEAN, folder=self.base / "piped", settings=self.settings)
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+            self.assertFalse(re.search(r"[^\n -~]", process.stdout), "control characters in a pipe")
+            first, *steps = process.stdout.splitlines()
+            self.assertTrue(first.startswith(f"{self.name(program)} {VERSION}: Rabbit carotid artery"), first)
+            self.assertEqual(len(steps), STEPS)
+            for k, line in enumerate(steps, start=1):
+                self.assertRegex(line, rf"^step {k}/{STEPS}, t = {0.125 * k:g} ms: .*\d+ Newton iterations, .* s, .* left$")
+
+    def test_terminal_progress_rewrites_its_line(self):
+        terminal, end = pty.openpty()
+        command = driver_command(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "terminal", settings=self.settings)
+        with subprocess.Popen(command, stdout=end) as process:
+            os.close(end)
+            text, piece = b"", b"-"
+            while piece:
+                try:
+                    piece = os.read(terminal, 4096)
+                except OSError:  # the other end is closed
+                    piece = b""
+                text += piece
+        os.close(terminal)
+        self.assertEqual(process.returncode, 0)
+        text = text.decode()
+        self.assertEqual(text.count(f"\r\033[Kstep {STEPS}/{STEPS}"), 2)  # at work, and done
+        self.assertEqual(text.count("\n"), 2)  # the first line's and the last
+        self.assertTrue(text.endswith("\n"))
+
+    def test_version_and_help(self):
+        for program in (*DRIVERS, MESH):
+            process = execute(program, "--version")
+            self.assertEqual((process.returncode, process.stdout), (0, f"{self.name(program)} {VERSION}\n"))
+            process = execute(program, "--help")
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+            self.assertIn("--version", process.stdout)
+        for program in DRIVERS:
+            for option in ("--output", "--restart", "--set", "--threads", "--quiet"):
+                self.assertIn(option, execute(program, "--help").stdout)
+            keys = execute(program, "--help-keys")
+            self.assertEqual(keys.returncode, 0)
+            self.assertIn("structure.layers.NAME.c10", keys.stdout)
+
+    def test_wrong_use(self):
+        folder = self.base / "wrong"
+        case = str(NEO_HOOKEAN)
+        for program in DRIVERS:
+            for words, shown in ((["--treads", "2", case, "-o", folder], "--threads"),
+                                 ([case, "-o", folder, "--threads", "two"], "two"),
+                                 ([case, case, "-o", folder], "one argument too many"),
+                                 ([case, "-o", folder, "--set", "time.end"], "time.end"),
+                                 ([case, "-o", folder, "-x"], "-x"), ([case], "-o"), (["-o", folder], "case file"), ([], "")):
+                process = execute(program, *words)
+                with self.subTest(program=program, words=words):
+                    self.assertRefused(process, shown)
+                    self.assertFalse(folder.exists())
+        for words in (["artery", "--levl", "coarse", "-o", "x.msh"], ["artery"], [], ["vein", "-o", "x.msh"],
+                      ["artery", "--level", "huge", "-o", "x.msh"], ["artery", "--format", "3", "-o", "x.msh"]):
+            process = execute(MESH, *words, cwd=self.base)
+            with self.subTest(words=words):
+                self.assertEqual((process.returncode, process.stdout), (1, ""))
+                self.assertNotEqual(process.stderr, "")
+                self.assertFalse((self.base / "x.msh").exists())
+
+    def assertRefused(self, process, shown):
+        """One line of complaint that says what is meant, and nothing else."""
+        self.assertEqual((process.returncode, process.stdout), (1, ""))
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        self.assertTrue(process.stderr.startswith(f"{self.name(process.args[0])}: error: "), process.stderr)
+        self.assertIn(shown, process.stderr)
+
+    def test_output_that_cannot_be_written_is_refused_before_computing(self):
+        file = self.base / "file"
+        file.write_text("mine")
+        foreign = self.base / "foreign"
+        foreign.mkdir()
+        (foreign / "thesis.tex").write_text("mine")
+        for program in DRIVERS:
+            for folder, shown in ((file, "is a file"), (file / "below", "cannot be created"), (foreign, "thesis.tex")):
+                start = time.monotonic()
+                process = attempt(program, NEO_HOOKEAN, folder=folder, settings=("time.end=1",))
+                with self.subTest(program=program, folder=folder.name):
+                    self.assertRefused(process, shown)
+                    self.assertLess(time.monotonic() - start, 60)
+        self.assertEqual((file.read_text(), (foreign / "thesis.tex").read_text()), ("mine", "mine"))
+        self.assertEqual(len(list(foreign.iterdir())), 1)
+
+    def test_results_of_an_earlier_run_make_way(self):
+        folder = self.base / "earlier"
+        for settings in (("output.every=1",), ("output.every=0", "output.checkpoint_every=0")):
+            process = attempt(MONOLITHIC, NEO_HOOKEAN, "-q", folder=folder, settings=(*self.settings, *settings))
+            self.assertEqual(process.returncode, 0)
+        self.assertFalse([name for name in ("fields.h5", "fields.xdmf", "checkpoint.h5") if (folder / name).exists()])
+
+
+if __name__ == "__main__":
+    unittest.main()

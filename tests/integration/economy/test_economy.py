@@ -1,0 +1,95 @@
+"""Nothing is computed or written that a scene does not need: the counters and phases of summary.json show it."""
+
+import unittest
+
+from programs import (ARTERY, DRIVERS, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, arrays, calls, run, summary,
+                      table)
+
+SHORT = ("time.end=0.375", "partitioned.tolerance=1e-2")  # three steps; what is counted needs no convergence
+
+
+class Coupled(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.runs = {program: run(program, NEO_HOOKEAN, cls.base / str(i), *SHORT) for i, program in enumerate(DRIVERS)}
+
+    def test_mesh_motion_is_assembled_once(self):
+        for folder in self.runs.values():
+            self.assertEqual(calls(folder)["assembly: mesh motion"], 1)
+        self.assertEqual(calls(self.runs[PARTITIONED])["factorisation: mesh motion"], 1)
+
+    def test_partitioned_solves_each_part_as_often_as_it_says(self):
+        folder = self.runs[PARTITIONED]
+        counted, totals = calls(folder), summary(folder)["totals"]
+        self.assertEqual(totals["outer_iterations"], table(folder, "iterations.csv")[:, 2].sum())
+        self.assertEqual(totals["newton_iterations"], table(folder, "iterations.csv")[:, 3].sum())
+        self.assertEqual(counted["solve: mesh motion"], totals["outer_iterations"])
+        self.assertEqual(counted["solve: fluid"] + counted["solve: wall"], totals["newton_iterations"])
+
+    def test_partitioned_keeps_its_factors(self):
+        counted = calls(self.runs[PARTITIONED])
+        for part in ("fluid", "wall"):
+            self.assertEqual(counted[f"factorisation: {part}"], counted[f"assembly: {part} jacobian"])
+            self.assertLess(counted[f"factorisation: {part}"], counted[f"solve: {part}"] / 10)
+
+    def test_drivers_assemble_only_their_own_systems(self):
+        self.assertFalse([name for name in calls(self.runs[PARTITIONED]) if "coupled" in name])
+        self.assertFalse([name for name in calls(self.runs[MONOLITHIC]) if ": fluid" in name or ": wall" in name])
+
+    def test_sizes_are_those_of_the_mesh(self):
+        reported = summary(self.runs[MONOLITHIC])
+        mesh, unknowns = reported["mesh"], reported["unknowns"]
+        self.assertEqual(mesh["nodes"], mesh["fluid_nodes"] + mesh["wall_nodes"] - mesh["interface_nodes"])
+        counters = reported["counters"]
+        self.assertEqual(counters["fluid elements"] + counters["structure elements"], mesh["tetrahedra"])
+        self.assertEqual(unknowns["coupled"], unknowns["fluid"] + unknowns["wall"] + unknowns["mesh_motion"])
+        points = arrays(self.runs[MONOLITHIC] / "fields.h5")
+        self.assertEqual(len(points["fluid/points"]), mesh["fluid_nodes"])
+        self.assertEqual(len(points["wall/points"]), mesh["wall_nodes"])
+
+
+class Fibres(FolderTest):
+    def fibres(self, name, case, *settings):
+        counters = summary(run(MONOLITHIC, case, self.base / name, "time.end=0.125", *settings))["counters"]
+        return counters.get("elements with fibres"), counters["structure elements"]
+
+    def test_only_where_there_are_some(self):
+        self.assertIsNone(self.fibres("none", NEO_HOOKEAN)[0])
+        with_fibres, elements = self.fibres("all", ARTERY)
+        self.assertEqual(with_fibres, elements)
+        layer = ("structure.layers.adventitia.material=artery", "structure.layers.adventitia.k1=0.562",
+                 "structure.layers.adventitia.k2=0.7112", "structure.layers.adventitia.alpha=62")
+        with_fibres, elements = self.fibres("one", NEO_HOOKEAN, *layer)
+        self.assertTrue(0 < with_fibres < elements)
+
+
+class Output(FolderTest):
+    def result(self, name, *settings):
+        return run(MONOLITHIC, NEO_HOOKEAN, self.base / name, "time.end=0.25", *settings)
+
+    def test_fields_are_those_asked_for(self):
+        for wanted in ("pressure", "velocity", "displacement"):
+            folder = self.result(wanted, f'output.fields=["{wanted}"]', "output.every=1")
+            fields = {name.split("/")[1] for name in arrays(folder / "fields.h5") if name.count("/") == 2} - {"written"}
+            self.assertEqual(fields, {wanted})
+            text = (folder / "fields.xdmf").read_text()
+            for field in ("pressure", "velocity", "displacement"):
+                self.assertEqual(field in text, field == wanted)
+
+    def test_no_fields_when_none_are_wanted(self):
+        for name, setting in (("every", "output.every=0"), ("fields", "output.fields=[]")):
+            folder = self.result(name, setting)
+            self.assertFalse(list(folder.glob("fields.*")))
+            self.assertTrue((folder / "checkpoint.h5").exists())
+
+    def test_fields_are_written_when_asked_for(self):
+        folder = self.result("steps", "time.end=0.625", "output.every=2")
+        self.assertEqual(list(arrays(folder / "fields.h5")["steps/number"]), [0, 2, 4, 5])  # and the last step
+
+    def test_no_checkpoint_when_none_is_wanted(self):
+        self.assertFalse((self.result("none", "output.checkpoint_every=0") / "checkpoint.h5").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

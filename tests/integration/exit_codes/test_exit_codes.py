@@ -1,0 +1,169 @@
+"""How a run that cannot be done ends: 1 for bad input, with nothing written; 2 without convergence, the last good state
+saved."""
+
+import shutil
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import (DRIVERS, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, TABLES, FolderTest, arrays, attempt, difference,
+                      make_mesh, make_small_mesh, pressure, restart, run, summary, table)
+
+LIMIT = Path(__file__).with_name("beyond_the_limit.toml")
+
+
+class ExitCodes(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.mesh = f"mesh.file={make_small_mesh(cls.base / 'small.msh')}"
+
+    def assertFinishedSteps(self, folder, steps):
+        """The tables hold these steps and no more; all numbers are numbers."""
+        self.assertEqual(table(folder, "iterations.csv")[:, 0].tolist() if steps else [], list(range(1, steps + 1)))
+        for name in TABLES:
+            if (folder / name).exists():
+                times = np.unique(table(folder, name)[:, 0]) if steps else []
+                self.assertEqual(len(times), steps, name)
+        if steps:
+            self.assertNoNan(folder)
+        self.assertEqual(summary(folder)["totals"]["steps"], steps)
+
+    def assertNotConverged(self, process, folder, steps):
+        """Exit code 2, a message that helps, and a folder that says how far the run came."""
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        self.assertRegex(process.stderr, rf"error: step {steps + 1} \(to t = .*; try ")
+        self.assertEqual(summary(folder)["status"], "not converged")
+        self.assertIn(summary(folder)["failure"], process.stderr)
+        self.assertIn(summary(folder)["failure"], (folder / "run.log").read_text())
+        self.assertFinishedSteps(folder, steps)
+        self.assertEqual((folder / "checkpoint.h5").exists(), steps > 0)
+        if steps:
+            self.assertEqual(arrays(folder / "checkpoint.h5")["step"][0], steps)
+            self.assertIn(f"--restart {folder}", process.stderr)
+
+    # ---- 0 and 1
+
+    def test_done(self):
+        for program in DRIVERS:
+            folder = self.base / "done"
+            process = attempt(program, NEO_HOOKEAN, folder=folder,
+                              settings=(self.mesh, "time.end=0.25", "partitioned.tolerance=1e-2"))
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+            self.assertEqual(summary(folder)["status"], "done")
+            self.assertFinishedSteps(folder, 2)
+            self.assertEqual(sorted(file.name for file in folder.iterdir()), [
+                "centerline_pressure.csv", "checkpoint.h5", "fields.h5", "fields.xdmf", "flow.csv", "iterations.csv",
+                "run.log", "summary.json", "wall_displacement.csv"])
+
+    def test_bad_input_writes_nothing(self):
+        broken = self.base / "broken.toml"
+        broken.write_text(NEO_HOOKEAN.read_text().replace("viscosity =", "viscosity"))
+        (self.base / "cut.msh").write_text((self.base / "small.msh").read_text()[:5000])
+        folder = self.base / "nothing"
+        for program in DRIVERS:
+            for case, settings, shown in (
+                    (self.base / "none.toml", (), "none.toml: no such file"),
+                    (broken, (), "broken.toml:9"),
+                    (NEO_HOOKEAN, ("fluid.viscosty=1",), "did you mean fluid.viscosity?"),
+                    (NEO_HOOKEAN, ("fluid.density=-1",), "-1 is not positive"),
+                    (NEO_HOOKEAN, ("time.step=fast",), "time.step"),
+                    (NEO_HOOKEAN, ("structure.layers.media.material=steel",), "neo-hookean"),
+                    (NEO_HOOKEAN, ("monolithic.linear_solver=gauss",), "monolithic.linear_solver"),
+                    (NEO_HOOKEAN, ("partitioned.scheme=atiken",), "aitken"),
+                    (NEO_HOOKEAN, ("load.pressure=1",), "load"),
+                    (NEO_HOOKEAN, ("mesh.file=none.msh",), "none.msh"),
+                    (NEO_HOOKEAN, (f"mesh.file={self.base / 'cut.msh'}",), "cut.msh")):
+                process = attempt(program, case, folder=folder, settings=settings)
+                with self.subTest(program=program, case=case.name, settings=settings):
+                    self.assertEqual((process.returncode, process.stdout), (1, ""))
+                    self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+                    self.assertIn(shown, process.stderr)
+                    self.assertFalse(folder.exists())
+
+    def test_mesh_without_what_the_scene_needs(self):
+        text = (Path(make_mesh(self.base / "named.msh", "--format", "2.2"))).read_text()
+        for group in ("inlet", "outlet", "wall_ends", "media"):
+            (self.base / "lacking.msh").write_text(text.replace(f'"{group}"', '"something"'))
+            process = attempt(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "lacking",
+                              settings=(f"mesh.file={self.base / 'lacking.msh'}",))
+            with self.subTest(group=group):
+                self.assertEqual(process.returncode, 1)
+                self.assertIn(group, process.stderr)
+                self.assertFalse((self.base / "lacking").exists())
+
+    def test_restart_of_nothing(self):
+        for program in DRIVERS:
+            folder = self.base / "no_run"
+            process = attempt(program, NEO_HOOKEAN, "--restart", folder, settings=(self.mesh,))
+            self.assertEqual(process.returncode, 1)
+            self.assertIn("no_run", process.stderr)
+            self.assertFalse(folder.exists())
+
+    # ---- 2
+
+    def test_newton_at_its_limit(self):
+        folder = self.base / "newton"
+        settings = (self.mesh, "time.end=1", "monolithic.max_iterations=1")
+        self.assertNotConverged(attempt(MONOLITHIC, NEO_HOOKEAN, folder=folder, settings=settings), folder, 0)
+
+    def test_coupling_at_its_limit(self):
+        folder = self.base / "coupling"
+        settings = (self.mesh, "time.end=1", "partitioned.max_iterations=3")
+        process = attempt(PARTITIONED, NEO_HOOKEAN, folder=folder, settings=settings)
+        self.assertNotConverged(process, folder, 0)
+        self.assertIn("3 iterations", process.stderr)
+        self.assertIn("partitioned.max_iterations", process.stderr)
+
+    def test_coupling_that_diverges(self):
+        """Relaxation by 0.5 is far beyond 0.014, up to where the coarse artery's coupling contracts."""
+        folder = self.base / "constant"
+        settings = ("time.end=1", "partitioned.scheme=constant", "partitioned.relaxation=0.5")
+        process = attempt(PARTITIONED, NEO_HOOKEAN, folder=folder, settings=settings)
+        self.assertNotConverged(process, folder, 0)
+        self.assertIn("partitioned.relaxation", process.stderr)
+
+    def test_goes_on_with_better_settings(self):
+        for program, bad, tolerance in (
+                (MONOLITHIC, "monolithic.max_iterations=1", 1e-6),
+                (PARTITIONED, "partitioned.max_iterations=2", 1e-2)):  # what its own tolerance of 1e-4 leaves
+            settings = (self.mesh, "partitioned.tolerance=1e-4", "output.every=0")
+            with self.subTest(program=program):
+                whole = run(program, NEO_HOOKEAN, self.base / "whole", *settings, "time.end=0.5")
+                folder = run(program, NEO_HOOKEAN, self.base / "stopped", *settings, "time.end=0.25")
+                process = attempt(program, NEO_HOOKEAN, "--restart", folder, settings=(*settings, "time.end=0.5", bad))
+                self.assertNotConverged(process, folder, 2)
+                restart(program, NEO_HOOKEAN, folder, *settings, "time.end=0.5")
+                self.assertEqual(summary(folder)["status"], "done")
+                self.assertNotIn("failure", summary(folder))
+                self.assertFinishedSteps(folder, 4)
+                # The failed step may have left another Jacobian or relaxation: not the same bits, but the same solution.
+                self.assertLess(difference(pressure(folder), pressure(whole)).max(), tolerance)
+
+    def test_load_beyond_the_limit_of_the_tube(self):
+        """A neo-Hookean tube balloons: beyond some pressure there is no state near the last one to find."""
+        folder = self.base / "limit"
+        process = attempt(MONOLITHIC, LIMIT, "-q", folder=folder)
+        done = len(table(folder, "iterations.csv"))
+        print(f"load steps done: {done} of 20")
+        self.assertTrue(0 < done < 20)
+        self.assertNotConverged(process, folder, done)
+        self.assertIn("static.load_steps", process.stderr)
+        radial = table(folder, "wall_displacement.csv")[:, 2].reshape(done, -1)[:, 90]
+        self.assertTrue((np.diff(radial, n=2, prepend=0) > 0).all(), "softer with each step")
+
+        before = {name: (folder / name).read_bytes() for name in ("wall_displacement.csv", "checkpoint.h5")}
+        copy = self.base / "limit_again"
+        shutil.copytree(folder, copy)
+        again = attempt(MONOLITHIC, LIMIT, "--restart", copy, settings=("monolithic.mode=full",))
+        self.assertNotConverged(again, copy, done)
+        self.assertEqual((copy / "wall_displacement.csv").read_bytes(), before["wall_displacement.csv"])
+
+    def test_limit_depends_on_the_load(self):
+        folder = run(MONOLITHIC, LIMIT, self.base / "below", "load.pressure=0.2")
+        self.assertEqual(len(table(folder, "iterations.csv")), 20)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+"""ParaView's reader finds in fields.xdmf what the run computed."""
+
+import json
+import os
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import ARTERY, DRIVERS, FolderTest, arrays, execute, make_small_mesh, run, summary
+
+READER = Path(__file__).with_name("read_fields.py")
+STEPS, STEP = 5, 0.125
+
+
+def shown_by_paraview(folder):
+    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", READER, folder)
+    if process.returncode != 0:
+        raise AssertionError(process.stderr)
+    return json.loads(process.stdout)
+
+
+class Fields(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        mesh = make_small_mesh(cls.base / "small.msh")
+        cls.folders = [run(program, ARTERY, cls.base / str(d), f"mesh.file={mesh}", f"time.end={STEPS * STEP}",
+                           "output.every=2", "partitioned.tolerance=1e-2") for d, program in enumerate(DRIVERS)]
+        cls.shown = [shown_by_paraview(folder) for folder in cls.folders]
+
+    def each(self):
+        for folder, shown in zip(self.folders, self.shown):
+            with self.subTest(program=summary(folder)["program"]):
+                pass
+            yield folder, shown
+
+    def test_times_and_grids(self):
+        for folder, shown in self.each():
+            self.assertEqual(shown["times"], [0, 2 * STEP, 4 * STEP, 5 * STEP])
+            mesh = summary(folder)["mesh"]
+            for grids in shown["grids"]:
+                self.assertEqual(sorted(grids), ["fluid", "wall"])
+                for part in ("fluid", "wall"):
+                    self.assertEqual(len(grids[part]["points"]), mesh[f"{part}_nodes"])
+                    self.assertEqual(grids[part]["kinds"], ["vtkTetra"])
+                    self.assertEqual(sorted(grids[part]["point fields"]), ["displacement", "pressure", "velocity"])
+                    self.assertIn("layer", grids[part]["cell fields"])
+                self.assertEqual(len(set(grids["wall"]["cell fields"]["layer"])), 2)
+                self.assertEqual(len(grids["fluid"]["cells"]) + len(grids["wall"]["cells"]), mesh["tetrahedra"])
+
+    def test_last_values_are_those_of_the_checkpoint(self):
+        for folder, shown in self.each():
+            state, grids = arrays(folder / "checkpoint.h5"), shown["grids"][-1]
+            fluid, wall = (grids[part]["point fields"] for part in ("fluid", "wall"))
+            flow, solid = (state[f"arrays/level0.{part}"].reshape(-1, 4) for part in ("flow", "wall"))
+            for found, computed in ((fluid["velocity"], flow[:, :3]), (fluid["pressure"], flow[:, 3]),
+                                    (fluid["displacement"], state["arrays/level0.mesh"].reshape(-1, 3)),
+                                    (wall["displacement"], solid[:, :3]), (wall["pressure"], solid[:, 3]),
+                                    (wall["velocity"], state["arrays/wall_velocity"].reshape(-1, 3))):
+                np.testing.assert_array_equal(np.array(found), computed)
+                self.assertGreater(np.abs(computed).max(), 0)
+
+    def test_rest_is_zero(self):
+        for _, shown in self.each():
+            for grid in shown["grids"][0].values():
+                self.assertFalse(any(np.any(values) for values in grid["point fields"].values()))
+
+    def test_steps_differ(self):
+        for _, shown in self.each():
+            pressures = [grids["fluid"]["point fields"]["pressure"] for grids in shown["grids"]]
+            self.assertEqual(len({tuple(pressure) for pressure in pressures}), 4)
+
+    def test_fluid_and_wall_move_together_on_the_interface(self):
+        for folder, shown in self.each():
+            for grids in shown["grids"]:
+                fluid, wall = grids["fluid"], grids["wall"]
+                at = {tuple(point): i for i, point in enumerate(wall["points"])}
+                both = [(i, at[tuple(point)]) for i, point in enumerate(fluid["points"]) if tuple(point) in at]
+                self.assertEqual(len(both), summary(folder)["mesh"]["interface_nodes"])
+                inside = np.array(fluid["point fields"]["displacement"])[[i for i, _ in both]]
+                outside = np.array(wall["point fields"]["displacement"])[[j for _, j in both]]
+                # Exactly in the monolithic driver, to its loose tolerance in the partitioned one.
+                limit = 0 if "monolithic" in summary(folder)["program"] else 1e-2 * np.linalg.norm(outside)
+                self.assertLessEqual(np.linalg.norm(inside - outside), limit)
+
+
+if __name__ == "__main__":
+    unittest.main()

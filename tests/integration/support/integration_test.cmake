@@ -1,0 +1,16 @@
+# fsi_integration_test([CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those of
+# each class as FOLDER.CLASS, so that they can run beside each other.
+function(fsi_integration_test)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(tests ${folder})
+  if(ARGN)
+    list(TRANSFORM ARGN PREPEND ${folder}. OUTPUT_VARIABLE tests)
+  endif()
+  foreach(test IN LISTS tests)
+    add_test(NAME ${test}
+      COMMAND ${FSI_PYTHON} -E -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_tests.py test_${test}
+      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    set_tests_properties(${test} PROPERTIES LABELS integration TIMEOUT 600 ENVIRONMENT
+      "FSI_MESH=$<TARGET_FILE:fsi-mesh>;FSI_MONOLITHIC=$<TARGET_FILE:fsi-monolithic>;FSI_PARTITIONED=$<TARGET_FILE:fsi-partitioned>;FSI_CASES=${PROJECT_SOURCE_DIR}/meshes/artery;FSI_VTK_PYTHON=${FSI_VTK_PYTHON};FSI_VERSION=${PROJECT_VERSION}")
+  endforeach()
+endfunction()

@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "algebra/block_matrix.hpp"
+#include "algebra/direct_solver.hpp"
+#include "algebra/gathered_matrix.hpp"
+#include "algebra/node_graph.hpp"
+#include "base/error.hpp"
+#include "support/random.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+// Two triangles 0-1-2 and 1-3-2 of a square and node 4 of no cell.
+TEST(NodeGraph, CouplesNodesThatShareACellAscendingAndOnce) {
+  const auto graph = graph_of_cells(5, {0, 1, 2, 1, 3, 2}, 3);
+  EXPECT_EQ(graph.rows(), 5);
+  EXPECT_EQ(graph.offsets, (std::vector<int>{0, 3, 7, 11, 14, 14}));
+  EXPECT_EQ(graph.columns, (std::vector<int>{0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 3, 1, 2, 3}));
+  EXPECT_EQ(graph.blocks(), 14);
+}
+
+TEST(NodeGraph, FindsBlocksAndMissesThoseThatAreNot) {
+  const auto graph = graph_of_cells(5, {0, 1, 2, 1, 3, 2}, 3);
+  for (int row = 0; row < graph.rows(); ++row)
+    for (int column = 0; column < graph.rows(); ++column) {
+      const int at = graph.find(row, column);
+      const bool coupled = row < 4 && column < 4 && !(row + column == 3 && row * column == 0);
+      EXPECT_EQ(at >= 0, coupled) << row << " " << column;
+      if (at >= 0) {
+        EXPECT_EQ(graph.columns[at], column);
+        EXPECT_GE(at, graph.offsets[row]);
+        EXPECT_LT(at, graph.offsets[row + 1]);
+      }
+    }
+}
+
+TEST(BlockMatrix, BlocksAreRowMajorInTheOrderOfTheGraph) {
+  BlockMatrix<2, 3> matrix(std::make_shared<NodeGraph>(graph_of_cells(3, {0, 1, 2}, 3)));
+  EXPECT_EQ(matrix.values.size(), 9u * 6u);
+  matrix.block(4)[1 * 3 + 2] = 7;
+  EXPECT_EQ(matrix.values[4 * 6 + 5], 7);
+  matrix.set_zero();
+  EXPECT_EQ(matrix.values[4 * 6 + 5], 0);
+}
+
+/// The matrix with all its entries.
+Eigen::MatrixXd dense(const SparseMatrix& a) {
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(a.size(), a.size());
+  for (std::int64_t c = 0; c < a.size(); ++c)
+    for (std::int64_t k = a.offsets[c]; k < a.offsets[c + 1]; ++k) full(a.rows[k], c) += a.values[k];
+  return full;
+}
+
+TEST(GatheredMatrix, AddsUpWeightedNumbersAndFollowsThem) {
+  std::vector<double> source{1, 10, 100, 1000};
+  GatheredMatrix::Builder builder(3);
+  builder.add(2, 0, &source[0], 1);
+  builder.add(0, 0, &source[1], 0.5);
+  builder.add(2, 0, &source[2], -2);  // a second term of the same entry
+  builder.add(1, 2, &source[3], 3);
+  GatheredMatrix gathered(std::move(builder));
+  gathered.update();
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 3);
+  expected(2, 0) = 1 - 200;
+  expected(0, 0) = 5;
+  expected(1, 2) = 3000;
+  EXPECT_EQ(dense(gathered.matrix()), expected);
+  // Compressed columns, rows ascending, an empty column in the middle.
+  EXPECT_EQ(gathered.matrix().offsets, (std::vector<std::int64_t>{0, 2, 2, 3}));
+  EXPECT_EQ(gathered.matrix().rows, (std::vector<std::int64_t>{0, 2, 1}));
+  EXPECT_EQ(gathered.matrix().nonzeros(), 3);
+
+  source = {2, 20, 0, -1};
+  gathered.update();
+  EXPECT_EQ(dense(gathered.matrix())(2, 0), 2);
+  EXPECT_EQ(dense(gathered.matrix())(0, 0), 10);
+  EXPECT_EQ(dense(gathered.matrix())(1, 2), -3);
+}
+
+TEST(SparseMatrix, ProductAgreesWithTheDenseOne) {
+  const SparseMatrix a{{0, 2, 3, 5}, {0, 2, 1, 0, 1}, {1, 2, 3, 4, 5}};
+  const auto y = product(a, {1, 10, 100});
+  EXPECT_EQ(y, (std::vector<double>{401, 530, 2}));
+}
+
+/// A sparse matrix without symmetry, diagonally dominant rows but for a zero block on the diagonal as saddle points
+/// have.
+SparseMatrix random_saddle_point(int velocities, int pressures, unsigned seed) {
+  const int n = velocities + pressures;
+  Random random(seed);
+  SparseMatrix a;
+  a.offsets.push_back(0);
+  for (int c = 0; c < n; ++c) {
+    for (int r = 0; r < n; ++r) {
+      const bool corner = r >= velocities && c >= velocities;
+      const double value = random();
+      if (r == c && !corner) {
+        a.rows.push_back(r);
+        a.values.push_back(4 + value);
+      } else if (!corner && (r * 7 + c * 3) % 5 == 0) {
+        a.rows.push_back(r);
+        a.values.push_back(value);
+      }
+    }
+    a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
+  }
+  return a;
+}
+
+std::vector<double> random_vector(std::size_t n, unsigned seed) {
+  Random random(seed);
+  std::vector<double> v(n);
+  for (double& x : v) x = random();
+  return v;
+}
+
+double largest_difference(const SparseMatrix& a, const std::vector<double>& b, const std::vector<double>& x) {
+  const Eigen::VectorXd reference =
+      dense(a).fullPivLu().solve(Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size())));
+  double found = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) found = std::max(found, std::abs(x[i] - reference[i]));
+  return found;
+}
+
+TEST(DirectSolver, AgreesWithADenseFactorisation) {
+  for (const char* ordering : {"amd", "metis", "best"})
+    for (const char* strategy : {"auto", "unsymmetric", "symmetric"}) {
+      const auto a = random_saddle_point(60, 15, 3);
+      ASSERT_GT(dense(a).fullPivLu().rank(), 74);
+      const auto b = random_vector(75, 4);
+      std::vector<double> x;
+      DirectSolver solver({ordering, strategy, 0});
+      EXPECT_FALSE(solver.factorised());
+      solver.factorise(a);
+      EXPECT_TRUE(solver.factorised());
+      EXPECT_GE(solver.factor_nonzeros(), a.nonzeros() / 2);
+      solver.solve(a, b, x);
+      EXPECT_LT(largest_difference(a, b, x), 1e-11) << ordering << " " << strategy;
+    }
+}
+
+TEST(DirectSolver, FactorisesNewValuesOnTheKeptPattern) {
+  auto a = random_saddle_point(60, 15, 3);
+  const auto b = random_vector(75, 4);
+  std::vector<double> x;
+  DirectSolver solver;
+  solver.factorise(a);
+  const auto fresh = random_saddle_point(60, 15, 5);
+  ASSERT_EQ(a.rows, fresh.rows);
+  // Old factors serve until the new ones are made.
+  solver.solve(fresh, b, x);
+  EXPECT_LT(largest_difference(a, b, x), 1e-11);
+  solver.factorise(fresh);
+  solver.solve(fresh, b, x);
+  EXPECT_LT(largest_difference(fresh, b, x), 1e-11);
+  solver.discard();
+  EXPECT_FALSE(solver.factorised());
+  solver.factorise(a);
+  solver.solve(a, b, x);
+  EXPECT_LT(largest_difference(a, b, x), 1e-11);
+}
+
+TEST(DirectSolver, SurvivesBeingMoved) {
+  const auto a = random_saddle_point(20, 5, 6);
+  const auto b = random_vector(25, 7);
+  DirectSolver first;
+  first.factorise(a);
+  DirectSolver second = std::move(first);
+  std::vector<double> x;
+  second.solve(a, b, x);
+  EXPECT_LT(largest_difference(a, b, x), 1e-11);
+}
+
+TEST(DirectSolver, RefusesSingularAndUndefinedMatrices) {
+  auto a = random_saddle_point(20, 5, 6);
+  const auto regular = a;
+  for (std::int64_t k = a.offsets[3]; k < a.offsets[4]; ++k) a.values[k] = 0;  // a column of zeros
+  DirectSolver solver;
+  EXPECT_THROW(solver.factorise(a), ConvergenceError);
+  EXPECT_FALSE(solver.factorised());
+
+  // Two equal columns: rank deficient without a zero.
+  SparseMatrix twins{{0, 2, 4, 6}, {0, 1, 0, 1, 0, 2}, {1, 2, 1, 2, 5, 1}};
+  DirectSolver small;
+  EXPECT_THROW(small.factorise(twins), ConvergenceError);
+
+  a = regular;
+  a.values[a.offsets[3]] = std::numeric_limits<double>::quiet_NaN();
+  DirectSolver undefined;
+  EXPECT_THROW(undefined.factorise(a), ConvergenceError);
+
+  // The same solver recovers with a regular matrix of the pattern.
+  solver.factorise(regular);
+  EXPECT_TRUE(solver.factorised());
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,231 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "solvers/newton.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+/// A scalar equation f(x) = 0 that keeps count of what is asked of it.
+class Scalar : public NewtonProblem {
+ public:
+  using Function = std::function<double(double)>;
+  Scalar(Function f, Function slope, double start) : x(start), f_(std::move(f)), slope_(std::move(slope)) {}
+
+  double evaluate() override {
+    ++evaluations;
+    residual_ = f_(x);
+    return std::abs(residual_);
+  }
+  void linearise() override {
+    ++linearisations;
+    jacobian_ = slope_(x);
+    linearised_ = true;
+  }
+  bool linearised() const override { return linearised_; }
+  double solve() override {
+    increment_ = -residual_ / jacobian_;
+    return std::abs(increment_);
+  }
+  void move(double step) override { x += step * increment_; }
+  double size() const override { return std::abs(x); }
+  double rounding() const override { return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x); }
+
+  double x;
+  int evaluations = 0, linearisations = 0;
+
+ private:
+  Function f_, slope_;
+  double residual_ = 0, jacobian_ = 0, increment_ = 0;
+  bool linearised_ = false;
+};
+
+Scalar square_root_of_two(double start = 2) {
+  return {[](double x) { return x * x - 2; }, [](double x) { return 2 * x; }, start};
+}
+
+NewtonOptions full_newton() {
+  NewtonOptions options;
+  options.keep_jacobian = false;
+  options.tolerance = 1e-14;
+  return options;
+}
+
+// Newton for x^2 = 2: e_(k+1) = e_k^2 / (2 x_k), so residual_(k+1) = increment_(k+1)^2 exactly.
+TEST(Newton, ConvergesQuadratically) {
+  auto problem = square_root_of_two();
+  const auto report = newton(problem, full_newton());
+  ASSERT_TRUE(report.converged);
+  EXPECT_TRUE(report.failure.empty());
+  EXPECT_NEAR(problem.x, std::sqrt(2.0), 4e-16);
+  EXPECT_EQ(report.first_residual, 2.0);
+  ASSERT_GE(report.count(), 4);
+  EXPECT_DOUBLE_EQ(report.iterations[0].increment, 0.5);
+  EXPECT_DOUBLE_EQ(report.iterations[0].residual, 0.25);
+  for (int k = 1; k < 4; ++k) {
+    const double increment = report.iterations[k].increment;
+    EXPECT_NEAR(report.iterations[k].residual, increment * increment, 1e-15);
+    EXPECT_NEAR(increment, report.iterations[k - 1].increment * report.iterations[k - 1].increment / (2 * problem.x),
+                0.2 * increment + 1e-15);
+    EXPECT_EQ(report.iterations[k].step, 1.0);
+    EXPECT_TRUE(report.iterations[k].linearised);
+  }
+  EXPECT_EQ(problem.linearisations, report.count());
+}
+
+TEST(Newton, SolvesALinearProblemInOneStepAndNotesItInTheNext) {
+  Scalar problem([](double x) { return 3 * x - 6; }, [](double) { return 3.0; }, 10);
+  const auto report = newton(problem, {});
+  EXPECT_TRUE(report.converged);
+  EXPECT_NEAR(problem.x, 2, 1e-15);
+  EXPECT_LE(report.count(), 2);
+  EXPECT_EQ(problem.linearisations, 1);
+}
+
+TEST(Newton, StartAtTheSolutionIsConverged) {
+  Scalar problem([](double x) { return 3 * x - 6; }, [](double) { return 3.0; }, 2);
+  const auto report = newton(problem, {});
+  EXPECT_TRUE(report.converged) << report.failure;
+  EXPECT_EQ(problem.x, 2);
+}
+
+// A start that is the solution to rounding, as the extrapolation of a steady state is: the residual cannot fall any
+// more.
+TEST(Newton, StartAtTheSolutionToRoundingIsConverged) {
+  for (const double start : {1.4142135623730949, 1.4142135623730951, 1.4142135623730954, 1.4142135623730947}) {
+    auto problem = square_root_of_two(start);
+    const auto report = newton(problem, {});
+    EXPECT_TRUE(report.converged) << report.failure;
+    EXPECT_NEAR(problem.x, std::sqrt(2.0), 1e-15);
+  }
+}
+
+TEST(Newton, KeepsAJacobianWhileItContractsAndRenewsItWhenNot) {
+  NewtonOptions options;
+  options.tolerance = 1e-10;
+  // Nearly linear: the first Jacobian contracts by about 0.02 an iteration and serves to the end.
+  Scalar easy([](double x) { return x + 0.01 * x * x - 1; }, [](double x) { return 1 + 0.02 * x; }, 0);
+  const auto kept = newton(easy, options);
+  ASSERT_TRUE(kept.converged);
+  EXPECT_GT(kept.count(), 2);
+  EXPECT_EQ(easy.linearisations, 1);
+  for (int k = 1; k < kept.count(); ++k) EXPECT_FALSE(kept.iterations[k].linearised);
+
+  // From far away on a cubic it does not: every renewal answers to a contraction worse than 0.2, and to nothing else.
+  Scalar hard([](double x) { return x * x * x - 1; }, [](double x) { return 3 * x * x; }, 3);
+  const auto renewed = newton(hard, options);
+  ASSERT_TRUE(renewed.converged);
+  EXPECT_GT(hard.linearisations, 1);
+  EXPECT_NEAR(hard.x, 1, 1e-9);
+  double before = renewed.first_residual;
+  for (int k = 0; k + 1 < renewed.count(); ++k) {
+    const double contraction = renewed.iterations[k].residual / before;
+    EXPECT_EQ(renewed.iterations[k + 1].linearised, contraction > options.keep_contraction) << k;
+    before = renewed.iterations[k].residual;
+  }
+}
+
+TEST(Newton, UsesTheJacobianOfAnEarlierCall) {
+  auto problem = square_root_of_two(1.5);
+  ASSERT_TRUE(newton(problem, {}).converged);
+  const int before = problem.linearisations;
+  problem.x += 0.01;
+  const auto again = newton(problem, {});
+  EXPECT_TRUE(again.converged);
+  EXPECT_FALSE(again.iterations.front().linearised);
+  EXPECT_EQ(problem.linearisations, before);
+  EXPECT_NEAR(problem.x, std::sqrt(2.0), 1e-8);
+}
+
+// arctan from 1.5: the full step overshoots for ever (|x| > 1.3917), halved ones converge.
+TEST(Newton, BacktracksWhenAFullStepRaisesTheResidual) {
+  Scalar problem([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); }, 3);
+  const auto report = newton(problem, full_newton());
+  ASSERT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(problem.x, 0, 1e-12);
+  EXPECT_LT(report.iterations.front().step, 1);
+  double before = report.first_residual;
+  for (const auto& iteration : report.iterations) {
+    EXPECT_LE(iteration.residual, before);
+    before = iteration.residual;
+  }
+}
+
+// log has no value left of 0: like an element that a full step inverts.
+TEST(Newton, BacktracksFromWhereTheResidualDoesNotExist) {
+  Scalar problem([](double x) { return std::log(x); }, [](double x) { return 1 / x; }, 4);
+  const auto report = newton(problem, full_newton());
+  ASSERT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(problem.x, 1, 1e-14);
+  EXPECT_LT(report.iterations.front().step, 1);
+}
+
+TEST(Newton, AnOldJacobianThatPointsTheWrongWayIsRenewedNotGivenUp) {
+  Scalar problem([](double x) { return x * x - 2; }, [](double x) { return 2 * x; }, -1.5);
+  ASSERT_TRUE(newton(problem, {}).converged);  // leaves a negative slope behind
+  problem.x = 2;
+  const auto report = newton(problem, {});
+  EXPECT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(problem.x, std::sqrt(2.0), 1e-8);
+}
+
+TEST(Newton, IterationLimitIsAFailure) {
+  auto options = full_newton();
+  options.max_iterations = 3;
+  auto problem = square_root_of_two(100);
+  const auto report = newton(problem, options);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.count(), 3);
+  EXPECT_NE(report.failure.find("limit"), std::string::npos);
+}
+
+TEST(Newton, ResidualWithoutARootIsAFailureAndTheIterateStays) {
+  Scalar problem([](double x) { return x * x + 1; }, [](double x) { return 2 * x; }, 1e-3);
+  const auto report = newton(problem, full_newton());
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.failure.find("residual"), std::string::npos);
+  EXPECT_NEAR(problem.x, 1e-3, 1e-12) << "no step was taken";
+}
+
+TEST(Newton, UndefinedStartAndUndefinedIncrementAreFailures) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Scalar start([=](double) { return nan; }, [](double) { return 1.0; }, 0);
+  const auto at_start = newton(start, {});
+  EXPECT_FALSE(at_start.converged);
+  EXPECT_EQ(at_start.count(), 0);
+  EXPECT_NE(at_start.failure.find("start"), std::string::npos);
+
+  Scalar increment([](double x) { return x - 1; }, [](double) { return 0.0; }, 0);
+  const auto at_solve = newton(increment, {});
+  EXPECT_FALSE(at_solve.converged);
+  EXPECT_NE(at_solve.failure.find("not finite"), std::string::npos);
+  EXPECT_EQ(increment.x, 0);
+}
+
+TEST(Newton, ResidualToleranceIsAFurtherDemand) {
+  NewtonOptions loose;
+  loose.tolerance = 0.9;  // the second increment would do
+  auto first = square_root_of_two(), second = square_root_of_two();
+  const auto by_increment = newton(first, loose);
+  loose.residual_tolerance = 1e-9;
+  const auto by_both = newton(second, loose);
+  ASSERT_TRUE(by_increment.converged && by_both.converged);
+  EXPECT_GT(by_increment.iterations.back().residual, 2e-9);
+  EXPECT_LE(by_both.iterations.back().residual, 2e-9);
+}
+
+TEST(Newton, ReferenceReplacesTheFirstIncrement) {
+  NewtonOptions options = full_newton();
+  options.tolerance = 1e-3;
+  options.reference = 1e3;  // the first increment, 0.5, is already below a thousandth of it
+  auto problem = square_root_of_two();
+  EXPECT_EQ(newton(problem, options).count(), 1);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
