@@ -82,7 +82,9 @@ struct WallCase {
   double radial_stretch;  ///< the fibres lie across it: below 1 they are stretched, above 1 slack
 };
 
-void PrintTo(const WallCase& with, std::ostream* out) { *out << with.name; }
+void PrintTo(const WallCase& with, std::ostream* out) {
+  *out << with.name;
+}
 
 class WallJacobian : public testing::TestWithParam<WallCase> {};
 

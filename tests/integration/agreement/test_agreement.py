@@ -17,8 +17,11 @@ class Agreement:
     def setUpClass(cls):
         super().setUpClass()
         cls.monolithic = run(MONOLITHIC, cls.case, cls.base / "monolithic", *SETTINGS)
-        cls.converged = run(PARTITIONED, cls.case, cls.base / "converged", "partitioned.tolerance=1e-9", *SETTINGS)
-        cls.loose = run(PARTITIONED, cls.case, cls.base / "loose", "partitioned.tolerance=1e-2", *SETTINGS)
+        cls.converged = cls.partitioned("converged", 1e-9)
+
+    @classmethod
+    def partitioned(cls, name, tolerance):
+        return run(PARTITIONED, cls.case, cls.base / name, f"partitioned.tolerance={tolerance}", *SETTINGS)
 
     def test_pressure_agrees_at_every_time_level(self):
         self.assertEqual(pressure(self.monolithic).shape[0], STEPS)
@@ -33,27 +36,36 @@ class Agreement:
         flows = [table(folder, "flow.csv")[:, 1:2] for folder in (self.converged, self.monolithic)]
         self.assertLess(difference(*flows).max(), 1e-6)
 
-    def test_loose_coupling_changes_the_wave(self):
-        tight = difference(pressure(self.converged), pressure(self.monolithic)).max()
-        loose = difference(pressure(self.loose), pressure(self.monolithic))
-        peaks = [np.abs(pressure(folder)).max(axis=1) for folder in (self.loose, self.monolithic)]
-        print(f"{self.case.stem}: difference at tolerance 1e-2, per step:", loose, "ratio of peaks:", peaks[0] / peaks[1])
-        self.assertGreater(loose.max(), 1e-2)
-        self.assertGreater(loose.max(), 1e4 * tight)
-
     def test_steps_took_the_iterations_they_report(self):
-        for folder, tolerance in ((self.converged, 1e-9), (self.loose, 1e-2)):
-            counts = table(folder, "iterations.csv")[:, 2]
-            errors = [float(line.split("|d~ - d| / |d~| = ")[1].split()[0])
-                      for line in (folder / "run.log").read_text().splitlines() if "|d~ - d|" in line]
-            self.assertEqual(len(errors), counts.sum())
-            last = np.cumsum(counts).astype(int) - 1
-            for i, error in enumerate(errors):
-                self.assertEqual(error <= tolerance, i in last, f"coupling iteration {i + 1}: {error}")
+        self.assertIterationsEndAt(self.converged, 1e-9)
+
+    def assertIterationsEndAt(self, folder, tolerance):
+        """Each step's iterations end with the first that meets the tolerance, and are as many as reported."""
+        counts = table(folder, "iterations.csv")[:, 2]
+        errors = [float(line.split("|d~ - d| / |d~| = ")[1].split()[0])
+                  for line in (folder / "run.log").read_text().splitlines() if "|d~ - d|" in line]
+        self.assertEqual(len(errors), counts.sum())
+        last = np.cumsum(counts).astype(int) - 1
+        for i, error in enumerate(errors):
+            self.assertEqual(error <= tolerance, i in last, f"coupling iteration {i + 1}: {error}")
 
 
 class NeoHookean(Agreement, FolderTest):
     case = NEO_HOOKEAN
+
+    def test_loose_coupling_changes_the_wave(self):
+        """The paper's partitioned wave is smaller than its monolithic one: what too loose a tolerance can do."""
+        apart, peaks = {}, {}
+        for tolerance in (1e-1, 1e-2):
+            folder = self.partitioned(f"loose{tolerance}", tolerance)
+            self.assertIterationsEndAt(folder, tolerance)
+            apart[tolerance] = difference(pressure(folder), pressure(self.monolithic))
+            peaks[tolerance] = pressure(folder).max(axis=1) / pressure(self.monolithic).max(axis=1)
+            print(f"tolerance {tolerance}: difference per step:", apart[tolerance], "ratio of peaks:", peaks[tolerance])
+        tight = difference(pressure(self.converged), pressure(self.monolithic)).max()
+        self.assertGreater(apart[1e-1].max(), 0.1)
+        self.assertGreater(apart[1e-2].max(), 0.01)
+        self.assertGreater(apart[1e-2].max(), 1e4 * tight)
 
 
 class MooneyRivlin(Agreement, FolderTest):

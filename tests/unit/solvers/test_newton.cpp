@@ -107,6 +107,8 @@ TEST(Newton, StartAtTheSolutionToRoundingIsConverged) {
 TEST(Newton, KeepsAJacobianWhileItContractsAndRenewsItWhenNot) {
   NewtonOptions options;
   options.tolerance = 1e-10;
+  options.keep_contraction = 0.2;
+  options.keep_iterations = 100;
   // Nearly linear: the first Jacobian contracts by about 0.02 an iteration and serves to the end.
   Scalar easy([](double x) { return x + 0.01 * x * x - 1; }, [](double x) { return 1 + 0.02 * x; }, 0);
   const auto kept = newton(easy, options);
@@ -127,6 +129,19 @@ TEST(Newton, KeepsAJacobianWhileItContractsAndRenewsItWhenNot) {
     EXPECT_EQ(renewed.iterations[k + 1].linearised, contraction > options.keep_contraction) << k;
     before = renewed.iterations[k].residual;
   }
+}
+
+TEST(Newton, RenewsAKeptJacobianAfterSoManyIterations) {
+  NewtonOptions options;
+  options.tolerance = 1e-10;
+  options.keep_contraction = 0.4;
+  options.keep_iterations = 3;
+  // A slope of 1.25 instead of 1 contracts by 0.2 an iteration, whether it is made anew or kept.
+  Scalar problem([](double x) { return x - 1; }, [](double) { return 1.25; }, 0);
+  const auto report = newton(problem, options);
+  ASSERT_TRUE(report.converged);
+  ASSERT_GT(report.count(), 6);
+  for (int k = 0; k < report.count(); ++k) EXPECT_EQ(report.iterations[k].linearised, k % 3 == 0) << k;
 }
 
 TEST(Newton, UsesTheJacobianOfAnEarlierCall) {
