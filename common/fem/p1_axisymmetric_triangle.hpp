@@ -24,8 +24,8 @@ struct P1AxisymmetricTriangle {
     Pack measure;                ///< area in the (r, z) plane, mm^2
     Pack radius[nodes];          ///< mm
     Vec3<Pack> gradient[nodes];  ///< 1/mm
-    Sym3<Pack> metric;  ///< xi on the regular triangle of unit edge; nothing in the hoop direction
-    Pack size_squared;  ///< h^2, h the edge of the regular triangle of the same area, mm^2
+    Sym3<Pack> metric;           ///< xi on the regular triangle of unit edge; nothing in the hoop direction
+    Pack size_squared;           ///< h^2, h the edge of the regular triangle of the same area, mm^2
   };
 
   static Geometry geometry(const Vec3<Pack> x[nodes]) {

@@ -3,8 +3,8 @@
 import unittest
 
 import numpy as np
-from programs import (ARTERY, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, PARTITIONED, FolderTest, difference, pressure, run,
-                      table, wall)
+from programs import (ARTERY, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, PARTITIONED, FolderTest, difference, pressure,
+                      run, table, wall)
 
 STEPS = 8
 SETTINGS = ("time.end=1", "output.every=0")  # ms: 8 steps of 0.125

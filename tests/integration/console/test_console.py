@@ -7,7 +7,8 @@ import subprocess
 import time
 import unittest
 
-from programs import DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute, make_small_mesh
+from programs import (DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute,
+                      make_small_mesh)
 
 VERSION = os.environ["FSI_VERSION"]
 STEPS = 3
@@ -39,7 +40,7 @@ class Console(FolderTest):
             self.assertTrue(first.startswith(f"{self.name(program)} {VERSION}: Rabbit carotid artery"), first)
             self.assertEqual(len(steps), STEPS)
             for k, line in enumerate(steps, start=1):
-                self.assertRegex(line, rf"^step {k}/{STEPS}, t = {0.125 * k:g} ms: .*\d+ Newton iterations, .* s, .* left$")
+                self.assertRegex(line, rf"^step {k}/{STEPS}, t = {0.125 * k:g} ms: .*\d+ Newton iterations, .* left$")
 
     def test_terminal_progress_rewrites_its_line(self):
         terminal, end = pty.openpty()
@@ -82,7 +83,10 @@ class Console(FolderTest):
                                  ([case, "-o", folder, "--threads", "two"], "two"),
                                  ([case, case, "-o", folder], "one argument too many"),
                                  ([case, "-o", folder, "--set", "time.end"], "time.end"),
-                                 ([case, "-o", folder, "-x"], "-x"), ([case], "-o"), (["-o", folder], "case file"), ([], "")):
+                                 ([case, "-o", folder, "-x"], "-x"),
+                                 ([case], "-o"),
+                                 (["-o", folder], "no case file"),
+                                 ([], "no case file")):
                 process = execute(program, *words)
                 with self.subTest(program=program, words=words):
                     self.assertRefused(process, shown)

@@ -138,7 +138,7 @@ class ExitCodes(FolderTest):
                 self.assertEqual(summary(folder)["status"], "done")
                 self.assertNotIn("failure", summary(folder))
                 self.assertFinishedSteps(folder, 4)
-                # The failed step may have left another Jacobian or relaxation: not the same bits, but the same solution.
+                # The failed step may have left another Jacobian or relaxation: other bits, but the same solution.
                 self.assertLess(difference(pressure(folder), pressure(whole)).max(), tolerance)
 
     def test_load_beyond_the_limit_of_the_tube(self):

@@ -30,11 +30,11 @@ def named(data):
 
 
 def contents(grid):
-    cells = [grid.GetCell(i) for i in range(grid.GetNumberOfCells())]
+    cells = range(grid.GetNumberOfCells())
     return {
         "points": [grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())],
-        "kinds": sorted({cell.GetClassName() for cell in cells}),
-        "cells": [[cell.GetPointId(k) for k in range(cell.GetNumberOfPoints())] for cell in map(grid.GetCell, range(len(cells)))],
+        "kinds": sorted({grid.GetCell(i).GetClassName() for i in cells}),
+        "cells": [[grid.GetCell(i).GetPointId(k) for k in range(4)] for i in cells],
         "point fields": named(grid.GetPointData()),
         "cell fields": named(grid.GetCellData()),
     }

@@ -41,9 +41,9 @@ class Newton(FolderTest):
                 self.assertTrue(all(renewed for *_, renewed in iterations), "a Jacobian was kept")
 
     def test_increments_decay_quadratically(self):
-        """increment_(k+1) <= C increment_k^2 in the last two iterations. C was at most 0.3, and 6 where fibres switch on
-        (the energy is once differentiable there). A Jacobian with an error contracts linearly: by a hundredth, say,
-        which from an increment of 1e-4 needs C = 100."""
+        """increment_(k+1) <= C increment_k^2 in the last two iterations. C was at most 0.3, and 6 where fibres switch
+        on, since the stress has a kink there. A Jacobian with an error contracts linearly: by a hundredth, say, which
+        from an increment of 1e-4 needs C = 100."""
         for case, step, iterations in self.histories():
             largest = 20 if case == ARTERY else 1
             increments = [increment for increment, *_ in iterations]

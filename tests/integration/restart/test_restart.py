@@ -73,6 +73,12 @@ class Restart:
             if not name.startswith("steps/"):
                 self.assertEqual(fields[name].tobytes(), values.tobytes(), name)
 
+    def test_at_a_time_that_is_no_binary_fraction(self):
+        """3 * 0.1 > 0.3 in doubles: the shorter run's last time must be the longer one's third."""
+        whole = self.march("decimal_whole", "time.step=0.1", "time.end=0.5")
+        folder = self.march("decimal", "time.step=0.1", "time.end=0.3")
+        self.assertSameTables(self.go_on(folder, "time.step=0.1", "time.end=0.5"), whole)
+
     def test_with_quadratic_predictor(self):
         """It needs three finished levels; after the third step all of them have moved."""
         whole = self.march("predictor_whole", "time.predictor=2")

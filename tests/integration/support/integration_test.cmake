@@ -10,7 +10,13 @@ function(fsi_integration_test)
     add_test(NAME ${test}
       COMMAND ${FSI_PYTHON} -E -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_tests.py test_${test}
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
-    set_tests_properties(${test} PROPERTIES LABELS integration TIMEOUT 600 ENVIRONMENT
-      "FSI_MESH=$<TARGET_FILE:fsi-mesh>;FSI_MONOLITHIC=$<TARGET_FILE:fsi-monolithic>;FSI_PARTITIONED=$<TARGET_FILE:fsi-partitioned>;FSI_CASES=${PROJECT_SOURCE_DIR}/meshes/artery;FSI_VTK_PYTHON=${FSI_VTK_PYTHON};FSI_VERSION=${PROJECT_VERSION}")
+    set(environment
+      FSI_MESH=$<TARGET_FILE:fsi-mesh>
+      FSI_MONOLITHIC=$<TARGET_FILE:fsi-monolithic>
+      FSI_PARTITIONED=$<TARGET_FILE:fsi-partitioned>
+      FSI_CASES=${PROJECT_SOURCE_DIR}/meshes/artery
+      FSI_VTK_PYTHON=${FSI_VTK_PYTHON}
+      FSI_VERSION=${PROJECT_VERSION})
+    set_tests_properties(${test} PROPERTIES LABELS integration TIMEOUT 600 ENVIRONMENT "${environment}")
   endforeach()
 endfunction()

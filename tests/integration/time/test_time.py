@@ -29,14 +29,15 @@ class TimeAxis(FolderTest):
 
     def test_end_off_the_steps_is_refused(self):
         for end in ("0.3", "0.1"):
-            process = attempt(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "off", settings=(self.mesh, f"time.end={end}"))
+            settings = (self.mesh, f"time.end={end}")
+            process = attempt(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "off", settings=settings)
             self.assertEqual(process.returncode, 1)
             self.assertIn("time.end", process.stderr)
             self.assertFalse((self.base / "off").exists())
 
     def test_steps_around_the_pulse_see_the_same_impulse(self):
-        """The step is twice as long as the pulse, as long, or half as long. Were the pressure sampled instead of averaged,
-        the first would see no pulse at all, or one of twice the impulse."""
+        """The step is twice as long as the pulse, as long, or half as long. Were the pressure sampled instead of
+        averaged, the first would see no pulse at all, or one of twice the impulse."""
         flows = [table(self.march(f"pulse{step}", f"time.step={step}", "time.end=0.25"), "flow.csv")[-1, 1]
                  for step in (0.25, 0.125, 0.0625)]
         print("inlet flow at 0.25 ms:", flows)
@@ -44,7 +45,7 @@ class TimeAxis(FolderTest):
 
 
 class Impulse(FolderTest):
-    """In a rigid pipe without viscosity to speak of the flow is the impulse, Q = A/(rho L) int p dt, whatever the step."""
+    """In a rigid pipe, viscosity negligible, the flow is the impulse, Q = A/(rho L) int p dt, whatever the step."""
 
     def flow(self, name, step, *settings):
         folder = run(MONOLITHIC, self.case, self.base / name, f"time.step={step}", *settings)
@@ -71,12 +72,12 @@ class Impulse(FolderTest):
         np.testing.assert_allclose(flows[0], flows[-1], rtol=0.1)
 
     def test_is_that_of_the_pressure(self):
-        """A quarter of the section is the layer of elements at the wall, where the velocity is that of no slip: the flow
-        is a little less than the pipe's."""
+        """In the layer of elements at the wall the velocity falls to zero: with a quarter of the radius each, they take
+        a fifth of the flow away."""
         ideal = np.pi * 1.43**2 * PULSE * DURATION / (1.0 * 12)
         ratio = self.flow("ideal", 0.0625) / ideal
         print("flow over that of an ideal fluid:", ratio)
-        self.assertTrue(0.6 < ratio < 1.0, ratio)
+        self.assertTrue(0.75 < ratio < 1.0, ratio)
 
     def test_table_of_the_same_impulse(self):
         """A triangle of the same area, its corners off the steps."""
