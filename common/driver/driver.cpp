@@ -93,11 +93,13 @@ class Run {
       if (state_.step > 0) save();
       summary_["failure"] = failure.what();
       write("not converged");
-      throw ConvergenceError(state_.step > 0
-                                 ? fmt::format("{} [the state after step {} is saved; continue with --restart {}]",
-                                               failure.what(), state_.step, line_.output.string())
-                                 : failure.what(),
-                             "");
+      throw ConvergenceError(
+          state_.step > 0
+              ? fmt::format(
+                    "{} [the state after step {} is saved; continue with other solver settings by --restart {}]",
+                    failure.what(), state_.step, line_.output.string())
+              : failure.what(),
+          "");
     }
     write("done");
     log.info("done");

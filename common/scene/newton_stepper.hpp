@@ -66,10 +66,9 @@ class NewtonStepper : public Stepper {
       solved = solve(state, data, cautious);
     }
     if (!solved.converged)
-      throw ConvergenceError(
-          fmt::format("step {} (to t = {:g} ms): Newton's method stopped after {} iterations: {}", state.step + 1,
-                      data.time, solved.count(), solved.failure),
-          "a smaller time.step (or more static.load_steps), a smaller load, or monolithic.mode = \"full\"");
+      throw ConvergenceError(fmt::format("step {} (to t = {:g} ms): Newton's method stopped after {} iterations: {}",
+                                         state.step + 1, data.time, solved.count(), solved.failure),
+                             remedy(solved));
     scene_.scheme.accept(state, data);
     return report_;
   }
@@ -86,6 +85,14 @@ class NewtonStepper : public Stepper {
   }
 
  private:
+  std::string remedy(const NewtonReport& failed) const {
+    std::string text =
+        scene_.scheme.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
+    if (options_.keep_jacobian) text += ", or monolithic.mode = \"full\"";
+    if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
+    return text;
+  }
+
   NewtonReport solve(State& state, const StepData& data, const TimeScheme& scheme) {
     scheme.predict(state);
     scene_.impose_interface(state);
