@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The runs behind docs/results.md: three materials, both drivers, coarse and intermediate mesh. About half an hour on two
 # cores. Finished runs are kept; delete results/study to start afresh.
+# Needs the benchmarks target too (axisymmetric_wave): cmake --build --preset release --target benchmarks.
 #   scripts/study.sh [FOLDER WITH THE PROGRAMS]      default: build/release/bin
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
