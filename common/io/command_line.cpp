@@ -50,7 +50,7 @@ void refuse_extras(const CLI::App& app) {
 }  // namespace
 
 std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
-                                              const char* const* argv) {
+                                              const char* const* argv, const std::vector<ExtraOption>& extra) {
   CommandLine line;
   std::string threads;
   bool help = false, help_keys = false, show_version = false;
@@ -69,6 +69,12 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
       ->expected(1)
       ->allow_extra_args(false);
   app.add_option("--threads", threads, "Threads for assembly; 0: one per core (default)")->type_name("N");
+  for (const auto& option : extra) {
+    if (option.text)
+      app.add_option(option.name, *option.text, option.description)->type_name(option.type);
+    else
+      app.add_flag(option.name, *option.flag, option.description);
+  }
   app.add_flag("-q,--quiet", line.quiet, "No progress, errors only");
   app.add_flag("-h,--help", help, "Print this help");
   app.add_flag("--help-keys", help_keys, "List the keys of a case file");

@@ -7,6 +7,15 @@
 
 namespace fsi {
 
+/// An option of one program alone. With a value, `text` receives it; without, `flag` is set.
+struct ExtraOption {
+  std::string name;         ///< "--linear-systems"
+  std::string type;         ///< what the value is called in the help; empty: a flag
+  std::string description;  ///< one sentence
+  std::string* text = nullptr;
+  bool* flag = nullptr;
+};
+
 /// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [-q]`.
 struct CommandLine {
   std::filesystem::path case_file;
@@ -20,8 +29,9 @@ struct CommandLine {
 /// Parses a driver's arguments. Empty when --help, --help-keys or --version was asked for and has been printed.
 /// \param program      name of the program, for help and version
 /// \param description  one sentence for the help
+/// \param extra        options of this program alone
 /// \throws InputError naming the option and the offending value
 std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
-                                              const char* const* argv);
+                                              const char* const* argv, const std::vector<ExtraOption>& extra = {});
 
 }  // namespace fsi

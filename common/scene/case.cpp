@@ -32,4 +32,12 @@ int TimeData::steps() const {
   return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
 }
 
+const std::vector<std::string>& linear_solver_names() {
+  static const std::vector<std::string> names = {
+      "fast", "direct",         "diagonal",    "lower",       "upper",      "ssor",
+      "ilu",  "diagonal_exact", "lower_exact", "upper_exact", "ssor_exact", "ilu_exact",
+      "amg",  "amg_gmres",      "amg_fgmres",  "amli",        "amli_gmres", "amli_fgmres"};
+  return names;
+}
+
 }  // namespace fsi

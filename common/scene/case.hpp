@@ -70,9 +70,29 @@ struct StaticData {
   int load_steps = 10;
 };
 
+/// [monolithic.multigrid]: multigrid of the sub-problems and, under names with amg and amli, of the coupled system
+struct MultigridData {
+  std::string cycle = "w";   ///< coupled amg: "v", "w" or "k"; amli has its own
+  int pre_smoothing = 5;     ///< steps of the coupled smoother before the coarse correction,
+  int post_smoothing = 5;    ///< and after
+  double damping = 0;        ///< of the coupled smoother; 0: from the estimated largest eigenvalue, level by level
+  int levels = 10;           ///< at most
+  int coarsest_nodes = 400;  ///< fluid and wall nodes; levels of at most so many are solved directly
+  std::string coarsening = "colouring";           ///< or "aggregation"
+  std::string fluid_smoother = "braess-sarazin";  ///< or "vanka"
+  std::string wall_smoother = "braess-sarazin";   ///< or "vanka"
+  std::string sub_cycle = "w";                    ///< of the sub-problems: "v" or "w"
+  int sub_smoothing = 2;                          ///< smoothing steps of the sub-problems, before and after
+};
+
 /// [monolithic]
 struct MonolithicData {
-  std::string linear_solver = "direct";
+  std::string linear_solver = "fast";
+  double linear_tolerance = 0;      ///< residual of each linear solve, relative; 0: what Newton's convergence needs
+  int max_linear_iterations = 500;  ///< of each linear solve
+  int direct_below = 10000;         ///< unknowns below which `fast` factorises
+  int krylov_restart = 250;         ///< directions that GMRES and FGMRES keep
+  MultigridData multigrid;
   std::string mode = "kept";  ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
   double newton_tolerance = 1e-8;  ///< increment relative to the first one of the step
   double residual_tolerance = 0;   ///< optional further demand: residual relative to the first of the step; 0: none
@@ -93,6 +113,9 @@ struct OutputData {
   int every = 8;             ///< steps between entries of fields.h5; 0: no fields
   int checkpoint_every = 1;  ///< steps between checkpoints; 0: none
 };
+
+/// Names that monolithic.linear_solver can have.
+const std::vector<std::string>& linear_solver_names();
 
 /// A whole scene as the case file states it. Sections that a scene does not need are absent.
 struct Case {

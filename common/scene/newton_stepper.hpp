@@ -17,9 +17,10 @@ inline void append_history(const NewtonReport& report, std::vector<std::string>&
                            const std::string& indent = "") {
   int k = 0;
   for (const auto& it : report.iterations)
-    lines.push_back(fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}", indent, ++k, it.increment,
-                                it.residual, it.step < 1 ? fmt::format("  step {:g}", it.step) : "",
-                                it.linearised ? "  new jacobian" : ""));
+    lines.push_back(
+        fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}{}", indent, ++k, it.increment, it.residual,
+                    it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
+                    it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
 }
 
 /// A linearisation point as numbers to remember, and back.
@@ -49,8 +50,12 @@ inline bool recall(const std::string& name, const Memory& memory, LinearisationP
 template <class Element>
 class NewtonStepper : public Stepper {
  public:
-  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options)
-      : scene_(scene), loads_(loads), options_(std::move(options)), system_("coupled", scene, number_scene(scene)) {}
+  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options,
+                const LinearSolverFactory<Element>& make_solver = {})
+      : scene_(scene),
+        loads_(loads),
+        options_(std::move(options)),
+        system_("coupled", scene, number_scene(scene), make_solver) {}
 
   const System<Element>& system() const { return system_; }
 
@@ -100,6 +105,7 @@ class NewtonStepper : public Stepper {
     const NewtonReport solved = newton(system_, options_);
     scene_.impose_interface(state);  // exactly, not to the rounding of the increments
     report_.newton_iterations += solved.count();
+    report_.linear_iterations += solved.linear_iterations();
     report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
     append_history(solved, report_.history);
     return solved;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/direct_solver.hpp"
-#include "algebra/gathered_matrix.hpp"
-#include "fem/gather_blocks.hpp"
+#include "base/error.hpp"
+#include "scene/direct_linear_solver.hpp"
+#include "scene/linear_solver.hpp"
 #include "scene/numbering.hpp"
 #include "solvers/newton.hpp"
 
@@ -21,29 +21,45 @@ struct LinearisationPoint {
   double wall_pressure = 0;
 };
 
-/// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and direct
+/// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
 /// solve, as Newton's method asks for them. Works on a State that it does not own.
 template <class Element>
 class System : public NewtonProblem {
  public:
   static constexpr int n = Element::components;
 
-  /// \param name  for the profile: "coupled", "fluid", "wall"
-  System(std::string name, Scene<Element>& scene, Numbering numbering, const DirectSolver::Options& options = {})
+  /// \param name         for the profile: "coupled", "fluid", "wall"
+  /// \param make_solver  of the linearised equations; none: the direct one
+  System(std::string name, Scene<Element>& scene, Numbering numbering,
+         const LinearSolverFactory<Element>& make_solver = {})
       : name_(std::move(name)),
         scene_(scene),
         numbering_(std::move(numbering)),
         derivatives_(numbering_.flow.empty()   ? FluidDerivatives::none
                      : numbering_.mesh.empty() ? FluidDerivatives::flow
                                                : FluidDerivatives::flow_and_domain),
-        solver_(options),
+        solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<Element>>(blocks())),
         increment_(numbering_.size),
         weights_(norm_weights()) {}
+  System(const System&) = delete;  // the solver refers to the numbering
+  System& operator=(const System&) = delete;
 
   const Numbering& numbering() const { return numbering_; }
   const std::vector<double>& residual() const { return residual_; }
-  const SparseMatrix& matrix() const { return matrix_.matrix(); }
-  const DirectSolver& solver() const { return solver_; }
+  const LinearSolver& solver() const { return *solver_; }
+  const LinearReport& linear_report() const { return linear_report_; }
+  /// The block matrices of the Jacobian, for as long as the system lives.
+  JacobianBlocks<Element> blocks() {
+    JacobianBlocks<Element> blocks{scene_, numbering_};
+    if (!numbering_.wall_rows.empty()) blocks.wall = &scene_.wall->jacobian();
+    if (!numbering_.flow_rows.empty()) {
+      auto& jacobian = scene_.fluid->jacobian(derivatives_);
+      blocks.flow = &jacobian.flow;
+      if (!numbering_.mesh.empty()) blocks.mesh_motion = &jacobian.mesh_motion;
+    }
+    if (!numbering_.mesh_rows.empty()) blocks.mesh = &scene_.mesh_motion;
+    return blocks;
+  }
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
@@ -67,18 +83,16 @@ class System : public NewtonProblem {
     {
       const auto phase = scene_.profile.phase("assembly: " + name_ + " jacobian");
       assemble(true);
-      if (!gathered_) gather();
-      matrix_.update();
     }
     {
-      const auto phase = scene_.profile.phase("factorisation: " + name_);
-      solver_.factorise(matrix_.matrix());
+      const auto phase = scene_.profile.phase(std::string(solver_->preparation()) + ": " + name_);
+      solver_->update();
     }
     point_.now = state_->now;
     point_.old = state_->before[0];
     point_.wall_pressure = data_->wall_pressure;
   }
-  bool linearised() const override { return solver_.factorised(); }
+  bool linearised() const override { return solver_->ready(); }
 
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
   void linearise_at(const LinearisationPoint& point) {
@@ -95,9 +109,10 @@ class System : public NewtonProblem {
     data_ = nullptr;
   }
 
-  double solve() override {
+  double solve(double tolerance) override {
     const auto phase = scene_.profile.phase("solve: " + name_);
-    solver_.solve(matrix_.matrix(), residual_, increment_);
+    linear_report_ = solver_->solve(residual_, tolerance, increment_);
+    if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0;
     for (std::size_t i = 0; i < increment_.size(); ++i) {
       increment_[i] = -increment_[i];
@@ -105,6 +120,9 @@ class System : public NewtonProblem {
     }
     return std::sqrt(sum);
   }
+
+  int linear_iterations() const override { return linear_report_.iterations; }
+  std::string linear_failure() const override { return linear_report_.failure; }
 
   void move(double step) override {
     if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
@@ -120,7 +138,7 @@ class System : public NewtonProblem {
 
   /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Wall displacements count as
   /// large as the elements, since stresses are differences of terms of order one (I - I_1/3 C^-1) whatever the strain.
-  double rounding() const override {
+  double rounding() override {
     std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
     const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
       for (std::size_t i = 0; i < map.size(); ++i)
@@ -132,9 +150,7 @@ class System : public NewtonProblem {
     for (std::size_t i = 0; i < numbering_.wall.size(); ++i)
       if (numbering_.wall[i].index >= 0 && i % (n + 1) < n)
         x[numbering_.wall[i].index] += std::cbrt(wall_volumes_[i / (n + 1)]);
-    const SparseMatrix& a = matrix_.matrix();
-    for (std::int64_t c = 0; c < a.size(); ++c)
-      for (std::int64_t k = a.offsets[c]; k < a.offsets[c + 1]; ++k) terms[a.rows[k]] += std::abs(a.values[k]) * x[c];
+    add_absolute_products(x, terms);
     double sum = 0;
     for (double t : terms) sum += t * t;
     return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
@@ -164,19 +180,31 @@ class System : public NewtonProblem {
     return result;
   }
 
-  void gather() {
-    GatheredMatrix::Builder builder(numbering_.size);
-    if (!numbering_.wall_rows.empty())
-      gather_blocks(builder, scene_.wall->jacobian(), numbering_.wall_rows, numbering_.wall);
-    if (!numbering_.flow_rows.empty()) {
-      auto& jacobian = scene_.fluid->jacobian(derivatives_);
-      gather_blocks(builder, jacobian.flow, numbering_.flow_rows, numbering_.flow);
-      if (!numbering_.mesh.empty()) gather_blocks(builder, jacobian.mesh_motion, numbering_.flow_rows, numbering_.mesh);
-    }
-    if (!numbering_.mesh_rows.empty())
-      gather_diagonal_blocks(builder, scene_.mesh_motion, numbering_.mesh_rows, numbering_.mesh);
-    matrix_ = GatheredMatrix(std::move(builder));
-    gathered_ = true;
+  /// terms += |J| |x| of the Jacobian last assembled.
+  void add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
+    const JacobianBlocks<Element> j = blocks();
+    const auto add = [&](const auto& matrix, const UnknownMap& rows, const UnknownMap& columns, bool by_component) {
+      constexpr int r = std::decay_t<decltype(matrix)>::rows, c = std::decay_t<decltype(matrix)>::columns;
+      const auto& graph = *matrix.graph;
+      const int rows_per_node = by_component ? c : r;
+      for (int a = 0; a < graph.rows(); ++a)
+        for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
+          for (int i = 0; i < rows_per_node; ++i) {
+            const Unknown& row = rows[static_cast<std::size_t>(a) * rows_per_node + i];
+            if (row.index < 0) continue;
+            double sum = 0;
+            for (int k = by_component ? i : 0; k < (by_component ? i + 1 : c); ++k) {
+              const Unknown& column = columns[static_cast<std::size_t>(graph.columns[at]) * c + k];
+              const double value = matrix.block(at)[by_component ? k : i * c + k];
+              if (column.index >= 0) sum += std::abs(value * column.factor) * x[column.index];
+            }
+            terms[row.index] += std::abs(row.factor) * sum;
+          }
+    };
+    if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
+    if (j.flow) add(*j.flow, numbering_.flow_rows, numbering_.flow, false);
+    if (j.mesh_motion) add(*j.mesh_motion, numbering_.flow_rows, numbering_.mesh, false);
+    if (j.mesh) add(*j.mesh, numbering_.mesh_rows, numbering_.mesh, true);
   }
 
   static double weighted(const std::vector<double>& volumes, int entries, const std::vector<double>& field,
@@ -225,9 +253,8 @@ class System : public NewtonProblem {
   Scene<Element>& scene_;
   Numbering numbering_;
   FluidDerivatives derivatives_;
-  GatheredMatrix matrix_;
-  bool gathered_ = false;
-  DirectSolver solver_;
+  std::unique_ptr<LinearSolver> solver_;
+  LinearReport linear_report_;
   State* state_ = nullptr;
   const StepData* data_ = nullptr;
   LinearisationPoint point_;

@@ -8,6 +8,8 @@ namespace fsi {
 namespace {
 
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
+constexpr double kept_forcing = 0.5;          // linear tolerance over the contraction that a kept Jacobian showed
+constexpr double smallest_forcing = 1e-6;     // more digits of one increment never pay
 constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
 
 /// Moves by the increment, halving the step while the residual exceeds `bound` or does not exist. Returns the step
@@ -27,7 +29,25 @@ double backtrack(NewtonProblem& problem, double bound, int max_halvings, double&
   return 0;
 }
 
+/// Tolerance of the next linear solve. With a new Jacobian the second choice of Eisenstat and Walker (SIAM J. Sci.
+/// Comput. 17, 1996), eta = 0.9 (|R_k| / |R_(k-1)|)^2, with their safeguard. With a kept one the residual falls by the
+/// Jacobian's own error, a factor of each iteration, and solving much tighter than that is wasted.
+double forcing_term(const NewtonOptions& options, bool renewed, double ratio, double last_forcing) {
+  if (options.linear_tolerance > 0) return options.linear_tolerance;
+  double eta = options.largest_forcing;
+  if (ratio < 1) eta = std::min(eta, renewed ? 0.9 * ratio * ratio : kept_forcing * ratio);
+  const double safeguard = 0.9 * last_forcing * last_forcing;
+  if (renewed && safeguard > 0.1) eta = std::min(options.largest_forcing, std::max(eta, safeguard));
+  return std::max(eta, smallest_forcing);
+}
+
 }  // namespace
+
+int NewtonReport::linear_iterations() const {
+  int sum = 0;
+  for (const auto& iteration : iterations) sum += iteration.linear_iterations;
+  return sum;
+}
 
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   NewtonReport report;
@@ -39,15 +59,19 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   }
   double reference = options.reference, rounding = 0;
   int kept_iterations = 0;
+  double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
   bool renew = !options.keep_jacobian || !problem.linearised();
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
     iteration.linearised = renew;
     if (renew) problem.linearise();
     if (renew || report.count() == 0) rounding = rounding_margin * problem.rounding();
-    const double increment = problem.solve();
+    forcing = forcing_term(options, renew, ratio, forcing);
+    const double increment = problem.solve(forcing);
+    iteration.linear_iterations = problem.linear_iterations();
     if (!std::isfinite(increment)) {
-      report.failure = "the linear solver returned a value that is not finite";
+      const std::string reason = problem.linear_failure();
+      report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;
       return report;
     }
     double new_residual = 0;
@@ -78,6 +102,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     ++kept_iterations;
     renew = !options.keep_jacobian || (new_residual > rounding && (new_residual > options.keep_contraction * residual ||
                                                                    kept_iterations >= options.keep_iterations));
+    ratio = new_residual / residual;
     residual = new_residual;
   }
   report.failure = "the iteration limit was reached";

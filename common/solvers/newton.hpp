@@ -16,15 +16,19 @@ class NewtonProblem {
   /// Builds and factorises the Jacobian at the iterate.
   virtual void linearise() = 0;
   virtual bool linearised() const = 0;
-  /// Increment = -J^-1 R with the last Jacobian; returns its norm.
-  virtual double solve() = 0;
+  /// Increment = -J^-1 R with the last Jacobian, up to |R + J increment| <= tolerance |R|; returns its norm, NaN when
+  /// the linear solver failed.
+  virtual double solve(double tolerance) = 0;
+  /// Iterations of the last solve, and why it failed.
+  virtual int linear_iterations() const { return 0; }
+  virtual std::string linear_failure() const { return {}; }
   /// Iterate += step * increment.
   virtual void move(double step) = 0;
   /// Norm of the iterate, in the norm of the increments.
   virtual double size() const = 0;
   /// Norm of the rounding error that the residual carries: it cannot be made smaller. 0: unknown. Asked when
   /// linearised.
-  virtual double rounding() const { return 0; }
+  virtual double rounding() { return 0; }
 };
 
 struct NewtonOptions {
@@ -36,6 +40,8 @@ struct NewtonOptions {
   double keep_contraction = 0.4;  ///< a kept Jacobian is renewed when an iteration contracts the residual less,
   int keep_iterations = 12;       ///< or after so many iterations of one call
   int max_halvings = 8;           ///< of the step in backtracking
+  double linear_tolerance = 0;    ///< of every linear solve; 0: inexact Newton, forcing terms as below
+  double largest_forcing = 0.1;   ///< loosest linear tolerance of inexact Newton
 };
 
 /// One row of the convergence history.
@@ -44,6 +50,7 @@ struct NewtonIteration {
   double residual = 0;      ///< norm of the residual after it
   double step = 1;          ///< length of the step: 1 unless backtracking cut it
   bool linearised = false;  ///< a new Jacobian was made for it
+  int linear_iterations = 0;
 };
 
 struct NewtonReport {
@@ -53,6 +60,7 @@ struct NewtonReport {
   std::string failure;  ///< why it stopped, when it did not converge
 
   int count() const { return static_cast<int>(iterations.size()); }
+  int linear_iterations() const;
 };
 
 /// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.

@@ -76,7 +76,7 @@ class SubProblem : public NewtonProblem {
     solver_.factorise(matrix_.matrix());
   }
   bool linearised() const override { return solver_.factorised(); }
-  double solve() override {
+  double solve(double) override {
     solver_.solve(matrix_.matrix(), residual_, increment_);
     for (double& x : increment_) x = -x;
     return norm(increment_);
@@ -84,7 +84,7 @@ class SubProblem : public NewtonProblem {
   void move(double step) override { add_to_field(map_, increment_, step, solution); }
   double size() const override { return norm(solution); }
   /// eps |J| |x| with x the largest value of the solution: generous enough to cover the prescribed values' terms.
-  double rounding() const override {
+  double rounding() override {
     const SparseMatrix& a = matrix_.matrix();
     std::vector<double> terms(static_cast<std::size_t>(size_), 0.0);
     for (std::size_t k = 0; k < a.rows.size(); ++k) terms[a.rows[k]] += std::abs(a.values[k]);

@@ -133,7 +133,9 @@ void check_system(const Scenario& scenario, Numbering numbering, const std::stri
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
-  const SparseMatrix matrix = system.matrix();
+  GatheredMatrix gathered = gather_jacobian(system.blocks());
+  gathered.update();
+  const SparseMatrix matrix = gathered.matrix();
   const auto groups = groups_of(system.numbering(), scenario);
   std::map<Group, int> present;
   for (Group g : groups) ++present[g];

@@ -27,13 +27,13 @@ class Scalar : public NewtonProblem {
     linearised_ = true;
   }
   bool linearised() const override { return linearised_; }
-  double solve() override {
+  double solve(double) override {
     increment_ = -residual_ / jacobian_;
     return std::abs(increment_);
   }
   void move(double step) override { x += step * increment_; }
   double size() const override { return std::abs(x); }
-  double rounding() const override { return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x); }
+  double rounding() override { return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x); }
 
   double x;
   int evaluations = 0, linearisations = 0;

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "algebra/vector_operations.hpp"
+
+namespace fsi {
+
+/// Blocks below which a product stays on one thread.
+constexpr int serial_blocks = 40000;
+
+namespace detail {
+
+/// Calls store(row, sum) with sum = row of A x, `Rows` entries, for all rows in parallel. Each row is summed in the
+/// order of the graph: the numbers do not depend on the number of threads.
+template <int Rows, int Columns, class Store>
+inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double* x, Store store) {
+  const NodeGraph& graph = *a.graph;
+  const int rows = graph.rows();
+#pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
+  for (int row = 0; row < rows; ++row) {
+    double sum[Rows] = {};
+    for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
+      const double* block = a.block(at);
+      const double* from = x + static_cast<std::size_t>(graph.columns[at]) * Columns;
+      for (int r = 0; r < Rows; ++r)
+        for (int c = 0; c < Columns; ++c) sum[r] += block[r * Columns + c] * from[c];
+    }
+    store(row, sum);
+  }
+}
+
+/// The same for a matrix with `Numbers` numbers a node pair, one for each of `Components` components or one for all.
+template <int Components, int Numbers, class Store>
+inline void for_each_component_row(const BlockMatrix<1, Numbers>& a, const double* x, Store store) {
+  static_assert(Numbers == 1 || Numbers == Components, "one number for all components or one for each");
+  const NodeGraph& graph = *a.graph;
+  const int rows = graph.rows();
+#pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
+  for (int row = 0; row < rows; ++row) {
+    double sum[Components] = {};
+    for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
+      const double* number = a.block(at);
+      const double* from = x + static_cast<std::size_t>(graph.columns[at]) * Components;
+      for (int k = 0; k < Components; ++k) sum[k] += number[Numbers == 1 ? 0 : k] * from[k];
+    }
+    store(row, sum);
+  }
+}
+
+}  // namespace detail
+
+/// y = A x; `y` has Rows entries a row of nodes. Neither vector is resized.
+template <int Rows, int Columns>
+void multiply(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& x, std::vector<double>& y) {
+  detail::for_each_block_row(a, x.data(), [&](int row, const double* sum) {
+    for (int r = 0; r < Rows; ++r) y[static_cast<std::size_t>(row) * Rows + r] = sum[r];
+  });
+}
+
+/// y += factor A x
+template <int Rows, int Columns>
+void multiply_add(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& x, std::vector<double>& y,
+                  double factor = 1) {
+  detail::for_each_block_row(a, x.data(), [&](int row, const double* sum) {
+    for (int r = 0; r < Rows; ++r) y[static_cast<std::size_t>(row) * Rows + r] += factor * sum[r];
+  });
+}
+
+/// y -= A x
+template <int Rows, int Columns>
+void multiply_subtract(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& x, std::vector<double>& y) {
+  multiply_add(a, x, y, -1);
+}
+
+/// r = b - A x; r may be b.
+template <int Rows, int Columns>
+void residual(const BlockMatrix<Rows, Columns>& a, const std::vector<double>& b, const std::vector<double>& x,
+              std::vector<double>& r) {
+  detail::for_each_block_row(a, x.data(), [&](int row, const double* sum) {
+    for (int k = 0; k < Rows; ++k) {
+      const std::size_t i = static_cast<std::size_t>(row) * Rows + k;
+      r[i] = b[i] - sum[k];
+    }
+  });
+}
+
+/// y = A x for a matrix that does not couple components: vectors have `Components` entries a node, the matrix one
+/// number a node pair for all of them (Numbers = 1) or one for each.
+template <int Components, int Numbers>
+void multiply_components(const BlockMatrix<1, Numbers>& a, const std::vector<double>& x, std::vector<double>& y) {
+  detail::for_each_component_row<Components>(a, x.data(), [&](int row, const double* sum) {
+    for (int k = 0; k < Components; ++k) y[static_cast<std::size_t>(row) * Components + k] = sum[k];
+  });
+}
+
+/// y += factor A x, components uncoupled.
+template <int Components, int Numbers>
+void multiply_add_components(const BlockMatrix<1, Numbers>& a, const std::vector<double>& x, std::vector<double>& y,
+                             double factor = 1) {
+  detail::for_each_component_row<Components>(a, x.data(), [&](int row, const double* sum) {
+    for (int k = 0; k < Components; ++k) y[static_cast<std::size_t>(row) * Components + k] += factor * sum[k];
+  });
+}
+
+/// r = b - A x, components uncoupled; r may be b.
+template <int Components, int Numbers>
+void residual_components(const BlockMatrix<1, Numbers>& a, const std::vector<double>& b, const std::vector<double>& x,
+                         std::vector<double>& r) {
+  detail::for_each_component_row<Components>(a, x.data(), [&](int row, const double* sum) {
+    for (int k = 0; k < Components; ++k) {
+      const std::size_t i = static_cast<std::size_t>(row) * Components + k;
+      r[i] = b[i] - sum[k];
+    }
+  });
+}
+
+}  // namespace fsi
