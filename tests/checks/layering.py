@@ -19,6 +19,7 @@ FLOORS = (
     ("common/materials",),
     ("common/fluid", "common/structure", "common/mesh_motion"),
     ("common/scene",),
+    ("common/fast",),
     ("common/io",),
     ("common/driver",),
     ("meshes", "monolithic", "partitioned"),
