@@ -1,1 +1,1 @@
-"""Reads the result folders of finished runs and compares them. It never looks inside the other programs."""
+"""Starts the other programs as a user would, reads their result folders and compares them. It never looks inside them."""

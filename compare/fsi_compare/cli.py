@@ -10,6 +10,7 @@ from typing import List, Optional, Sequence
 from .errors import InputError
 from .files import make_folder
 from .run_folder import Run, default_labels, read_run
+from .solvers import add_parser as add_solvers, solvers
 
 PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
 
@@ -28,7 +29,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    top = _Parser(prog="fsi-compare", description="Compares the result folders of finished runs.", allow_abbrev=False)
+    top = _Parser(prog="fsi-compare", description="Compares finished runs, and the linear solvers.", allow_abbrev=False)
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     pressure = commands.add_parser(
@@ -50,17 +51,19 @@ def parser(version: str) -> argparse.ArgumentParser:
                           help="accepted as by all programs; this comparison is quick on one thread")
     pressure.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_solvers(commands, "results/solvers", version)
     return top
 
 
 def main(arguments: Sequence[str], version: str = "unknown") -> int:
-    """Exit code: 0 done, 1 wrong use or bad input."""
+    """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge."""
+    code = 0
     try:
         top = parser(version)
         options = top.parse_args(list(arguments))
         if options.command is None:
             top.error("no command")
-        pressure(options)
+        code = {"pressure": pressure, "solvers": solvers}[options.command](options)
         sys.stdout.flush()
     except InputError as error:
         print(f"fsi-compare: error: {error}", file=sys.stderr)
@@ -71,10 +74,10 @@ def main(arguments: Sequence[str], version: str = "unknown") -> int:
     except KeyboardInterrupt:
         print("fsi-compare: interrupted", file=sys.stderr)
         return 130
-    return 0
+    return code
 
 
-def pressure(options: argparse.Namespace) -> None:
+def pressure(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
     if options.threads is not None and options.threads < 1:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
@@ -96,6 +99,7 @@ def pressure(options: argparse.Namespace) -> None:
     if not options.quiet:
         print(tables.text(runs, comparison))
         print("Written: " + ", ".join(str(path) for path in written))
+    return 0
 
 
 def read_times(text: str) -> List[float]:

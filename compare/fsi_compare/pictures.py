@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import List, Sequence
+from typing import Callable, List, Sequence
 
 import matplotlib
 import numpy as np
@@ -49,12 +49,17 @@ STYLE = {
 def write_pressure_waves(folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float],
                          title: str) -> List[Path]:
     """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
-    paths = [folder / "pressure_waves.png", folder / "pressure_waves.svg"]
+    return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
+
+
+def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
+    """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
+    paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
     with matplotlib.rc_context(), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
-        figure = pressure_figure(waves, labels, times, title)
+        figure = draw()
         for path, metadata in zip(paths, ({"Software": None}, {"Date": None, "Creator": None})):
             with replacing(path) as temporary:
                 figure.savefig(temporary, dpi=DPI, metadata=metadata)
@@ -83,18 +88,23 @@ def pressure_figure(waves: Sequence[PressureWaves], labels: Sequence[str], times
         axes.set_ylabel("pressure in Pa")
     _share_scales(grid, len(times))
 
-    handles = grid[0, 0].get_lines()[:len(waves)]
+    finish(figure, canvas, grid[0, 0].get_lines()[:len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
+    return figure
+
+
+def finish(figure: Figure, canvas: FigureCanvasAgg, handles, labels: Sequence[str], title: str, panels) -> None:
+    """Puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
+    curve, and sets the figure's size; `panels` are width and height of the panels together, in inches."""
+    width, panels_inches = panels
     legend_inches = _place_legend(figure, canvas, handles, labels, width)
     title = "\n".join(textwrap.wrap(_plain(title), int(14 * width)))
     title_inches = 0.14 + 0.18 * len(title.splitlines())
-    panels_inches = rows * PANEL_INCHES[1]
     height = panels_inches + legend_inches + title_inches
     figure.set_size_inches(width, height)
     heading = figure.suptitle(title, y=1 - 0.08 / height, va="top", fontsize=10)
     heading.set_in_layout(False)  # its strip is reserved by rect
     figure.tight_layout(rect=(0, legend_inches / height, 1, 1 - title_inches / height), h_pad=0.8, w_pad=1.2)
     figure.legends[0].set_bbox_to_anchor((0.5, 0.06 / height), transform=figure.transFigure)
-    return figure
 
 
 def time_text(time: float) -> str:
