@@ -188,12 +188,14 @@ class Run {
 }  // namespace
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
-               const StepperFactory& make_stepper) {
+               const StepperFactory& make_stepper, const OtherTask& other) {
   return run_program(program, [&] {
-    const auto line = parse_command_line(program, description, argc, argv);
+    const auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
     set_dense_threads(set_threads(line->threads));
     const Case setup = read_case(line->case_file, line->overrides);
+    if (other.run)
+      if (const auto code = other.run(*line, setup)) return *code;
     Run(program, *line, setup, make_stepper).march();
     return static_cast<int>(exit_done);
   });

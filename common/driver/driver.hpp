@@ -2,9 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "fem/p1_tetrahedron.hpp"
+#include "io/command_line.hpp"
 #include "scene/case.hpp"
 #include "scene/loads.hpp"
 #include "scene/scene.hpp"
@@ -16,9 +19,16 @@ namespace fsi {
 using StepperFactory =
     std::function<std::unique_ptr<Stepper>(Scene<P1Tetrahedron>& scene, const Loads& loads, const Case& setup)>;
 
+/// Something that a program can do with a case in place of a run.
+struct OtherTask {
+  std::vector<ExtraOption> options;  ///< the command line's options that ask for it
+  /// Does it if it was asked for; empty if not, else the exit code.
+  std::function<std::optional<int>(const CommandLine& line, const Case& setup)> run;
+};
+
 /// The whole of a driver: parse the command line, read case and mesh, build the scene, march it in time, write the
 /// results. Returns the exit code.
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
-               const StepperFactory& make_stepper);
+               const StepperFactory& make_stepper, const OtherTask& other = {});
 
 }  // namespace fsi

@@ -382,10 +382,51 @@ const std::vector<CaseKey<StaticData>>& static_keys() {
 
 constexpr Interval tolerance{0, 1, false, false};
 
+const std::vector<CaseKey<MultigridData>>& multigrid_keys() {
+  static const std::vector<CaseKey<MultigridData>> keys = {
+      {"cycle", optional, "of the coupled amg: v, w (default) or k", name_from(&MultigridData::cycle, {"v", "w", "k"})},
+      {"pre_smoothing", optional, "steps of the coupled smoother before the coarse correction, default 5",
+       whole(&MultigridData::pre_smoothing, 0)},
+      {"post_smoothing", optional, "steps of the coupled smoother after the coarse correction, default 5",
+       whole(&MultigridData::post_smoothing, 0)},
+      {"damping", optional, "damping factor of the coupled smoother, default 0: estimated on each level",
+       inside(&MultigridData::damping, {0, 1, true, true})},
+      {"levels", optional, "levels at most, default 10", whole(&MultigridData::levels, 1)},
+      {"coarsest_nodes", optional, "fluid and wall nodes of the level that is solved directly, at most, default 400",
+       whole(&MultigridData::coarsest_nodes, 1)},
+      {"coarsening", optional, "choice of coarse nodes: colouring (default) or aggregation",
+       name_from(&MultigridData::coarsening, {"colouring", "aggregation"})},
+      {"fluid_smoother", optional, "smoother of the flow: braess-sarazin (default) or vanka",
+       name_from(&MultigridData::fluid_smoother, {"braess-sarazin", "vanka"})},
+      {"wall_smoother", optional, "smoother of the wall: braess-sarazin (default) or vanka",
+       name_from(&MultigridData::wall_smoother, {"braess-sarazin", "vanka"})},
+      {"sub_cycle", optional, "cycle of the sub-problems: v or w (default)",
+       name_from(&MultigridData::sub_cycle, {"v", "w"})},
+      {"sub_smoothing", optional, "smoothing steps of the sub-problems before and after, default 2",
+       whole(&MultigridData::sub_smoothing, 1)},
+  };
+  return keys;
+}
+
 const std::vector<CaseKey<MonolithicData>>& monolithic_keys() {
   static const std::vector<CaseKey<MonolithicData>> keys = {
-      {"linear_solver", optional, "solver of the linear systems: direct (default)",
-       name_from(&MonolithicData::linear_solver, {"direct"}, {"fast"})},
+      {"linear_solver", optional,
+       "fast (default): chosen by size and speed; direct: sparse factorisation; GMRES with diagonal, lower, upper, "
+       "ssor, ilu, by multigrid or (..._exact) factorisation; "
+       "coupled multigrid amg, amli, alone or with _gmres, _fgmres",
+       name_from(&MonolithicData::linear_solver, linear_solver_names())},
+      {"linear_tolerance", optional,
+       "residual of each linear solve relative to its right-hand side, default 0: what Newton's convergence needs",
+       inside(&MonolithicData::linear_tolerance, {0, 1, true, false})},
+      {"max_linear_iterations", optional, "iterations of each linear solve, default 500",
+       whole(&MonolithicData::max_linear_iterations, 1)},
+      {"direct_below", optional, "unknowns below which fast factorises the matrix, default 10000",
+       whole(&MonolithicData::direct_below, 0)},
+      {"krylov_restart", optional, "directions that GMRES and FGMRES keep, default 250",
+       whole(&MonolithicData::krylov_restart, 1)},
+      section<MultigridData, MonolithicData>(
+          "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
+          [](MonolithicData& monolithic) -> MultigridData& { return monolithic.multigrid; }),
       {"mode", optional,
        "kept: factors serve while the residual keeps falling (default); full: new ones each iteration",
        name_from(&MonolithicData::mode, {"kept", "full"})},

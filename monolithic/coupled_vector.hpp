@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "algebra/vector_operations.hpp"
+
+namespace fsi {
+
+/// A vector of the coupled system, the paper's x = (d_m, (u, p_f), (d_s, p_s)) with node-wise blocks: with n components
+/// of a vector, n numbers per fluid node, n + 1 per fluid node, n + 1 per wall node.
+struct CoupledVector {
+  std::vector<double> mesh, flow, wall;
+
+  std::size_t size() const { return mesh.size() + flow.size() + wall.size(); }
+  void resize_like(const CoupledVector& other) {
+    mesh.resize(other.mesh.size());
+    flow.resize(other.flow.size());
+    wall.resize(other.wall.size());
+  }
+  void set_zero() {
+    for (auto* part : {&mesh, &flow, &wall}) std::fill(part->begin(), part->end(), 0.0);
+  }
+};
+
+/// y += factor * x
+inline void axpy(double factor, const CoupledVector& x, CoupledVector& y) {
+  axpy(factor, x.mesh, y.mesh);
+  axpy(factor, x.flow, y.flow);
+  axpy(factor, x.wall, y.wall);
+}
+
+inline double dot(const CoupledVector& x, const CoupledVector& y) {
+  return dot(x.mesh, y.mesh) + dot(x.flow, y.flow) + dot(x.wall, y.wall);
+}
+inline double norm(const CoupledVector& x) {
+  return std::sqrt(dot(x, x));
+}
+
+/// The parts one after the other, as Krylov methods take a vector; and back.
+inline void flatten(const CoupledVector& x, std::vector<double>& flat) {
+  flat.resize(x.size());
+  auto to = flat.begin();
+  for (const auto* part : {&x.mesh, &x.flow, &x.wall}) to = std::copy(part->begin(), part->end(), to);
+}
+/// \param x  its parts have their sizes
+inline void unflatten(const std::vector<double>& flat, CoupledVector& x) {
+  auto from = flat.begin();
+  for (auto* part : {&x.mesh, &x.flow, &x.wall}) {
+    std::copy(from, from + static_cast<std::ptrdiff_t>(part->size()), part->begin());
+    from += static_cast<std::ptrdiff_t>(part->size());
+  }
+}
+
+}  // namespace fsi

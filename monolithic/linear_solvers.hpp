@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "scene/case.hpp"
+#include "scene/linear_solver.hpp"
+#include "solvers/newton.hpp"
+
+namespace fsi {
+
+/// Makes the linear solver `name`, one of linear_solver_names() (paper, section 4; docs/solvers.md), with the settings
+/// of the case's [monolithic]:
+///   fast                            what a user should run, see FastSolver
+///   direct                          sparse factorisation
+///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem
+///   inverse;
+///                                   with _exact at the end of the name, factorisations
+///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
+/// \throws InputError when the solver needs fluid and wall and the scene lacks one of them
+template <class Element>
+std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
+                                                 const JacobianBlocks<Element>& blocks);
+
+/// Newton's options as the case states them.
+NewtonOptions newton_options(const MonolithicData& data);
+
+}  // namespace fsi
