@@ -69,6 +69,10 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     forcing = forcing_term(options, renew, ratio, forcing);
     const double increment = problem.solve(forcing);
     iteration.linear_iterations = problem.linear_iterations();
+    if (!std::isfinite(increment) && !renew) {
+      renew = true;  // the solver's preparation may have grown too old
+      continue;
+    }
     if (!std::isfinite(increment)) {
       const std::string reason = problem.linear_failure();
       report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;

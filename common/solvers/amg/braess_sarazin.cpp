@@ -44,7 +44,7 @@ BraessSarazin<Size>::BraessSarazin(const Matrix& a, const BraessSarazinOptions& 
       graph_(*a.graph),
       colours_(colour_rows(graph_)),
       diagonal_(graph_.rows()),
-      momentum_(static_cast<std::size_t>(graph_.blocks()) * n * Size),
+      momentum_(static_cast<std::size_t>(graph_.blocks()) * Size * Size),
       continuity_(static_cast<std::size_t>(graph_.blocks()) * Size),
       gradient_(static_cast<std::size_t>(graph_.blocks()) * n),
       block_inverse_(static_cast<std::size_t>(graph_.rows()) * n * n),
@@ -76,7 +76,7 @@ void BraessSarazin<Size>::update(const Matrix& a) {
       const double* block = a.block(at);
       for (int r = 0; r < n; ++r) {
         for (int c = 0; c < Size; ++c)
-          momentum_[(static_cast<std::size_t>(at) * n + r) * Size + c] = static_cast<Real>(block[r * Size + c]);
+          momentum_[(static_cast<std::size_t>(at) * Size + c) * Size + r] = static_cast<Real>(block[r * Size + c]);
         gradient_[static_cast<std::size_t>(at) * n + r] = static_cast<Real>(block[r * Size + n]);
         sum[r] += block[r * Size + r];
       }
@@ -162,14 +162,14 @@ void BraessSarazin<Size>::update_schur() {
 }
 
 template <int Size>
-void BraessSarazin<Size>::predict(const std::vector<double>& b, std::vector<double>& x, bool backward, bool) {
+void BraessSarazin<Size>::predict(const std::vector<double>& b, std::vector<double>& x, bool backward) {
   const auto momentum_residual = [&](int i, double* sum) {
-    for (int r = 0; r < n; ++r) sum[r] = b[static_cast<std::size_t>(i) * Size + r];
+    for (int r = 0; r < Size; ++r) sum[r] = b[static_cast<std::size_t>(i) * Size + r];
     for (int at = graph_.offsets[i]; at < graph_.offsets[i + 1]; ++at) {
-      const Real* block = &momentum_[static_cast<std::size_t>(at) * n * Size];
+      const Real* block = &momentum_[static_cast<std::size_t>(at) * Size * Size];
       const double* from = x.data() + static_cast<std::size_t>(graph_.columns[at]) * Size;
-      for (int r = 0; r < n; ++r)
-        for (int c = 0; c < Size; ++c) sum[r] -= block[r * Size + c] * from[c];
+      for (int c = 0; c < Size; ++c)
+        for (int r = 0; r < Size; ++r) sum[r] -= block[c * Size + r] * from[c];
     }
   };
   const auto correct = [&](int i, const double* sum, const std::vector<Real>& inverse, double* to) {
@@ -181,7 +181,7 @@ void BraessSarazin<Size>::predict(const std::vector<double>& b, std::vector<doub
   if (options_.momentum_sweeps > 0) {
     for (int sweep = 0; sweep < options_.momentum_sweeps; ++sweep)
       sweep_colours(colours_, backward != (sweep % 2 == 1), threaded, [&](int i) {
-        double sum[n];
+        double sum[Size];
         momentum_residual(i, sum);
         correct(i, sum, block_inverse_, x.data() + static_cast<std::size_t>(i) * Size);
       });
@@ -189,7 +189,7 @@ void BraessSarazin<Size>::predict(const std::vector<double>& b, std::vector<doub
   }
 #pragma omp parallel for schedule(static) if (threaded)
   for (int i = 0; i < graph_.rows(); ++i) {
-    double sum[n];
+    double sum[Size];
     momentum_residual(i, sum);
     double* to = &predicted_[static_cast<std::size_t>(i) * n];
     for (int r = 0; r < n; ++r) to[r] = 0;
@@ -220,11 +220,11 @@ void BraessSarazin<Size>::solve_schur(bool backward) {
 
 template <int Size>
 void BraessSarazin<Size>::smooth(const Matrix&, const std::vector<double>& b, std::vector<double>& x, int steps,
-                                 bool backward, bool from_zero) {
+                                 bool backward, bool) {
   const int rows = graph_.rows();
   const bool threaded = graph_.blocks() > threaded_blocks;
   for (int step = 0; step < steps; ++step) {
-    predict(b, x, backward, from_zero && step == 0);
+    predict(b, x, backward);
 #pragma omp parallel for schedule(static) if (threaded)
     for (int i = 0; i < rows; ++i) {
       double sum = b[static_cast<std::size_t>(i) * Size + n];
