@@ -82,6 +82,10 @@ class FastSolver : public LinearSolver {
     return report;
   }
 
+  double keep_contraction() const override {
+    return direct_ ? direct_->keep_contraction() : LinearSolver::keep_contraction();
+  }
+
   LinearStatistics statistics() const override {
     LinearStatistics s;
     if (direct_) s = direct_->statistics();

@@ -7,6 +7,22 @@
 
 namespace fsi {
 
+namespace detail {
+
+/// A few floats in a register, with arithmetic lane by lane.
+template <int count>
+struct Floats;
+template <>
+struct Floats<4> {
+  using Type = float __attribute__((vector_size(16)));
+};
+template <>
+struct Floats<2> {
+  using Type = float __attribute__((vector_size(8)));
+};
+
+}  // namespace detail
+
 /// The Jacobian of velocities and pressures, F = [A G; B C], mesh motion left out, in single precision. Half the memory
 /// of the assembled matrices, and arranged so that products and smoothers run over whole registers. Vectors hold
 /// `lanes` floats a velocity node (padded with zero), then one a pressure.
@@ -14,7 +30,15 @@ template <class Element>
 class VelocityPressureMatrix {
  public:
   static constexpr int n = Element::components;
-  static constexpr int lanes = n == 3 ? 4 : n;  ///< floats of a nodal vector: padded, so that columns fill a register
+  static constexpr int lanes = n == 3 ? 4 : n;  ///< floats of a nodal vector: padded, so that it fills a register
+  using Nodal = typename detail::Floats<lanes>::Type;  ///< one nodal vector in a register
+
+  static Nodal load(const float* from) {
+    Nodal x;
+    __builtin_memcpy(&x, from, sizeof(Nodal));
+    return x;
+  }
+  static void store(Nodal x, float* to) { __builtin_memcpy(to, &x, sizeof(Nodal)); }
 
   VelocityPressureMatrix(const JacobianBlocks<Element>& blocks, const VelocityPressureLayout<Element>& layout)
       : blocks_(blocks), layout_(layout) {
@@ -61,19 +85,17 @@ class VelocityPressureMatrix {
     const float* pressure = x.data() + velocity_size();
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
-      float sum[lanes];
-      momentum_product(momentum_offsets_[v], momentum_offsets_[v + 1], x.data(), sum);
-      add_gradient(v, pressure, 1, sum);
-      for (int i = 0; i < lanes; ++i) y[static_cast<std::size_t>(v) * lanes + i] = sum[i];
+      const Nodal sum = momentum_product(momentum_offsets_[v], momentum_offsets_[v + 1], x.data());
+      store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
     }
     float* rows = y.data() + velocity_size();
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
-      float sums[lanes] = {}, sum = 0;
+      Nodal sums{};
+      float sum = 0;
       for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at) {
-        const float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
-        const float* from = x.data() + static_cast<std::size_t>(continuity_velocities_[at]) * lanes;
-        for (int i = 0; i < lanes; ++i) sums[i] += b[i] * from[i];
+        sums += load(divergence_.data() + static_cast<std::size_t>(at) * lanes) *
+                load(x.data() + static_cast<std::size_t>(continuity_velocities_[at]) * lanes);
         sum += compressibility_[at] * pressure[continuity_pressures_[at]];
       }
       for (int i = 0; i < n; ++i) sum += sums[i];
@@ -81,27 +103,30 @@ class VelocityPressureMatrix {
     }
   }
 
-  /// sum = blocks begin ... end - 1 of A times x. One accumulator a column keeps the chains short.
-  void momentum_product(int begin, int end, const float* x, float (&sum)[lanes]) const {
-    float part[n][lanes] = {};
-    for (int at = begin; at < end; ++at) {
-      const float* a = momentum_.data() + static_cast<std::size_t>(at) * n * lanes;
+  /// Blocks begin ... end - 1 of A times x. One accumulator a column keeps the chains of additions short.
+  Nodal momentum_product(int begin, int end, const float* x) const {
+    Nodal parts[n] = {};
+    const float* a = momentum_.data() + static_cast<std::size_t>(begin) * n * lanes;
+    for (int at = begin; at < end; ++at, a += n * lanes) {
       const float* from = x + static_cast<std::size_t>(momentum_columns_[at]) * lanes;
-      for (int k = 0; k < n; ++k)
-        for (int i = 0; i < lanes; ++i) part[k][i] += a[k * lanes + i] * from[k];
+      for (int k = 0; k < n; ++k) parts[k] += load(a + k * lanes) * from[k];
     }
-    for (int i = 0; i < lanes; ++i) {
-      sum[i] = part[0][i];
-      for (int k = 1; k < n; ++k) sum[i] += part[k][i];
-    }
+    Nodal sum = parts[0];
+    for (int k = 1; k < n; ++k) sum += parts[k];
+    return sum;
   }
-  /// sum += factor (G p) of a velocity node.
-  void add_gradient(int v, const float* pressure, float factor, float (&sum)[lanes]) const {
-    for (int at = gradient_offsets_[v]; at < gradient_offsets_[v + 1]; ++at) {
-      const float p = factor * pressure[gradient_columns_[at]];
-      const float* g = gradient_.data() + static_cast<std::size_t>(at) * lanes;
-      for (int i = 0; i < lanes; ++i) sum[i] += g[i] * p;
+  /// G p of a velocity node.
+  Nodal gradient_product(int v, const float* pressure) const {
+    Nodal even{}, odd{};
+    int at = gradient_offsets_[v];
+    const int end = gradient_offsets_[v + 1];
+    const float* g = gradient_.data() + static_cast<std::size_t>(at) * lanes;
+    for (; at + 1 < end; at += 2, g += 2 * lanes) {
+      even += load(g) * pressure[gradient_columns_[at]];
+      odd += load(g + lanes) * pressure[gradient_columns_[at + 1]];
     }
+    if (at < end) even += load(g) * pressure[gradient_columns_[at]];
+    return even + odd;
   }
 
   /// A by velocity nodes: sparsity, and blocks of n columns of `lanes` numbers.

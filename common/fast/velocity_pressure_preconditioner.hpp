@@ -21,6 +21,7 @@ template <class Element>
 class VelocityPressurePreconditioner {
  public:
   using Matrix = VelocityPressureMatrix<Element>;
+  using Nodal = typename Matrix::Nodal;
   static constexpr int n = Matrix::n, lanes = Matrix::lanes;
 
   struct Options {
@@ -66,10 +67,9 @@ class VelocityPressurePreconditioner {
     multigrid_.cycle(pressure_residual_, pressure_);
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v) {
-      float sum[lanes];
-      for (int i = 0; i < lanes; ++i) sum[i] = r[static_cast<std::size_t>(v) * lanes + i];
-      matrix_.add_gradient(v, pressure_.data(), -1, sum);
-      for (int i = 0; i < lanes; ++i) velocity_residual_[static_cast<std::size_t>(v) * lanes + i] = sum[i];
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      Matrix::store(Matrix::load(r.data() + at) - matrix_.gradient_product(v, pressure_.data()),
+                    velocity_residual_.data() + at);
     }
     solve_momentum();
     std::copy(velocity_.begin(), velocity_.end(), z.begin());
@@ -198,13 +198,10 @@ class VelocityPressurePreconditioner {
     for (int sweep = 1; sweep < sweeps_; ++sweep) {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
       for (int v = 0; v < layout_.velocities; ++v) {
-        float sum[lanes];
-        matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1], velocity_.data(),
-                                 sum);
-        for (int i = 0; i < lanes; ++i) {
-          const std::size_t at = static_cast<std::size_t>(v) * lanes + i;
-          sweep_residual_[at] = velocity_residual_[at] - sum[i];
-        }
+        const std::size_t at = static_cast<std::size_t>(v) * lanes;
+        const Nodal product = matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1],
+                                                       velocity_.data());
+        Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
       }
       symmetric_sweep(sweep_residual_, sweep_);
       for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
@@ -214,27 +211,24 @@ class VelocityPressurePreconditioner {
   void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) const {
 #pragma omp parallel for schedule(static) if (chunks_.chunks() > 1)
     for (int c = 0; c < chunks_.chunks(); ++c) {
-      float sum[lanes], change[lanes];
       for (int v = chunks_.begin[c]; v < chunks_.begin[c + 1]; ++v) {  // x = (D + L)^-1 r
-        matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data(), sum);
-        const float* right = r.data() + static_cast<std::size_t>(v) * lanes;
-        for (int i = 0; i < lanes; ++i) sum[i] = right[i] - sum[i];
-        solve_diagonal(v, sum, x.data() + static_cast<std::size_t>(v) * lanes);
+        const std::size_t at = static_cast<std::size_t>(v) * lanes;
+        const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
+        Matrix::store(solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
       }
       for (int v = chunks_.begin[c + 1] - 1; v >= chunks_.begin[c]; --v) {  // x -= D^-1 U x
-        matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data(), sum);
-        solve_diagonal(v, sum, change);
-        float* to = x.data() + static_cast<std::size_t>(v) * lanes;
-        for (int i = 0; i < lanes; ++i) to[i] -= change[i];
+        const std::size_t at = static_cast<std::size_t>(v) * lanes;
+        const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
+        Matrix::store(Matrix::load(x.data() + at) - solve_diagonal(v, after), x.data() + at);
       }
     }
   }
-  void solve_diagonal(int v, const float (&r)[lanes], float* x) const {
+  /// D^-1 r of a node.
+  Nodal solve_diagonal(int v, Nodal r) const {
     const float* inverse = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
-    float sum[lanes] = {};
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < lanes; ++i) sum[i] += inverse[k * lanes + i] * r[k];
-    for (int i = 0; i < lanes; ++i) x[i] = sum[i];
+    Nodal sum{};
+    for (int k = 0; k < n; ++k) sum += Matrix::load(inverse + k * lanes) * r[k];
+    return sum;
   }
 
   const Matrix& matrix_;

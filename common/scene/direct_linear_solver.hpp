@@ -43,6 +43,8 @@ class DirectLinearSolver : public LinearSolver {
     return {};
   }
 
+  double keep_contraction() const override { return 0.4; }
+
   LinearStatistics statistics() const override {
     LinearStatistics s;
     s.memory_mib = (16.0 * solver_.factor_nonzeros() + 24.0 * matrix_.matrix().nonzeros()) / (1 << 20);

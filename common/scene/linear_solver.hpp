@@ -56,6 +56,9 @@ class LinearSolver {
   /// \param x          overwritten
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
   virtual LinearStatistics statistics() const { return {}; }
+  /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
+  /// matter of what update() costs beside solve(). By measurement (docs/performance.md, docs/solvers.md).
+  virtual double keep_contraction() const { return 0.15; }
 };
 
 /// Makes the solver of one System.

@@ -121,6 +121,7 @@ class System : public NewtonProblem {
     return std::sqrt(sum);
   }
 
+  double keep_contraction() const override { return solver_->keep_contraction(); }
   int linear_iterations() const override { return linear_report_.iterations; }
   std::string linear_failure() const override { return linear_report_.failure; }
 

@@ -58,6 +58,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     return report;
   }
   double reference = options.reference, rounding = 0;
+  const double keep_contraction = options.keep_contraction > 0 ? options.keep_contraction : problem.keep_contraction();
   int kept_iterations = 0;
   double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
   bool renew = !options.keep_jacobian || !problem.linearised();
@@ -104,7 +105,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     }
     if (renew) kept_iterations = 0;
     ++kept_iterations;
-    renew = !options.keep_jacobian || (new_residual > rounding && (new_residual > options.keep_contraction * residual ||
+    renew = !options.keep_jacobian || (new_residual > rounding && (new_residual > keep_contraction * residual ||
                                                                    kept_iterations >= options.keep_iterations));
     ratio = new_residual / residual;
     residual = new_residual;

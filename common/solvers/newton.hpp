@@ -19,6 +19,8 @@ class NewtonProblem {
   /// Increment = -J^-1 R with the last Jacobian, up to |R + J increment| <= tolerance |R|; returns its norm, NaN when
   /// the linear solver failed.
   virtual double solve(double tolerance) = 0;
+  /// Advice for NewtonOptions::keep_contraction.
+  virtual double keep_contraction() const { return 0.4; }
   /// Iterations of the last solve, and why it failed.
   virtual int linear_iterations() const { return 0; }
   virtual std::string linear_failure() const { return {}; }
@@ -36,12 +38,13 @@ struct NewtonOptions {
   double reference = 0;           ///< 0: the norm of the first increment (paper, algorithm 1)
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
   int max_iterations = 30;
-  bool keep_jacobian = true;      ///< use a Jacobian, of earlier calls too, while the residual keeps falling
-  double keep_contraction = 0.4;  ///< a kept Jacobian is renewed when an iteration contracts the residual less,
-  int keep_iterations = 12;       ///< or after so many iterations of one call
-  int max_halvings = 8;           ///< of the step in backtracking
-  double linear_tolerance = 0;    ///< of every linear solve; 0: inexact Newton, forcing terms as below
-  double largest_forcing = 0.1;   ///< loosest linear tolerance of inexact Newton
+  bool keep_jacobian = true;     ///< use a Jacobian, of earlier calls too, while the residual keeps falling
+  double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less; 0: as
+                                 ///< the problem advises;
+  int keep_iterations = 12;      ///< or after so many iterations of one call
+  int max_halvings = 8;          ///< of the step in backtracking
+  double linear_tolerance = 0;   ///< of every linear solve; 0: inexact Newton, forcing terms as below
+  double largest_forcing = 0.1;  ///< loosest linear tolerance of inexact Newton
 };
 
 /// One row of the convergence history.
