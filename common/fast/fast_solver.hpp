@@ -19,7 +19,7 @@ namespace fsi {
 
 /// Options of the `fast` linear solver. Defaults by measurement (docs/solvers.md).
 struct FastOptions {
-  std::int64_t direct_below = 10000;  ///< unknowns below which a sparse factorisation is quicker
+  std::int64_t direct_below = 2000;  ///< unknowns below which a sparse factorisation is quicker
   int max_iterations = 400;           ///< of GMRES in one solve, before the preconditioner is strengthened
   int restart = 50;                   ///< iterations between two residuals in double precision, at most
   int momentum_sweeps =

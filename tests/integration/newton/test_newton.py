@@ -20,7 +20,7 @@ class Newton(FolderTest):
         for case in (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY):
             for mode, folders in (("full", cls.full), ("kept", cls.kept)):
                 folders[case] = run(MONOLITHIC, case, cls.base / f"{case.stem}-{mode}", "time.end=1.5",
-                                    f"monolithic.mode={mode}", "output.every=0")
+                                    f"monolithic.mode={mode}", "monolithic.linear_solver=direct", "output.every=0")
 
     def histories(self):
         for case, folder in self.full.items():
@@ -84,6 +84,37 @@ class Newton(FolderTest):
         artery = self.kept[ARTERY]
         self.assertLess(calls(artery)["factorisation: coupled"], STEPS)
         self.assertGreater(calls(artery)["factorisation: coupled"], 1)
+
+
+class Fast(FolderTest):
+    """The default linear solver against the direct one over whole runs on the coarse mesh."""
+
+    def runs(self, case):
+        settings = ("output.every=0", "output.checkpoint_every=0")
+        direct = run(MONOLITHIC, case, self.base / f"{case.stem}-direct", "monolithic.linear_solver=direct", *settings)
+        return direct, run(MONOLITHIC, case, self.base / f"{case.stem}-fast", *settings)
+
+    def test_same_pressures_and_no_factorisation(self):
+        for case in (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY):
+            with self.subTest(case=case.stem):
+                direct, fast = self.runs(case)
+                apart = difference(pressure(fast), pressure(direct))
+                print(f"{case.stem}: fast against direct, relative, largest of all steps:", apart.max())
+                self.assertLess(apart.max(), 1e-6)
+                self.assertNotIn("factorisation: coupled", calls(fast))
+                totals = summary(fast)["totals"]
+                self.assertEqual(summary(direct)["totals"]["linear_iterations"], 0)
+                self.assertGreater(totals["linear_iterations"], totals["newton_iterations"])
+
+    def test_inexact_newton_solves_only_as_far_as_it_pays(self):
+        """Tight linear solves reach the same solution in more work."""
+        settings = ("time.end=1", "output.every=0", "monolithic.mode=full")
+        loose = run(MONOLITHIC, NEO_HOOKEAN, self.base / "loose", *settings)
+        tight = run(MONOLITHIC, NEO_HOOKEAN, self.base / "tight", "monolithic.linear_tolerance=1e-9", *settings)
+        self.assertLess(difference(pressure(loose), pressure(tight)).max(), 1e-7)
+        self.assertLess(summary(loose)["totals"]["linear_iterations"], summary(tight)["totals"]["linear_iterations"])
+        self.assertGreater(summary(loose)["totals"]["newton_iterations"],
+                           summary(tight)["totals"]["newton_iterations"])
 
 
 if __name__ == "__main__":

@@ -61,6 +61,14 @@ class RigidPipe(FolderTest):
         self.assertSameResults(*folders)
         self.assertGreater(table(folders[0], "flow.csv")[-1, 1], 0)
 
+    def test_fast_solver_gives_the_same_flow(self):
+        """Viscosity dominates here, mass in the artery: the other end of what the Schur complement must cover."""
+        folder = run(MONOLITHIC, CASE, self.base / "fast", "monolithic.linear_solver=fast", "monolithic.direct_below=0")
+        direct = run(MONOLITHIC, CASE, self.base / "direct")
+        np.testing.assert_allclose(table(folder, "flow.csv")[:, 1], table(direct, "flow.csv")[:, 1], rtol=1e-7)
+        self.assertIn("set-up: coupled", calls(folder))
+        self.assertNotIn("factorisation: coupled", calls(folder))
+
     def test_nothing_of_a_wall_is_built_or_written(self):
         folder = run(MONOLITHIC, CASE, self.base / "level")  # the mesh has a wall
         reported = summary(folder)
