@@ -25,6 +25,8 @@
 #include "scene/build_scene.hpp"
 #include "scene/jacobian_product.hpp"
 #include "scene/newton_stepper.hpp"
+#include "solvers/amg/study.hpp"
+#include "solvers/amg/sub_problem_options.hpp"
 
 namespace fsi {
 
@@ -104,11 +106,12 @@ double difference(const Numbering& numbering, const std::vector<double>& a, cons
 class LinearStudy {
  public:
   LinearStudy(const Case& setup, std::vector<NamedSystem> systems, std::vector<std::string> solvers, double tolerance,
-              bool quiet)
+              bool sub_problems, bool quiet)
       : setup_(setup),
         systems_(std::move(systems)),
         solvers_(std::move(solvers)),
         tolerance_(tolerance),
+        with_sub_problems_(sub_problems),
         quiet_(quiet),
         mesh_(load_mesh(setup)),
         scene_(build_scene(setup, mesh_)),
@@ -155,6 +158,7 @@ class LinearStudy {
       else
         stepper.advance(state);
     }
+    if (with_sub_problems_) json["sub_problems"] = sub_problems_;
     complete = complete_ && json["systems"].size() == systems_.size();
     return json;
   }
@@ -220,6 +224,7 @@ class LinearStudy {
                      {"condensed", b.size()}}},
                    {"product_seconds", product},
                    {"right_hand_side", norm_b}};
+    if (with_sub_problems_ && sub_problems_.empty()) study_sub_problems(paper);
     JacobianProduct<Element> jacobian(blocks);
     std::vector<double> x, y, reference;
     // The direct solution first, whatever its place in the list: it is what the others are compared with.
@@ -282,6 +287,47 @@ class LinearStudy {
     return answer;
   }
 
+  /// The multigrid of each sub-problem of the first named system as a solver of its own. Large meshes get a smaller
+  /// range, for time.
+  void study_sub_problems(const CoupledSystem<Element>& paper) {
+    constexpr int n = Element::components;
+    const auto& k = paper.matrix();
+    NodeMarks fluid(k.fluid_nodes()), wall(k.wall_nodes()), mesh(k.fluid_nodes());
+    fluid.prescribed = paper.constraints().velocity_fixed;
+    mesh.prescribed = paper.constraints().mesh_fixed;
+    wall.prescribed = paper.constraints().wall_fixed;
+    for (const auto& node : paper.interface()) {
+      fluid.interface[node.fluid] = mesh.interface[node.fluid] = wall.interface[node.wall] = 1;
+      mesh.prescribed[node.fluid] = wall.prescribed[node.wall] = 0;  // given, but an unknown of the coupled system
+    }
+    MultigridStudyRange range;
+    range.max_iterations = 40;
+    if (mesh_.nodes.size() > 20000) {
+      range.coarsenings = {"colouring"};
+      range.cycles = {"v"};
+    }
+    const auto add = [&](const char* problem, const std::vector<MultigridStudyRow>& rows) {
+      for (const auto& row : rows)
+        sub_problems_.push_back({{"problem", problem},
+                                 {"coarsening", row.coarsening},
+                                 {"smoother", row.smoother},
+                                 {"cycle", fmt::format("{}({},{})", row.cycle, row.pre_smoothing, row.post_smoothing)},
+                                 {"levels", row.result.levels},
+                                 {"factor", row.result.convergence_factor},
+                                 {"iterations", row.result.iterations},
+                                 {"converged", row.result.converged},
+                                 {"milliseconds_per_cycle", 1e3 * row.result.seconds_per_cycle},
+                                 {"operator_complexity", row.result.operator_complexity}});
+      say(fmt::format("multigrid of the {} alone: {} settings", problem, rows.size()));
+    };
+    add("mesh", study_elliptic_multigrid<n>(*k.mesh, mesh, mesh_amg_options(), range));
+    add("fluid", study_saddle_multigrid(*k.flow, fluid, fluid_amg_options(), range));
+    for (const char* smoother : {"braess-sarazin", "vanka"}) {
+      range.smoothers = {smoother};
+      add("wall", study_saddle_multigrid(*k.wall, wall, wall_amg_options(saddle_smoother_kind(smoother)), range));
+    }
+  }
+
   void say(const std::string& text) const {
     if (!quiet_) std::printf("%s\n", text.c_str());
     if (!quiet_) std::fflush(stdout);
@@ -291,7 +337,8 @@ class LinearStudy {
   std::vector<NamedSystem> systems_;
   std::vector<std::string> solvers_;
   double tolerance_;
-  bool quiet_;
+  bool with_sub_problems_, quiet_;
+  Json sub_problems_ = Json::array();
   TetrahedralMesh mesh_;
   std::unique_ptr<Scene<Element>> scene_;
   Loads loads_;
@@ -343,7 +390,7 @@ std::optional<int> LinearStudyRequest::run(const CommandLine& line, const Case& 
   if (!line.restart.empty())
     throw InputError("", "--restart", "cannot go with --linear-systems", "leave one of them out");
   LinearStudy study(setup, parse_systems(systems_), parse_solvers(solvers_.empty() ? "fast,direct" : solvers_),
-                    tolerance_.empty() ? 1e-9 : parse_tolerance(tolerance_), line.quiet);
+                    tolerance_.empty() ? 1e-9 : parse_tolerance(tolerance_), sub_problems_, line.quiet);
   std::error_code error;
   std::filesystem::create_directories(line.output, error);
   if (error) throw InputError(line.output.string(), "--output", "cannot be made: " + error.message(), "");
