@@ -34,6 +34,8 @@ class AxisymmetricArtery {
 
   void step() { stepper_->advance(state_); }
   double time() const { return state_.time; }
+  const Case& setup() const { return setup_; }
+  Scene<Element>& scene() { return *scene_; }
   std::int64_t unknowns() const { return stepper_->system().numbering().size; }
 
   /// Pressure on the axis in Pa at z = 0, 0.1, ..., 18 mm.

@@ -9,61 +9,90 @@
 
 namespace fsi::test {
 
-/// The linearised coupled equations of a later Newton iteration of a later time step: all blocks of the Jacobian differ
-/// from zero, the shape derivatives too.
+/// A Newton system of a time step: of a later iteration all blocks of the Jacobian differ from zero, the shape
+/// derivatives too.
 template <class Element>
 class LinearisedScene {
  public:
-  /// \param finished_steps  time steps before the one whose second Newton system this is
-  LinearisedScene(Case setup, std::unique_ptr<Scene<Element>> scene, int finished_steps)
-      : setup_(std::move(setup)), scene_(std::move(scene)), loads_(setup_), state_(scene_->at_rest()) {
+  /// \param finished_steps  time steps before the one in question
+  /// \param iteration       which of its Newton systems, from 1
+  LinearisedScene(Case setup, Scene<Element>& scene, int finished_steps, int iteration)
+      : setup_(std::move(setup)), scene_(scene), loads_(setup_), state_(scene_.at_rest()) {
     if (finished_steps > 0) {
       NewtonOptions newton;
       newton.tolerance = 1e-10;
-      NewtonStepper<Element> stepper(*scene_, loads_, newton);
+      NewtonStepper<Element> stepper(scene_, loads_, newton);
       for (int n = 0; n < finished_steps; ++n) stepper.advance(state_);
     }
-    data_ = loads_.next(state_, scene_->scheme);
-    scene_->scheme.predict(state_);
-    scene_->impose_interface(state_);
-    system_ = std::make_unique<System<Element>>("coupled", *scene_, number_scene(*scene_));
+    data_ = loads_.next(state_, scene_.scheme);
+    scene_.scheme.predict(state_);
+    scene_.impose_interface(state_);
+    system_ = std::make_unique<System<Element>>("coupled", scene_, number_scene(scene_), made_when_asked());
     system_->work_on(state_, data_);
-    system_->evaluate();
-    system_->linearise();
-    system_->solve(0);
-    system_->move(1);
-    system_->evaluate();
-    system_->linearise();
-    b_ = system_->residual();
-    x_.resize(b_.size());
-    DirectLinearSolver<Element> direct(blocks());
-    direct.update();
-    direct.solve(b_, 0, x_);
+    for (int k = 1; k <= iteration; ++k) {
+      if (k > 1) {
+        system_->solve(0);
+        system_->move(1);
+      }
+      system_->evaluate();
+      system_->linearise();
+    }
+  }
+
+  /// The second system of a step, of a scene that this keeps.
+  LinearisedScene(Case setup, std::unique_ptr<Scene<Element>> scene, int finished_steps)
+      : LinearisedScene(std::move(setup), *scene, finished_steps, 2) {
+    owned_ = std::move(scene);
   }
 
   const Case& setup() const { return setup_; }
-  Scene<Element>& scene() { return *scene_; }
+  Scene<Element>& scene() { return scene_; }
   JacobianBlocks<Element> blocks() { return system_->blocks(); }
-  const std::vector<double>& b() const { return b_; }
+  const std::vector<double>& b() const { return system_->residual(); }
   /// J^-1 b by sparse factorisation.
-  const std::vector<double>& solution() const { return x_; }
+  const std::vector<double>& solution() {
+    if (x_.empty()) {
+      DirectLinearSolver<Element> direct(blocks());
+      direct.update();
+      direct.solve(b(), 0, x_);
+    }
+    return x_;
+  }
 
  private:
+  /// The direct solver, which factorises when it has something to solve: not for the last Jacobian.
+  static LinearSolverFactory<Element> made_when_asked() {
+    class Lazy : public LinearSolver {
+     public:
+      explicit Lazy(const JacobianBlocks<Element>& blocks) : direct_(blocks) {}
+      void update() override { updated_ = true; }
+      bool ready() const override { return updated_; }
+      LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override {
+        direct_.update();
+        return direct_.solve(b, tolerance, x);
+      }
+
+     private:
+      DirectLinearSolver<Element> direct_;
+      bool updated_ = false;
+    };
+    return [](const JacobianBlocks<Element>& blocks) { return std::make_unique<Lazy>(blocks); };
+  }
+
+  std::unique_ptr<Scene<Element>> owned_;
   Case setup_;
-  std::unique_ptr<Scene<Element>> scene_;
+  Scene<Element>& scene_;
   Loads loads_;
   State state_;
   StepData data_;
   std::unique_ptr<System<Element>> system_;
-  std::vector<double> b_, x_;
+  std::vector<double> x_;
 };
 
-/// On a box of fluid under a wall of two layers, n cells along the interface.
+/// On a box of fluid under a wall of two layers, five cells along an edge of the interface.
 inline LinearisedScene<P1Tetrahedron>& linearised_box() {
-  static LinearisedScene<P1Tetrahedron> box = [] {
-    auto setup = coupled_case("artery");
-    return LinearisedScene<P1Tetrahedron>(setup, build_scene(setup, fluid_and_wall_box(5)), 2);
-  }();
+  static LinearisedScene<P1Tetrahedron> box(coupled_case("artery"),
+                                            build_scene(coupled_case("artery"), fluid_and_wall_box(5)), 2);
   return box;
 }
 
