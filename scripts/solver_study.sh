@@ -16,7 +16,9 @@ for method in ${exact//,/ }; do too_large+=",fine:$method"; done
 
 # What does not converge is a result too: exit code 2 goes on.
 solvers() { "$programs/fsi-compare" solvers "$@" || [ $? -eq 2 ]; }
-solvers -o "$results/tables" --sub-problems --without "$too_large" >"$results/tables.txt"
+solvers -o "$results/tables" --without "$too_large" >"$results/tables.txt"
+solvers -o "$results/sub-problems" --sub-problems --methods fast --materials neo-hookean --systems 1:1 \
+  >"$results/sub-problems.txt"
 solvers -o "$results/stress" --stress --set monolithic.direct_below=0 >"$results/stress.txt"
 
 # run NAME [OPTION...]: a run of the neo-Hookean artery, unless it is there already

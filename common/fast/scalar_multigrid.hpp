@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/csr_matrix.hpp"
+#include "algebra/csr_matrix.hpp"
 #include "fast/sweep_chunks.hpp"
 
 namespace fsi {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fast/csr_matrix.hpp"
+#include "algebra/csr_matrix.hpp"
 
 namespace fsi::test {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "fast/csr_matrix.hpp"
+#include "algebra/csr_matrix.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {

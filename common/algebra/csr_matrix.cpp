@@ -1,4 +1,4 @@
-#include "fast/csr_matrix.hpp"
+#include "algebra/csr_matrix.hpp"
 
 #include <algorithm>
 
