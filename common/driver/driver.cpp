@@ -74,8 +74,10 @@ class Run {
   void march() {
     const bool restarted = !line_.restart.empty();
     if (restarted) recall();
-    ResultFolder folder = restarted ? ResultFolder(line_.output, observables_.tables(), line_.restart, state_.time)
-                                    : ResultFolder(line_.output, observables_.tables());
+    ResultTables tables = observables_.tables();
+    tables.coupling = stepper_->reports_coupling();
+    ResultFolder folder =
+        restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
     FieldOutput fields(setup_, *scene_, loads_.steps(), line_.output, line_.restart, state_.step);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
@@ -124,6 +126,7 @@ class Run {
       const auto phase = scene_->profile.phase("output");
       observables_.write(state_, folder);
       folder.write_iterations(record);
+      if (report.coupling) folder.write_coupling(record, *report.coupling);
       fields.write(state_);
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();

@@ -408,6 +408,11 @@ const std::vector<CaseKey<MultigridData>>& multigrid_keys() {
   return keys;
 }
 
+void check_multigrid(const CaseEntry& entry, MultigridData& multigrid) {
+  if (multigrid.pre_smoothing + multigrid.post_smoothing == 0)
+    entry.refuse("neither pre_smoothing nor post_smoothing", "give at least one step");
+}
+
 const std::vector<CaseKey<MonolithicData>>& monolithic_keys() {
   static const std::vector<CaseKey<MonolithicData>> keys = {
       {"linear_solver", optional,
@@ -420,13 +425,13 @@ const std::vector<CaseKey<MonolithicData>>& monolithic_keys() {
        inside(&MonolithicData::linear_tolerance, {0, 1, true, false})},
       {"max_linear_iterations", optional, "iterations of each linear solve, default 500",
        whole(&MonolithicData::max_linear_iterations, 1)},
-      {"direct_below", optional, "unknowns below which fast factorises the matrix, default 10000",
+      {"direct_below", optional, "unknowns below which fast factorises the matrix, default 2000",
        whole(&MonolithicData::direct_below, 0)},
       {"krylov_restart", optional, "directions that GMRES and FGMRES keep, default 250",
        whole(&MonolithicData::krylov_restart, 1)},
       section<MultigridData, MonolithicData>(
           "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
-          [](MonolithicData& monolithic) -> MultigridData& { return monolithic.multigrid; }),
+          [](MonolithicData& monolithic) -> MultigridData& { return monolithic.multigrid; }, check_multigrid),
       {"mode", optional,
        "kept: factors serve while the residual keeps falling (default); full: new ones each iteration",
        name_from(&MonolithicData::mode, {"kept", "full"})},
@@ -441,14 +446,32 @@ const std::vector<CaseKey<MonolithicData>>& monolithic_keys() {
 
 const std::vector<CaseKey<PartitionedData>>& partitioned_keys() {
   static const std::vector<CaseKey<PartitionedData>> keys = {
-      {"scheme", optional, "relaxation of the coupling: aitken (default) or constant",
-       name_from(&PartitionedData::scheme, {"aitken", "constant"}, {"iqn-ils"})},
+      {"scheme", optional,
+       "coupling: aitken (default), constant, iqn-ils, iqn-imvj, newton-krylov, robin-neumann, its quasi-Newton forms "
+       "robin-neumann-iqn and robin-neumann-imvj, or explicit",
+       name_from(&PartitionedData::scheme, coupling_scheme_names())},
       {"tolerance", optional, "interface change relative to its displacement, default 1e-6",
        inside(&PartitionedData::tolerance, tolerance)},
-      {"relaxation", optional, "constant factor or Aitken's first; without it the scheme chooses",
+      {"absolute_tolerance", optional,
+       "interface change in mm (Euclidean norm) that is small enough too, default 1e-13",
+       not_negative(&PartitionedData::absolute_tolerance)},
+      {"force_tolerance", optional,
+       "what the interface's momentum balance may lack relative to the force, default 0: not demanded",
+       inside(&PartitionedData::force_tolerance, {0, 1, true, false})},
+      {"relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
        inside(&PartitionedData::relaxation, {0, 2, false, false})},
       {"max_iterations", optional, "coupling iterations per step, default 200",
        whole(&PartitionedData::max_iterations, 1)},
+      {"reused_steps", optional, "earlier time steps whose differences iqn-ils keeps, default 10",
+       whole(&PartitionedData::reused_steps, 0)},
+      {"columns", optional, "differences that a quasi-Newton scheme keeps at most, default 200",
+       whole(&PartitionedData::columns, 1)},
+      {"filter", optional, "part of a difference that must be new for a quasi-Newton scheme to keep it, default 1e-2",
+       inside(&PartitionedData::filter, {0, 1, true, false})},
+      {"linear_solver", optional, "of the sub-problems: fast (default) or direct",
+       name_from(&PartitionedData::linear_solver, {"fast", "direct"})},
+      {"direct_below", optional, "unknowns of a sub-problem below which fast factorises the matrix, default 2000",
+       whole(&PartitionedData::direct_below, 0)},
   };
   return keys;
 }

@@ -27,11 +27,16 @@ constexpr Table flow_table{"flow.csv",
                            "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
 constexpr Table iterations_table{"iterations.csv",
                                  "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s"};
+constexpr Table coupling_table{
+    "coupling.csv",
+    "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
+    "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,wall_linear_iterations,"
+    "fluid_s,wall_s,mesh_motion_s,coupling_s"};
 
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
-constexpr std::array<const char*, 9> result_files = {centerline_table.file, wall_table.file, flow_table.file,
-                                                     iterations_table.file, "summary.json",  "fields.h5",
-                                                     "fields.xdmf",         "checkpoint.h5", "run.log"};
+constexpr std::array<const char*, 10> result_files = {
+    centerline_table.file, wall_table.file, flow_table.file, iterations_table.file, coupling_table.file,
+    "summary.json",        "fields.h5",     "fields.xdmf",   "checkpoint.h5",       "run.log"};
 
 bool is_result_file(const fs::path& name) {
   for (const auto* file : result_files)
@@ -44,6 +49,7 @@ std::vector<Table> tables_of(const ResultTables& wanted) {
   if (wanted.centerline_pressure) tables.push_back(centerline_table);
   if (wanted.wall_displacement) tables.push_back(wall_table);
   if (wanted.flow) tables.push_back(flow_table);
+  if (wanted.coupling) tables.push_back(coupling_table);
   return tables;
 }
 
@@ -110,6 +116,7 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.centerline_pressure) open(centerline_, centerline_table);
   if (tables.wall_displacement) open(wall_, wall_table);
   if (tables.flow) open(flow_, flow_table);
+  if (tables.coupling) open(coupling_, coupling_table);
 }
 
 void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {
@@ -135,6 +142,15 @@ void ResultFolder::write_iterations(const StepRecord& record) {
                              static_cast<double>(record.outer_iterations),
                              static_cast<double>(record.newton_iterations),
                              static_cast<double>(record.linear_iterations), record.wall_seconds});
+}
+
+void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& c) {
+  const auto number = [](auto count) { return static_cast<double>(count); };
+  coupling_.value().write({number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes),
+                           c.relaxation, number(c.columns), c.displacement_residual, c.displacement_gap,
+                           c.force_residual, number(c.fluid_newton_iterations), number(c.wall_newton_iterations),
+                           number(c.fluid_linear_iterations), number(c.wall_linear_iterations), c.fluid_seconds,
+                           c.wall_seconds, c.mesh_seconds, c.algebra_seconds});
 }
 
 }  // namespace fsi

@@ -6,6 +6,7 @@
 
 #include "io/csv_file.hpp"
 #include "io/step_record.hpp"
+#include "scene/stepper.hpp"
 
 namespace fsi {
 
@@ -14,6 +15,7 @@ struct ResultTables {
   bool centerline_pressure = false;  ///< scenes with fluid
   bool wall_displacement = false;    ///< scenes with a wall
   bool flow = false;                 ///< scenes with fluid
+  bool coupling = false;             ///< partitioned runs
 };
 
 /// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
@@ -45,12 +47,13 @@ class ResultFolder {
                   const std::vector<double>& axial);
   void write_flow(double time, const FlowRecord& flow);
   void write_iterations(const StepRecord& record);
+  void write_coupling(const StepRecord& record, const CouplingReport& coupling);
 
  private:
   void open_tables(const ResultTables& tables, bool append);
 
   std::filesystem::path folder_;
-  std::optional<CsvFile> centerline_, wall_, flow_, iterations_;
+  std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_;
 };
 
 }  // namespace fsi

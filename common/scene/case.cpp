@@ -40,4 +40,11 @@ const std::vector<std::string>& linear_solver_names() {
   return names;
 }
 
+const std::vector<std::string>& coupling_scheme_names() {
+  static const std::vector<std::string> names = {"aitken",        "constant",          "explicit",
+                                                 "iqn-ils",       "iqn-imvj",          "newton-krylov",
+                                                 "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
+  return names;
+}
+
 }  // namespace fsi

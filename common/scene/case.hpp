@@ -90,7 +90,7 @@ struct MonolithicData {
   std::string linear_solver = "fast";
   double linear_tolerance = 0;      ///< residual of each linear solve, relative; 0: what Newton's convergence needs
   int max_linear_iterations = 500;  ///< of each linear solve
-  int direct_below = 10000;         ///< unknowns below which `fast` factorises
+  int direct_below = 2000;          ///< unknowns below which `fast` factorises
   int krylov_restart = 250;         ///< directions that GMRES and FGMRES keep
   MultigridData multigrid;
   std::string mode = "kept";  ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
@@ -101,10 +101,17 @@ struct MonolithicData {
 
 /// [partitioned]
 struct PartitionedData {
-  std::string scheme = "aitken";  ///< "constant" or "aitken"
-  double tolerance = 1e-6;        ///< ||d~ - d|| <= tolerance ||d~|| on the interface
-  double relaxation = 0;          ///< constant factor, or Aitken's first; 0 lets the scheme choose
+  std::string scheme = "aitken";
+  double tolerance = 1e-6;            ///< ||d~ - d|| <= tolerance ||d~|| on the interface
+  double absolute_tolerance = 1e-13;  ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
+  double force_tolerance = 0;         ///< further demand: force residual relative to the interface force; 0: none
+  double relaxation = 0;              ///< constant factor, or the first of the scheme; 0 lets the scheme choose
   int max_iterations = 200;
+  int reused_steps = 10;               ///< earlier time steps whose differences iqn-ils keeps
+  int columns = 200;                   ///< differences that a quasi-Newton scheme keeps at most
+  double filter = 1e-2;                ///< a difference is dropped when less than this part of it is new
+  std::string linear_solver = "fast";  ///< of the sub-problems: "fast" or "direct"
+  int direct_below = 2000;             ///< unknowns of a sub-problem below which `fast` factorises
 };
 
 /// [output]
@@ -116,6 +123,8 @@ struct OutputData {
 
 /// Names that monolithic.linear_solver can have.
 const std::vector<std::string>& linear_solver_names();
+/// Names that partitioned.scheme can have.
+const std::vector<std::string>& coupling_scheme_names();
 
 /// A whole scene as the case file states it. Sections that a scene does not need are absent.
 struct Case {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/names.hpp"
 #include "example_cases.hpp"
 #include "io/case_reader.hpp"
 
@@ -232,16 +233,69 @@ const std::vector<BadCase>& bad_cases() {
       {"MaterialUnknown", coupled_case, "\"mooney-rivlin\"", "\"money-rivlin\"",
        "case.toml:18: structure.layers.adventitia.material: \"money-rivlin\" is unknown; did you mean mooney-rivlin? "
        "There are artery, mooney-rivlin or neo-hookean"},
-      {"LinearSolverUnknown", coupled_case, "\"direct\"", "\"gmres\"",
-       "case.toml:28: monolithic.linear_solver: \"gmres\" is unknown; give direct"},
-      {"LinearSolverNotYet", coupled_case, "\"direct\"", "\"fast\"",
-       "case.toml:28: monolithic.linear_solver: \"fast\" is not available yet; give direct"},
+      {"LinearSolverUnknown", coupled_case, "\"direct\"", "\"amg_gmers\"",
+       "case.toml:28: monolithic.linear_solver: \"amg_gmers\" is unknown; did you mean amg_gmres? There are " +
+           one_of(linear_solver_names())},
+      {"LinearToleranceOne", coupled_case, "newton_tolerance = 1e-8", "linear_tolerance = 1",
+       "case.toml:29: monolithic.linear_tolerance: 1 is out of range; give a number >= 0 and < 1 (residual of each "
+       "linear solve relative to its right-hand side, default 0: what Newton's convergence needs)"},
+      {"LinearIterationsZero", coupled_case, "newton_tolerance = 1e-8", "max_linear_iterations = 0",
+       "case.toml:29: monolithic.max_linear_iterations: 0 is out of range; give a whole number >= 1 (iterations of "
+       "each linear solve, default 500)"},
+      {"RestartZero", coupled_case, "newton_tolerance = 1e-8", "krylov_restart = 0",
+       "case.toml:29: monolithic.krylov_restart: 0 is out of range; give a whole number >= 1 (directions that GMRES "
+       "and FGMRES keep, default 250)"},
+      {"MultigridIsNoSection", coupled_case, "newton_tolerance = 1e-8", "multigrid = 3",
+       "case.toml:29: monolithic.multigrid: 3 is a whole number; make it a section [monolithic.multigrid]"},
+      {"MultigridKeyUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.dampening = 0.3",
+       "case.toml:29: monolithic.multigrid.dampening: unknown key; did you mean monolithic.multigrid.damping?"},
+      {"MultigridCycleUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.cycle = \"f\"",
+       "case.toml:29: monolithic.multigrid.cycle: \"f\" is unknown; did you mean v? There are v, w or k"},
+      {"SubCycleUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.sub_cycle = \"k\"",
+       "case.toml:29: monolithic.multigrid.sub_cycle: \"k\" is unknown; did you mean v? There are v or w"},
+      {"DampingTooLarge", coupled_case, "newton_tolerance = 1e-8", "multigrid.damping = 1.5",
+       "case.toml:29: monolithic.multigrid.damping: 1.5 is out of range; give a number >= 0 and <= 1 (damping factor "
+       "of the coupled smoother, default 0: estimated on each level)"},
+      {"PreSmoothingNegative", coupled_case, "newton_tolerance = 1e-8", "multigrid.pre_smoothing = -1",
+       "case.toml:29: monolithic.multigrid.pre_smoothing: -1 is out of range; give a whole number >= 0 (steps of the "
+       "coupled smoother before the coarse correction, default 5)"},
+      {"NoSmoothing", coupled_case, "newton_tolerance = 1e-8",
+       "multigrid.pre_smoothing = 0\nmultigrid.post_smoothing = 0",
+       "case.toml:29: monolithic.multigrid: neither pre_smoothing nor post_smoothing; give at least one step"},
+      {"LevelsZero", coupled_case, "newton_tolerance = 1e-8", "multigrid.levels = 0",
+       "case.toml:29: monolithic.multigrid.levels: 0 is out of range; give a whole number >= 1 (levels at most, "
+       "default 10)"},
+      {"CoarseningUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.coarsening = \"coloring\"",
+       "case.toml:29: monolithic.multigrid.coarsening: \"coloring\" is unknown; did you mean colouring? There are "
+       "colouring or aggregation"},
+      {"FluidSmootherUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.fluid_smoother = \"vanca\"",
+       "case.toml:29: monolithic.multigrid.fluid_smoother: \"vanca\" is unknown; did you mean vanka? There are "
+       "braess-sarazin or vanka"},
       {"ModeUnknown", coupled_case, "linear_solver = \"direct\"", "mode = \"keep\"",
        "case.toml:28: monolithic.mode: \"keep\" is unknown; did you mean kept? There are kept or full"},
       {"SchemeUnknown", coupled_case, "\"aitken\"", "\"aitkin\"",
-       "case.toml:31: partitioned.scheme: \"aitkin\" is unknown; did you mean aitken? There are aitken or constant"},
-      {"SchemeNotYet", coupled_case, "\"aitken\"", "\"iqn-ils\"",
-       "case.toml:31: partitioned.scheme: \"iqn-ils\" is not available yet; give aitken or constant"},
+       "case.toml:31: partitioned.scheme: \"aitkin\" is unknown; did you mean aitken? There are " +
+           one_of(coupling_scheme_names())},
+      {"SchemeMisspelt", coupled_case, "\"aitken\"", "\"iqn_ils\"",
+       "case.toml:31: partitioned.scheme: \"iqn_ils\" is unknown; did you mean iqn-ils? There are " +
+           one_of(coupling_scheme_names())},
+      {"AbsoluteToleranceNegative", coupled_case, "tolerance = 1e-6", "absolute_tolerance = -1e-9",
+       "case.toml:32: partitioned.absolute_tolerance: -1e-09 is negative; give a number >= 0 (interface change in mm "
+       "(Euclidean norm) that is small enough too, default 1e-13)"},
+      {"ForceToleranceOne", coupled_case, "tolerance = 1e-6", "force_tolerance = 1",
+       "case.toml:32: partitioned.force_tolerance: 1 is out of range; give a number >= 0 and < 1 (what the interface's "
+       "momentum balance may lack relative to the force, default 0: not demanded)"},
+      {"ColumnsZero", coupled_case, "tolerance = 1e-6", "columns = 0",
+       "case.toml:32: partitioned.columns: 0 is out of range; give a whole number >= 1 (differences that a "
+       "quasi-Newton scheme keeps at most, default 200)"},
+      {"ReusedStepsNegative", coupled_case, "tolerance = 1e-6", "reused_steps = -1",
+       "case.toml:32: partitioned.reused_steps: -1 is out of range; give a whole number >= 0 (earlier time steps whose "
+       "differences iqn-ils keeps, default 10)"},
+      {"FilterOne", coupled_case, "tolerance = 1e-6", "filter = 1",
+       "case.toml:32: partitioned.filter: 1 is out of range; give a number >= 0 and < 1 (part of a difference that "
+       "must be new for a quasi-Newton scheme to keep it, default 1e-2)"},
+      {"SubProblemSolverUnknown", coupled_case, "tolerance = 1e-6", "linear_solver = \"slow\"",
+       "case.toml:32: partitioned.linear_solver: \"slow\" is unknown; did you mean fast? There are fast or direct"},
       {"FieldUnknown", coupled_case, "\"velocity\"", "\"velocities\"",
        "case.toml:34: output.fields[1]: \"velocities\" is unknown; did you mean velocity? There are displacement, "
        "velocity or pressure"},
@@ -263,8 +317,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:32: partitioned.max_iterations: 0 is out of range; give a whole number >= 1 (coupling iterations per "
        "step, default 200)"},
       {"RelaxationTwo", coupled_case, "tolerance = 1e-6", "relaxation = 2.0",
-       "case.toml:32: partitioned.relaxation: 2 is out of range; give a number > 0 and < 2 (constant factor or "
-       "Aitken's first; without it the scheme chooses)"},
+       "case.toml:32: partitioned.relaxation: 2 is out of range; give a number > 0 and < 2 (constant factor or the "
+       "scheme's first; without it the scheme chooses)"},
       // Sections that do not go together
       {"NeitherFluidNorWall", fluid_case, "[fluid]\ndensity = 1.0\nviscosity = 3.5e-3\n", "",
        "case.toml: neither [fluid] nor [structure]; add at least one of them"},

@@ -59,7 +59,7 @@ TEST(CaseReader, FillsInDefaults) {
   EXPECT_EQ(scene.inlet->points, (Points{{0, 0}, {1, 2.5}, {1, 0}}));
   EXPECT_EQ(scene.time->steps(), 3);
   EXPECT_EQ(scene.time->newmark_beta, 1.0);
-  EXPECT_EQ(scene.monolithic.linear_solver, "direct");
+  EXPECT_EQ(scene.monolithic.linear_solver, "fast");
   EXPECT_EQ(scene.partitioned.max_iterations, 200);
   EXPECT_EQ(scene.output.fields.size(), 3u);
 }
@@ -97,11 +97,33 @@ mode = "full"
 newton_tolerance = 1e-9
 residual_tolerance = 1e-7
 max_iterations = 7
+linear_tolerance = 1e-6
+max_linear_iterations = 70
+krylov_restart = 40
+[monolithic.multigrid]
+cycle = "v"
+pre_smoothing = 8
+post_smoothing = 0
+damping = 0.3
+levels = 4
+coarsest_nodes = 99
+coarsening = "aggregation"
+fluid_smoother = "vanka"
+wall_smoother = "vanka"
+sub_cycle = "v"
+sub_smoothing = 3
 [partitioned]
 scheme = "constant"
 tolerance = 1e-5
 relaxation = 0.2
 max_iterations = 50
+absolute_tolerance = 1e-9
+force_tolerance = 1e-4
+reused_steps = 3
+columns = 30
+filter = 0.1
+linear_solver = "direct"
+direct_below = 77
 [output]
 fields = []
 every = 0
@@ -124,7 +146,29 @@ checkpoint_every = 5
   EXPECT_EQ(scene.monolithic.mode, "full");
   EXPECT_EQ(scene.monolithic.residual_tolerance, 1e-7);
   EXPECT_EQ(scene.monolithic.max_iterations, 7);
+  EXPECT_EQ(scene.monolithic.linear_tolerance, 1e-6);
+  EXPECT_EQ(scene.monolithic.max_linear_iterations, 70);
+  EXPECT_EQ(scene.monolithic.krylov_restart, 40);
+  const auto& multigrid = scene.monolithic.multigrid;
+  EXPECT_EQ(multigrid.cycle, "v");
+  EXPECT_EQ(multigrid.pre_smoothing, 8);
+  EXPECT_EQ(multigrid.post_smoothing, 0);
+  EXPECT_EQ(multigrid.damping, 0.3);
+  EXPECT_EQ(multigrid.levels, 4);
+  EXPECT_EQ(multigrid.coarsest_nodes, 99);
+  EXPECT_EQ(multigrid.coarsening, "aggregation");
+  EXPECT_EQ(multigrid.fluid_smoother, "vanka");
+  EXPECT_EQ(multigrid.wall_smoother, "vanka");
+  EXPECT_EQ(multigrid.sub_cycle, "v");
+  EXPECT_EQ(multigrid.sub_smoothing, 3);
   EXPECT_EQ(scene.partitioned.relaxation, 0.2);
+  EXPECT_EQ(scene.partitioned.absolute_tolerance, 1e-9);
+  EXPECT_EQ(scene.partitioned.force_tolerance, 1e-4);
+  EXPECT_EQ(scene.partitioned.reused_steps, 3);
+  EXPECT_EQ(scene.partitioned.columns, 30);
+  EXPECT_EQ(scene.partitioned.filter, 0.1);
+  EXPECT_EQ(scene.partitioned.linear_solver, "direct");
+  EXPECT_EQ(scene.partitioned.direct_below, 77);
   EXPECT_TRUE(scene.output.fields.empty());
   EXPECT_EQ(scene.output.every, 0);
   EXPECT_EQ(scene.output.checkpoint_every, 5);

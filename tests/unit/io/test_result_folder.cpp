@@ -44,6 +44,26 @@ TEST_F(Results, TablesHaveTheColumnsThatScriptsRelyOn) {
             "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n1,0.1,4,9,0,0.75\n");
 }
 
+TEST_F(Results, TellHowFluidAndWallCameToAgree) {
+  ResultFolder results(run_, {false, false, false, true});
+  CouplingReport coupling;
+  coupling.failed_passes = 1;
+  coupling.columns = 12;
+  coupling.displacement_residual = 5e-7;
+  coupling.displacement_gap = 1e-8;
+  coupling.force_residual = 2e-6;
+  coupling.fluid_newton_iterations = 20;
+  coupling.wall_newton_iterations = 24;
+  coupling.wall_linear_iterations = 7;
+  coupling.mesh_seconds = 0.5;
+  results.write_coupling({3, 0.375, 8, 44, 7, 0.75}, coupling);
+  EXPECT_EQ(contents_of(run_ / "coupling.csv"),
+            "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
+            "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,"
+            "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s\n"
+            "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0\n");
+}
+
 TEST_F(Results, HoldOnlyTheTablesOfTheScene) {
   ResultFolder results(run_, {false, true, false});
   EXPECT_FALSE(fs::exists(run_ / "centerline_pressure.csv"));

@@ -1,0 +1,211 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "partitioned/dirichlet_neumann.hpp"
+#include "partitioned/robin_neumann.hpp"
+#include "partitioned/schemes.hpp"
+#include "scene/case.hpp"
+#include "scene/loads.hpp"
+
+namespace fsi {
+
+/// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated by the
+/// case's scheme, until they agree on the interface.
+template <class Element>
+class CouplingStepper : public Stepper {
+ public:
+  CouplingStepper(Scene<Element>& scene, const Loads& loads, const Case& setup)
+      : scene_(scene),
+        loads_(loads),
+        options_(setup.partitioned),
+        scheme_(coupling_scheme(options_.scheme)),
+        accelerator_(scheme_.make_accelerator(options_)) {
+    if (scheme_.robin)
+      problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_, *setup.structure);
+    else
+      problem_ = std::make_unique<DirichletNeumann<Element>>(scene, options_);
+  }
+
+  bool reports_coupling() const override { return true; }
+
+  StepReport advance(State& state) override {
+    StepData data = loads_.next(state, scene_.scheme);
+    report_ = {};
+    coupling_ = {};
+    problem_->cost = {};
+    order_ = scene_.scheme.predictor;
+    start(state, data);
+    accelerator_->start();
+    std::vector<double> x = problem_->first_guess(order_), good_x;
+    Solution good;  // fields of the last pass that succeeded
+    PassAccuracy accuracy{first_tolerance(), starts_far_};
+    if (scheme_.one_pass) accuracy = {final_tolerance(), false};
+    bool first = true;
+    for (report_.outer_iterations = 1; report_.outer_iterations <= options_.max_iterations;
+         ++report_.outer_iterations) {
+      Pass pass;
+      try {
+        pass = problem_->pass(x, accuracy);
+        measure(pass);
+        if (!scheme_.one_pass && agrees() && (accuracy.tolerance > 0.1 * demand() || accuracy.linearised_wall)) {
+          // Agreement cannot be better than the sub-problems' own accuracy.
+          pass = problem_->refine({final_tolerance(), false});
+          measure(pass);
+        }
+      } catch (const PassFailure& failure) {
+        retreat(failure, state, data, x, good_x, good);
+        continue;
+      }
+      log_pass();
+      if (first) starts_far_ = coupling_.displacement_residual > far;
+      first = false;
+      if (agrees() || scheme_.one_pass) {
+        accept(state, data, x, pass);
+        return report_;
+      }
+      good_x = x;
+      good = state.now;
+      accuracy.tolerance =
+          std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
+      const Stopwatch watch(coupling_.algebra_seconds);
+      accelerator_->correct(x, pass.residual);
+      if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
+    }
+    --report_.outer_iterations;
+    throw ConvergenceError(
+        fmt::format("step {} (to t = {:g} ms): the {} coupling did not converge in {} iterations, |d~ - d| / |d~| = "
+                    "{:.2e}, wanted {:g}; force {:.2e}{}",
+                    state.step + 1, data.time, scheme_.name, options_.max_iterations, coupling_.displacement_residual,
+                    options_.tolerance, coupling_.force_residual,
+                    options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
+        scheme_.advice);
+  }
+
+  Memory memory() const override {
+    Memory memory = problem_->memory();
+    accelerator_->remember(memory);
+    memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
+    return memory;
+  }
+  void recall(const Memory& memory) override {
+    problem_->recall(memory);
+    accelerator_->recall(memory);
+    const auto far_start = memory.numbers.find("starts_far");
+    if (far_start != memory.numbers.end()) starts_far_ = far_start->second != 0;
+  }
+
+ private:
+  static constexpr int most_retreats = 10;        ///< failed passes of one step
+  static constexpr double retreat_factor = 0.25;  ///< of the way from the last good iterate, after a failed pass
+  /// Relative interface residual beyond which the wall is linearised: there d~ lies so far off, a hundred times the
+  /// error of d, that its nonlinearity would only mislead the accelerator.
+  static constexpr double far = 0.8;
+  static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
+
+  /// The tighter of the demands on the interface.
+  double demand() const {
+    return options_.force_tolerance > 0 ? std::min(options_.tolerance, options_.force_tolerance) : options_.tolerance;
+  }
+  /// Sub-problems are solved a hundred times tighter than the interface; early passes as loosely as their residual
+  /// allows.
+  double final_tolerance() const { return sub_problem_share * demand(); }
+  double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
+
+  void start(State& state, StepData& data) {
+    TimeScheme scheme = scene_.scheme;
+    scheme.predictor = order_;
+    scheme.predict(state);
+    scene_.impose_interface(state);
+    problem_->start(state, data);
+  }
+
+  void measure(const Pass& pass) {
+    coupling_.displacement_gap = norm(pass.residual);
+    coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
+    coupling_.force_residual = problem_->force_residual();
+  }
+  bool agrees() const {
+    return (coupling_.displacement_residual <= options_.tolerance ||
+            coupling_.displacement_gap <= options_.absolute_tolerance) &&
+           (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
+  }
+
+  void log_pass() {
+    const AcceleratorStatus status = accelerator_->status();
+    const CouplingCost& cost = problem_->cost;
+    report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
+                                          report_.outer_iterations, coupling_.displacement_residual,
+                                          coupling_.force_residual,
+                                          status.columns > 0 ? fmt::format("columns {}", status.columns)
+                                                             : fmt::format("relaxation {:.5f}", status.relaxation),
+                                          cost.fluid_newton, cost.wall_newton));
+  }
+
+  /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
+  /// the last time level. \throws ConvergenceError when that has been tried often enough
+  void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
+               const std::vector<double>& good_x, const Solution& good) {
+    const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
+    ++coupling_.failed_passes;
+    report_.history.push_back(
+        fmt::format("coupling {:3d}  no answer from {}", report_.outer_iterations, failure.what()));
+    if (scheme_.one_pass || coupling_.failed_passes > most_retreats || (good_x.empty() && !extrapolated)) {
+      for (const auto& line : failure.history()) report_.history.push_back(line);
+      throw ConvergenceError(
+          fmt::format("step {} (to t = {:g} ms): {}", state.step + 1, data.time, failure.what()),
+          scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
+    }
+    if (extrapolated) {  // the extrapolated start can be the culprit, after a jump of the load for example
+      order_ = 0;
+      start(state, data);
+      x = problem_->first_guess(order_);
+      return;
+    }
+    state.now = good;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = good_x[i] + retreat_factor * (x[i] - good_x[i]);
+  }
+
+  void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass) {
+    {
+      const Stopwatch watch(coupling_.algebra_seconds);
+      accelerator_->accept(x, pass.residual);
+    }
+    problem_->accept();
+    if (scheme_.one_pass) problem_->follow_wall();
+    scene_.scheme.accept(state, data);
+    const CouplingCost& cost = problem_->cost;
+    report_.newton_iterations = cost.fluid_newton + cost.wall_newton;
+    report_.linear_iterations = cost.fluid_linear + cost.wall_linear;
+    const AcceleratorStatus status = accelerator_->status();
+    coupling_.relaxation = status.relaxation;
+    coupling_.columns = status.columns;
+    coupling_.fluid_newton_iterations = cost.fluid_newton;
+    coupling_.wall_newton_iterations = cost.wall_newton;
+    coupling_.fluid_linear_iterations = cost.fluid_linear;
+    coupling_.wall_linear_iterations = cost.wall_linear;
+    coupling_.fluid_seconds = cost.fluid_seconds;
+    coupling_.wall_seconds = cost.wall_seconds;
+    coupling_.mesh_seconds = cost.mesh_seconds;
+    report_.coupling = coupling_;
+  }
+
+  Scene<Element>& scene_;
+  const Loads& loads_;
+  PartitionedData options_;
+  const CouplingScheme& scheme_;
+  std::unique_ptr<Accelerator> accelerator_;
+  std::unique_ptr<InterfaceProblem<Element>> problem_;
+  CouplingReport coupling_;
+  int order_ = 0;           ///< of the extrapolated start
+  bool starts_far_ = true;  ///< the last step's first guess was far from its end
+};
+
+}  // namespace fsi

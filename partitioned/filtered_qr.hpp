@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fsi {
+
+/// QR factorisation V = Q R of difference columns that drops those which add nothing new: by modified Gram-Schmidt,
+/// repeated once, column by column in the order given, a column whose part orthogonal to the earlier ones is not longer
+/// than `filter` times the column itself is left out (Haelterman et al. 2016, filter QR2, which preCICE's QR3 applies).
+/// Zero, repeated and not finite columns never get in.
+class FilteredQr {
+ public:
+  FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter);
+
+  /// Places of the columns kept, ascending.
+  const std::vector<std::size_t>& kept() const { return kept_; }
+  /// c minimising |V c - b| over the columns kept, in their order.
+  std::vector<double> least_squares(const std::vector<double>& b) const;
+  /// Rows of V^+ = R^-1 Q^T, one per column kept: least_squares(b)[i] = row i . b.
+  std::vector<std::vector<double>> pseudo_inverse() const;
+
+ private:
+  std::vector<std::size_t> kept_;
+  std::vector<std::vector<double>> q_;  ///< orthonormal columns
+  std::vector<std::vector<double>> r_;  ///< r_[j][i] = R(i, j), i <= j
+};
+
+}  // namespace fsi

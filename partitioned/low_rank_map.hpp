@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fsi {
+
+/// A linear map J = sum of a_i b_i^T between interface vectors.
+class LowRankMap {
+ public:
+  std::size_t rank() const { return a_.size(); }
+  void add(std::vector<double> a, std::vector<double> b);
+  /// J x
+  std::vector<double> times(const std::vector<double>& x) const;
+  /// Replaces J by its best approximation of a rank of at most `rank`, singular values below `tolerance` times the
+  /// largest left out (the restart RS-SVD of Scheufele and Mehl 2017).
+  void truncate(std::size_t rank, double tolerance);
+
+  const std::vector<std::vector<double>>& left() const { return a_; }
+  const std::vector<std::vector<double>>& right() const { return b_; }
+
+ private:
+  std::vector<std::vector<double>> a_, b_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,230 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "base/error.hpp"
+#include "model_maps.hpp"
+#include "partitioned/iqn_ils.hpp"
+#include "partitioned/iqn_imvj.hpp"
+#include "partitioned/newton_krylov.hpp"
+#include "partitioned/relaxation.hpp"
+#include "partitioned/schemes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+QuasiNewtonOptions unfiltered(double mixing = 1) {
+  QuasiNewtonOptions options;
+  options.filter = 1e-12;
+  options.mixing = mixing;
+  return options;
+}
+
+std::vector<double> zero(const AddedMassMap& map) {
+  return std::vector<double>(static_cast<std::size_t>(map.size), 0.0);
+}
+
+// Errors of mode g are multiplied by 1 - omega (1 + g): theory of Causin, Gerbeau and Nobile.
+TEST(ConstantRelaxation, ContractsAsPredictedAndDivergesBeyondItsLimit) {
+  const AddedMassMap map{1};  // g = 100
+  for (const double omega : {0.005, 0.0099, 0.015}) {
+    ConstantRelaxation relaxation(omega);
+    auto x = zero(map);
+    std::vector<double> history;
+    corrections(relaxation, map, x, 1e-10, 10, &history);
+    for (std::size_t k = 1; k < history.size(); ++k)
+      EXPECT_NEAR(history[k] / history[k - 1], std::abs(1 - omega * 101), 1e-6);
+  }
+  ConstantRelaxation beyond(2.001 / 101);
+  auto x = zero(map);
+  EXPECT_EQ(corrections(beyond, map, x, 1e-10, 300), 300);
+}
+
+TEST(AitkenRelaxation, IsExactForOneMode) {
+  const AddedMassMap map{1};
+  AitkenRelaxation aitken(0.001, 0.05);
+  auto x = zero(map);
+  EXPECT_EQ(corrections(aitken, map, x, 1e-12), 2);
+  EXPECT_NEAR(aitken.status().relaxation, 1.0 / 101, 1e-12);
+}
+
+TEST(AitkenRelaxation, StartsAStepWithItsLastFactorButNotAboveTheLimit) {
+  const AddedMassMap map{1};
+  AitkenRelaxation aitken(0.001, 0.005);
+  auto x = zero(map);
+  corrections(aitken, map, x, 1e-12);
+  aitken.start();
+  EXPECT_DOUBLE_EQ(aitken.status().relaxation, 0.005);
+}
+
+TEST(AitkenRelaxation, SurvivesResidualsThatDoNotChange) {
+  AitkenRelaxation aitken(0.01, 0.05);
+  aitken.start();
+  std::vector<double> x{1, 2};
+  for (int k = 0; k < 3; ++k) aitken.correct(x, {0.5, 0.5});
+  EXPECT_TRUE(all_finite(x));
+}
+
+/// Both quasi-Newton accelerators.
+template <class T>
+class QuasiNewton : public testing::Test {};
+using QuasiNewtonTypes = testing::Types<IqnIls, IqnImvj>;
+TYPED_TEST_SUITE(QuasiNewton, QuasiNewtonTypes);
+
+// One difference more in each pass, and after n of them the inverse Jacobian is known.
+TYPED_TEST(QuasiNewton, SolvesALinearProblemInAsManyPassesAsItHasDimensions) {
+  for (const double mixing : {1.0, 0.5})
+    for (const int n : {1, 2, 5, 8}) {
+      TypeParam accelerator(unfiltered(mixing));
+      const AddedMassMap map{n};
+      auto x = zero(map);
+      EXPECT_LE(corrections(accelerator, map, x, 1e-8), n + 1) << n << " dimensions, mixing " << mixing;
+    }
+}
+
+TYPED_TEST(QuasiNewton, KnowsALinearProblemInTheNextStep) {
+  TypeParam accelerator(unfiltered());
+  AddedMassMap map{6};
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-8);
+  for (int step = 1; step <= 3; ++step) {
+    map.shift = step;
+    EXPECT_LE(corrections(accelerator, map, x, 1e-7), 2) << "step " << step;
+  }
+}
+
+TYPED_TEST(QuasiNewton, ConvergesOnANonlinearMapWithTheDefaults) {
+  TypeParam accelerator{QuasiNewtonOptions{}};
+  AddedMassMap map{30, 1.0};
+  auto x = zero(map);
+  EXPECT_LE(corrections(accelerator, map, x, 1e-8), 40);
+  map.shift = 0.05;
+  EXPECT_LE(corrections(accelerator, map, x, 1e-8), 25) << "with the differences of the last step";
+}
+
+TYPED_TEST(QuasiNewton, SurvivesZeroAndRepeatedDifferences) {
+  TypeParam accelerator{QuasiNewtonOptions{}};
+  accelerator.start();
+  std::vector<double> x{1, 2, 3};
+  accelerator.correct(x, {0.1, 0.2, 0.3});
+  accelerator.correct(x, {0.1, 0.2, 0.3});  // zero difference of residuals
+  EXPECT_TRUE(all_finite(x));
+  for (int k = 2; k < 6; ++k) accelerator.correct(x, {0.1 * k, 0.2 * k, 0.3 * k});  // parallel ones
+  EXPECT_TRUE(all_finite(x));
+  EXPECT_LE(accelerator.status().columns, 1);
+  accelerator.correct(x, {0, 0, 0});
+  EXPECT_TRUE(all_finite(x));
+  accelerator.accept(x, {0, 0, 0});
+  accelerator.start();
+  accelerator.correct(x, {0.1, 0.1, 0.1});
+  EXPECT_TRUE(all_finite(x));
+}
+
+TYPED_TEST(QuasiNewton, AcceptsAStepThatTookNoCorrection) {
+  TypeParam accelerator{QuasiNewtonOptions{}};
+  std::vector<double> x{1, 2};
+  for (int step = 0; step < 3; ++step) {
+    accelerator.start();
+    accelerator.accept(x, {1e-9, 0});
+  }
+  accelerator.start();
+  accelerator.correct(x, {0.1, 0});
+  EXPECT_DOUBLE_EQ(x[0], 1 + 0.01 * 0.1) << "plain relaxation while nothing is known";
+}
+
+TYPED_TEST(QuasiNewton, GoesOnBitForBitFromItsMemory) {
+  const AddedMassMap map{12, 10.0};
+  TypeParam accelerator{QuasiNewtonOptions{}}, restarted{QuasiNewtonOptions{}};
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-6);
+  Memory memory;
+  accelerator.remember(memory);
+  restarted.recall(memory);
+  const AddedMassMap next{12, 10.0, 0.3};
+  auto y = x;
+  corrections(accelerator, next, x, 1e-6);
+  corrections(restarted, next, y, 1e-6);
+  EXPECT_EQ(x, y);
+  Memory a, b;
+  accelerator.remember(a);
+  restarted.remember(b);
+  EXPECT_EQ(a.arrays, b.arrays);
+  EXPECT_EQ(a.numbers, b.numbers);
+}
+
+TYPED_TEST(QuasiNewton, KeepsItsMemoryBounded) {
+  QuasiNewtonOptions options;
+  options.columns = 10;
+  TypeParam accelerator(options);
+  AddedMassMap map{8, 0.2};
+  auto x = zero(map);
+  for (int step = 0; step < 6; ++step) {
+    map.shift = 0.2 * step;
+    EXPECT_LT(corrections(accelerator, map, x, 1e-6), 300);
+    Memory memory;
+    accelerator.remember(memory);
+    std::size_t numbers = 0;
+    for (const auto& [name, array] : memory.arrays) numbers += array.size();
+    EXPECT_LE(numbers, 2u * 10 * 8 + 10);
+  }
+}
+
+TEST(IqnIls, ForgetsStepsThatAreTooOld) {
+  QuasiNewtonOptions options = unfiltered();
+  options.reused_steps = 0;
+  IqnIls accelerator(options);
+  AddedMassMap map{4};
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-8);
+  map.shift = 1;
+  EXPECT_GE(corrections(accelerator, map, x, 1e-8), 4) << "as if there had been no step before";
+}
+
+TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
+  for (const int n : {1, 3, 6}) {
+    NewtonKrylov method(1e-8);
+    const AddedMassMap map{n};
+    auto x = zero(map);
+    // Each Newton step builds at most n directions; its forcing leaves a tenth at first, far less at last.
+    EXPECT_LE(corrections(method, map, x, 1e-8), 4 * (n + 1)) << n;
+  }
+}
+
+TEST(NewtonKrylov, ConvergesOnANonlinearMap) {
+  NewtonKrylov method(1e-9);
+  const AddedMassMap map{20, 50.0};
+  auto x = zero(map);
+  EXPECT_LE(corrections(method, map, x, 1e-9), 100);
+}
+
+TEST(NewtonKrylov, SurvivesAZeroResidualAndAPassCutShort) {
+  NewtonKrylov method(1e-9);
+  const AddedMassMap map{5};
+  auto x = zero(map);
+  method.start();
+  method.correct(x, std::vector<double>(5, 0.0));
+  EXPECT_EQ(x, zero(map));
+  method.start();
+  const auto base = x;
+  method.correct(x, map.residual(x));
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = base[i] + 0.25 * (x[i] - base[i]);
+  for (int k = 0; k < 60 && norm(map.residual(x)) > 1e-9; ++k) method.correct(x, map.residual(x));
+  EXPECT_LE(norm(map.residual(x)), 1e-9);
+}
+
+TEST(CouplingSchemes, AreThoseOfTheCaseReader) {
+  std::vector<std::string> names;
+  for (const auto& scheme : coupling_schemes()) {
+    names.push_back(scheme.name);
+    EXPECT_NE(scheme.make_accelerator({}), nullptr);
+    EXPECT_FALSE(scheme.advice.empty());
+    EXPECT_EQ(&coupling_scheme(scheme.name), &scheme);
+  }
+  EXPECT_EQ(names, coupling_scheme_names());
+  EXPECT_THROW(coupling_scheme("aitkin"), InputError);
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+
+#include "partitioned/coupling_stepper.hpp"
+#include "scene/newton_stepper.hpp"
+#include "support/nodal_arrays.hpp"
+#include "support/scenes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+using Tet = P1Tetrahedron;
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+Case partitioned_case(const std::string& scheme, double tolerance, const std::string& material = "neo-hookean") {
+  Case setup = coupled_case(material);
+  setup.partitioned.scheme = scheme;
+  setup.partitioned.tolerance = tolerance;
+  setup.partitioned.max_iterations = 2000;
+  return setup;
+}
+
+/// Marches a box of fluid and wall; returns the states after each step.
+template <class MakeStepper>
+std::vector<State> march(const Case& setup, int steps, MakeStepper make) {
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  const auto stepper = make(*scene, loads);
+  std::vector<State> states;
+  State state = scene->at_rest();
+  for (int n = 0; n < steps; ++n) {
+    const StepReport report = stepper->advance(state);
+    EXPECT_EQ(report.coupling.has_value(), stepper->reports_coupling());
+    states.push_back(state);
+  }
+  return states;
+}
+
+std::vector<State> march_partitioned(const Case& setup, int steps) {
+  return march(setup, steps, [&](Scene<Tet>& scene, const Loads& loads) {
+    return std::make_unique<CouplingStepper<Tet>>(scene, loads, setup);
+  });
+}
+
+class EachScheme : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
+  for (const char* material : {"neo-hookean", "artery"}) {
+    const Case setup = partitioned_case(GetParam(), 1e-10, material);
+    NewtonOptions newton;
+    newton.tolerance = 1e-12;
+    const auto whole = march(setup, 3, [&](Scene<Tet>& scene, const Loads& loads) {
+      return std::make_unique<NewtonStepper<Tet>>(scene, loads, newton);
+    });
+    const auto parts = march_partitioned(setup, 3);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Solution &a = parts[n].before[0], &b = whole[n].before[0];
+      EXPECT_LT(norm(difference(a.wall, b.wall)), 1e-7 * norm(b.wall)) << material << ", step " << n + 1;
+      EXPECT_LT(norm(difference(a.flow, b.flow)), 1e-7 * norm(b.flow)) << material << ", step " << n + 1;
+      EXPECT_LT(norm(difference(a.mesh, b.mesh)), 1e-7 * norm(b.mesh)) << material << ", step " << n + 1;
+    }
+  }
+}
+
+TEST_P(EachScheme, GoesOnBitForBitFromItsMemory) {
+  const Case setup = partitioned_case(GetParam(), 1e-5);
+  const auto scene = build_scene(setup, fluid_and_wall_box(2)), scene_again = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup), again(*scene_again, loads, setup);
+  State state = scene->at_rest();
+  for (int n = 0; n < 3; ++n) stepper.advance(state);
+  State copy = state;
+  again.recall(stepper.memory());
+  for (int n = 0; n < 2; ++n) {
+    const auto first = stepper.advance(state), second = again.advance(copy);
+    EXPECT_EQ(first.outer_iterations, second.outer_iterations);
+    EXPECT_EQ(first.newton_iterations, second.newton_iterations);
+  }
+  EXPECT_EQ(state.now.wall, copy.now.wall);
+  EXPECT_EQ(state.now.flow, copy.now.flow);
+  EXPECT_EQ(state.now.mesh, copy.now.mesh);
+}
+
+TEST_P(EachScheme, LeavesASceneWithoutLoadAtRest) {
+  Case setup = partitioned_case(GetParam(), 1e-8);
+  setup.inlet.reset();
+  for (const State& state : march_partitioned(setup, 2)) {
+    EXPECT_EQ(largest(state.now.wall), 0);
+    EXPECT_EQ(largest(state.now.flow), 0);
+  }
+}
+
+TEST_P(EachScheme, ReportsWhatItDid) {
+  const Case setup = partitioned_case(GetParam(), 1e-6);
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  const StepReport report = stepper.advance(state);
+  ASSERT_TRUE(report.coupling);
+  const CouplingReport& coupling = *report.coupling;
+  EXPECT_LE(coupling.displacement_residual, 1e-6);
+  EXPECT_GT(coupling.displacement_gap, 0);
+  EXPECT_GT(coupling.force_residual, 0);
+  EXPECT_LT(coupling.force_residual, 1e-4);
+  EXPECT_EQ(coupling.failed_passes, 0);
+  EXPECT_EQ(report.newton_iterations, coupling.fluid_newton_iterations + coupling.wall_newton_iterations);
+  EXPECT_GT(coupling.fluid_seconds, 0);
+  EXPECT_GT(coupling.wall_seconds, 0);
+  EXPECT_GT(coupling.mesh_seconds, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(CouplingStepper, EachScheme,
+                         testing::Values("constant", "aitken", "iqn-ils", "iqn-imvj", "newton-krylov", "robin-neumann",
+                                         "robin-neumann-iqn", "robin-neumann-imvj"),
+                         [](const auto& scheme) {
+                           std::string name = scheme.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(CouplingStepper, ExplicitTakesOnePass) {
+  const Case setup = partitioned_case("explicit", 1e-6);
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  const StepReport report = stepper.advance(state);
+  EXPECT_EQ(report.outer_iterations, 1);
+  EXPECT_GT(report.coupling->displacement_residual, 1e-6) << "reported as it is";
+}
+
+TEST(CouplingStepper, ObeysTheForceTolerance) {
+  Case setup = partitioned_case("iqn-ils", 1e-2);
+  setup.partitioned.force_tolerance = 1e-8;
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  const StepReport report = stepper.advance(state);
+  EXPECT_LE(report.coupling->force_residual, 1e-8);
+}
+
+TEST(CouplingStepper, AbsoluteToleranceIsEnough) {
+  Case setup = partitioned_case("iqn-ils", 1e-12);
+  setup.partitioned.absolute_tolerance = 1e-4;
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  const StepReport report = stepper.advance(state);
+  EXPECT_LE(report.coupling->displacement_gap, 1e-4);
+  EXPECT_GT(report.coupling->displacement_residual, 1e-12);
+}
+
+TEST(CouplingStepper, APassWithoutAnswerIsTriedAgainCloser) {
+  // A strong push and far too large a first relaxation: the first correction turns elements inside out.
+  Case setup = partitioned_case("iqn-ils", 1e-6);
+  setup.partitioned.relaxation = 1.5;
+  setup.inlet = PressureTable{{{0.0, 40.0}}};
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  const StepReport report = stepper.advance(state);
+  EXPECT_GT(report.coupling->failed_passes, 0);
+  EXPECT_LE(report.coupling->displacement_residual, 1e-6);
+}
+
+TEST(CouplingStepper, SaysWhenItDoesNotConvergeAndLeavesTheFinishedLevels) {
+  Case setup = partitioned_case("iqn-ils", 1e-10);
+  setup.partitioned.max_iterations = 2;
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  try {
+    stepper.advance(state);
+    FAIL();
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what()).find("partitioned.max_iterations"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(state.step, 0);
+  EXPECT_EQ(largest(state.before[0].wall), 0);
+  EXPECT_EQ(stepper.report().outer_iterations, 2);
+}
+
+}  // namespace
+
+}  // namespace fsi::test

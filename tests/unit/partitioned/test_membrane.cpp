@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "partitioned/membrane.hpp"
+#include "support/scenes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+TEST(Membrane, ImpedanceIsTheMeanOfPushAndShear) {
+  Membrane wall;
+  wall.thickness = 0.4;
+  wall.density = 1.2;
+  wall.shear_modulus = 3;
+  wall.tension = 4;
+  wall.radius = 2;
+  const double dt = 0.1, a = 1 / (dt * dt);
+  const double push = dt * (100 * 1.2 * 0.4 + 1.0);  // kPa/(mm/ms)
+  const double depth = std::sqrt(3 / (100 * 1.2));   // mm
+  const double shear = dt * 100 * 1.2 * depth * std::tanh(0.4 / depth);
+  EXPECT_NEAR(wall.impedance(a, dt), std::sqrt(push * shear), 1e-12);
+}
+
+TEST(Membrane, OfASceneHasItsWallsMass) {
+  const Case setup = coupled_case("neo-hookean");
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Membrane wall = membrane_of(*scene, *setup.structure);
+  double volume = 0;
+  for (const auto& layer : scene->wall->layers())
+    volume += detail::volume_of(layer.packs, scene->wall->part().cells.size());
+  EXPECT_GT(volume, 0);
+  EXPECT_NEAR(wall.thickness * wall.area, volume, 1e-12 * volume);
+  double area = 0;
+  for (double node_area : wall.node_areas) {
+    EXPECT_GT(node_area, 0);
+    area += node_area;
+  }
+  EXPECT_NEAR(wall.area, area, 1e-12);
+  // Incompressible: E / (1 - nu^2) = 4 mu.
+  EXPECT_NEAR(wall.tension, 4 * wall.shear_modulus * wall.thickness, 1e-3 * wall.tension);
+}
+
+TEST(Membrane, FibresStiffenIt) {
+  const Case slack = coupled_case("neo-hookean"), fibres = coupled_case("artery");
+  const auto mesh = fluid_and_wall_box(2);
+  EXPECT_GT(membrane_of(*build_scene(fibres, mesh), *fibres.structure).tension,
+            1.5 * membrane_of(*build_scene(slack, mesh), *slack.structure).tension);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
