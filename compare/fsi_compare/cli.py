@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
 
+from .cost import add_parser as add_cost, cost
 from .errors import InputError
 from .files import make_folder
 from .run_folder import Run, default_labels, read_run
@@ -51,6 +52,7 @@ def parser(version: str) -> argparse.ArgumentParser:
                           help="accepted as by all programs; this comparison is quick on one thread")
     pressure.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_cost(commands, version)
     add_solvers(commands, "results/solvers", version)
     return top
 
@@ -63,7 +65,7 @@ def main(arguments: Sequence[str], version: str = "unknown") -> int:
         options = top.parse_args(list(arguments))
         if options.command is None:
             top.error("no command")
-        code = {"pressure": pressure, "solvers": solvers}[options.command](options)
+        code = {"pressure": pressure, "cost": cost, "solvers": solvers}[options.command](options)
         sys.stdout.flush()
     except InputError as error:
         print(f"fsi-compare: error: {error}", file=sys.stderr)

@@ -1,0 +1,99 @@
+"""fsi-compare cost: the table of what finished runs took."""
+
+import contextlib
+import csv
+import io
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from synthetic import parabola, write_run
+
+from fsi_compare.cli import main
+
+ITERATIONS = "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n"
+COUPLING = "step,time_ms,displacement_residual,force_residual\n"
+
+
+def phases(**calls):
+    """Phases of a summary: solve__mesh_motion is "solve: mesh motion"."""
+    def spelt(name):
+        return name.replace("set_up", "set-up").replace("__", ": ").replace("_", " ")
+    return {spelt(name): {"seconds": 0.1, "calls": n} for name, n in calls.items()}
+
+
+class Cost(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.base, self.out = Path(temporary.name), Path(temporary.name) / "out"
+        common = {"mesh": {"nodes": 1032}, "unknowns": {"coupled": 4662}, "threads": 1, "peak_memory_MiB": 30.5}
+        self.whole = write_run(self.base / "whole", parabola(0.66), phases=phases(
+            solve__coupled=10, factorisation__coupled=1), **common)
+        (self.whole / "iterations.csv").write_text(ITERATIONS + "1,0.125,1,6,0,0.5\n2,0.25,1,4,0,0.25\n")
+        self.parts = write_run(self.base / "parts", parabola(0.66), program="fsi-partitioned", phases=phases(
+            solve__fluid=30, solve__wall=20, solve__mesh_motion=11, factorisation__fluid=1, set_up__wall=2), **common)
+        (self.parts / "iterations.csv").write_text(ITERATIONS + "1,0.125,8,30,70,1\n2,0.25,3,20,30,0.5\n")
+        (self.parts / "coupling.csv").write_text(COUPLING + "1,0.125,4e-7,2e-6\n2,0.25,9e-7,1e-6\n")
+
+    def call(self, *arguments):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main([str(a) for a in arguments], version="1.2.3")
+        return code, out.getvalue(), err.getvalue()
+
+    def assert_refused(self, expected, *arguments):
+        code, out, err = self.call("cost", *arguments, "-o", self.out)
+        self.assertEqual((code, out, err.count("\n")), (1, "", 1))
+        self.assertIn(expected, err)
+        self.assertFalse(self.out.exists())
+
+    def test_numbers(self):
+        code, out, err = self.call("cost", self.whole, self.parts, "-o", self.out)
+        self.assertEqual((code, err), (0, ""))
+        with open(self.out / "cost.csv", encoding="utf-8") as file:
+            whole, parts = csv.DictReader(file)
+        self.assertEqual((whole["run"], whole["program"], whole["steps"]), ("whole", "monolithic", "2"))
+        self.assertEqual((float(whole["wall_s"]), float(parts["wall_relative_to_first"])), (0.75, 2.0))
+        self.assertEqual((whole["coupling_iterations_mean"], whole["displacement_residual_max"]), ("", ""))
+        self.assertEqual((float(parts["coupling_iterations_mean"]), parts["coupling_iterations_min"],
+                          parts["coupling_iterations_max"]), (5.5, "3", "8"))
+        self.assertEqual([parts[f"solves_{name}"] for name in ("whole", "fluid", "wall", "mesh")],
+                         ["", "30", "20", "11"])
+        self.assertEqual((whole["solves_whole"], whole["preparations_whole"]), ("10", "1"))
+        self.assertEqual((parts["newton_iterations"], parts["linear_iterations"]), ("50", "100"))
+        self.assertEqual((float(parts["displacement_residual_max"]), float(parts["force_residual_max"])), (9e-7, 2e-6))
+        row = next(line for line in out.splitlines() if line.strip().startswith("parts"))
+        for cell in ("partitioned", "5.50", "3-8", "15.0", "10.0", "2.00", "9.0e-07"):
+            self.assertIn(cell, row)
+        self.assertIn("| parts | partitioned |", (self.out / "cost.md").read_text())
+
+    def test_labels_and_quiet(self):
+        code, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out, "--labels", "a,b", "-q")
+        self.assertEqual((code, out), (0, ""))
+        self.assertTrue((self.out / "cost.csv").read_text().splitlines()[2].startswith("b,"))
+
+    def test_says_what_does_not_compare(self):
+        summary = json.loads((self.parts / "summary.json").read_text())
+        (self.parts / "summary.json").write_text(json.dumps({**summary, "threads": 2, "restarted_from_step": 1,
+                                                             "mesh": {"nodes": 7}}))
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        for note in ("different numbers of threads", "differ in mesh", "Restarted"):
+            self.assertIn(note, out)
+
+    def test_refusals(self):
+        self.assert_refused("no such folder", self.base / "missing")
+        self.assert_refused("2 labels for 1 runs", self.whole, "--labels", "a,b")
+        (self.parts / "coupling.csv").write_text(COUPLING + "1,0.125,nan,2e-6\n")
+        self.assert_refused("coupling.csv: line 2: displacement_residual is nan", self.parts)
+        (self.whole / "iterations.csv").write_text(ITERATIONS)
+        self.assert_refused("iterations.csv: holds no time step", self.whole)
+        (self.whole / "iterations.csv").unlink()
+        self.assert_refused("iterations.csv: is missing", self.whole)
+        (self.whole / "summary.json").write_text('{"program": "fsi-monolithic", "status": "running"}')
+        self.assert_refused("the run is not finished", self.whole)
+
+
+if __name__ == "__main__":
+    unittest.main()
