@@ -4,13 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
-#include "base/names.hpp"
-#include "fast/fast_solver.hpp"
+#include "fast/fast_or_direct.hpp"
 #include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
-#include "scene/direct_linear_solver.hpp"
 
 namespace fsi {
 
@@ -83,31 +80,12 @@ CoupledSolverOptions options_for(const CoupledMethod& method, const MonolithicDa
 template <class Element>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<Element>& blocks) {
-  if (name == "direct") return std::make_unique<DirectLinearSolver<Element>>(blocks);
-  if (name == "fast") {
-    FastOptions options;
-    options.direct_below = setup.monolithic.direct_below;
-    return std::make_unique<FastSolver<Element>>(blocks, options);
-  }
   for (const auto& method : coupled_methods()) {
     if (method.name != name) continue;
-    if (!blocks.scene.coupled())
-      throw InputError(setup.path.string(), "monolithic.linear_solver",
-                       "\"" + name + "\" is for scenes of fluid and wall", "give fast or direct");
+    if (!blocks.scene.coupled()) break;  // not for one medium: the message comes below
     return std::make_unique<CoupledLinearSolver<Element>>(blocks, options_for(method, setup.monolithic));
   }
-  throw InputError(setup.path.string(), "monolithic.linear_solver", "\"" + name + "\" is unknown",
-                   "give " + one_of(linear_solver_names()));
-}
-
-NewtonOptions newton_options(const MonolithicData& data) {
-  NewtonOptions options;
-  options.tolerance = data.newton_tolerance;
-  options.residual_tolerance = data.residual_tolerance;
-  options.max_iterations = data.max_iterations;
-  options.linear_tolerance = data.linear_tolerance;
-  options.keep_jacobian = data.mode == "kept";
-  return options;
+  return make_fast_or_direct(name, setup, blocks);
 }
 
 template std::unique_ptr<LinearSolver> make_linear_solver(const std::string&, const Case&,

@@ -5,7 +5,6 @@
 
 #include "scene/case.hpp"
 #include "scene/linear_solver.hpp"
-#include "solvers/newton.hpp"
 
 namespace fsi {
 
@@ -21,8 +20,5 @@ namespace fsi {
 template <class Element>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<Element>& blocks);
-
-/// Newton's options as the case states them.
-NewtonOptions newton_options(const MonolithicData& data);
 
 }  // namespace fsi

@@ -20,8 +20,8 @@ namespace fsi {
 /// Options of the `fast` linear solver. Defaults by measurement (docs/solvers.md).
 struct FastOptions {
   std::int64_t direct_below = 2000;  ///< unknowns below which a sparse factorisation is quicker
-  int max_iterations = 400;           ///< of GMRES in one solve, before the preconditioner is strengthened
-  int restart = 50;                   ///< iterations between two residuals in double precision, at most
+  int max_iterations = 400;          ///< of GMRES in one solve, before the preconditioner is strengthened
+  int restart = 50;                  ///< iterations between two residuals in double precision, at most
   int momentum_sweeps =
       0;                  ///< symmetric Gauss-Seidel sweeps on the momentum equations in the preconditioner; 0: chosen
   int strong_sweeps = 8;  ///< the same when the preconditioner is strengthened
@@ -48,7 +48,10 @@ class FastSolver : public LinearSolver {
   }
   bool ready() const override { return ready_; }
 
+  /// What a failure led to is forgotten here: solutions depend on the Jacobian of the last update() alone, not on what
+  /// was solved before it, as a restart needs.
   void update() override {
+    if (iterative_) direct_.reset();
     if (direct_) {
       direct_->update();
     } else {
@@ -111,7 +114,6 @@ class FastSolver : public LinearSolver {
     JacobianProduct<Element> jacobian;
     std::unique_ptr<HarmonicExtension<Element>> extension;  ///< null without mesh motion
     bool shape_derivatives = false;                         ///< they are not all zero (as they are at rest)
-    double shape_contraction = 0.05;  ///< what one outer iteration leaves of the residual on their account, so far
     SingleGmres gmres;
     std::vector<float> single_right, single_solution;
     std::vector<double> right, solution, residual, jacobian_times_x, correction;
@@ -150,9 +152,10 @@ class FastSolver : public LinearSolver {
     }
     it.residual = b;
     double relative = 1;
+    double shape_contraction = 0.05;  // what an outer iteration leaves of the residual for want of shape derivatives
     while (report.iterations < options_.max_iterations) {
       const double wanted = 0.8 * tolerance / relative;
-      const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * it.shape_contraction) : wanted;
+      const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * shape_contraction) : wanted;
       correct(inner, report);
       axpy(1, it.correction, x);
       it.jacobian.multiply(x, it.jacobian_times_x);
@@ -169,7 +172,7 @@ class FastSolver : public LinearSolver {
         report.converged = true;
         return report;
       }
-      if (it.shape_derivatives && contraction > 2 * inner) it.shape_contraction = std::clamp(contraction, 1e-3, 0.2);
+      if (it.shape_derivatives && contraction > 2 * inner) shape_contraction = std::clamp(contraction, 1e-3, 0.2);
       if (contraction > 0.9) {
         report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
         return report;

@@ -6,11 +6,23 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "scene/case.hpp"
 #include "scene/loads.hpp"
 #include "scene/stepper.hpp"
 #include "scene/system.hpp"
 
 namespace fsi {
+
+/// Newton's options as the case states them.
+inline NewtonOptions newton_options(const MonolithicData& data) {
+  NewtonOptions options;
+  options.tolerance = data.newton_tolerance;
+  options.residual_tolerance = data.residual_tolerance;
+  options.max_iterations = data.max_iterations;
+  options.linear_tolerance = data.linear_tolerance;
+  options.keep_jacobian = data.mode == "kept";
+  return options;
+}
 
 /// Lines of the paper's Table 3: iteration, increment, residual.
 inline void append_history(const NewtonReport& report, std::vector<std::string>& lines,
