@@ -93,6 +93,27 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
     throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", status), "a smaller time step");
 }
 
+void DirectSolver::solve_each(const SparseMatrix& a, const std::vector<std::vector<double>>& b,
+                              std::vector<std::vector<double>>& x) const {
+  const auto& my = *implementation_;
+  const int count = static_cast<int>(b.size());
+  x.resize(b.size());
+  std::vector<int> status(b.size(), UMFPACK_OK);
+#pragma omp parallel for schedule(dynamic) if (a.size() > 2000)
+  for (int k = 0; k < count; ++k) {
+    x[k].resize(b[k].size());
+    std::vector<SuiteSparse_long> integer_work(my.integer_work.size());
+    std::vector<double> work(my.work.size());
+    double info[UMFPACK_INFO];
+    status[k] = static_cast<int>(umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(),
+                                                   x[k].data(), b[k].data(), my.numeric, my.control, info,
+                                                   integer_work.data(), work.data()));
+  }
+  for (int s : status)
+    if (s != UMFPACK_OK)
+      throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", s), "a smaller time step");
+}
+
 long long DirectSolver::factor_nonzeros() const {
   return static_cast<long long>(implementation_->lower + implementation_->upper);
 }

@@ -34,6 +34,10 @@ class DirectSolver {
   /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
   void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const;
 
+  /// The same for several right-hand sides, side by side in threads.
+  void solve_each(const SparseMatrix& a, const std::vector<std::vector<double>>& b,
+                  std::vector<std::vector<double>>& x) const;
+
   /// Entries of both factors, for reports.
   long long factor_nonzeros() const;
 

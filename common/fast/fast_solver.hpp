@@ -172,7 +172,8 @@ class FastSolver : public LinearSolver {
         report.converged = true;
         return report;
       }
-      if (it.shape_derivatives && contraction > 2 * inner) shape_contraction = std::clamp(contraction, 1e-3, 0.2);
+      // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
+      shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
       if (contraction > 0.9) {
         report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
         return report;

@@ -28,8 +28,6 @@ class HarmonicExtension {
         if (same_component(earlier, k)) solver_of_[k] = solver_of_[earlier];
       if (solver_of_[k] == k) factorise(k);
     }
-    right_.resize(inner_nodes_);
-    solution_.resize(inner_nodes_);
     values_.resize(static_cast<std::size_t>(graph.rows()) * n);
     rows_ = values_;
   }
@@ -43,15 +41,27 @@ class HarmonicExtension {
         values_[i] = inner_[a] >= 0 ? 0 : field[i];
       }
     multiply_components<n>(matrix_, values_, rows_);
-    for (int k = 0; k < n; ++k) {
-      for (int a = 0; a < matrix_.graph->rows(); ++a)
-        if (inner_[a] >= 0) {
-          const std::size_t i = static_cast<std::size_t>(a) * n + k;
-          right_[inner_[a]] = right[i] - rows_[i];
-        }
-      solvers_[solver_of_[k]].solve(scalars_[solver_of_[k]], right_, solution_);
-      for (int a = 0; a < matrix_.graph->rows(); ++a)
-        if (inner_[a] >= 0) field[static_cast<std::size_t>(a) * n + k] = solution_[inner_[a]];
+    if (inner_nodes_ == 0) return;
+    for (int solver = 0; solver < n; ++solver) {  // all components of one matrix at once
+      right_.clear();
+      for (int k = 0; k < n; ++k) {
+        if (solver_of_[k] != solver) continue;
+        right_.emplace_back(inner_nodes_);
+        for (int a = 0; a < matrix_.graph->rows(); ++a)
+          if (inner_[a] >= 0) {
+            const std::size_t i = static_cast<std::size_t>(a) * n + k;
+            right_.back()[inner_[a]] = right[i] - rows_[i];
+          }
+      }
+      if (right_.empty()) continue;
+      solvers_[solver].solve_each(scalars_[solver], right_, solution_);
+      std::size_t next = 0;
+      for (int k = 0; k < n; ++k) {
+        if (solver_of_[k] != solver) continue;
+        const auto& solution = solution_[next++];
+        for (int a = 0; a < matrix_.graph->rows(); ++a)
+          if (inner_[a] >= 0) field[static_cast<std::size_t>(a) * n + k] = solution[inner_[a]];
+      }
     }
   }
 
@@ -92,7 +102,8 @@ class HarmonicExtension {
   int solver_of_[n] = {};
   SparseMatrix scalars_[n];
   DirectSolver solvers_[n];
-  std::vector<double> right_, solution_, values_, rows_;
+  std::vector<std::vector<double>> right_, solution_;  ///< by component
+  std::vector<double> values_, rows_;
 };
 
 }  // namespace fsi
