@@ -9,6 +9,7 @@ namespace fsi {
 namespace {
 
 constexpr std::size_t chunk_size = 2048;
+constexpr double dependent = 1e-6;  // part of a vector that is rounding error
 
 float chunk_dot(const float* x, const float* y, std::size_t size) {
   float sum = 0;
@@ -84,14 +85,16 @@ SingleGmres::Report SingleGmres::solve(const Operator& a, const Operator& invers
     a(z, w);
     orthogonalise(k + 1, w, column);
     const double subdiagonal = column[k + 1];
+    double size_of_column = 0;
+    for (int j = 0; j <= k + 1; ++j) size_of_column = std::hypot(size_of_column, column[j]);
     for (int j = 0; j < k; ++j) {
       const double rotated = cosine[j] * column[j] + sine[j] * column[j + 1];
       column[j + 1] = cosine[j] * column[j + 1] - sine[j] * column[j];
       column[j] = rotated;
     }
     const double radius = std::hypot(column[k], subdiagonal);
-    if (radius == 0 || !std::isfinite(radius)) {
-      --report.iterations;  // this direction leads nowhere
+    if (!(radius > dependent * size_of_column) || !std::isfinite(radius)) {
+      --report.iterations;  // A z lies in the span of the earlier ones: this direction leads nowhere
       break;
     }
     cosine.push_back(column[k] / radius);
