@@ -13,8 +13,7 @@ namespace fsi {
 
 /// The paper's coupled matrix (its section 3.4; design, section 4) of one level, n components of a vector,
 ///
-///       [ Am   0    Ams ]   mesh motion:  d_m per fluid node; identity rows on the boundary; d_m - d_s = 0 on the
-///       interface
+///       [ Am   0    Ams ]   mesh motion:  d_m per fluid node; boundary: identity rows; interface: d_m - d_s = 0
 ///   K = [ Afm  Af   Afs ]   flow:         (u, p_f) per fluid node; momentum rows of the interface sum fluid and wall
 ///       [ 0    Asf  As  ]   wall:         (d_s, p_s) per wall node; -u + d_s / dt = 0 on the interface
 ///

@@ -12,9 +12,8 @@ namespace fsi {
 /// of the case's [monolithic]:
 ///   fast                            what a user should run, see FastSolver
 ///   direct                          sparse factorisation
-///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem
-///   inverse;
-///                                   with _exact at the end of the name, factorisations
+///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem's
+///                                   inverse; with _exact at the end of the name, factorisations
 ///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
 /// \throws InputError when the solver needs fluid and wall and the scene lacks one of them
 template <class Element>
