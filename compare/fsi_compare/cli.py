@@ -12,6 +12,7 @@ from .errors import InputError
 from .files import make_folder
 from .run_folder import Run, default_labels, read_run
 from .solvers import add_parser as add_solvers, solvers
+from .studies.command import add_parser as add_study, study
 
 PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
 
@@ -30,7 +31,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    top = _Parser(prog="fsi-compare", description="Compares finished runs, and the linear solvers.", allow_abbrev=False)
+    top = _Parser(prog="fsi-compare", description="Compares finished runs and the linear solvers, and drives whole studies.", allow_abbrev=False)
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     pressure = commands.add_parser(
@@ -54,6 +55,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
     add_cost(commands, version)
     add_solvers(commands, "results/solvers", version)
+    add_study(commands, version)
     return top
 
 
@@ -65,7 +67,7 @@ def main(arguments: Sequence[str], version: str = "unknown") -> int:
         options = top.parse_args(list(arguments))
         if options.command is None:
             top.error("no command")
-        code = {"pressure": pressure, "cost": cost, "solvers": solvers}[options.command](options)
+        code = {"pressure": pressure, "cost": cost, "solvers": solvers, "study": study}[options.command](options)
         sys.stdout.flush()
     except InputError as error:
         print(f"fsi-compare: error: {error}", file=sys.stderr)

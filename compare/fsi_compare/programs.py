@@ -29,20 +29,26 @@ class Ended:
 def find_monolithic(named: Optional[Path]) -> Program:
     """The program named, else the one beside fsi-compare, else the one on the path. It must answer, and know how to
     solve single systems."""
-    path = named if named is not None else _beside(Path(sys.argv[0]), "fsi-monolithic")
+    program = find_program("fsi-monolithic", named)
+    if "--linear-systems" not in _answer(program.path, "--help"):
+        raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems",
+                         "take the program built from the same sources as fsi-compare")
+    return program
+
+
+def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
+    """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
+    path = named if named is not None else _beside(Path(sys.argv[0]), name)
     if path is None:
-        raise InputError("fsi-monolithic", "--program", "is neither beside fsi-compare nor on the path", BUILD)
+        raise InputError(name, option, "is neither beside fsi-compare nor on the path", BUILD)
     if not path.exists():
-        raise InputError(path, "--program", "no such program", BUILD)
+        raise InputError(path, option, "no such program", BUILD)
     if path.is_dir() or not os.access(path, os.X_OK):
-        raise InputError(path, "--program", "is not a program", BUILD)
+        raise InputError(path, option, "is not a program", BUILD)
     path = path.resolve()
     words = _answer(path, "--version").split()
-    if len(words) != 2 or words[0] != "fsi-monolithic":
-        raise InputError(path, "--program", "is not fsi-monolithic", BUILD)
-    if "--linear-systems" not in _answer(path, "--help"):
-        raise InputError(path, "--program", f"version {words[1]} does not know --linear-systems",
-                         "take the program built from the same sources as fsi-compare")
+    if len(words) != 2 or words[0] != name:
+        raise InputError(path, option, f"is not {name}", BUILD)
     return Program(path, words[1])
 
 
@@ -101,10 +107,10 @@ def _execute(command: Sequence, tick: Callable[[], None]) -> Ended:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-    return Ended(process.returncode, _message(process.returncode, said))
+    return Ended(process.returncode, message_of(process.returncode, said))
 
 
-def _message(code: int, said: str) -> str:
+def message_of(code: int, said: str) -> str:
     lines = [line.strip() for line in said.splitlines() if line.strip()]
     if code < 0:
         try:

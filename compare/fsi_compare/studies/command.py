@@ -1,0 +1,132 @@
+"""`fsi-compare study`: runs what is missing and writes the report."""
+
+import argparse
+import platform
+import time
+from pathlib import Path
+from typing import List
+
+from ..errors import InputError
+from ..files import make_folder
+from ..layout import write_markdown
+from ..progress import duration
+from ..programs import find_mesh_maker, find_program
+from . import kinds
+from .study_file import Study, read_study
+from .suggestions import nearest
+
+READY = Path(__file__).resolve().parents[2] / "studies"
+
+DESCRIPTION = """\
+Makes the runs that a study file lists, each in a folder of its own, and the report from them. A study that was stopped
+goes on where it stopped: a finished run is taken up again when case, mesh, settings, threads and program version are the
+same; after a change of the programs without a new version, --fresh makes all runs anew. Writes to OUTDIR:
+  report.html           the report, in one file
+  tables.md, *.csv      its tables
+  *.png, *.svg          its pictures
+  runs/, meshes/        the result folders, each with its command in study_run.json
+Exit code 2: a run that the report needs is missing; the report says which."""
+
+EXAMPLES = """\
+examples:
+  fsi-compare study paper --quick
+  fsi-compare study compare/studies/stability.toml -o results/stability
+"""
+
+
+def add_parser(commands, version: str) -> None:
+    study = commands.add_parser(
+        "study", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
+        help="a whole study: runs what is missing, writes an HTML report", description=DESCRIPTION)
+    study.add_argument("study", metavar="STUDY", help=f"study file (TOML), or a ready one: {', '.join(ready())}")
+    study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
+    study.add_argument("--quick", action="store_true", help="the study's short form")
+    study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
+    study.add_argument("--fresh", action="store_true", help="make finished runs anew")
+    study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
+    study.add_argument("--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)")
+    study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
+    study.add_argument("--jobs", metavar="N", type=int,
+                       help="runs at once (default: the study's); more than one spoils the seconds")
+    study.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    study.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def ready() -> List[str]:
+    return sorted(path.stem for path in READY.glob("*.toml"))
+
+
+def study(options: argparse.Namespace) -> int:
+    """Checks everything before the first run."""
+    import shutil
+
+    from .runner import Runner
+
+    for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
+        if value is not None and value < 1:
+            raise InputError("", name, f"{value} is not positive", "give 1 or more")
+    asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
+    if not asked.requests:
+        raise InputError(asked.path, "runs", "holds nothing to run" + (" in its quick form" if options.quick else ""),
+                         "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""))
+    kind = kinds.kind(asked.kind)
+    kind.check(asked)
+    programs = {"fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
+                "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned")}
+    if options.list:
+        for request in asked.requests:
+            print(f"{request.group}: {request.label}")
+        return 0
+    folder = options.output or Path("results/studies") / (asked.path.stem + ("-quick" if options.quick else ""))
+    if options.fresh:
+        shutil.rmtree(folder / "runs", ignore_errors=True)
+    make_folder(folder)
+    begin = time.monotonic()
+    runner = Runner(asked, folder, programs, find_mesh_maker(programs["fsi-monolithic"]), options.threads, options.jobs,
+                    options.quiet)
+    runs = runner.run(asked.requests)
+    if all(run.status == "refused" for run in runs):
+        raise InputError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
+
+    from .context import Context
+    from .report import Report  # matplotlib takes a second to load
+
+    report = Report(folder, asked.title)
+    code = kind.evaluate(Context(asked, runs, runner, report)) or 0
+    about(report, asked, runner, programs)
+    path = report.write()
+    write_markdown(folder / "tables.md", asked.title, report.tables)
+    if not options.quiet:
+        print(f"Runs took {duration(runner.seconds)} in all, this call {duration(time.monotonic() - begin)}.")
+        print(f"Report: {path.resolve()}")
+    return code
+
+
+def study_path(text: str) -> Path:
+    path = Path(text)
+    if path.suffix == ".toml" or path.exists():
+        return path
+    if text in ready():
+        return READY / f"{text}.toml"
+    raise InputError("", "STUDY", f"'{text}' is neither a file nor a ready study",
+                     f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
+
+
+def about(report, asked: Study, runner, programs) -> None:
+    """How to make the report again, and on what it was made."""
+    report.section("About this report")
+    versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
+    report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} thread"
+                f"{'s' if runner.threads > 1 else ''} per run, {runner.jobs} run{'s' if runner.jobs > 1 else ''} at once, "
+                f"on {processor()}; the runs took {duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. "
+                "The command of each run is in its folder's `study_run.json`, under `runs/`.")
+
+
+def processor() -> str:
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.machine() or "an unknown processor"

@@ -1,0 +1,20 @@
+"""The kinds of study by name. A kind is a module with `check(study)`, which raises InputError before the first run when
+the study lacks something, and `evaluate(context)`, which fills the report."""
+
+import importlib
+from typing import Tuple
+
+MODULES = {
+    "paper": "paper_study",
+    "accuracy-cost": "accuracy_cost",
+    "stability": "stability",
+    "skip": "skip",
+    "coupling": "coupling",
+    "runs": "plain_runs",
+}
+NAMES: Tuple[str, ...] = tuple(MODULES)
+
+
+def kind(name: str):
+    """Loaded on demand: the pictures' library takes a second."""
+    return importlib.import_module(f".{MODULES[name]}", __package__)

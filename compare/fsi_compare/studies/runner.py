@@ -1,0 +1,181 @@
+"""Runs what a study asks for and is not there yet. A study can be killed at any moment and called again."""
+
+import json
+import math
+import re
+import shutil
+import time
+from pathlib import Path
+from typing import Any, Dict, Iterable, List, Optional, Sequence
+
+from ..errors import InputError
+from ..files import make_folder, replacing
+from ..programs import Program, execute
+from ..run_folder import read_summary
+from .fingerprint import fingerprint
+from .processes import End, Job, run_jobs
+from .study_file import Request, Study, StudyMesh
+from .study_progress import StudyProgress
+from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, StudyRun
+
+RECORD = "study_run.json"  # written last: a folder without it is not finished
+NOT_A_NUMBER = re.compile(r"(?:^|[,\s:])[-+]?(?:nan|inf(?:inity)?)(?=$|[,\s}])", re.IGNORECASE | re.MULTILINE)
+
+
+class Runner:
+    """`folder` holds `runs/`, a folder per run, and `meshes/`."""
+
+    def __init__(self, study: Study, folder: Path, programs: Dict[str, Program], mesh_maker: Optional[Path],
+                 threads: Optional[int] = None, jobs: Optional[int] = None, quiet: bool = False):
+        self.study, self.folder, self.programs, self.mesh_maker = study, folder, programs, mesh_maker
+        self.threads = study.threads if threads is None else threads
+        self.jobs = study.jobs if jobs is None else jobs
+        self.quiet = quiet
+        self._known: Dict[str, StudyRun] = {}  # by fingerprint
+        self.seconds = 0.0  # of all runs asked for, whenever they were made
+
+    def run(self, requests: Sequence[Request]) -> List[StudyRun]:
+        """In the order of the requests. The same run asked for twice is made once."""
+        make_folder(self.folder / "runs")
+        keys = [fingerprint(r, self._program(r), self._mesh_file(r.mesh), self.threads) for r in requests]
+        progress = StudyProgress(self.quiet, self.jobs)
+        jobs: List[Job] = []
+        wanted: Dict[str, Request] = {}
+        for key, request in zip(keys, requests):
+            if key in self._known or key in wanted:
+                continue
+            known = self._finished(key, request)
+            if known:
+                self._take(key, known)
+                progress.known(request, known.seconds)
+            else:
+                wanted[key] = request
+        order = sorted(wanted.items(), key=lambda item: progress.weight(item[1]))  # small ones first: they tell the time left
+        progress.plan([request for _, request in order])
+        for i, (key, request) in enumerate(order):
+            folder = self._place(key, request)
+            shutil.rmtree(folder, ignore_errors=True)
+            jobs.append(Job(i, self._command(request, folder), request.time_limit))
+
+        def ended(i: int, end: End) -> None:
+            key, request = order[i]
+            run = self._judge(key, request, end)
+            self._take(key, run)
+            progress.end(request, run)
+
+        run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([order[i][1] for i in running]))
+        # What is known may have been asked for under another name: the run is the same, its place in the study is not.
+        return [self._as(self._known[key], request) for key, request in zip(keys, requests)]
+
+    def _take(self, key: str, run: StudyRun) -> None:
+        self._known[key] = run
+        self.seconds += run.seconds
+
+    @staticmethod
+    def _as(run: StudyRun, request: Request) -> StudyRun:
+        return StudyRun(request, run.folder, run.status, run.message, run.seconds, run.command)
+
+    def _program(self, request: Request) -> Program:
+        return self.programs[request.method.program]
+
+    def _mesh_file(self, mesh: Optional[StudyMesh]) -> Optional[Path]:
+        """The mesh made for the study; None: the driver makes it, or the case names it."""
+        if mesh is None or not mesh.options:
+            return None
+        path = self.folder / "meshes" / f"{mesh.name}.msh"
+        record = path.with_suffix(".options.json")
+        try:
+            if path.is_file() and json.loads(record.read_text(encoding="utf-8")) == list(mesh.options):
+                return path
+        except (OSError, ValueError):
+            pass
+        if self.mesh_maker is None:
+            raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+        make_folder(path.parent)
+        end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", path])
+        if end.code:
+            raise InputError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
+        with replacing(record) as temporary:
+            temporary.write_text(json.dumps(list(mesh.options)), encoding="utf-8")
+        return path
+
+    def _place(self, key: str, request: Request) -> Path:
+        name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")
+        return self.folder / "runs" / f"{name}-{key[:12]}"
+
+    def _command(self, request: Request, folder: Path) -> List[str]:
+        words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q",
+                 "--threads", str(self.threads)]
+        mesh = self._mesh_file(request.mesh)
+        settings = dict(request.settings)
+        if mesh is not None:
+            settings["mesh.file"] = str(mesh.resolve())
+        elif request.mesh is not None:
+            settings["mesh.level"] = request.mesh.name
+        for name, value in settings.items():
+            words += ["--set", f"{name}={toml_value(value)}"]
+        return words
+
+    def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
+        folder = self._place(key, request)
+        try:
+            record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+            if record["fingerprint"] != key or (record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit):
+                return None
+            if record["status"] == DONE:
+                read_summary(folder / "summary.json")
+            return StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]), record["command"])
+        except (OSError, ValueError, KeyError, TypeError, InputError):
+            return None
+
+    def _judge(self, key: str, request: Request, end: End) -> StudyRun:
+        folder = self._place(key, request)
+        status, message = judge(folder, end)
+        command = " ".join(self._command(request, folder))
+        record: Dict[str, Any] = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds,
+                                  "command": command, "run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
+        make_folder(folder)
+        with replacing(folder / RECORD) as temporary:
+            temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+        return StudyRun(request, folder, status, message, end.seconds, command)
+
+
+def judge(folder: Path, end: End):
+    """(status, message) of a run that has ended."""
+    if end.out_of_time:
+        return OUT_OF_TIME, end.message
+    if end.code == 0:
+        try:
+            read_summary(folder / "summary.json")
+        except InputError as error:
+            return CRASHED, f"exit code 0, but {error}"
+        bad = first_not_finite(folder)
+        return (WRONG, bad) if bad else (DONE, "")
+    bad = first_not_finite(folder)
+    if bad:
+        return WRONG, bad
+    if end.code == 1:
+        return REFUSED, end.message
+    if end.code == 2:
+        return NOT_CONVERGED, end.message
+    return CRASHED, end.message
+
+
+def first_not_finite(folder: Path) -> str:
+    """Names the first result file that holds NaN or infinity; empty: none does."""
+    files: Iterable[Path] = sorted([*folder.glob("*.csv"), *folder.glob("summary.json")])
+    for file in files:
+        if NOT_A_NUMBER.search(file.read_text(encoding="utf-8", errors="replace")):
+            return f"{file.name} holds a value that is not a finite number"
+    return ""
+
+
+def toml_value(value: Any) -> str:
+    """As the drivers read it behind --set key=."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return "[" + ", ".join(f'"{v}"' if isinstance(v, str) else toml_value(v) for v in value) + "]"
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else str(value)
+    return str(value)
