@@ -31,7 +31,9 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    top = _Parser(prog="fsi-compare", description="Compares finished runs and the linear solvers, and drives whole studies.", allow_abbrev=False)
+    top = _Parser(prog="fsi-compare",
+                  description="Compares finished runs and the linear solvers, and drives whole studies.",
+                  allow_abbrev=False)
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     pressure = commands.add_parser(
@@ -127,7 +129,8 @@ def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
         return None
     labels = [label.strip() for label in text.split(",")]
     if len(labels) != runs:
-        raise InputError("", "--labels", f"{len(labels)} labels for {runs} runs", "give one per run, separated by commas")
+        raise InputError("", "--labels", f"{len(labels)} labels for {runs} runs",
+                         "give one per run, separated by commas")
     for label in labels:
         if not label:
             raise InputError("", "--labels", "a label is empty", "give one per run, separated by commas")

@@ -1,12 +1,11 @@
 """`fsi-compare cost`: what finished runs of either driver took, side by side."""
 
 import argparse
-import csv
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
+from .columns import read_columns
 from .errors import InputError
 from .files import make_folder
 from .layout import Table, fixed, write_markdown
@@ -109,7 +108,7 @@ def read_cost(folder: Path, label: str) -> Cost:
                               ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))
     coupled = program == "partitioned" and (folder / COUPLING).exists()
     coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else {}
-    outer = iterations["outer_iterations"]
+    outer = iterations["outer_iterations"].tolist()
     phases = summary.get("phases", {})
     mesh = summary.get("mesh", {})
     return Cost(
@@ -119,15 +118,15 @@ def read_cost(folder: Path, label: str) -> Cost:
         unknowns=summary.get("unknowns", {}).get("coupled"),
         threads=summary.get("threads"),
         steps=len(outer),
-        seconds=sum(iterations["wall_s"]),
+        seconds=float(iterations["wall_s"].sum()),
         coupling_mean=sum(outer) / len(outer) if coupled else None,
         coupling_range=(int(min(outer)), int(max(outer))) if coupled else None,
-        newton=int(sum(iterations["newton_iterations"])),
-        linear=int(sum(iterations["linear_iterations"])),
+        newton=int(iterations["newton_iterations"].sum()),
+        linear=int(iterations["linear_iterations"].sum()),
         solves=calls(phases, ("solve",)),
         preparations=calls(phases, PREPARATIONS),
-        displacement_residual=max(coupling["displacement_residual"]) if coupled else None,
-        force_residual=max(coupling["force_residual"]) if coupled else None,
+        displacement_residual=float(coupling["displacement_residual"].max()) if coupled else None,
+        force_residual=float(coupling["force_residual"].max()) if coupled else None,
         memory_mib=summary.get("peak_memory_MiB"),
         restarted_from=summary.get("restarted_from_step"),
     )
@@ -141,33 +140,6 @@ def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
         if colon and kind in kinds:
             found[system] = found.get(system, 0) + int(phase["calls"])
     return found
-
-
-def read_columns(path: Path, names: Sequence[str]) -> Dict[str, List[float]]:
-    """Columns of a CSV file, one number per time step."""
-    try:
-        with open(path, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except FileNotFoundError:
-        raise InputError(path, "", "is missing", "give the result folder of a finished run") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(path, "", f"cannot be read: {error}", "run it again") from None
-    if not rows:
-        raise InputError(path, "", "holds no time step", "the run wrote no time step; run it again")
-    columns: Dict[str, List[float]] = {name: [] for name in names}
-    for line, row in enumerate(rows, 2):
-        for name in names:
-            if name not in row:
-                raise InputError(path, "line 1", f"column '{name}' is missing", "run it again with this version")
-            try:
-                value = float(row[name])
-            except (TypeError, ValueError):
-                raise InputError(path, f"line {line}", f"{name} '{row[name]}' is not a number",
-                                 "run it again") from None
-            if not math.isfinite(value):
-                raise InputError(path, f"line {line}", f"{name} is {row[name]}", "run it again")
-            columns[name].append(value)
-    return columns
 
 
 def cost_table(costs: Sequence[Cost], title: str) -> Table:

@@ -3,7 +3,7 @@
 import json
 from functools import lru_cache
 from pathlib import Path
-from typing import List, Optional
+from typing import Dict, List, Optional
 
 from .names import MESHES
 
@@ -38,6 +38,26 @@ def limit(method: str, material: str, mesh: str, at_rest: bool) -> Optional[int]
     """The count that ours must not exceed. At rest the fibres do nothing and the artery is a neo-Hookean wall, so that
     it is held to that column."""
     return iterations(method, "neo-hookean" if at_rest and material == "artery" else material, mesh)
+
+
+def parameters(material: str) -> Dict[str, List[float]]:
+    """Constants of media and adventitia by the case file's names (Table 1)."""
+    return _numbers()["parameters"].get(material, {})
+
+
+def wall() -> Dict[str, float]:
+    """Density as printed, 1.2 kg/m^3, in mg/mm^3, and bulk modulus in kPa."""
+    return _numbers()["wall"]
+
+
+def mesh_counts(mesh: str) -> Dict[str, int]:
+    """Nodes, tetrahedra and unknowns (Table 2)."""
+    return _numbers()["meshes"].get(mesh, {})
+
+
+def cost() -> dict:
+    """What the cost statement of section 5.6 counts, per time step or as its name says."""
+    return _numbers()["cost"]
 
 
 def unknowns(mesh: str) -> Optional[int]:

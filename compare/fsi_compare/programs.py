@@ -1,13 +1,12 @@
-"""The programs of the project as processes: where they are, which version, and what they say when they fail."""
+"""The programs of the project: where they are, and which version."""
 
 import os
 import shutil
-import signal
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Optional, Sequence
+from typing import Optional
 
 from .errors import InputError
 
@@ -18,12 +17,6 @@ BUILD = "build it with cmake --build --preset release, or name it with --program
 class Program:
     path: Path
     version: str
-
-
-@dataclass(frozen=True)
-class Ended:
-    code: int
-    message: str  # the last line of the error output, or what else is known about a bad end
 
 
 def find_monolithic(named: Optional[Path]) -> Program:
@@ -71,54 +64,3 @@ def _answer(path: Path, option: str) -> str:
     except (OSError, subprocess.TimeoutExpired) as error:
         reason = error.strerror if isinstance(error, OSError) else "no answer in 60 s"
         raise InputError(path, "--program", f"cannot be started: {reason}", BUILD) from None
-
-
-def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> Ended:
-    """Runs a program to its end, calling `tick` every second. It does not outlive fsi-compare when that is interrupted
-    or asked to end."""
-    def stop(*_):
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        return _execute(command, tick)
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _execute(command: Sequence, tick: Callable[[], None]) -> Ended:
-    try:
-        process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True, errors="replace")
-    except OSError as error:
-        return Ended(1, f"{command[0]} cannot be started: {error.strerror}")
-    try:
-        while True:
-            try:
-                _, said = process.communicate(timeout=1)
-                break
-            except subprocess.TimeoutExpired:
-                tick()
-    finally:
-        if process.poll() is None:
-            process.terminate()
-            try:
-                process.wait(timeout=10)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-    return Ended(process.returncode, message_of(process.returncode, said))
-
-
-def message_of(code: int, said: str) -> str:
-    lines = [line.strip() for line in said.splitlines() if line.strip()]
-    if code < 0:
-        try:
-            name = signal.Signals(-code).name
-        except ValueError:
-            name = str(-code)
-        return f"ended by signal {name}" + (", perhaps for want of memory" if name == "SIGKILL" else "")
-    if not lines:
-        return f"ended with code {code} without a message" if code else ""
-    head, mark, rest = lines[-1].partition(": error: ")
-    return rest if mark and " " not in head else lines[-1]

@@ -101,6 +101,7 @@ def cost_figure(grid: Grid, key: System) -> Figure:
             for method in methods:
                 axes.plot(*_columns(_curve(grid, material, key, method, quantity)),
                           **{"linewidth": 1.2, "markersize": 5, **METHOD_LINES[method]})
+        for axes in row:  # only now: the first limits set would hold for the whole row
             _log_axes(axes)
         row[0].set_ylabel(name)
     for axes, material in zip(panels[0], grid.materials):

@@ -7,7 +7,7 @@ from . import paper
 from .layout import Table, fixed
 from .linear_solvers import NewtonSystem, Solve, System
 from .names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, METHODS, MULTILEVEL
-from .study import Outcome
+from .linear_study import Outcome
 
 EXACT_RATIO = 1.3  # most that AMG sub-solves may cost in iterations over exact ones
 GROWTH = 3  # most iterations that a multilevel method may need on the fine mesh over the coarse one

@@ -13,7 +13,7 @@ from .layout import write_markdown
 from .linear_solvers import System
 from .names import MATERIALS, MESHES, METHODS, pick
 from .programs import find_monolithic
-from .study import Outcome, Request, run_study
+from .linear_study import Outcome, Request, run_study
 
 CASES = Path(__file__).resolve().parents[2] / "meshes" / "artery"
 STRESS_METHODS = "fast,amg_fgmres"

@@ -9,8 +9,9 @@ from .files import make_folder
 from .layout import Table, fixed
 from .linear_solvers import Solve
 from .names import MATERIALS
-from .programs import Program, execute, find_mesh_maker
-from .study import Outcome, Request
+from .processes import execute
+from .programs import Program, find_mesh_maker
+from .linear_study import Outcome, Request
 
 FLUID_DENSITY = 1.0  # mg/mm^3, of the paper's case
 ASPECT_RATIO = 20

@@ -20,11 +20,14 @@ class AxisymmetricArtery {
 
   /// \param material    "neo-hookean", "mooney-rivlin" or "artery"
   /// \param refinement  1: 4 cells across the fluid, 2 the media, 1 the adventitia, 36 along the axis; 2: twice those
-  AxisymmetricArtery(const std::string& material, int refinement) : axial_cells_(36 * refinement) {
+  /// \param step        ms
+  /// \param alpha       factor of the wall's stabilisation
+  AxisymmetricArtery(const std::string& material, int refinement, double step = 0.125, double alpha = 0.5)
+      : axial_cells_(36 * refinement), alpha_(alpha) {
     make_grid(refinement);
     setup_.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
     setup_.time = TimeData{};
-    setup_.time->step = 0.125;
+    setup_.time->step = step;
     setup_.time->end = 12;
     make_scene(material);
     loads_ = std::make_unique<Loads>(setup_);
@@ -40,13 +43,12 @@ class AxisymmetricArtery {
 
   /// Pressure on the axis in Pa at z = 0, 0.1, ..., 18 mm.
   std::vector<double> centre_line() const {
-    std::vector<double> pressure;
-    for (int i = 0; i <= 180; ++i) {
-      const double y = i * 0.1 / length * axial_cells_;
-      const int below = std::min(static_cast<int>(y), axial_cells_ - 1);
-      pressure.push_back(1000 * ((1 - (y - below)) * on_axis(below) + (y - below) * on_axis(below + 1)));
-    }
-    return pressure;
+    return along([this](int k) { return 1000 * on_axis(k); });
+  }
+
+  /// Radial displacement of the inner wall in mm at the same places.
+  std::vector<double> inner_wall() const {
+    return along([this](int k) { return radial(k); });
   }
 
  private:
@@ -55,6 +57,21 @@ class AxisymmetricArtery {
   int node(int i, int k) const { return k * static_cast<int>(radii_.size()) + i; }
   double on_axis(int k) const {
     return state_.now.flow[static_cast<std::size_t>(scene_->fluid->part().local_node[node(0, k)]) * 3 + 2];
+  }
+  double radial(int k) const {
+    return state_.now.wall[static_cast<std::size_t>(scene_->wall->part().local_node[node(fluid_cells_, k)]) * 3];
+  }
+
+  /// Of nodal values per station, at z = 0, 0.1, ..., 18 mm.
+  template <class Value>
+  std::vector<double> along(const Value& value) const {
+    std::vector<double> values;
+    for (int i = 0; i <= 180; ++i) {
+      const double y = i * 0.1 / length * axial_cells_;
+      const int below = std::min(static_cast<int>(y), axial_cells_ - 1);
+      values.push_back((1 - (y - below)) * value(below) + (y - below) * value(below + 1));
+    }
+    return values;
   }
 
   void make_grid(int refinement) {
@@ -105,7 +122,7 @@ class AxisymmetricArtery {
       if (wet) scene_->interface.push_back({a, wall.local_node[fluid.mesh_node[a]], end});
     }
     scene_->wall = std::make_unique<WallProblem<Element>>(
-        std::move(wall), WallConstants{1.2, 1e5, 0.5},
+        std::move(wall), WallConstants{1.2, 1e5, alpha_},
         std::vector<std::pair<int, LayerMaterial>>{{1, layer(material, true)}, {2, layer(material, false)}},
         CylinderAxis{});
     scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3, setup_.time->step},
@@ -115,6 +132,7 @@ class AxisymmetricArtery {
   }
 
   int axial_cells_, fluid_cells_ = 0;
+  double alpha_;
   std::vector<double> radii_;
   TriangleMesh mesh_;
   Case setup_;

@@ -2,6 +2,8 @@
 
 import argparse
 import platform
+import re
+import shutil
 import time
 from pathlib import Path
 from typing import List
@@ -19,8 +21,8 @@ READY = Path(__file__).resolve().parents[2] / "studies"
 
 DESCRIPTION = """\
 Makes the runs that a study file lists, each in a folder of its own, and the report from them. A study that was stopped
-goes on where it stopped: a finished run is taken up again when case, mesh, settings, threads and program version are the
-same; after a change of the programs without a new version, --fresh makes all runs anew. Writes to OUTDIR:
+goes on where it stopped: a finished run is taken up again when case, mesh, settings, threads and program version are
+the same; after a change of the programs without a new version, --fresh makes all runs anew. Writes to OUTDIR:
   report.html           the report, in one file
   tables.md, *.csv      its tables
   *.png, *.svg          its pictures
@@ -44,7 +46,10 @@ def add_parser(commands, version: str) -> None:
     study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
     study.add_argument("--fresh", action="store_true", help="make finished runs anew")
     study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
-    study.add_argument("--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)")
+    study.add_argument("--partitioned",
+                       metavar="PATH",
+                       type=Path,
+                       help="fsi-partitioned (default: beside this program)")
     study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
     study.add_argument("--jobs", metavar="N", type=int,
                        help="runs at once (default: the study's); more than one spoils the seconds")
@@ -53,13 +58,13 @@ def add_parser(commands, version: str) -> None:
 
 
 def ready() -> List[str]:
-    return sorted(path.stem for path in READY.glob("*.toml"))
+    """Names of the study files there; case files that they use lie beside them."""
+    return sorted(path.stem for path in READY.glob("*.toml")
+                  if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE))
 
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    import shutil
-
     from .runner import Runner
 
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
@@ -74,12 +79,13 @@ def study(options: argparse.Namespace) -> int:
     programs = {"fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
                 "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned")}
     if options.list:
-        for request in asked.requests:
-            print(f"{request.group}: {request.label}")
+        lines = [f"{request.group}: {request.label}" for request in asked.requests]
+        print("\n".join([*lines, *getattr(kind, "also_runs", lambda study: [])(asked)]))
         return 0
     folder = options.output or Path("results/studies") / (asked.path.stem + ("-quick" if options.quick else ""))
     if options.fresh:
-        shutil.rmtree(folder / "runs", ignore_errors=True)
+        for place in ("runs", *getattr(kind, "RUN_FOLDERS", ())):
+            shutil.rmtree(folder / place, ignore_errors=True)
     make_folder(folder)
     begin = time.monotonic()
     runner = Runner(asked, folder, programs, find_mesh_maker(programs["fsi-monolithic"]), options.threads, options.jobs,
@@ -116,10 +122,11 @@ def about(report, asked: Study, runner, programs) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
-    report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} thread"
-                f"{'s' if runner.threads > 1 else ''} per run, {runner.jobs} run{'s' if runner.jobs > 1 else ''} at once, "
-                f"on {processor()}; the runs took {duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. "
-                "The command of each run is in its folder's `study_run.json`, under `runs/`.")
+    report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
+                f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
+                f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
+                f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
+                "in its folder's `study_run.json`, under `runs/`.")
 
 
 def processor() -> str:

@@ -22,8 +22,10 @@ h3 { font-size: 1.05rem; margin-top: 1.6rem; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-size: .85rem; margin: .6rem 0; }
 caption { text-align: left; font-weight: bold; padding: .3rem 0; }
 th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; }
-th.l, td.l { text-align: left; } thead th { border-bottom: 1px solid #333; } thead tr.groups th { border-bottom: none; text-align: center; }
-figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; } figcaption, .note { font-size: .85rem; color: #333; }
+th.l, td.l { text-align: left; } thead th { border-bottom: 1px solid #333; }
+thead tr.groups th { border-bottom: none; text-align: center; }
+figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; }
+figcaption, .note { font-size: .85rem; color: #333; }
 nav { font-size: .9rem; } code { font-family: "DejaVu Sans Mono", monospace; font-size: .85em; }
 @media print { body { max-width: none; margin: 0; } figure, table { break-inside: avoid; } }
 """
@@ -106,8 +108,11 @@ def _html_table(table: Table) -> str:
         rows.append('<tr class="groups">' + "".join(cells) + "</tr>")
 
     def line(cells: Sequence[str], tag: str) -> str:
-        return "<tr>" + "".join(f'<{tag} class="l">{_inline(cell)}</{tag}>' if i < table.left else f"<{tag}>{_inline(cell)}</{tag}>"
-                                for i, cell in enumerate(cells)) + "</tr>"
+        shown = []
+        for i, cell in enumerate(cells):
+            side = ' class="l"' if i < table.left else ""
+            shown.append(f"<{tag}{side}>{_inline(cell)}</{tag}>")
+        return "<tr>" + "".join(shown) + "</tr>"
 
     rows += [line(names, "th"), "</thead>", "<tbody>", *(line(row, "td") for row in table.rows), "</tbody>"]
     notes = "".join(f'<p class="note">{_inline(note)}</p>' for note in table.notes)

@@ -3,23 +3,24 @@
 import json
 import math
 import re
+import shlex
 import shutil
 import time
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 from ..errors import InputError
 from ..files import make_folder, replacing
-from ..programs import Program, execute
+from ..processes import End, Job, execute, run_jobs
+from ..programs import Program
 from ..run_folder import read_summary
 from .fingerprint import fingerprint
-from .processes import End, Job, run_jobs
 from .study_file import Request, Study, StudyMesh
 from .study_progress import StudyProgress
 from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, StudyRun
 
 RECORD = "study_run.json"  # written last: a folder without it is not finished
-NOT_A_NUMBER = re.compile(r"(?:^|[,\s:])[-+]?(?:nan|inf(?:inity)?)(?=$|[,\s}])", re.IGNORECASE | re.MULTILINE)
+NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
 
 
 class Runner:
@@ -47,10 +48,11 @@ class Runner:
             known = self._finished(key, request)
             if known:
                 self._take(key, known)
-                progress.known(request, known.seconds)
+                progress.known(request, known)
             else:
                 wanted[key] = request
-        order = sorted(wanted.items(), key=lambda item: progress.weight(item[1]))  # small ones first: they tell the time left
+        order = sorted(wanted.items(),
+                       key=lambda item: progress.weight(item[1]))  # small ones first: they tell the time left
         progress.plan([request for _, request in order])
         for i, (key, request) in enumerate(order):
             folder = self._place(key, request)
@@ -90,7 +92,8 @@ class Runner:
         except (OSError, ValueError):
             pass
         if self.mesh_maker is None:
-            raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+            raise InputError("fsi-mesh", "", "is not beside the drivers",
+                             "build it with cmake --build --preset release")
         make_folder(path.parent)
         end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", path])
         if end.code:
@@ -120,18 +123,20 @@ class Runner:
         folder = self._place(key, request)
         try:
             record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-            if record["fingerprint"] != key or (record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit):
+            if record["fingerprint"] != key or (record["status"] == OUT_OF_TIME
+                                                and record["seconds"] < request.time_limit):
                 return None
             if record["status"] == DONE:
                 read_summary(folder / "summary.json")
-            return StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]), record["command"])
+            return StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]),
+                            record["command"])
         except (OSError, ValueError, KeyError, TypeError, InputError):
             return None
 
     def _judge(self, key: str, request: Request, end: End) -> StudyRun:
         folder = self._place(key, request)
         status, message = judge(folder, end)
-        command = " ".join(self._command(request, folder))
+        command = shlex.join(self._command(request, folder))
         record: Dict[str, Any] = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds,
                                   "command": command, "run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
         make_folder(folder)
@@ -162,12 +167,23 @@ def judge(folder: Path, end: End):
 
 
 def first_not_finite(folder: Path) -> str:
-    """Names the first result file that holds NaN or infinity; empty: none does."""
-    files: Iterable[Path] = sorted([*folder.glob("*.csv"), *folder.glob("summary.json")])
-    for file in files:
+    """Names the first result file that holds NaN or infinity; empty: none does. A message may speak of them."""
+    for file in sorted(folder.glob("*.csv")):
         if NOT_A_NUMBER.search(file.read_text(encoding="utf-8", errors="replace")):
             return f"{file.name} holds a value that is not a finite number"
-    return ""
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return ""
+    return "" if _finite(summary) else "summary.json holds a value that is not a finite number"
+
+
+def _finite(value: Any) -> bool:
+    if isinstance(value, dict):
+        return all(_finite(entry) for entry in value.values())
+    if isinstance(value, list):
+        return all(_finite(entry) for entry in value)
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def toml_value(value: Any) -> str:

@@ -15,6 +15,7 @@ MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 
 TOP_KEYS = ("title", "kind", "threads", "jobs", "time_limit", "set", "cases", "methods", "meshes", "runs", "report")
 METHOD_KEYS = ("program", "label", "set")
+CASE_KEYS = ("file", "set")
 MESH_KEYS = ("options", "label")
 GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
 VALUE_KEYS = ("label", "set")
@@ -50,7 +51,8 @@ class Request:
 
     @property
     def label(self) -> str:
-        parts = [self.case, self.method.name, *(f"{key.rsplit('.', 1)[-1]} {show(value)}" for key, value in self.values.items())]
+        values = [f"{key.rsplit('.', 1)[-1]} {show(value)}" for key, value in self.values.items()]
+        parts = [self.case, self.method.name, *values]
         return ", ".join(part for part in parts if part)
 
 
@@ -69,12 +71,13 @@ class Study:
     report: Mapping[str, Any]  # settings of the report, checked by its kind
     quick: bool
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
+    case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
 
     def request(self, group: str, case: str, method: str, values: Mapping[str, Any], settings: Mapping[str, Any],
                 mesh: Optional[str] = None) -> Request:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
-        merged = {**self.settings, **chosen.settings, **settings}
+        merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
         return Request(group, case, chosen, dict(values), self.cases[case], self.meshes[mesh] if mesh else None, merged,
                        self.time_limit)
 
@@ -84,8 +87,8 @@ def show(value: Any) -> str:
 
 
 def read_study(path: Path, kinds: Sequence[str], quick: bool = False) -> Study:
-    """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick form;
-    groups without one are left out."""
+    """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick
+    form; groups without one are left out."""
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -108,7 +111,10 @@ class _Reader:
         self.known("", data, TOP_KEYS)
         kind = self.one_of("kind", self.text(data, "kind"), kinds)
         limit = self.number(data, "time_limit", 3600.0)
-        cases = {name: self.case(name, file) for name, file in self.table(data, "cases", True).items()}
+        entries = self.table(data, "cases", True)
+        cases = {name: self.case(name, entry) for name, entry in entries.items()}
+        of_case = {name: self.settings(entry, "set", f"cases.{name}")
+                   for name, entry in entries.items() if isinstance(entry, dict)}
         methods = {name: self.method(name, entry) for name, entry in self.table(data, "methods", True).items()}
         meshes = {level: StudyMesh(level, level, ()) for level in LEVELS}
         for name, entry in self.table(data, "meshes").items():
@@ -116,13 +122,18 @@ class _Reader:
         settings = self.settings(data, "set")
         requests: List[Request] = []
         for name, group in self.table(data, "runs").items():
-            requests += self.group(name, group, cases, methods, meshes, settings, limit)
+            requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
         return Study(path=self.path, title=self.text(data, "title"), kind=kind,
                      threads=self.count(data, "threads", 1), jobs=self.count(data, "jobs", 1), time_limit=limit,
                      cases=cases, methods=methods, meshes=meshes, requests=requests, report=self.table(data, "report"),
-                     quick=self.quick, settings=settings)
+                     quick=self.quick, settings=settings, case_settings=of_case)
 
-    def case(self, name: str, file: Any) -> Path:
+    def case(self, name: str, entry: Any) -> Path:
+        """A file name, or a section with `file` and `set`."""
+        file = entry
+        if isinstance(entry, dict):
+            self.known(f"cases.{name}", entry, CASE_KEYS)
+            file = entry.get("file")
         if not isinstance(file, str):
             raise self.wrong(f"cases.{name}", "is not a file name", "give the case file, relative to the study")
         path = (self.path.parent / file).resolve()
@@ -143,10 +154,11 @@ class _Reader:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
         if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
-            raise self.wrong(f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]')
+            raise self.wrong(f"{key}.options", "is not a list of words",
+                             'give options of fsi-mesh artery, e.g. ["--size", "0.5"]')
         return StudyMesh(name, str(entry.get("label", name)), tuple(options))
 
-    def group(self, name: str, group: Any, cases, methods, meshes, settings, limit: float) -> List[Request]:
+    def group(self, name: str, group: Any, cases, methods, meshes, settings, of_case, limit: float) -> List[Request]:
         key = f"runs.{name}"
         self.known(key, group, GROUP_KEYS)
         if self.quick:
@@ -160,11 +172,12 @@ class _Reader:
         chosen = [methods[self.one_of(f"{key}.methods", m, methods)] for m in group.get("methods", list(methods))]
         own = self.settings(group, "set", key)
         vary = self.table(group, "vary", False, key)
-        axes = [[self.value(f"{key}.vary.{quantity}", quantity, value, meshes) for value in self.list(f"{key}.vary.{quantity}", values)]
+        axes = [[self.value(f"{key}.vary.{quantity}", quantity, value, meshes)
+                 for value in self.list(f"{key}.vary.{quantity}", values)]
                 for quantity, values in vary.items()]
         requests = []
         for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
-            merged = {**settings, **method.settings, **own}
+            merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
             values, mesh = {}, None
             for quantity, shown, here, chosen_mesh in point:
                 values[quantity] = shown
@@ -173,7 +186,8 @@ class _Reader:
             requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit))
         return requests
 
-    def value(self, key: str, quantity: str, value: Any, meshes) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
+    def value(self, key: str, quantity: str, value: Any,
+              meshes) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
         """(quantity, what is shown, settings, mesh) of one value on an axis."""
         if quantity == MESH:
             return quantity, value, {}, meshes[self.one_of(key, value, meshes)]
@@ -183,7 +197,8 @@ class _Reader:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             return quantity, value["label"], self.settings(value, "set", key), None
         if "." not in quantity:
-            raise self.wrong(key, "is neither 'mesh' nor a key of the case file", 'give a key such as "time.step", or values { label, set }')
+            raise self.wrong(key, "is neither 'mesh' nor a key of the case file",
+                             'give a key such as "time.step", or values { label, set }')
         return quantity, value, {quantity: value}, None
 
     def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
@@ -195,7 +210,8 @@ class _Reader:
 
     def one_of(self, key: str, name: Any, names) -> str:
         if name not in names:
-            raise self.wrong(key, f"'{name}' is unknown", f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}")
+            raise self.wrong(key, f"'{name}' is unknown",
+                             f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}")
         return name
 
     def text(self, entry: Dict[str, Any], name: str, section: str = "") -> str:

@@ -18,7 +18,7 @@ class StudyProgress:
         self._quiet, self._jobs = quiet, jobs
         self._terminal = sys.stderr.isatty()
         self._left: List[Request] = []
-        self._total = self._known_count = 0
+        self._total = self._known_count = self._failed_count = 0
         self._rates: Dict[str, Tuple[float, float]] = {}  # method -> (weight, seconds)
         self._began: Dict[int, float] = {}
 
@@ -28,22 +28,27 @@ class StudyProgress:
         end, step = request.settings.get("time.end", 12.0), request.settings.get("time.step", 0.125)
         return nodes * end / step
 
-    def known(self, request: Request, seconds: float) -> None:
+    def known(self, request: Request, run: StudyRun) -> None:
         self._known_count += 1
-        self._learn(request, seconds)
+        if run.done:
+            self._learn(request, run.seconds)
+        else:
+            self._failed_count += 1
 
     def plan(self, requests: Sequence[Request]) -> None:
         self._left = list(requests)
         self._total = len(self._left)
-        if self._known_count and self._total:
-            self._say(f"{self._known_count} runs are there already, {self._total} to go{self._left_text()}")
+        if self._known_count and (self._total or self._failed_count) and self._known_count + self._total > 1:
+            failed = f" ({self._failed_count} of them failed; --fresh makes all anew)" if self._failed_count else ""
+            self._say(f"{self._known_count} runs are there already{failed}, {self._total} to go{self._left_text()}")
 
     def end(self, request: Request, run: StudyRun) -> None:
         self._left.remove(request)
         if run.done:
             self._learn(request, run.seconds)
         said = "" if run.done else f", {run.status}: {run.message}"
-        self._say(f"[{self._total - len(self._left)}/{self._total}] {request.label}: {duration(run.seconds)}{said}{self._left_text()}")
+        self._say(f"[{self._total - len(self._left)}/{self._total}] {request.label}: "
+                  f"{duration(run.seconds)}{said}{self._left_text()}")
 
     def tick(self, running: Sequence[Request]) -> None:
         if self._terminal and not self._quiet and running:

@@ -1,13 +1,11 @@
-"""Programs as processes, several at once, none of which outlives fsi-compare."""
+"""Programs as processes, one or several at once, none of which outlives fsi-compare."""
 
 import signal
 import subprocess
 import tempfile
 import time
 from dataclasses import dataclass
-from typing import Callable, Dict, Iterable, Optional, Sequence, Tuple
-
-from ..programs import message_of
+from typing import Callable, Dict, Iterable, List, Optional, Sequence, Tuple
 
 POLL = 0.1  # s
 
@@ -23,13 +21,21 @@ class End:
 @dataclass(frozen=True)
 class Job:
     key: int
-    command: Sequence[str]
-    time_limit: float  # s
+    command: Sequence
+    time_limit: float = float("inf")  # s
+
+
+def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
+    """Runs one program to its end, calling `tick` about once a second."""
+    ends: List[End] = []
+    run_jobs([Job(0, command)], 1, lambda key, end: ends.append(end), lambda running: tick() if running else None)
+    return ends[0]
 
 
 def run_jobs(jobs: Iterable[Job], at_once: int, ended: Callable[[int, End], None],
              tick: Callable[[Sequence[int]], None] = lambda running: None) -> None:
-    """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second."""
+    """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
+    fsi-compare is interrupted or asked to end, so are they. A program that cannot be started ends with code 1."""
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -38,10 +44,13 @@ def run_jobs(jobs: Iterable[Job], at_once: int, ended: Callable[[int, End], None
     waiting = iter(jobs)
     try:
         job: Optional[Job] = next(waiting, None)
-        ticked = 0.0
+        ticked = time.monotonic()
         while running or job is not None:
             while job is not None and len(running) < at_once:
-                running[job.key] = (job, *_start(job))
+                try:
+                    running[job.key] = (job, *_start(job))
+                except OSError as error:
+                    ended(job.key, End(1, f"{job.command[0]} cannot be started: {error.strerror}", 0.0))
                 job = next(waiting, None)
             for key in list(running):
                 entry, process, said, start = running[key]
@@ -87,3 +96,17 @@ def _finish(process: subprocess.Popen) -> None:
         except subprocess.TimeoutExpired:
             process.kill()
     process.wait()
+
+
+def message_of(code: int, said: str) -> str:
+    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    if code < 0:
+        try:
+            name = signal.Signals(-code).name
+        except ValueError:
+            name = str(-code)
+        return f"ended by signal {name}" + (", perhaps for want of memory" if name == "SIGKILL" else "")
+    if not lines:
+        return f"ended with code {code} without a message" if code else ""
+    head, mark, rest = lines[-1].partition(": error: ")
+    return rest if mark and " " not in head else lines[-1]

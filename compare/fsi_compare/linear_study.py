@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
+from .case_digest import case_digest
 from .errors import InputError
 from .files import make_folder, replacing
 from .linear_solvers import FILE, LinearSolvers, System, read_linear_solvers
-from .programs import Program, execute
+from .processes import execute
+from .programs import Program
 from .progress import Progress
 
 REQUEST = "request.json"
@@ -51,8 +53,8 @@ class Request:
 
     def fingerprint(self) -> dict:
         """What decides the result, and is not in it."""
-        digest = hashlib.sha256()
-        for file in (self.case, *self.files):
+        digest = hashlib.sha256(case_digest(self.case, "fsi-monolithic").encode())
+        for file in self.files:
             digest.update(file.read_bytes())
         return {"inputs": digest.hexdigest(), "settings": list(self.settings), "threads": self.threads}
 

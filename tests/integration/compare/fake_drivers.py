@@ -1,0 +1,108 @@
+"""Stand in for both drivers in tests of `fsi-compare study`: answer at once, with a travelling wave.
+
+`behaviour.json` beside the programs says where they depart from it:
+  "version"   their version (0.1.0)
+  "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
+  "nan"       {WORD: FILE}: such a run says done, but the CSV file holds a NaN
+  "signal"    {WORD: number}: such a run ends by this signal
+  "sleep"     seconds that each run takes; it writes its process number to `pid`, and begin and end to `times.txt`
+Each run adds its command line to `calls.txt`. Single linear systems are left to fake_monolithic.
+"""
+
+import json
+import os
+import stat
+import sys
+import time
+from pathlib import Path
+
+import fake_monolithic
+
+DRIVERS = ("fsi-monolithic", "fsi-partitioned")
+
+
+def install(folder):
+    """Makes both programs; returns their folder."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in DRIVERS:
+        program = folder / name
+        program.write_text(f"#!{sys.executable} -E\nimport sys\nsys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+                           "from fake_drivers import main\nsys.exit(main(sys.argv))\n")
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    return folder
+
+
+def behave(folder, **behaviour):
+    (folder / "behaviour.json").write_text(json.dumps(behaviour))
+
+
+def calls(folder):
+    file = folder / "calls.txt"
+    return file.read_text().splitlines() if file.exists() else []
+
+
+def main(words):
+    program = Path(words[0])
+    home = program.parent
+    file = home / "behaviour.json"
+    behaviour = json.loads(file.read_text()) if file.exists() else {}
+    if words[1] == "--version":
+        print(f"{program.name} {behaviour.get('version', '0.1.0')}")
+        return 0
+    if words[1] == "--help":
+        print("  --linear-systems STEP:IT,...")
+        return 0
+    if "--linear-systems" in words:
+        return fake_monolithic.main(words)
+    line = " ".join(words)
+    with open(home / "calls.txt", "a") as log:
+        log.write(line + "\n")
+
+    def named(key):
+        return next((value for word, value in behaviour.get(key, {}).items() if word in line), None)
+
+    folder = Path(words[words.index("-o") + 1])
+    folder.mkdir(parents=True, exist_ok=True)
+    if "sleep" in behaviour:
+        with open(home / "pid", "a") as log:
+            log.write(f"{os.getpid()}\n")
+        (folder / "centerline_pressure.csv").write_text("time_ms,z_mm,pre")  # what a killed run leaves behind
+        begin = time.time()
+        time.sleep(behaviour["sleep"])
+        with open(home / "times.txt", "a") as log:
+            log.write(f"{begin} {time.time()}\n")
+    if named("signal"):
+        os.kill(os.getpid(), named("signal"))
+    if named("end"):
+        code, message = named("end")
+        print(f"{program.name}: error: {message}", file=sys.stderr)
+        return code
+    write_results(folder, program.name)
+    if named("nan"):
+        path = folder / named("nan")
+        text = path.read_text()
+        path.write_text(text + "nan," * text.splitlines()[0].count(",") + "1\n")
+    return 0
+
+
+def write_results(folder, program, steps=96, step=0.125):
+    """A small crest that travels at 0.7 mm/ms."""
+    partitioned = program == "fsi-partitioned"
+    passes = 5 if partitioned else 1
+    rows = ["time_ms,z_mm,pressure_Pa"]
+    for n in range(1, steps + 1):
+        t = n * step
+        rows += [f"{t!r},{0.2 * i!r},{max(0.0, 50 * (1 - ((0.2 * i - 1 - 0.7 * t) / 2) ** 2))!r}" for i in range(91)]
+    (folder / "centerline_pressure.csv").write_text("\n".join(rows) + "\n")
+    (folder / "iterations.csv").write_text(
+        "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n"
+        + "".join(f"{n},{n * step!r},{passes},{3 * passes},{9 * passes},0.01\n" for n in range(1, steps + 1)))
+    systems = ("fluid", "wall") if partitioned else ("coupled",)
+    phases = {f"{kind}: {system}": {"calls": 3 * steps, "seconds": 0.1}
+              for kind in ("assembly", "set-up", "solve") for system in systems}
+    (folder / "summary.json").write_text(json.dumps({
+        "program": program, "version": "0.1.0", "title": "A tube", "status": "done", "threads": 1,
+        "mesh": {"name": "level coarse", "nodes": 1032, "tetrahedra": 4968}, "phases": phases,
+        "totals": {"steps": steps, "outer_iterations": passes * steps, "newton_iterations": 3 * passes * steps,
+                   "linear_iterations": 9 * passes * steps, "wall_s": 1.0}}))

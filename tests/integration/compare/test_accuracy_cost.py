@@ -1,0 +1,280 @@
+"""The study kind accuracy-cost: orders, frontier, extrapolation and errors on made-up data with known answers, and a
+whole study with programs that write waves of known error."""
+
+import contextlib
+import csv
+import io
+import json
+import math
+import stat
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from synthetic import Z
+
+from fsi_compare.cli import main
+from fsi_compare.errors import InputError
+from fsi_compare.studies.frontier import cheapest, frontier
+from fsi_compare.studies.observed_order import self_convergence, slope
+from fsi_compare.studies.reach import Growth, Part, reach
+from fsi_compare.studies.waves import Waves, extrapolated, read_waves, relative_difference
+
+TIMES = np.array([1.5, 2.0, 2.5, 3.0])
+
+
+class ObservedOrder(unittest.TestCase):
+    def test_recovers_order_and_error_for_any_ratio_of_sizes(self):
+        for order in (0.6, 1.0, 1.8, 3.0):
+            for sizes in ((4, 2, 1), (1.0, 0.52, 0.27), (0.3, 0.2, 0.15)):
+                errors = [0.07 * h ** order for h in sizes]
+                found = self_convergence(sizes, (errors[0] - errors[1], errors[1] - errors[2]))
+                self.assertAlmostEqual(found.order, order, places=9)
+                self.assertAlmostEqual(found.remaining, errors[2], places=9)
+
+    def test_says_nothing_where_nothing_converges(self):
+        for distances in ((1.0, 1.5), (1.0, 1.0), (0.0, 0.0), (1.0, 1e-6)):
+            found = self_convergence((4, 2, 1), distances)
+            self.assertEqual((found.order, found.remaining), (None, None))
+        self.assertIsNone(self_convergence((1, 2, 4), (2.0, 1.0)).order)
+
+    def test_slope(self):
+        self.assertAlmostEqual(slope([1, 2, 4], [3, 12, 48]), 2)
+        self.assertIsNone(slope([1, 1], [2, 3]))
+
+
+class Frontier(unittest.TestCase):
+    POINTS = [(10, 5.0), (1, 50.0), (2, 60.0), (3, 20.0), (3, 21.0), (12, 5.0), (20, 4.95)]
+
+    def test_keeps_what_no_other_beats(self):
+        self.assertEqual(frontier(self.POINTS), [1, 3, 0, 6])
+
+    def test_a_gain_that_is_too_small_does_not_count(self):
+        self.assertEqual(frontier(self.POINTS, 0.02), [1, 3, 0])
+
+    def test_points_that_are_not_numbers_are_left_out(self):
+        self.assertEqual(frontier([(math.nan, 1), (1, math.nan), (2, 3)]), [2])
+
+    def test_cheapest(self):
+        self.assertEqual(cheapest(self.POINTS, 25), 3)
+        self.assertEqual(cheapest(self.POINTS, 5), 0)
+        self.assertIsNone(cheapest(self.POINTS, 1))
+
+
+class Reaching(unittest.TestCase):
+    def test_meets_the_target_at_the_least_cost(self):
+        space, time, growth = Part(0.04, 2.0), Part(0.06, 1.0), Growth(1.1, 0.9)
+
+        def cost(size, step):
+            return size ** (-3 * growth.nodes) * step ** -growth.steps
+
+        for target in (0.03, 0.01):
+            found = reach(target, space, time, growth)
+            total = 0.04 * found.size_factor ** 2 + 0.06 * found.step_factor
+            self.assertAlmostEqual(total, target)
+            self.assertAlmostEqual(found.seconds_factor, cost(found.size_factor, found.step_factor))
+            for size in np.linspace(0.02, 1, 200):
+                left = target - 0.04 * size ** 2
+                if left > 0:
+                    self.assertGreaterEqual(cost(size, min(1, left / 0.06)), found.seconds_factor * (1 - 1e-9))
+
+    def test_makes_nothing_coarser(self):
+        found = reach(0.03, Part(0.001, 2.0), Part(0.058, 1.0), Growth(1, 1))
+        self.assertEqual((found.size_factor, found.nodes_factor), (1, 1))
+        self.assertAlmostEqual(found.step_factor, 0.5)
+
+
+class Errors(unittest.TestCase):
+    def waves(self, factor, shift=0.0, times=TIMES):
+        return Waves(times, Z, factor * np.array([np.sin(Z / 3 + t) + shift for t in times]))
+
+    def test_relative_difference(self):
+        self.assertAlmostEqual(relative_difference(self.waves(1.1), self.waves(1), TIMES), 0.1)
+        self.assertAlmostEqual(relative_difference(self.waves(0), self.waves(1), TIMES[1:]), 1)
+        self.assertTrue(math.isnan(relative_difference(self.waves(1), self.waves(0), TIMES)))
+
+    def test_extrapolation_removes_the_leading_error(self):
+        exact, step = self.waves(1), 0.2
+        fine, coarse = self.waves(1 + step), self.waves(1 + 2 * step)
+        self.assertLess(relative_difference(extrapolated(fine, coarse, 1), exact, TIMES), 1e-12)
+
+    def test_levels_and_points_between(self):
+        waves = Waves(np.array([1.0, 2.0]), np.array([0.0, 1.0]), np.array([[0.0, 2.0], [4.0, 6.0]]))
+        self.assertEqual(waves.at([1.5], np.array([0.5])).tolist(), [[3.0]])
+        with self.assertRaises(ValueError):
+            waves.at([2.5], waves.z)
+
+    def test_a_file_with_a_missing_point_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "wall_displacement.csv"
+            path.write_text("time_ms,z_mm,radial_mm\n1,0,1\n1,1,2\n2,0,3\n")
+            with self.assertRaisesRegex(InputError, "number of points"):
+                read_waves(path, "radial_mm")
+
+
+# A driver of known error: 0.16 size^2 + 0.8 step + 10 tolerance, size 1, 1/2, 1/4; 1e-6 s a node and step.
+DRIVER = '''#!{python} -E
+import json, math, sys
+from pathlib import Path
+words = sys.argv
+if words[1] == "--version":
+    print(Path(words[0]).name, "0.1.0")
+    sys.exit(0)
+settings = dict(words[i + 1].split("=", 1) for i, word in enumerate(words) if word == "--set")
+folder = Path(words[words.index("-o") + 1])
+folder.mkdir(parents=True, exist_ok=True)
+program = Path(words[0]).name
+step, end = float(settings["time.step"]), float(settings["time.end"])
+level = ["coarse", "intermediate", "fine"].index(settings["mesh.level"])
+tolerance = float(settings.get("monolithic.newton_tolerance", settings.get("partitioned.tolerance", 1e-8)))
+if tolerance > 0.4:
+    print(program + ": error: diverged", file=sys.stderr)
+    sys.exit(2)
+error = 0.16 / 4 ** level + 0.8 * step + 10 * tolerance
+nodes, steps = 1000 * 8 ** level, round(end / step)
+for file, column in (("centerline_pressure.csv", "pressure_Pa"), ("wall_displacement.csv", "radial_mm,axial_mm")):
+    with open(folder / file, "w") as out:
+        out.write("time_ms,z_mm," + column + "\\n")
+        for k in range(1, steps + 1):
+            for i in range(19):
+                value = (1 + error) * math.sin(1 + i / 3 + k * step)
+                out.write("%r,%d,%r%s\\n" % (k * step, i, value, ",0" if "," in column else ""))
+seconds = 1e-6 * nodes * steps * (1 - 0.1 * math.log10(tolerance)) * (3 if "partitioned" in program else 1)
+(folder / "summary.json").write_text(json.dumps({{
+    "program": program, "version": "0.1.0", "title": "A tube", "status": "done", "mesh": {{"nodes": nodes}},
+    "totals": {{"steps": steps, "wall_s": seconds, "newton_iterations": 4 * steps, "outer_iterations": 5 * steps}}}}))
+'''
+
+STUDY = """
+title = "Made up"
+kind = "accuracy-cost"
+[cases]
+tube = "tube.toml"
+[set]
+"time.end" = 3.0
+"time.step" = 0.125
+[report]
+times = [1.5, 3.0]
+targets = [10, 1]
+method = "monolithic"
+tight = "tight"
+[report.references]
+tube = "reference"
+[methods.monolithic]
+program = "fsi-monolithic"
+[methods.tight]
+program = "fsi-monolithic"
+set = { "monolithic.newton_tolerance" = 1e-12 }
+[methods.iqn]
+program = "fsi-partitioned"
+[runs.grid]
+methods = ["monolithic"]
+vary = { mesh = ["coarse", "intermediate", "fine"], "time.step" = [0.25, 0.125, 0.0625] }
+[runs.tight]
+methods = ["tight"]
+vary = { mesh = ["coarse"] }
+[runs.tolerance]
+methods = ["monolithic"]
+vary = { mesh = ["coarse"], "monolithic.newton_tolerance" = [1e-2, 1e-3, 0.5] }
+[runs.coupling]
+methods = ["iqn"]
+vary = { mesh = ["coarse"], "partitioned.tolerance" = [1e-2, 1e-4] }
+"""
+
+
+class WholeStudy(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.base = Path(temporary.name)
+        for name in ("fsi-monolithic", "fsi-partitioned"):
+            program = self.base / name
+            program.write_text(DRIVER.format(python=sys.executable))
+            program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        (self.base / "tube.toml").write_text('title = "A tube"\n')
+        folder = self.base / "reference"
+        folder.mkdir()
+        (folder / "reference.json").write_text(json.dumps(
+            {"description": "a sine", "own_error": {"pressure_Pa": 0.001, "radial_mm": 0.002}}))
+        for file, column in (("centerline_pressure.csv", "pressure_Pa"), ("wall_displacement.csv", "radial_mm")):
+            rows = [f"{t},{i},{math.sin(1 + i / 3 + t)!r}" for t in TIMES for i in range(19)]
+            (folder / file).write_text("\n".join([f"time_ms,z_mm,{column}", *rows, ""]))
+
+    def study(self, text=STUDY):
+        (self.base / "made-up.toml").write_text(text)
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["study", str(self.base / "made-up.toml"), "-o", str(self.base / "out"), "-q",
+                         "--monolithic", str(self.base / "fsi-monolithic"),
+                         "--partitioned", str(self.base / "fsi-partitioned")], version="1.2.3")
+        return code, err.getvalue()
+
+    def rows(self, name):
+        with open(self.base / "out" / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_numbers(self):
+        code, err = self.study()
+        self.assertEqual((code, err), (0, ""))
+        settings = self.rows("settings.csv")
+        self.assertEqual(len(settings), 9 + 1 + 2 + 2)  # the run that diverged has a table of its own
+        fine = [row for row in settings if row["mesh"] == "fine" and row["step_ms"] == "0.0625"][0]
+        self.assertAlmostEqual(float(fine["pressure_error"]), 0.01 + 0.05, places=6)
+        self.assertAlmostEqual(float(fine["seconds"]), 64000e-6 * 48 * 1.8)
+        loose = [row for row in settings if row["solved_by"] == "monolithic, newton tolerance 0.01"][0]
+        self.assertAlmostEqual(float(loose["pressure_solver_error"]), 0.1 / (1 + 0.26), places=6)
+        self.assertEqual([row["message"] for row in self.rows("failed.csv")], ["diverged"])
+
+        orders = self.rows("orders.csv")
+        self.assertEqual(len(orders), 2 * (3 + 3))
+        for row in orders:
+            # Distances are relative to the finer solution, itself off by some percent: hence the tolerance.
+            self.assertAlmostEqual(float(row["order"]), 2 if row["refined"] == "element size" else 1, delta=0.15)
+
+        frontier_rows = self.rows("frontier_centerline_pressure.csv")
+        errors = [float(row["relative_error"]) for row in frontier_rows]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertIn("fine mesh, step 0.0625 ms", frontier_rows[-1]["equations"])
+
+        report = (self.base / "out" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("<strong>10 %</strong>: intermediate mesh, step 0.0625 ms, monolithic", report)
+        self.assertIn("No partitioned setting of this study reaches it.", report)
+        self.assertIn("<strong>1.0 %</strong>: no setting of this study reaches it in both; the best is 6.0 %", report)
+        self.assertIn("Extrapolated by the observed orders in centre-line pressure it would take about", report)
+        for picture in ("work_precision", "orders_space", "orders_time", "algebraic_centerline_pressure"):
+            for ending in (".png", ".svg"):
+                self.assertTrue((self.base / "out" / (picture + ending)).is_file(), picture)
+
+    def test_mistakes_are_named(self):
+        for old, new, expected in (
+                ('targets = [10, 1]', 'target = [10]', "report.target: is unknown; did you mean 'targets'?"),
+                ('times = [1.5, 3.0]', 'times = [3.0, 1.5]', "report.times: is not an interval"),
+                ('times = [1.5, 3.0]', 'times = [1.5, 9.0]', "is not covered by the reference of 'tube'"),
+                ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of this study"),
+                ('tube = "reference"', 'tube = "nowhere"', "reference.json: cannot be read"),
+                ('tube = "reference"', 'pipe = "reference"', "report.references.pipe: is no case of this study"),
+                ('"time.end" = 3.0', '"time.end" = 2.0', "runs.grid: ends at 2 ms, before report.times")):
+            code, err = self.study(STUDY.replace(old, new))
+            self.assertEqual((code, err.count("\n")), (1, 1), err)
+            self.assertIn(expected, err)
+            self.assertFalse((self.base / "out").exists())
+
+
+class ReadyStudy(unittest.TestCase):
+    def test_can_be_run(self):
+        from fsi_compare.studies import kinds
+        from fsi_compare.studies.command import study_path
+        from fsi_compare.studies.study_file import read_study
+
+        for quick in (False, True):
+            study = read_study(study_path("accuracy-cost"), kinds.NAMES, quick)
+            kinds.kind(study.kind).check(study)
+            self.assertTrue(study.requests)
+            if quick:
+                self.assertEqual({request.mesh.name for request in study.requests}, {"coarse"})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,227 @@
+"""The kind `paper`: cuts, energy, phases, claims, and the whole study with drivers that answer at once."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+from fake_drivers import behave, calls
+from study_case import StudyCase
+from test_report import outside_references
+
+from fsi_compare import paper
+from fsi_compare.case_digest import case_digest
+from fsi_compare.errors import InputError
+from fsi_compare.studies import energy_plots, kinds, paper_cost, phase_bars
+from fsi_compare.studies.command import READY
+from fsi_compare.studies.plane_cut import cut
+from fsi_compare.studies.study_file import Method, Request, read_study
+from fsi_compare.studies.study_run import DONE, StudyRun
+from fsi_compare.studies.tube_pictures import round_factor
+
+
+class PlaneCut(unittest.TestCase):
+    CUBE = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
+    # six tetrahedra around the diagonal from node 0 to node 7
+    CELLS = np.array([[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]])
+
+    @staticmethod
+    def area(triangles):
+        a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+        return float(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2)
+
+    def test_areas_of_cuts_through_a_cube(self):
+        for normal, offset, kept, area in (([0, 0, 1], 0.3, [0, 1], 1.0), ([1, 0, 0], 0.77, [1, 2], 1.0),
+                                           ([1, 1, 0], 0.6, [0, 2], 0.6), ([1, 1, 1], 1.5, [0, 1], 0.75),
+                                           ([0, 0, 1], 2.0, [0, 1], 0.0)):
+            triangles, _, owners = cut(self.CELLS, self.CUBE @ np.array(normal, float) - offset, self.CUBE[:, kept])
+            self.assertAlmostEqual(self.area(triangles), area, 12, normal)
+            self.assertEqual(len(triangles), len(owners))
+
+    def test_linear_values_are_carried_along(self):
+        field = self.CUBE @ np.array([2.0, -1, 3]) + 0.5
+        triangles, _, _ = cut(self.CELLS, self.CUBE[:, 2] - 0.4, np.column_stack((self.CUBE, field)))
+        np.testing.assert_allclose(triangles[:, :, 2], 0.4, atol=1e-14)
+        np.testing.assert_allclose(triangles[:, :, :3] @ [2.0, -1, 3] + 0.5, triangles[:, :, 3], atol=1e-13)
+
+    def test_a_plane_through_nodes(self):
+        triangles, _, _ = cut(self.CELLS, self.CUBE[:, 2] - 0.0, self.CUBE[:, :2])
+        self.assertTrue(np.isfinite(triangles).all())
+
+    def test_magnification(self):
+        for displacement, factor in ((0.045, 10), (0.5, 1), (0.026, 10), (0.0249, 20), (3.0, 1), (0.0, 1), (1e-4,
+                                                                                                            5000)):
+            self.assertEqual(round_factor(displacement), factor)
+
+
+def run_in(folder, program="fsi-monolithic", group="waves", case="neo-hookean", method="monolithic", **values):
+    request = Request(group, case, Method(method, method, program, {}), values, Path("none.toml"), None, {}, 60)
+    return StudyRun(request, folder, DONE, "", 1.0, "")
+
+
+class OwnFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+
+class Energy(OwnFolder):
+    def test_none_without_the_file(self):
+        self.assertIsNone(energy_plots.balance(run_in(self.folder)))
+
+    def test_sums_and_signs(self):
+        (self.folder / "energy.csv").write_text(
+            "step,time_ms,fluid_kinetic_energy_uJ,wall_kinetic_energy_uJ,wall_isochoric_energy_uJ,"
+            "wall_volumetric_energy_uJ,"
+            "inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,viscous_dissipation_uJ,"
+            "numerical_dissipation_uJ,remainder_uJ\n"
+            "1,0.125,4,1,2,0.5,10,1,0.5,1,2,0\n2,0.25,3,1,2,0.5,0,0,0.5,0.25,0.25,-0.001\n")
+        found = energy_plots.balance(run_in(self.folder))
+        self.assertEqual(found.parts["supplied"].tolist(), [10.5, 10.0])
+        self.assertEqual(found.parts["elastic"].tolist(), [2.5, 2.5])
+        self.assertEqual(found.parts["lost by discretisation"].tolist(), [2.0, 2.25])
+        self.assertAlmostEqual(found.largest_remainder, 0.001 / 10.5)
+        table = energy_plots.energy_table([found], ["a run"])
+        self.assertEqual(table.rows[0][:3], ["a run", "10", "30.00"])
+
+
+class Phases(OwnFolder):
+    def test_parts_make_up_the_whole(self):
+        phases = {"assembly: fluid residual": 1.0, "assembly: interface balance": 0.5, "factorisation: fluid": 0.25,
+                  "set-up: wall": 0.5,
+                  "solve: wall": 2.0, "output": 0.125, "energy balance": 0.125, "something new": 0.25}
+        (self.folder / "summary.json").write_text(json.dumps(
+            {"phases": {name: {"calls": 1, "seconds": s} for name, s in phases.items()}, "totals": {"steps": 2,
+                                                                                                    "wall_s": 6.0}}))
+        (self.folder / "coupling.csv").write_text("step,coupling_s\n1,0.125\n2,0.125\n")
+        parts = phase_bars.phase_seconds(run_in(self.folder, "fsi-partitioned"))
+        self.assertEqual(parts, {"assembly": 1.0, "set-up": 0.75, "solve": 2.0, "coupling": 0.75, "output": 0.25,
+                                 "other": 1.25})
+        self.assertEqual(sum(parts.values()), 6.0)
+        table = phase_bars.phase_table([run_in(self.folder)], ["a run"])
+        self.assertEqual(table.rows[0], ["a run", "500", "375", "1e+03", "375", "125", "625", "3e+03"])
+
+
+class PaperNumbers(unittest.TestCase):
+    def test_rounds_of_the_paper(self):
+        own = paper_cost.paper_rounds()
+        self.assertEqual((own["monolithic"], own["partitioned"], own["cycles"]), (40, 52.5 * 4.5, 360))
+        self.assertAlmostEqual(own["saving"], 0.83, 2)
+        self.assertAlmostEqual(own["cycles_per_system"], 3.05, 2)
+
+    def test_parameters(self):
+        self.assertEqual(paper.parameters("artery")["alpha"], [29, 62])
+        self.assertEqual(paper.mesh_counts("fine")["tetrahedra"], 308736)
+
+
+class Checks(OwnFolder):
+    def refused(self, old, new, *expected):
+        text = (READY / "paper.toml").read_text().replace("../../meshes", str(READY.parents[1] / "meshes"))
+        self.assertIn(old, text)
+        path = self.folder / "paper.toml"
+        path.write_text(text.replace(old, new))
+        with self.assertRaises(InputError) as caught:
+            study = read_study(path, kinds.NAMES)
+            kinds.kind(study.kind).check(study)
+        for part in expected:
+            self.assertIn(part, str(caught.exception))
+
+    def test_refusals(self):
+        self.refused("[runs.newton]", "[runs.newtn]", "runs.newtn", "did you mean 'newton'?")
+        self.refused("[runs.waves]", "[runs.cost2]", "runs.cost2")
+        self.refused("[report.linear]", "[report.linar]", "report.linar", "did you mean 'linear'?")
+        self.refused('"amli_fgmres"', '"amli_fgmre"', "report.linear.methods", "did you mean 'amli_fgmres'?")
+        self.refused("neo-hookean =", "neohookean =", "runs.cost", "'neo-hookean' is unknown")
+        self.refused("[methods.monolithic]", "[methods.mono]", "runs.waves")
+
+
+class CaseDigest(OwnFolder):
+    def digest(self, text, program="fsi-monolithic"):
+        path = self.folder / "case.toml"
+        path.write_text(text)
+        return case_digest(path, program)
+
+    def test_only_what_decides_counts(self):
+        text = 'title = "A"\n[monolithic]\nmode = "kept"\n[partitioned]\nscheme = "aitken"\n'
+        same = self.digest(text)
+        self.assertEqual(self.digest("# a comment\n" + text), same)
+        self.assertEqual(self.digest(text.replace("aitken", "iqn-ils")), same)
+        self.assertNotEqual(self.digest(text.replace("kept", "full")), same)
+        other = self.digest(text.replace("aitken", "iqn-ils"), "fsi-partitioned")
+        self.assertNotEqual(other, self.digest(text, "fsi-partitioned"))
+        self.assertNotEqual(self.digest("no TOML"), self.digest("none either"))
+
+
+class WholeStudy(StudyCase):
+    """With drivers whose waves are all the same, and linear solvers whose counts are the paper's."""
+
+    def setUp(self):
+        super().setUp()
+        text = (READY / "paper.toml").read_text().replace("../../meshes", str(READY.parents[1] / "meshes"))
+        self.study.write_text(text)
+
+    def claims(self):
+        return {row["claim"]: row for row in self.csv("claims.csv")}
+
+    def verdict(self, word):
+        return next(row["verdict"] for claim, row in self.claims().items() if word in claim)
+
+    def test_quick_form(self):
+        code, _, err = self.call("--quick")
+        self.assertEqual(code, 0, err)
+        page = (self.out / "report.html").read_text()
+        self.assertEqual(outside_references(page), [])
+        for name in ("claims", "table1_parameters", "table2_meshes", "table3_newton",
+                     "table4_block_preconditioners_step1_newton1",
+                     "table5_multilevel_step1_newton1", "agreement", "stopped_early", "wave_speed", "cost_statement",
+                     "cost_saving", "phases_coarse"):
+            self.assertTrue((self.out / f"{name}.csv").is_file(), name)
+        for name in ("pressure_neo-hookean", "pressure_mooney-rivlin", "pressure_artery", "pressure_materials",
+                     "stopped_early", "wave_speed",
+                     "phases_coarse"):
+            self.assertTrue((self.out / f"{name}.png").is_file() and (self.out / f"{name}.svg").is_file(), name)
+        self.assertIn("The runs hold no <code>energy.csv</code>", page)
+        self.assertEqual(self.verdict("conform very well"), "reproduced")
+        self.assertEqual(self.verdict("smaller magnitude than the monolithic one"), "not reproduced")
+        self.assertEqual(self.verdict("artery's wave is slower"), "not reproduced")
+        self.assertEqual(self.verdict("diagonal preconditioner"), "reproduced")
+        self.assertEqual(self.verdict("increase when the mesh is refined"), "no run for it")
+        self.assertIn("linear systems", page)
+        made = len(calls(self.programs))
+        with mock.patch("fsi_compare.pictures.Figure.savefig"):  # the second time about the runs alone
+            code, _, err = self.call("--quick", "-q")
+        self.assertEqual((code, len(calls(self.programs))), (0, made), err)
+
+    def test_a_missing_run_is_told_and_its_claims_are_left_open(self):
+        behave(self.programs, end={"fibre_scale": [2, "no convergence"], "scheme=aitken": [2, "no convergence either"]})
+        with mock.patch("fsi_compare.pictures.Figure.savefig"), mock.patch("fsi_compare.studies.report.Report.image"):
+            code, _, err = self.call("--quick", "-q")
+        self.assertEqual(code, 2, err)
+        page = (self.out / "report.html").read_text()
+        self.assertIn("not converged: no convergence either", page)
+        self.assertEqual(self.verdict("fixed-point iterations a step"), "no run for it")
+
+    def test_full_form(self):
+        with mock.patch("fsi_compare.pictures.Figure.savefig"), mock.patch("fsi_compare.studies.report.Report.image"):
+            code, _, err = self.call("-q")
+        self.assertEqual(code, 0, err)
+        verdicts = {row["verdict"] for row in self.claims().values()}
+        self.assertNotIn("no run for it", verdicts)
+        self.assertEqual(self.verdict("increase when the mesh is refined"), "reproduced")
+        self.assertEqual(self.verdict("Table 5"), "in part")  # one cell of Mooney-Rivlin's: 12 where the paper has 11
+        meshes = [row["mesh"] for row in self.csv("table2_meshes.csv")]
+        self.assertEqual(meshes[::3], ["coarse", "intermediate", "fine"])
+        self.assertIn("fibres times 0.5", {row["reading"] for row in self.csv("wave_speed.csv")})
+        self.assertIn("wall density 1.2 kg/m^3", {row["reading"] for row in self.csv("wave_speed.csv")})
+
+    def test_the_list_names_the_linear_systems_too(self):
+        code, out, _ = self.call("--list")
+        self.assertEqual(code, 0)
+        self.assertIn("linear systems: artery, fine: diagonal, lower,", out)
+
+
+if __name__ == "__main__":
+    unittest.main()

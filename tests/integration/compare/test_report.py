@@ -1,0 +1,121 @@
+"""The report: one file that needs nothing else, tables and pictures beside it; shown by a browser."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import synthetic  # noqa: F401: the package's folder onto the path
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from study_case import StudyCase
+
+from fsi_compare.layout import Table
+from fsi_compare.studies.report import Report
+
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+def line_figure():
+    figure = Figure(figsize=(3, 2))
+    FigureCanvasAgg(figure)
+    figure.subplots().plot([0, 1], [0, 1])
+    return figure
+
+
+def outside_references(page):
+    """Everything that a browser would load from elsewhere."""
+    loaded = re.findall(r"""(?:src|srcset|poster|data|action)\s*=\s*["'](?!data:)([^"']*)""", page)
+    loaded += re.findall(r"""<(?:link|script|iframe|object|embed)[^>]*(?:href|src)\s*=\s*["'](?!data:)([^"']*)""", page)
+    loaded += re.findall(r"""href\s*=\s*["'](?!#|data:)([^"']*)""", page)
+    return loaded + re.findall(r"https?://\S*|@import[^;]*|url\((?!['\"]?data:)[^)]*", page)
+
+
+class OneFile(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def report(self):
+        report = Report(self.folder, "A <title> & more")
+        report.section("Numbers with `code`")
+        report.text("Some **bold** text, 1 < 2 & so on.")
+        columns = [("", "name"), ("pressure", "Pa"), ("pressure", "kPa")]
+        report.table(Table("numbers", "Numbers", columns, ["name", "pressure_Pa"], rows=[["one <b>", "1.0", "1e-3"]],
+                           csv_rows=[["one <b>", 0.1 + 0.2]], notes=["a note"]))
+        report.figure("line", line_figure, "A line, in `mm`")
+        return report
+
+    def test_page(self):
+        report = self.report()
+        page = report.write().read_text()
+        self.assertEqual(outside_references(page), [])
+        self.assertIn("<title>A &lt;title&gt; &amp; more</title>", page)
+        self.assertIn("one &lt;b&gt;", page)
+        self.assertIn("<strong>bold</strong>", page)
+        self.assertIn('<th colspan="2">pressure</th>', page)
+        self.assertIn('src="data:image/png;base64,', page)
+        self.assertIn('alt="A line, in mm"', page)
+        self.assertIn('href="#s1"', page)
+        for tag in ("table", "figure", "h2", "ul", "p"):
+            self.assertEqual(page.count(f"<{tag}>") + page.count(f"<{tag} "), page.count(f"</{tag}>"), tag)
+
+    def test_files_beside_it(self):
+        report = self.report()
+        report.write()
+        self.assertEqual({path.name for path in report.written}, {"numbers.csv", "line.png", "line.svg", "report.html"})
+        self.assertEqual((self.folder / "numbers.csv").read_text(), "name,pressure_Pa\none <b>,0.30000000000000004\n")
+        self.assertTrue((self.folder / "line.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("<svg", (self.folder / "line.svg").read_text())
+
+    def test_references_are_found(self):
+        for page in ('<img src="a.png">', '<script src="https://cdn/x.js"></script>',
+                     '<link rel="stylesheet" href="x.css">',
+                     '<a href="http://somewhere/">', "<style>body { background: url(x.png) }</style>"):
+            self.assertNotEqual(outside_references(page), [], page)
+
+
+@unittest.skipUnless(BROWSER, "needs the Debian package chromium (scripts/packages-test.txt)")
+class InABrowser(StudyCase):
+    def show(self, page):
+        """(console lines, size of the picture of the page in bytes)."""
+        picture = self.base / "page.png"
+        picture.unlink(missing_ok=True)
+        home = self.base / "home"
+        home.mkdir(exist_ok=True)
+        ended = subprocess.run(
+            [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+             "--enable-logging=stderr",
+             "--v=0", f"--user-data-dir={home}", "--virtual-time-budget=5000", "--window-size=1200,1600",
+             f"--screenshot={picture}", page.as_uri()],
+            capture_output=True, text=True, errors="replace", timeout=100, env={**os.environ, "HOME": str(home)})
+        self.assertTrue(picture.is_file(), ended.stderr[-2000:])
+        return [line for line in ended.stderr.splitlines() if "CONSOLE" in line], picture
+
+    def test_opens_without_a_word_on_the_console(self):
+        code, _, err = self.call("-q")
+        self.assertEqual(code, 0, err)
+        lines, picture = self.show(self.out / "report.html")
+        self.assertEqual(lines, [])
+        import matplotlib.image
+
+        pixels = matplotlib.image.imread(picture)
+        self.assertEqual(pixels.shape[:2], (1600, 1200))
+        ink = (pixels[:, :, :3].min(axis=2) < 0.5).mean()
+        self.assertGreater(ink, 0.001, "the page is blank")
+
+    def test_a_console_error_would_be_seen(self):
+        for text in ("<script>throw new Error('broken')</script>", "<script>console.error('broken')</script>"):
+            page = self.base / "bad.html"
+            head = "<head><link rel='icon' href='data:,'></head>"
+            page.write_text(f"<!DOCTYPE html><html>{head}<body>{text}</body></html>")
+            lines, _ = self.show(page)
+            self.assertNotEqual(lines, [], text)
+
+
+if __name__ == "__main__":
+    unittest.main()

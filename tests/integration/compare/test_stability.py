@@ -1,0 +1,209 @@
+"""The kind `stability` of fsi-compare study: outcomes, the check against the other driver, messages, the limit load."""
+
+import csv
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from synthetic import parabola, write_run
+
+from fsi_compare.errors import InputError
+from fsi_compare.studies import stability
+from fsi_compare.studies.context import Context
+from fsi_compare.studies.limit_load import Tube
+from fsi_compare.studies.report import Report
+from fsi_compare.studies.stability_map import AGREES, DEVIATES, UNCHECKED, WRONG
+from fsi_compare.studies.stability_messages import distinct, without_folder
+from fsi_compare.studies.study_file import read_study
+from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from fsi_compare.studies.study_run import WRONG as NOT_FINITE
+
+STUDY = """
+title = "A map"
+kind = "stability"
+[cases]
+tube = "tube.toml"
+wall = "tube.toml"
+[methods.whole]
+program = "fsi-monolithic"
+[methods.other]
+program = "fsi-monolithic"
+[methods.parts]
+program = "fsi-partitioned"
+[methods.once]
+program = "fsi-partitioned"
+[runs.density]
+cases = ["tube"]
+vary = { "structure.density" = [1.2, 12.0] }
+[runs.static]
+cases = ["wall"]
+methods = ["whole"]
+vary = { "load.pressure" = [0.6] }
+[report]
+references = ["whole", "other"]
+one_pass = ["once"]
+static = "static"
+[report.tube]
+radii = [1.43, 1.69, 1.82]
+shear_moduli = [3.0, 0.3]
+[report.quantities]
+"structure.density" = { label = "Density ratio", paper = 1.2 }
+"""
+TIMES = 0.125 * np.arange(1, 5)
+ENDS = {NOT_CONVERGED: "step 4 (to t = 0.5 ms): no step lowers the residual [the state after step 3 is saved; see a/b]",
+        REFUSED: "no such key", OUT_OF_TIME: "stopped after 60 s", CRASHED: "ended by signal SIGSEGV",
+        NOT_FINITE: "flow.csv"}
+
+
+class StabilityCase(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.base = Path(temporary.name)
+        (self.base / "tube.toml").write_text("")
+        self.file = self.base / "study.toml"
+
+    def study(self, text=STUDY, quick=False):
+        self.file.write_text(text)
+        study = read_study(self.file, ["stability"], quick)
+        stability.check(study)
+        return study
+
+    def evaluate(self, outcomes):
+        """`outcomes`: (status, factor on the wave, time levels) by method and density; the rest agrees. Exit code, rows
+        of runs.csv by (value, method)."""
+        study = self.study()
+        runs = []
+        for i, request in enumerate(study.requests):
+            value = next(iter(request.values.values()))
+            status, factor, levels = outcomes.get((request.method.name, value), (DONE, 1.0, len(TIMES)))
+            folder = self.base / "runs" / str(i)
+            if request.case == "wall":
+                folder.mkdir(parents=True)
+                (folder / "wall_displacement.csv").write_text("time_ms,z_mm,radial_mm,axial_mm\n" + "".join(
+                    f"{t},{z},{0.5 * t},0\n" for t in (0.25, 0.5) for z in (0.0, 9.0, 18.0)))
+                status = NOT_CONVERGED
+            elif levels:
+                wave = parabola(0.66)
+                write_run(folder, lambda t, z: factor * wave(t, z), TIMES[:levels],
+                          totals={"steps": levels, "outer_iterations": 9 * levels, "newton_iterations": 3 * levels})
+            runs.append(StudyRun(request, folder, status, ENDS.get(status, ""), 1.0, "command"))
+        out = self.base / "out"
+        out.mkdir(exist_ok=True)
+        report = Report(out, study.title)
+        code = stability.evaluate(Context(study, runs, None, report))
+        self.page = report.write().read_text()
+        with open(out / "runs.csv", newline="") as file:
+            return code, {(float(row["value"]), row["method"]): row for row in csv.DictReader(file)}
+
+
+class Outcomes(StabilityCase):
+    def test_all_agree(self):
+        code, rows = self.evaluate({("parts", 12.0): (DONE, 1 + 5e-4, 4)})
+        self.assertEqual(code, 0)
+        self.assertEqual({row["outcome"] for row in rows.values() if row["case"] == "tube"}, {AGREES})
+        self.assertAlmostEqual(float(rows[12.0, "parts"]["largest_difference"]), 5e-4, 12)
+        self.assertEqual(rows[12.0, "parts"]["compared_with"], "whole")
+        self.assertNotEqual(rows[12.0, "whole"]["compared_with"], "other")  # by the other driver
+        self.assertEqual((float(rows[1.2, "whole"]["iterations_per_step"]),
+                          float(rows[1.2, "parts"]["iterations_per_step"])),
+                         (3, 9))
+        self.assertIn("No crash", self.page)
+
+    def test_silent_wrong_answer(self):
+        code, rows = self.evaluate({("parts", 12.0): (DONE, 1.01, 4)})
+        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]), (2, WRONG, AGREES))
+        self.assertIn("runs are at fault", self.page)
+
+    def test_levels_before_a_failure_count_too(self):
+        code, rows = self.evaluate({("parts", 12.0): (NOT_CONVERGED, 1.01, 3), ("parts", 1.2): (NOT_CONVERGED, 1.0, 3)})
+        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]),
+                         (2, WRONG, NOT_CONVERGED))
+
+    def test_drivers_disagree_throughout(self):
+        _, rows = self.evaluate({(name, 12.0): (DONE, 2.0, 4) for name in ("parts", "once")})
+        self.assertEqual((rows[12.0, "whole"]["outcome"], rows[12.0, "other"]["outcome"]), (WRONG, AGREES))
+
+    def test_one_pass_claims_no_agreement(self):
+        code, rows = self.evaluate({("once", 12.0): (DONE, 1.3, 4)})
+        self.assertEqual((code, rows[12.0, "once"]["outcome"]), (0, DEVIATES))
+
+    def test_one_pass_must_not_say_done_when_nothing_is_right(self):
+        code, rows = self.evaluate({("once", 12.0): (DONE, 50.0, 4), ("once", 1.2): (NOT_CONVERGED, 50.0, 3)})
+        self.assertEqual((code, rows[12.0, "once"]["outcome"], rows[1.2, "once"]["outcome"]), (2, WRONG, NOT_CONVERGED))
+
+    def test_nothing_to_check_with(self):
+        ended = {(name, 12.0): (NOT_CONVERGED, 1.0, 0) for name in ("whole", "other")}
+        code, rows = self.evaluate({**ended, ("parts", 1.2): (OUT_OF_TIME, 1.0, 2)})
+        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]),
+                         (0, UNCHECKED, OUT_OF_TIME))
+
+    def test_reference_falls_back(self):
+        _, rows = self.evaluate({("whole", 12.0): (REFUSED, 1.0, 0)})
+        self.assertEqual((rows[12.0, "whole"]["outcome"], rows[12.0, "parts"]["compared_with"]), (REFUSED, "other"))
+
+    def test_crash_and_not_finite_are_faults(self):
+        code, rows = self.evaluate({("parts", 12.0): (CRASHED, 1.0, 0), ("other", 1.2): (NOT_FINITE, 1.0, 0)})
+        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "other"]["outcome"]),
+                         (2, CRASHED, NOT_FINITE))
+
+    def test_pictures_and_limit_load(self):
+        self.evaluate({})
+        for name in ("map_structure_density", "map_load_pressure", "limit_load"):
+            for suffix in ("png", "svg"):
+                self.assertGreater((self.base / "out" / f"{name}.{suffix}").stat().st_size, 1000)
+        with open(self.base / "out" / "limit_load.csv", newline="") as file:
+            row, = csv.DictReader(file)
+        self.assertAlmostEqual(float(row["largest_widening"]), 1 + 0.25 / 1.43, 12)
+        self.assertAlmostEqual(float(row["closed_form_widening"]), Tube([1.43, 1.69, 1.82], [3.0, 0.3]).widening(0.3),
+                               9)
+
+
+class Messages(StabilityCase):
+    def test_numbers_and_folders_do_not_tell_messages_apart(self):
+        self.assertNotIn("a/b", without_folder(ENDS[NOT_CONVERGED]))
+
+        class Cell:
+            def __init__(self, message, method):
+                self.method = method
+                self.run = type("Run", (), {"done": False, "message": message})
+
+        said = "step {} (to t = {} ms): the wall ended [the state after step {} is saved; x]"
+        first, second = distinct([Cell(said.format(n, t, n), m)
+                                  for n, t, m in ((2, 0.25, "a"), (3, 0.375, "b"))] + [Cell("other, iqn-2", "a")])
+        self.assertEqual((len(first.cells), first.methods, len(second.cells)), (2, ["a", "b"], 1))
+        self.assertEqual(first.text, "step N (to t = N ms): the wall ended")
+        self.assertEqual(first.example, "step 2 (to t = 0.25 ms): the wall ended")
+
+
+class LimitLoad(unittest.TestCase):
+    def test_table_of_closed_form_pressures(self):
+        tube = Tube([1.43, 1.69, 1.82], [3.0, 0.3])
+        self.assertAlmostEqual(tube.limit, 0.5234, 4)
+        for widening, pressure in ((1.01, 0.0173), (1.1, 0.1452), (1.4, 0.3623)):
+            self.assertAlmostEqual(tube.pressure(widening), pressure, delta=6e-5)
+            self.assertAlmostEqual(tube.widening(tube.pressure(widening)), widening, 9)
+        self.assertIsNone(tube.widening(0.53))
+
+
+class Refusals(StabilityCase):
+    def assert_refused(self, expected, old, new):
+        with self.assertRaises(InputError) as caught:
+            self.study(STUDY.replace(old, new))
+        self.assertIn(expected, str(caught.exception))
+
+    def test_settings(self):
+        self.assert_refused("report.references: 'hole' is no method", 'references = ["whole", "other"]',
+                            'references = ["hole"]')
+        self.assert_refused("not methods of one driver", 'references = ["whole", "other"]',
+                            'references = ["whole", "parts"]')
+        self.assert_refused("report.bounds: is unknown; did you mean 'bound'", "[report]", "[report]\nbounds = 1")
+        self.assert_refused("report.bound: 0 is not a positive", "[report]", "[report]\nbound = 0")
+        self.assert_refused("varies 2 quantities", "[1.2, 12.0] }", '[1.2], "time.step" = [1.0] }')
+        self.assert_refused("is varied nowhere", '"structure.density" = { label', '"structure.dense" = { label')
+        self.assert_refused("report.tube.radii: are not one more", "[1.43, 1.69, 1.82]", "[1.43, 1.69]")
+
+
+if __name__ == "__main__":
+    unittest.main()

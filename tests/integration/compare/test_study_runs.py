@@ -1,0 +1,232 @@
+"""`fsi-compare study` with drivers whose behaviour is known: what is run, what is not run again, what is recorded."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from fake_drivers import behave, calls
+from study_case import STUDY, StudyCase
+
+from fsi_compare.processes import End, Job, execute, run_jobs
+from fsi_compare.studies.runner import first_not_finite, judge
+from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
+
+
+class Restart(StudyCase):
+    def test_finished_runs_are_taken_up(self):
+        code, out, err = self.call()
+        self.assertEqual(code, 0, err)
+        self.assertIn("report.html", out)
+        self.assertEqual(len(calls(self.programs)), 2)
+        self.assertEqual({status for status, _ in self.outcomes().values()}, {DONE})
+        code, _, err = self.call()
+        self.assertEqual((code, len(calls(self.programs)), err), (0, 2, ""))
+
+    def test_what_a_run_is_told(self):
+        self.call("--threads", "3")
+        mono, part = calls(self.programs)
+        self.assertIn(f"{self.case_file.resolve()} -o {self.out}/runs/tube-mono-", mono)
+        self.assertIn("--threads 3", mono)
+        self.assertIn("--set partitioned.scheme=iqn-ils", part)
+
+    def test_a_change_makes_a_run_anew(self):
+        self.call()
+        for change, again in (
+                (lambda: self.case_file.write_text('title = "Another"\n'), 2),
+                (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken")), 1),
+                (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken") + 'vary = { mesh = ["fine"] }\n'), 2),
+                (lambda: behave(self.programs, version="0.2.0"), 2)):
+            change()
+            before = len(calls(self.programs))
+            self.call()
+            self.assertEqual(len(calls(self.programs)) - before, again)
+
+    def test_a_changed_mesh_makes_a_run_anew(self):
+        mesh = self.base / "tube.msh"
+        mesh.write_text("a mesh")
+        self.case_file.write_text('[mesh]\nfile = "tube.msh"\n')
+        self.call()
+        self.call()
+        self.assertEqual(len(calls(self.programs)), 2)
+        mesh.write_text("a finer mesh")
+        self.call()
+        self.assertEqual(len(calls(self.programs)), 4)
+
+    def test_a_broken_result_is_made_anew(self):
+        self.call()
+        next(self.out.glob("runs/tube-mono-*/summary.json")).write_text("{")
+        self.call()
+        self.assertEqual(len(calls(self.programs)), 3)
+
+    def test_fresh(self):
+        self.call()
+        self.call("--fresh")
+        self.assertEqual(len(calls(self.programs)), 4)
+
+    def test_quick_form_and_list(self):
+        code, out, _ = self.call("--list")
+        self.assertEqual((code, out.split("\n")[:2], calls(self.programs)), (0, ["all: tube, mono", "all: tube, part"],
+                                                                             []))
+        self.call("--quick")
+        self.assertEqual(len(calls(self.programs)), 1)
+
+    def test_a_killed_study_goes_on_where_it_stopped(self):
+        self.call("--quick")  # the first run is there
+        behave(self.programs, sleep=60)
+        for end in (signal.SIGTERM, signal.SIGKILL):
+            (self.programs / "pid").unlink(missing_ok=True)
+            process = subprocess.Popen([sys.executable, "-E", "-c", "import sys; sys.path.insert(0, sys.argv[1]); "
+                                        "from fsi_compare.cli import main; sys.exit(main(sys.argv[2:]))",
+                                        str(Path(__file__).resolve().parents[3] / "compare"), *self.words()],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            driver = self.wait_for_pid()
+            process.send_signal(end)
+            process.wait(timeout=30)
+            if end == signal.SIGTERM:
+                self.assertTrue(self.ends(driver), "the driver outlives the study")
+            else:
+                os.kill(driver, signal.SIGKILL)  # nothing can be done about a killed parent
+        self.assertEqual(list(self.out.glob("runs/tube-part-*/study_run.json")), [])
+        behave(self.programs)
+        before = len(calls(self.programs))
+        code, _, err = self.call()
+        self.assertEqual((code, len(calls(self.programs)) - before), (0, 1), err)
+        self.assertEqual(self.outcomes()["part"][0], DONE)
+
+    def wait_for_pid(self):
+        for _ in range(600):
+            text = (self.programs / "pid").read_text() if (self.programs / "pid").exists() else ""
+            if text.endswith("\n"):
+                return int(text.split()[-1])
+            time.sleep(0.05)
+        self.fail("no run has begun")
+
+    @staticmethod
+    def ends(pid):
+        for _ in range(200):
+            try:
+                os.kill(pid, 0)
+            except ProcessLookupError:
+                return True
+            time.sleep(0.05)
+        return False
+
+
+class Failures(StudyCase):
+    def test_a_failed_run_is_recorded_and_not_silently_tried_again(self):
+        behave(self.programs, end={"fsi-partitioned": [2, "step 3 did not converge"]})
+        code, _, err = self.call()
+        self.assertEqual(code, 0)  # this kind of study needs no run in particular
+        self.assertIn("not converged: step 3 did not converge", err)
+        self.assertEqual(self.outcomes()["part"], (NOT_CONVERGED, "step 3 did not converge"))
+        _, _, err = self.call()
+        self.assertEqual(len(calls(self.programs)), 2)
+        self.assertIn("2 runs are there already (1 of them failed; --fresh makes all anew)", err)
+        self.assertEqual(self.outcomes()["part"], (NOT_CONVERGED, "step 3 did not converge"))
+        report = (self.out / "report.html").read_text()
+        self.assertIn("step 3 did not converge", report)
+
+    def test_each_bad_end(self):
+        for key, what, expected in (
+                ("end", [1, "time.step: 0 is not positive"], (REFUSED, "time.step: 0 is not positive")),
+                ("signal", 11, (CRASHED, "ended by signal SIGSEGV")),
+                ("end", [134, "abort"], (CRASHED, "abort")),
+                ("nan", "iterations.csv", (WRONG, "iterations.csv holds a value that is not a finite number"))):
+            behave(self.programs, **{key: {"fsi-partitioned": what}})
+            self.call("--fresh", "-q")
+            self.assertEqual(self.outcomes()["part"], expected)
+            self.assertEqual(self.outcomes()["mono"][0], DONE)
+
+    def test_nothing_but_refusals_is_the_users_mistake(self):
+        behave(self.programs, end={"fsi-": [1, "mesh.level: 'corse' is unknown"]})
+        code, out, err = self.call("-q")
+        self.assertEqual((code, out, err.count("\n")), (1, "", 1))
+        self.assertIn("mesh.level: 'corse' is unknown", err)
+        self.assertFalse((self.out / "report.html").exists())
+
+    def test_out_of_time(self):
+        self.study.write_text(STUDY.replace("time_limit = 60", "time_limit = 1"))
+        behave(self.programs, sleep=30)
+        start = time.monotonic()
+        self.call("-q", "--quick")
+        self.assertLess(time.monotonic() - start, 15)
+        self.assertEqual(self.outcomes()["mono"], (OUT_OF_TIME, "stopped after 1 s"))
+        self.call("-q", "--quick")
+        self.assertEqual(len(calls(self.programs)), 1)  # the same time would be lost again
+        self.study.write_text(STUDY)
+        behave(self.programs)
+        self.call("-q", "--quick")
+        self.assertEqual((len(calls(self.programs)), self.outcomes()["mono"][0]), (2, DONE))
+
+    def test_wrong_use(self):
+        for words, expected in ((("--jobs", "0"), "--jobs: 0 is not positive"), (("--nonsense",),
+                                                                                 "unrecognized arguments")):
+            code, _, err = self.call(*words)
+            self.assertEqual((code, err.count("\n")), (1, 1))
+            self.assertIn(expected, err)
+
+
+class Judging(StudyCase):
+    def test_codes(self):
+        for code, expected in ((1, REFUSED), (2, NOT_CONVERGED), (3, CRASHED), (-9, CRASHED)):
+            self.assertEqual(judge(self.base, End(code, "why", 1.0))[0], expected)
+        self.assertEqual(judge(self.base, End(-15, "stopped", 1.0, out_of_time=True)), (OUT_OF_TIME, "stopped"))
+
+    def test_done_without_results_is_no_success(self):
+        status, message = judge(self.base, End(0, "", 1.0))
+        self.assertEqual(status, CRASHED)
+        self.assertIn("summary.json: is missing", message)
+
+    def test_not_finite(self):
+        for text, bad in (("a,b\n1,nan\n", True), ("a,b\n-inf,2\n", True), ("a,b\n1,Infinity\n", True), ("a,b\n1,2\n",
+                                                                                                         False),
+                          ("nano,inf_norm\n1,2\n", False)):
+            (self.base / "x.csv").write_text(text)
+            self.assertEqual(first_not_finite(self.base) != "", bad, text)
+        for summary, bad in (('{"failure": "the residual is nan, the step is inf"}', False),
+                             ('{"totals": {"wall_s": NaN}}', True),
+                             ('{"phases": [{"seconds": Infinity}]}', True)):
+            (self.base / "summary.json").write_text(summary)
+            self.assertEqual(first_not_finite(self.base) != "", bad, summary)
+
+
+class Jobs(StudyCase):
+    def test_parallel(self):
+        behave(self.programs, sleep=2)
+        code, _, err = self.call("--jobs", "2")
+        self.assertEqual(code, 0, err)
+        lines = (self.programs / "times.txt").read_text().splitlines()
+        first, second = ([float(word) for word in line.split()] for line in lines)
+        self.assertLess(max(first[0], second[0]), min(first[1], second[1]), "one after the other")
+
+    def test_no_more_at_once_than_asked(self):
+        most, running, ends = [0], set(), []
+        jobs = [Job(i, [sys.executable, "-c", "import time; time.sleep(0.3)"]) for i in range(5)]
+
+        def started():
+            for job in jobs:
+                running.add(job.key)
+                most[0] = max(most[0], len(running))
+                yield job
+
+        def ended(key, end):
+            running.discard(key)
+            ends.append((key, end.code))
+
+        run_jobs(started(), 2, ended)
+        self.assertEqual(sorted(ends), [(i, 0) for i in range(5)])
+        self.assertLessEqual(most[0], 3)  # the next one waits in hand
+
+    def test_a_program_that_is_not_there(self):
+        end = execute([self.base / "nothing"])
+        self.assertEqual(end.code, 1)
+        self.assertTrue(re.search("nothing cannot be started", end.message))
+
+
+if __name__ == "__main__":
+    unittest.main()
