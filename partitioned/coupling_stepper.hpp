@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "partitioned/dirichlet_neumann.hpp"
+#include "partitioned/divergence.hpp"
 #include "partitioned/robin_neumann.hpp"
 #include "partitioned/schemes.hpp"
 #include "scene/case.hpp"
@@ -26,8 +28,14 @@ class CouplingStepper : public Stepper {
       : scene_(scene),
         loads_(loads),
         options_(setup.partitioned),
+        predictor_(setup.time ? setup.time->predictor : std::nullopt),
         scheme_(coupling_scheme(options_.scheme)),
         accelerator_(scheme_.make_accelerator(options_)) {
+    if (scheme_.one_pass && first_order() == 0)
+      throw InputError(
+          "", "time.predictor",
+          fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
+          "use 1 or 2");
     if (scheme_.robin)
       problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_, *setup.structure);
     else
@@ -41,9 +49,10 @@ class CouplingStepper : public Stepper {
     report_ = {};
     coupling_ = {};
     problem_->cost = {};
-    order_ = scene_.scheme.predictor;
+    order_ = first_order();
     start(state, data);
     accelerator_->start();
+    monitor_.start();
     std::vector<double> x = problem_->first_guess(order_), good_x;
     Solution good;  // fields of the last pass that succeeded
     PassAccuracy accuracy{first_tolerance(), starts_far_};
@@ -67,10 +76,12 @@ class CouplingStepper : public Stepper {
       log_pass();
       if (first) starts_far_ = coupling_.displacement_residual > far;
       first = false;
+      if (scheme_.one_pass) check_march(state, data);
       if (agrees() || scheme_.one_pass) {
         accept(state, data, x, pass);
         return report_;
       }
+      if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
       good_x = x;
       good = state.now;
       accuracy.tolerance =
@@ -80,19 +91,17 @@ class CouplingStepper : public Stepper {
       if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
     }
     --report_.outer_iterations;
-    throw ConvergenceError(
-        fmt::format("step {} (to t = {:g} ms): the {} coupling did not converge in {} iterations, |d~ - d| / |d~| = "
-                    "{:.2e}, wanted {:g}; force {:.2e}{}",
-                    state.step + 1, data.time, scheme_.name, options_.max_iterations, coupling_.displacement_residual,
-                    options_.tolerance, coupling_.force_residual,
-                    options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
-        scheme_.advice);
+    give_up(state, data, "did not converge");
   }
 
   Memory memory() const override {
     Memory memory = problem_->memory();
     accelerator_->remember(memory);
     memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
+    if (scheme_.one_pass) {
+      memory.numbers["alternating_steps"] = march_.steps();
+      memory.numbers["last_gap"] = march_.last_gap();
+    }
     return memory;
   }
   void recall(const Memory& memory) override {
@@ -100,6 +109,9 @@ class CouplingStepper : public Stepper {
     accelerator_->recall(memory);
     const auto far_start = memory.numbers.find("starts_far");
     if (far_start != memory.numbers.end()) starts_far_ = far_start->second != 0;
+    const auto steps = memory.numbers.find("alternating_steps"), gap = memory.numbers.find("last_gap");
+    if (steps != memory.numbers.end() && gap != memory.numbers.end())
+      march_.set(static_cast<int>(steps->second), gap->second);
   }
 
  private:
@@ -109,6 +121,10 @@ class CouplingStepper : public Stepper {
   /// error of d, that its nonlinearity would only mislead the accelerator.
   static constexpr double far = 0.8;
   static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
+
+  /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
+  /// makes it unstable at three times the wall's mass (docs/coupling.md).
+  int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
 
   /// The tighter of the demands on the interface.
   double demand() const {
@@ -149,6 +165,26 @@ class CouplingStepper : public Stepper {
                                           cost.fluid_newton, cost.wall_newton));
   }
 
+  [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const {
+    throw ConvergenceError(
+        fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
+                    "{:.2e}, wanted {:g}; force {:.2e}{}",
+                    state.step + 1, data.time, scheme_.name, what, report_.outer_iterations,
+                    coupling_.displacement_residual, options_.tolerance, coupling_.force_residual,
+                    options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
+        scheme_.advice);
+  }
+
+  /// One pass a step: a march that has become unstable ends here, long before an element is inverted.
+  void check_march(const State& state, const StepData& data) {
+    if (!march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual)) return;
+    throw ConvergenceError(
+        fmt::format("step {} (to t = {:g} ms): the {} coupling is unstable: {} steps running the wall has missed the "
+                    "extrapolated displacement by more than its own, and further each time (now {:.2e} times)",
+                    state.step + 1, data.time, scheme_.name, march_.steps(), coupling_.displacement_residual),
+        scheme_.advice);
+  }
+
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
   /// the last time level. \throws ConvergenceError when that has been tried often enough
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
@@ -160,7 +196,8 @@ class CouplingStepper : public Stepper {
     if (scheme_.one_pass || coupling_.failed_passes > most_retreats || (good_x.empty() && !extrapolated)) {
       for (const auto& line : failure.history()) report_.history.push_back(line);
       throw ConvergenceError(
-          fmt::format("step {} (to t = {:g} ms): {}", state.step + 1, data.time, failure.what()),
+          fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
+                      data.time, scheme_.name, report_.outer_iterations, failure.what()),
           scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
     }
     if (extrapolated) {  // the extrapolated start can be the culprit, after a jump of the load for example
@@ -200,12 +237,15 @@ class CouplingStepper : public Stepper {
   Scene<Element>& scene_;
   const Loads& loads_;
   PartitionedData options_;
+  std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for
   const CouplingScheme& scheme_;
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<Element>> problem_;
   CouplingReport coupling_;
-  int order_ = 0;           ///< of the extrapolated start
-  bool starts_far_ = true;  ///< the last step's first guess was far from its end
+  DivergenceMonitor monitor_;  ///< of the step's passes
+  AlternationMonitor march_;   ///< of the steps, with one pass each
+  int order_ = 0;              ///< of the extrapolated start
+  bool starts_far_ = true;     ///< the last step's first guess was far from its end
 };
 
 }  // namespace fsi

@@ -3,25 +3,22 @@
 #include <utility>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/filtered_qr.hpp"
 
 namespace fsi {
 
 void IqnIls::start() {
   last_x_.clear();
   status_ = {};
-  for (Column& column : columns_) ++column.age;
-  while (!columns_.empty() && columns_.back().age > options_.reused_steps) columns_.pop_back();
+  columns_.start();
 }
 
 void IqnIls::add_difference(const std::vector<double>& x, const std::vector<double>& r) {
   if (!last_x_.empty()) {
-    Column column{r, x, 0};
-    axpy(-1, last_r_, column.v);
-    axpy(-1, last_x_, column.w);
-    axpy(1, column.v, column.w);
-    columns_.insert(columns_.begin(), std::move(column));
-    if (columns_.size() > static_cast<std::size_t>(options_.columns)) columns_.pop_back();
+    std::vector<double> v = r, w = x;
+    axpy(-1, last_r_, v);
+    axpy(-1, last_x_, w);
+    axpy(1, v, w);
+    columns_.add(std::move(v), std::move(w));
   }
   last_x_ = x;
   last_r_ = r;
@@ -29,12 +26,7 @@ void IqnIls::add_difference(const std::vector<double>& x, const std::vector<doub
 
 void IqnIls::correct(std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
-  std::vector<const std::vector<double>*> v;
-  for (const Column& column : columns_) v.push_back(&column.v);
-  const FilteredQr qr(v, options_.filter);
-  std::vector<Column> kept;
-  for (const std::size_t j : qr.kept()) kept.push_back(std::move(columns_[j]));
-  columns_ = std::move(kept);
+  const FilteredQr qr = columns_.factorise();
   if (columns_.empty()) {
     axpy(options_.relaxation, r, x);
     status_ = {options_.relaxation, 0};
@@ -54,27 +46,11 @@ void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) 
 }
 
 void IqnIls::remember(Memory& memory) const {
-  std::vector<double>&v = memory.arrays["iqn_ils.v"], &w = memory.arrays["iqn_ils.w"],
-  &age = memory.arrays["iqn_ils.age"];
-  for (const Column& column : columns_) {
-    v.insert(v.end(), column.v.begin(), column.v.end());
-    w.insert(w.end(), column.w.begin(), column.w.end());
-    age.push_back(column.age);
-  }
+  columns_.remember(memory, "iqn_ils");
 }
 
 void IqnIls::recall(const Memory& memory) {
-  const auto v = memory.arrays.find("iqn_ils.v"), w = memory.arrays.find("iqn_ils.w"),
-             age = memory.arrays.find("iqn_ils.age");
-  columns_.clear();
-  if (age == memory.arrays.end() || age->second.empty()) return;
-  const auto size = static_cast<std::ptrdiff_t>(v->second.size() / age->second.size());
-  for (std::size_t j = 0; j < age->second.size(); ++j) {
-    const auto from = static_cast<std::ptrdiff_t>(j) * size;
-    columns_.push_back({{v->second.begin() + from, v->second.begin() + from + size},
-                        {w->second.begin() + from, w->second.begin() + from + size},
-                        static_cast<int>(age->second[j])});
-  }
+  columns_.recall(memory, "iqn_ils");
 }
 
 }  // namespace fsi

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "partitioned/accelerator.hpp"
+#include "partitioned/difference_columns.hpp"
 
 namespace fsi {
 
@@ -24,7 +25,8 @@ struct QuasiNewtonOptions {
 /// as in Anderson mixing: good where unexplained parts are overshot too, though less than the others.
 class IqnIls : public Accelerator {
  public:
-  explicit IqnIls(const QuasiNewtonOptions& options) : options_(options) {}
+  explicit IqnIls(const QuasiNewtonOptions& options)
+      : options_(options), columns_(options.columns, options.reused_steps, options.filter) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
@@ -33,14 +35,10 @@ class IqnIls : public Accelerator {
   void recall(const Memory& memory) override;
 
  private:
-  struct Column {
-    std::vector<double> v, w;  ///< differences of r and of x~ = x + r
-    int age;                   ///< in time steps
-  };
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);
 
   QuasiNewtonOptions options_;
-  std::vector<Column> columns_;  ///< newest first
+  DifferenceColumns columns_;  ///< of r and of x~ = x + r
   std::vector<double> last_x_, last_r_;
   AcceleratorStatus status_;
 };

@@ -10,9 +10,9 @@ namespace fsi {
 
 namespace {
 constexpr double largest_forcing = 0.1, smallest_forcing = 1e-4;
-constexpr int most_halvings = 3;       // of a Newton step that raises the residual
-constexpr double probe_length = 0.05;  // h over the residual: passes stay near the base point
-constexpr double breakdown = 1e-12;    // of a new direction, relative to the product it comes from
+constexpr int most_halvings = 3;      // of a Newton step that raises the residual
+constexpr double probe_length = 0.1;  // |h p| over the residual at most: passes stay near the base point
+constexpr double breakdown = 1e-12;   // of a new direction, relative to the product it comes from
 }  // namespace
 
 void NewtonKrylov::start() {
@@ -21,6 +21,7 @@ void NewtonKrylov::start() {
   halvings_ = 0;
   last_beta_ = 0;
   h_.clear();
+  columns_.start();
 }
 
 void NewtonKrylov::correct(std::vector<double>& x, const std::vector<double>& r) {
@@ -35,12 +36,13 @@ void NewtonKrylov::correct(std::vector<double>& x, const std::vector<double>& r)
     if (beta_ > 0) probe(x);
     return;
   }
-  // The pass was a product, unless it was cut short: the difference holds for whatever multiple of q it probed.
+  // The pass was a product, unless it was cut short: the difference holds for whatever multiple of p it probed.
   std::vector<double> moved = x, product = r;
   axpy(-1, base_x_, moved);
-  const double h = dot(moved, q_.back());
+  const double h = dot(moved, p_.back()) / dot(p_.back(), p_.back());
   axpy(-1, base_r_, product);
   if (h != 0) scale(1 / h, product);
+  products_.push_back(product);
   const double length = norm(product);
   std::vector<double> column;
   for (const auto& q : q_) {
@@ -59,8 +61,19 @@ void NewtonKrylov::correct(std::vector<double>& x, const std::vector<double>& r)
     return;
   }
   x = base_x_;
-  for (std::size_t j = 0; j < y.size(); ++j) axpy(y[j], q_[j], x);
+  for (std::size_t j = 0; j < y.size(); ++j) axpy(y[j], p_[j], x);
   at_base_ = true;
+  keep_products();
+}
+
+void NewtonKrylov::accept(const std::vector<double>&, const std::vector<double>&) {
+  keep_products();
+}
+
+void NewtonKrylov::keep_products() {
+  for (std::size_t j = 0; j < products_.size(); ++j) columns_.add(std::move(products_[j]), std::move(p_[j]));
+  products_.clear();
+  p_.clear();
 }
 
 void NewtonKrylov::begin(const std::vector<double>& x, const std::vector<double>& r) {
@@ -76,14 +89,36 @@ void NewtonKrylov::begin(const std::vector<double>& x, const std::vector<double>
   h_.clear();
   q_.clear();
   if (beta_ == 0) return;
+  qr_ = columns_.factorise();
   q_.push_back(r);
   scale(1 / beta_, q_.back());
   at_base_ = false;
 }
 
-void NewtonKrylov::probe(std::vector<double>& x) const {
+std::vector<double> NewtonKrylov::precondition(const std::vector<double>& q) const {
+  std::vector<double> p = q;
+  scale(-mixing_, p);
+  const std::vector<double> c = qr_.least_squares(q);
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    axpy(c[j], columns_[j].w, p);
+    axpy(mixing_ * c[j], columns_[j].v, p);
+  }
+  return p;
+}
+
+void NewtonKrylov::probe(std::vector<double>& x) {
+  p_.push_back(precondition(q_.back()));
+  const double length = norm(p_.back());
   x = base_x_;
-  axpy(probe_length * beta_, q_.back(), x);
+  axpy(-beta_ * std::min(1.0, probe_length / length), p_.back(), x);
+}
+
+void NewtonKrylov::remember(Memory& memory) const {
+  columns_.remember(memory, "newton_krylov");
+}
+
+void NewtonKrylov::recall(const Memory& memory) {
+  columns_.recall(memory, "newton_krylov");
 }
 
 /// y = argmin |beta e_1 + H y|; returns the minimum. By Givens rotations, anew for each column: H is tiny.

@@ -70,7 +70,6 @@ class RobinFluid : public NewtonProblem {
     }
     point_.now = state_->now;
     point_.old = state_->before[0];
-    point_.wall_pressure = data_->inlet_pressure;
   }
   bool linearised() const override { return solver_->ready(); }
   const LinearisationPoint& linearisation_point() const { return point_; }

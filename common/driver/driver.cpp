@@ -4,11 +4,13 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
+#include "driver/failure_hint.hpp"
 #include "driver/field_output.hpp"
 #include "driver/load_mesh.hpp"
 #include "driver/observables.hpp"
@@ -21,6 +23,7 @@
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
 #include "scene/build_scene.hpp"
+#include "scene/energy_balance.hpp"
 #include "scene/numbering.hpp"
 
 namespace fsi {
@@ -76,6 +79,10 @@ class Run {
     if (restarted) recall();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
+    if (setup_.output.energy) {
+      const auto phase = scene_->profile.phase("energy balance");
+      tables.energy = energy_.emplace(*scene_, loads_, state_).parts();
+    }
     ResultFolder folder =
         restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
@@ -91,16 +98,18 @@ class Run {
       while (state_.step < loads_.steps()) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
       for (const auto& entry : stepper_->report().history) log.info("  " + entry);
-      log.error(failure.what());
+      const std::string hint = failure_hint(setup_, mesh_, *scene_, loads_, state_);
+      const std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
+      log.error(said);
       if (state_.step > 0) save();
-      summary_["failure"] = failure.what();
+      summary_["failure"] = said;
       write("not converged");
       throw ConvergenceError(
           state_.step > 0
               ? fmt::format(
-                    "{} [the state after step {} is saved; continue with other solver settings by --restart {}]",
-                    failure.what(), state_.step, line_.output.string())
-              : failure.what(),
+                    "{} [the state after step {} is saved; continue with other solver settings by --restart {}]", said,
+                    state_.step, line_.output.string())
+              : said,
           "");
     }
     write("done");
@@ -122,6 +131,10 @@ class Run {
     total_.outer_iterations += record.outer_iterations;
     total_.newton_iterations += record.newton_iterations;
     total_.linear_iterations += record.linear_iterations;
+    if (energy_) {
+      const auto phase = scene_->profile.phase("energy balance");
+      folder.write_energy(record, energy_->step_to(state_));
+    }
     {
       const auto phase = scene_->profile.phase("output");
       observables_.write(state_, folder);
@@ -184,6 +197,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   State state_;
   Observables observables_;
+  std::optional<EnergyBalance<P1Tetrahedron>> energy_;
   StepRecord total_;
   nlohmann::json summary_;
 };

@@ -29,6 +29,11 @@ class ElementPacks {
     Lanes node[nodes];              ///< node numbers; empty lanes repeat the last element
     Lanes position[nodes * nodes];  ///< block (a, b) in the graph; -1: not this thread's row, or an empty lane
     Lanes cell;                     ///< element numbers, as in the submesh
+    int number;                     ///< among all packs, whatever the number of threads
+    int filled;                     ///< lanes that are not empty
+
+    /// Whether of the threads that hold this pack it is the one to count it: true for one of them.
+    bool counted_here() const { return position[0][0] >= 0; }
   };
 
   /// \param node_positions  reference coordinates, mm
@@ -52,6 +57,7 @@ class ElementPacks {
         if (std::none_of(from, to, touches)) continue;
         packs_of_thread_[t].emplace_back();
         fill(packs_of_thread_[t].back(), std::vector<int>(from, to), node_positions, cells, graph, first, last);
+        packs_of_thread_[t].back().number = static_cast<int>(begin / pack_width);
       }
       packs_of_thread_[t].shrink_to_fit();
     }
@@ -59,6 +65,7 @@ class ElementPacks {
   }
 
   std::size_t element_count() const { return element_count_; }
+  std::size_t pack_count() const { return (element_count_ + pack_width - 1) / pack_width; }
   int thread_count() const { return static_cast<int>(packs_of_thread_.size()); }
   const std::vector<ElementPack>& of_thread(int t) const { return packs_of_thread_[t]; }
 
@@ -67,6 +74,7 @@ class ElementPacks {
   static void fill(ElementPack& pack, const std::vector<int>& elements, const std::vector<Point>& x,
                    const std::vector<Cell>& cells, const NodeGraph& graph, int first, int last) {
     Vec3<Pack> corner[nodes];
+    pack.filled = static_cast<int>(elements.size());
     for (int lane = 0; lane < pack_width; ++lane) {
       const bool empty = lane >= static_cast<int>(elements.size());
       const int c = empty ? elements.back() : elements[lane];
@@ -87,8 +95,9 @@ class ElementPacks {
 };
 
 /// Elements below which a loop over them is not worth waking threads for: those that evaluate residuals only (some 20
-/// million elements a second) and those that differentiate (some 500,000).
-inline constexpr std::size_t serial_residual_elements = 20000, serial_jacobian_elements = 500;
+/// million elements a second), those that sum energies (half as fast) and those that differentiate (some 500,000).
+inline constexpr std::size_t serial_residual_elements = 20000, serial_sum_elements = 10000,
+                             serial_jacobian_elements = 500;
 
 /// Runs visit(thread, packs of that thread) for every thread's packs, on all threads unless there are fewer elements
 /// than `serial_below`. The numbers assembled do not depend on that choice.

@@ -45,6 +45,34 @@ std::vector<double> area_weights(const std::vector<Point>& x, const std::vector<
   return weights;
 }
 
+/// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3. \param velocity  in the first
+/// `components` of `components + 1` numbers per node
+template <class Element, class Point, class Facet>
+double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facets,
+                    const std::vector<double>& velocity) {
+  using F = typename Element::Facet;
+  constexpr int n = Element::components;
+  double flux = 0;
+  for (const auto& facet : facets) {
+    Vec3<Pack> corner[F::nodes];
+    for (int a = 0; a < F::nodes; ++a)
+      for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
+    for (int q = 0; q < F::cubic_points; ++q) {
+      const auto normal = F::cubic_weighted_normal(corner, q);
+      double square = 0, through = 0;
+      for (int k = 0; k < n; ++k) {
+        double u = 0;
+        for (int a = 0; a < F::nodes; ++a)
+          u += F::cubic_shape(q, a) * velocity[static_cast<std::size_t>(facet[a]) * (n + 1) + k];
+        square += u * u;
+        through += u * normal[Element::axis[k]][0];
+      }
+      flux += 0.5 * square * through;
+    }
+  }
+  return flux;
+}
+
 /// Adds the load of a pressure that follows the surface, (p n, v) over the current facets (outward normals), and, if
 /// blocks are passed, its derivative with respect to the nodes' displacement. \param solution  displacement in the
 /// first `components` of `components + 1` numbers per node

@@ -76,6 +76,19 @@ struct P1AxisymmetricTriangle {
       const T scale = Pack(0.5 * two_pi) * r;
       return {{scale * (x[1][2] - x[0][2]), T(0.0), scale * (x[0][0] - x[1][0])}};
     }
+
+    /// Gauss's rule of three points, exact for cubics times r.
+    static constexpr int cubic_points = 3;
+    static double cubic_shape(int point, int node) {
+      constexpr double offset = 0.38729833462074168852;  // sqrt(0.15)
+      return 0.5 + (node == 0 ? -1 : 1) * (point - 1) * offset;
+    }
+    template <class T>
+    static Vec3<T> cubic_weighted_normal(const Vec3<T> x[nodes], int point) {
+      const T r = Pack(cubic_shape(point, 0)) * x[0][0] + Pack(cubic_shape(point, 1)) * x[1][0];
+      const T scale = Pack((point == 1 ? 8.0 : 5.0) / 18.0 * two_pi) * r;
+      return {{scale * (x[1][2] - x[0][2]), T(0.0), scale * (x[0][0] - x[1][0])}};
+    }
   };
 };
 

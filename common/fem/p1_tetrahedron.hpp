@@ -84,6 +84,14 @@ struct P1Tetrahedron {
     static Vec3<T> weighted_normal(const Vec3<T> x[nodes], int /*point*/) {
       return Pack(1.0 / 6.0) * cross(x[1] - x[0], x[2] - x[0]);
     }
+
+    /// A rule exact for cubics: centre and three points, |u|^2 u . n among its integrands.
+    static constexpr int cubic_points = 4;
+    static double cubic_shape(int point, int node) { return point == 0 ? 1.0 / 3.0 : (point - 1 == node ? 0.6 : 0.2); }
+    template <class T>
+    static Vec3<T> cubic_weighted_normal(const Vec3<T> x[nodes], int point) {
+      return Pack((point == 0 ? -27.0 : 25.0) / 96.0) * cross(x[1] - x[0], x[2] - x[0]);
+    }
   };
 };
 

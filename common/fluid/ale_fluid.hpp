@@ -57,16 +57,31 @@ struct AleFluid {
     return k;
   }
 
+  /// The momentum equation at a point.
+  template <class T>
+  struct Momentum {
+    Vec3<T> inertia;          ///< rho (du/dt + grad u F^-1 c)
+    Vec3<T> strong_residual;  ///< r
+    T tau;                    ///< ms
+  };
+
   /// \param rate        du/dt at the point, mm/ms^2
   /// \param convection  c = u - w, mm/ms
-  /// \param pressure    kPa
+  template <class M, class T, class U>
+  Momentum<T> momentum(const Prepared<M, T>& k, const Vec3<U>& rate, const Vec3<T>& convection) const {
+    Momentum<T> m;
+    m.inertia = Pack(density) * (rate + k.velocity_gradient * convection);
+    m.strong_residual = m.inertia + k.pressure_gradient;
+    m.tau = Pack(1.0) / sqrt(k.viscous_rate_squared + dot(convection, k.metric * convection));
+    return m;
+  }
+
+  /// \param pressure  kPa
   template <class M, class T, class U>
   Integrand<T> integrand(const Prepared<M, T>& k, const Vec3<U>& rate, const Vec3<T>& convection,
                          const U& pressure) const {
     const auto& c = convection;
-    const Vec3<T> inertia = Pack(density) * (rate + k.velocity_gradient * c);
-    const Vec3<T> strong_residual = inertia + k.pressure_gradient;
-    const T tau = Pack(1.0) / sqrt(k.viscous_rate_squared + dot(c, k.metric * c));
+    const auto [inertia, strong_residual, tau] = momentum(k, rate, c);
 
     // Stress, streamline and (optional) divergence stabilisation share the test gradient: one current tensor, pulled
     // back.
@@ -86,6 +101,26 @@ struct AleFluid {
     const Vec3<T> scaled = (tau * Pack(-1.0 / density)) * strong_residual;
     f.scalar_flux = transposed_times(k.cofactor_gradient, scaled);  // J F^-1 r
     return f;
+  }
+
+  /// Powers per reference volume, kPa/ms: what the integrand's terms but inertia become with v = u and q = -p. The
+  /// pressure drops out.
+  struct Power {
+    Pack viscous;        ///< J mu (grad u F^-1 + (grad u F^-1)^T) : grad u F^-1
+    Pack stabilisation;  ///< J tau r . (grad u F^-1 c + F^-T grad p / rho), optionally + rho J tau_C (div u)^2
+  };
+  Power power(const Prepared<Pack, Pack>& k, const Vec3<Pack>& rate, const Vec3<Pack>& convection) const {
+    const auto [inertia, strong_residual, tau] = momentum(k, rate, convection);
+    const auto& l = k.velocity_gradient;
+    Pack shear(0.0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) shear += (l(i, j) + l(j, i)) * l(i, j);
+    Power power;
+    power.viscous = Pack(viscosity) * k.volume_ratio * shear;
+    power.stabilisation = tau * dot(strong_residual, l * convection + Pack(1.0 / density) * k.pressure_gradient);
+    if (grad_div) power.stabilisation += Pack(density) * k.divergence * k.divergence / (tau * trace(k.metric));
+    power.stabilisation *= k.volume_ratio;
+    return power;
   }
 };
 

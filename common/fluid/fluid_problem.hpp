@@ -7,6 +7,7 @@
 
 #include "fem/facet_load.hpp"
 #include "fluid/fluid_assembly.hpp"
+#include "fluid/fluid_energy.hpp"
 #include "mesh/submesh.hpp"
 
 namespace fsi {
@@ -28,7 +29,9 @@ class FluidProblem {
         inlet_normals_(normal_weights<Element>(part_.nodes, inlet, n + 1)),
         outlet_normals_(normal_weights<Element>(part_.nodes, outlet, n + 1)),
         inlet_areas_(area_weights<Element>(part_.nodes, inlet)),
-        outlet_areas_(area_weights<Element>(part_.nodes, outlet)) {}
+        outlet_areas_(area_weights<Element>(part_.nodes, outlet)),
+        inlet_(std::move(inlet)),
+        outlet_(std::move(outlet)) {}
 
   const Submesh<dim>& part() const { return part_; }
   const AleFluid& form() const { return form_; }
@@ -59,6 +62,15 @@ class FluidProblem {
   double outlet_flow(const std::vector<double>& flow) const { return dot(outlet_normals_, flow); }
   double inlet_pressure(const std::vector<double>& flow) const { return mean_pressure(inlet_areas_, flow); }
   double outlet_pressure(const std::vector<double>& flow) const { return mean_pressure(outlet_areas_, flow); }
+
+  FluidEnergy energy(const FluidInput& in) const { return fluid_energy(form_, packs_, in); }
+  /// Kinetic energy that flows in through the inlet and out through the outlet, uJ/ms, for flow arrays (u, p).
+  double inlet_kinetic_flow(const std::vector<double>& flow) const {
+    return -form_.density * kinetic_flux<Element>(part_.nodes, inlet_, flow);
+  }
+  double outlet_kinetic_flow(const std::vector<double>& flow) const {
+    return form_.density * kinetic_flux<Element>(part_.nodes, outlet_, flow);
+  }
 
  private:
   static std::shared_ptr<const NodeGraph> make_graph(const Submesh<dim>& part) {
@@ -96,6 +108,7 @@ class FluidProblem {
   FluidJacobian<Element> jacobian_;
   std::vector<double> inlet_normals_, outlet_normals_;  ///< n + 1 entries per node, as flow arrays
   std::vector<double> inlet_areas_, outlet_areas_;
+  Facets inlet_, outlet_;
 };
 
 }  // namespace fsi

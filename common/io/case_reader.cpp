@@ -64,11 +64,12 @@ Reader<Target> inside(Member<Target, double> place, Interval interval) {
   };
 }
 
-template <class Target>
-Reader<Target> whole(Member<Target, int> place, int low, int high = std::numeric_limits<int>::max()) {
+template <class Target, class Whole>  // int, or an optional one
+Reader<Target> whole(Member<Target, Whole> place, int low, int high = std::numeric_limits<int>::max()) {
   return [=](const CaseEntry& entry, Target& target) {
-    target.*place = entry.whole_number();
-    if (target.*place < low || target.*place > high)
+    const int value = entry.whole_number();
+    target.*place = value;
+    if (value < low || value > high)
       entry.refuse_value("is out of range", high == std::numeric_limits<int>::max()
                                                 ? fmt::format("give a whole number >= {}", low)
                                                 : fmt::format("give a whole number from {} to {}", low, high));
@@ -364,7 +365,8 @@ const std::vector<CaseKey<TimeData>>& time_keys() {
       {"end", required, "end of the run in ms, a multiple of the step", positive(&TimeData::end)},
       {"newmark_beta", optional, "Newmark's beta of the wall, default 1", inside(&TimeData::newmark_beta, newmark)},
       {"newmark_gamma", optional, "Newmark's gamma of the wall, default 1", inside(&TimeData::newmark_gamma, newmark)},
-      {"predictor", optional, "order of the extrapolated start of each step, default 1",
+      {"predictor", optional,
+       "order of the extrapolated start of each step, default 1; coupling schemes that iterate 2",
        whole(&TimeData::predictor, 0, 2)},
   };
   return keys;
@@ -447,8 +449,8 @@ const std::vector<CaseKey<MonolithicData>>& monolithic_keys() {
 const std::vector<CaseKey<PartitionedData>>& partitioned_keys() {
   static const std::vector<CaseKey<PartitionedData>> keys = {
       {"scheme", optional,
-       "coupling: aitken (default), constant, iqn-ils, iqn-imvj, newton-krylov, robin-neumann, its quasi-Newton forms "
-       "robin-neumann-iqn and robin-neumann-imvj, or explicit",
+       "coupling: robin-neumann-iqn (default), robin-neumann-imvj, robin-neumann, iqn-ils, iqn-imvj, newton-krylov, "
+       "aitken, constant, or explicit",
        name_from(&PartitionedData::scheme, coupling_scheme_names())},
       {"tolerance", optional, "interface change relative to its displacement, default 1e-6",
        inside(&PartitionedData::tolerance, tolerance)},
@@ -493,6 +495,7 @@ const std::vector<CaseKey<OutputData>>& output_keys() {
       {"every", optional, "steps between entries of fields.h5, default 8; 0: no fields", whole(&OutputData::every, 0)},
       {"checkpoint_every", optional, "steps between checkpoints, default 1; 0: none",
        whole(&OutputData::checkpoint_every, 0)},
+      {"energy", optional, "energy balance of each step in energy.csv, default true", flag(&OutputData::energy)},
   };
   return keys;
 }

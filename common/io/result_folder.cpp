@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/energy_table.hpp"
 
 namespace fsi {
 
@@ -21,6 +22,7 @@ struct Table {
   const char* file;
   const char* header;
 };
+constexpr const char* energy_file = "energy.csv";  // its columns depend on the scene
 constexpr Table centerline_table{"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa"};
 constexpr Table wall_table{"wall_displacement.csv", "time_ms,z_mm,radial_mm,axial_mm"};
 constexpr Table flow_table{"flow.csv",
@@ -34,9 +36,10 @@ constexpr Table coupling_table{
     "fluid_s,wall_s,mesh_motion_s,coupling_s"};
 
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
-constexpr std::array<const char*, 10> result_files = {
-    centerline_table.file, wall_table.file, flow_table.file, iterations_table.file, coupling_table.file,
-    "summary.json",        "fields.h5",     "fields.xdmf",   "checkpoint.h5",       "run.log"};
+constexpr std::array<const char*, 11> result_files = {
+    centerline_table.file, wall_table.file, flow_table.file, iterations_table.file,
+    coupling_table.file,   energy_file,     "summary.json",  "fields.h5",
+    "fields.xdmf",         "checkpoint.h5", "run.log"};
 
 bool is_result_file(const fs::path& name) {
   for (const auto* file : result_files)
@@ -105,6 +108,12 @@ ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs
   if (!fs::equivalent(folder_, from, error)) remove_old_results(folder_);
   for (const auto& table : tables_of(tables))
     copy_csv_until(from / table.file, folder_ / table.file, table.header, time);
+  if (tables.energy) {
+    if (!fs::exists(from / energy_file, error))
+      throw InputError((from / energy_file).string(), "output.energy", "is wanted, but the earlier run wrote none",
+                       "continue with --set output.energy=false");
+    copy_csv_until(from / energy_file, folder_ / energy_file, energy_header(*tables.energy), time);
+  }
   open_tables(tables, true);
 }
 
@@ -117,6 +126,8 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.wall_displacement) open(wall_, wall_table);
   if (tables.flow) open(flow_, flow_table);
   if (tables.coupling) open(coupling_, coupling_table);
+  energy_parts_ = tables.energy;
+  if (energy_parts_) energy_.emplace(folder_ / energy_file, energy_header(*energy_parts_), append);
 }
 
 void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {
@@ -151,6 +162,10 @@ void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport
                            c.force_residual, number(c.fluid_newton_iterations), number(c.wall_newton_iterations),
                            number(c.fluid_linear_iterations), number(c.wall_linear_iterations), c.fluid_seconds,
                            c.wall_seconds, c.mesh_seconds, c.algebra_seconds});
+}
+
+void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {
+  energy_.value().write(energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy));
 }
 
 }  // namespace fsi

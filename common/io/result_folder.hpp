@@ -6,16 +6,18 @@
 
 #include "io/csv_file.hpp"
 #include "io/step_record.hpp"
+#include "scene/energy_record.hpp"
 #include "scene/stepper.hpp"
 
 namespace fsi {
 
 /// Which tables a scene has besides iterations.csv.
 struct ResultTables {
-  bool centerline_pressure = false;  ///< scenes with fluid
-  bool wall_displacement = false;    ///< scenes with a wall
-  bool flow = false;                 ///< scenes with fluid
-  bool coupling = false;             ///< partitioned runs
+  bool centerline_pressure = false;     ///< scenes with fluid
+  bool wall_displacement = false;       ///< scenes with a wall
+  bool flow = false;                    ///< scenes with fluid
+  bool coupling = false;                ///< partitioned runs
+  std::optional<EnergyParts> energy{};  ///< unless the case does not want it
 };
 
 /// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
@@ -48,12 +50,14 @@ class ResultFolder {
   void write_flow(double time, const FlowRecord& flow);
   void write_iterations(const StepRecord& record);
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
+  void write_energy(const StepRecord& record, const EnergyRecord& energy);
 
  private:
   void open_tables(const ResultTables& tables, bool append);
 
   std::filesystem::path folder_;
-  std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_;
+  std::optional<EnergyParts> energy_parts_;
+  std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_, energy_;
 };
 
 }  // namespace fsi

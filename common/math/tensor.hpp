@@ -110,6 +110,13 @@ template <class T>
 inline T trace(const Mat3<T>& a) {
   return a(0, 0) + a(1, 1) + a(2, 2);
 }
+/// a : b
+template <class A, class B>
+inline auto contract(const Mat3<A>& a, const Mat3<B>& b) {
+  Product<A, B> sum = a(0, 0) * b(0, 0);
+  for (int k = 1; k < 9; ++k) sum += a(k / 3, k % 3) * b(k / 3, k % 3);
+  return sum;
+}
 
 /// The cofactor tensor, cof a = det(a) a^-T.
 template <class T>

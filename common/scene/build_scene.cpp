@@ -64,7 +64,8 @@ CylinderAxis cylinder_axis(const StructureData& data) {
 std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const TetrahedralMesh& mesh) {
   auto scene = std::make_unique<Scene<P1Tetrahedron>>();
   if (setup.time)
-    scene->scheme = {setup.time->step, setup.time->newmark_beta, setup.time->newmark_gamma, setup.time->predictor, 3};
+    scene->scheme = {setup.time->step, setup.time->newmark_beta, setup.time->newmark_gamma,
+                     setup.time->predictor.value_or(1), 3};
   else
     scene->scheme.predictor = 1;
 

@@ -60,7 +60,7 @@ struct TimeData {
   double end = 0;   ///< ms
   double newmark_beta = 1;
   double newmark_gamma = 1;
-  int predictor = 1;  ///< order of the extrapolated start of each step: 0, 1 or 2
+  std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
 
   int steps() const;  ///< number of steps; `end` is hit exactly
 };
@@ -101,7 +101,7 @@ struct MonolithicData {
 
 /// [partitioned]
 struct PartitionedData {
-  std::string scheme = "aitken";
+  std::string scheme = "robin-neumann-iqn";
   double tolerance = 1e-6;            ///< ||d~ - d|| <= tolerance ||d~|| on the interface
   double absolute_tolerance = 1e-13;  ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
   double force_tolerance = 0;         ///< further demand: force residual relative to the interface force; 0: none
@@ -119,6 +119,7 @@ struct OutputData {
   std::vector<std::string> fields{"displacement", "velocity", "pressure"};
   int every = 8;             ///< steps between entries of fields.h5; 0: no fields
   int checkpoint_every = 1;  ///< steps between checkpoints; 0: none
+  bool energy = true;        ///< energy.csv
 };
 
 /// Names that monolithic.linear_solver can have.

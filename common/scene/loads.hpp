@@ -26,15 +26,22 @@ class Loads {
     return std::strtod(fmt::format("{:.12g}", step * setup_.time->step).c_str(), nullptr);
   }
 
+  /// kPa, of a step: at the inlet, and on the inner face of a wall without fluid.
+  double inlet_pressure(int step) const {
+    return setup_.inlet ? setup_.inlet->mean(time_of(step - 1), time_of(step)) : 0.0;
+  }
+  double wall_pressure(int step) const {
+    if (!setup_.load) return 0.0;
+    return setup_.time ? setup_.load->mean(time_of(step - 1), time_of(step)) : time_of(step) * setup_.load->at_end();
+  }
+
   /// Data of the step that follows the state's last one.
   StepData next(const State& state, const TimeScheme& scheme) const {
     StepData data;
     const int step = state.step + 1;
     data.time = time_of(step);
-    const double from = time_of(step - 1);
-    if (setup_.inlet) data.inlet_pressure = setup_.inlet->mean(from, data.time);
-    if (setup_.load)
-      data.wall_pressure = setup_.time ? setup_.load->mean(from, data.time) : data.time * setup_.load->at_end();
+    data.inlet_pressure = inlet_pressure(step);
+    data.wall_pressure = wall_pressure(step);
     data.acceleration_history = scheme.acceleration_history(state);
     return data;
   }

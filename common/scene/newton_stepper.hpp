@@ -83,8 +83,8 @@ class NewtonStepper : public Stepper {
       solved = solve(state, data, cautious);
     }
     if (!solved.converged)
-      throw ConvergenceError(fmt::format("step {} (to t = {:g} ms): Newton's method stopped after {} iterations: {}",
-                                         state.step + 1, data.time, solved.count(), solved.failure),
+      throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}",
+                                         name_of_step(state, data), solved.count(), solved.failure),
                              remedy(solved));
     scene_.scheme.accept(state, data);
     return report_;
@@ -102,6 +102,11 @@ class NewtonStepper : public Stepper {
   }
 
  private:
+  std::string name_of_step(const State& state, const StepData& data) const {
+    return scene_.scheme.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
+                                     : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
+  }
+
   std::string remedy(const NewtonReport& failed) const {
     std::string text =
         scene_.scheme.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";

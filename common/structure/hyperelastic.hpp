@@ -34,11 +34,21 @@ struct Hyperelastic {
     k.cofactor_gradient = f.cofactor_gradient;
     k.volume_change = f.volume_change;
     k.volume_ratio = f.volume_ratio;
-    k.isochoric_flux = f.gradient * material.stress(strain_of(f), fibres);
+    k.isochoric_flux = isochoric_flux(f, strain_of(f), fibres);
+    k.stabilisation_flux = stabilisation_flux(f, grad_p, size_squared);
+    return k;
+  }
+
+  template <class T>
+  Mat3<T> isochoric_flux(const Deformation<T>& f, const Strain<T>& strain,
+                         const typename Material::FibreData& fibres) const {
+    return f.gradient * material.stress(strain, fibres);
+  }
+  template <class T>
+  Vec3<T> stabilisation_flux(const Deformation<T>& f, const Vec3<T>& grad_p, Pack size_squared) const {
     const Pack tau = Pack(stabilisation / (2 * material.shear_modulus())) * size_squared;
     const T scale = -tau / f.volume_ratio;
-    k.stabilisation_flux = scale * transposed_times(f.cofactor_gradient, f.cofactor_gradient * grad_p);
-    return k;
+    return scale * transposed_times(f.cofactor_gradient, f.cofactor_gradient * grad_p);
   }
 
   /// \param acceleration  mm/ms^2

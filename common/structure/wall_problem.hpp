@@ -9,6 +9,7 @@
 #include "mesh/submesh.hpp"
 #include "structure/fibre_directions.hpp"
 #include "structure/structure_assembly.hpp"
+#include "structure/wall_energy.hpp"
 
 namespace fsi {
 
@@ -63,6 +64,17 @@ class WallProblem {
       add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual,
                                      derivatives ? &jacobian_ : nullptr);
     return result;
+  }
+
+  WallEnergy energy(const WallStep& in) const { return wall_energy(constants_, layers_, in); }
+  /// Work of the pressure on the pressurised facets, as they are at the step's end, in a step from `old` to `now`; uJ.
+  double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const {
+    if (pressure == 0) return 0;
+    std::vector<double> load(now.size(), 0.0);
+    add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now, load, nullptr);
+    double work = 0;
+    for (std::size_t i = 0; i < load.size(); ++i) work -= load[i] * (now[i] - old[i]);
+    return work;
   }
 
   /// The Jacobian last assembled; storage appears with the first request.

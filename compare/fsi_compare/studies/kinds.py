@@ -7,11 +7,11 @@ import importlib
 from typing import Tuple
 
 MODULES = {
-    "paper": "paper_study",
-    "accuracy-cost": "accuracy_cost",
-    "stability": "stability",
-    "skip": "skip",
-    "coupling": "coupling",
+    "paper": "paper.study",
+    "accuracy-cost": "accuracy.study",
+    "stability": "stability.study",
+    "skip": "skip.study",
+    "coupling": "coupling.study",
     "runs": "plain_runs",
 }
 NAMES: Tuple[str, ...] = tuple(MODULES)

@@ -220,7 +220,7 @@ const std::vector<BadCase>& bad_cases() {
        "wall, default 1)"},
       {"PredictorOfOrderThree", coupled_case, "end = 12.0", "end = 12.0\npredictor = 3",
        "case.toml:27: time.predictor: 3 is out of range; give a whole number from 0 to 2 (order of the extrapolated "
-       "start of each step, default 1)"},
+       "start of each step, default 1; coupling schemes that iterate 2)"},
       {"LoadStepsZero", static_case, "load_steps = 5", "load_steps = 0",
        "case.toml:13: static.load_steps: 0 is out of range; give a whole number from 1 to 1000000 (equal steps in "
        "which the load is raised, default 10)"},

@@ -20,8 +20,8 @@ class Agreement:
         cls.converged = cls.partitioned("converged", 1e-9)
 
     @classmethod
-    def partitioned(cls, name, tolerance):
-        return run(PARTITIONED, cls.case, cls.base / name, f"partitioned.tolerance={tolerance}", *SETTINGS)
+    def partitioned(cls, name, tolerance, *settings):
+        return run(PARTITIONED, cls.case, cls.base / name, f"partitioned.tolerance={tolerance}", *SETTINGS, *settings)
 
     def test_pressure_agrees_at_every_time_level(self):
         self.assertEqual(pressure(self.monolithic).shape[0], STEPS)
@@ -54,10 +54,11 @@ class NeoHookean(Agreement, FolderTest):
     case = NEO_HOOKEAN
 
     def test_loose_coupling_changes_the_wave(self):
-        """The paper's partitioned wave is smaller than its monolithic one: what too loose a tolerance can do."""
+        """The paper's partitioned wave is smaller than its monolithic one: what too loose a tolerance can do.
+        With Aitken's method: one pass of the others leaves far less than they are asked for."""
         apart, peaks = {}, {}
         for tolerance in (1e-1, 1e-2):
-            folder = self.partitioned(f"loose{tolerance}", tolerance)
+            folder = self.partitioned(f"loose{tolerance}", tolerance, "partitioned.scheme=aitken")
             self.assertIterationsEndAt(folder, tolerance)
             apart[tolerance] = difference(pressure(folder), pressure(self.monolithic))
             loose, exact = (np.abs(pressure(of)).max(axis=1) for of in (folder, self.monolithic))

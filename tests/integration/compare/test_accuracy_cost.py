@@ -17,10 +17,10 @@ from synthetic import Z
 
 from fsi_compare.cli import main
 from fsi_compare.errors import InputError
-from fsi_compare.studies.frontier import cheapest, frontier
-from fsi_compare.studies.observed_order import self_convergence, slope
-from fsi_compare.studies.reach import Growth, Part, reach
-from fsi_compare.studies.waves import Waves, extrapolated, read_waves, relative_difference
+from fsi_compare.studies.accuracy.frontier import cheapest, frontier
+from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
+from fsi_compare.studies.accuracy.reach import Growth, Part, reach
+from fsi_compare.studies.accuracy.waves import Waves, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 

@@ -8,9 +8,10 @@ from pathlib import Path
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
-from fsi_compare.studies import coupling
-from fsi_compare.studies.added_mass import Tube, bessel_i
-from fsi_compare.studies.bisection import bisect
+from fsi_compare.studies.coupling import study as coupling
+from fsi_compare.studies.coupling.added_mass import Tube
+from fsi_compare.studies.evidence.bessel import bessel_i
+from fsi_compare.studies.coupling.bisection import bisect
 from fsi_compare.studies.study_file import Method, Request, StudyMesh, read_study
 from fsi_compare.studies.study_run import DONE, NOT_CONVERGED, StudyRun
 

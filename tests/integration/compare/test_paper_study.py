@@ -14,12 +14,14 @@ from test_report import outside_references
 from fsi_compare import paper
 from fsi_compare.case_digest import case_digest
 from fsi_compare.errors import InputError
-from fsi_compare.studies import energy_plots, kinds, paper_cost, phase_bars
+from fsi_compare.studies.evidence import energy_plots, phase_bars
+from fsi_compare.studies import kinds
+from fsi_compare.studies.paper import cost as paper_cost
 from fsi_compare.studies.command import READY
-from fsi_compare.studies.plane_cut import cut
+from fsi_compare.studies.evidence.plane_cut import cut
 from fsi_compare.studies.study_file import Method, Request, read_study
 from fsi_compare.studies.study_run import DONE, StudyRun
-from fsi_compare.studies.tube_pictures import round_factor
+from fsi_compare.studies.evidence.tube_pictures import round_factor
 
 
 class PlaneCut(unittest.TestCase):

@@ -9,12 +9,12 @@ import numpy as np
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
-from fsi_compare.studies import stability
+from fsi_compare.studies.stability import study as stability
 from fsi_compare.studies.context import Context
-from fsi_compare.studies.limit_load import Tube
+from fsi_compare.studies.stability.limit_load import Tube
 from fsi_compare.studies.report import Report
-from fsi_compare.studies.stability_map import AGREES, DEVIATES, UNCHECKED, WRONG
-from fsi_compare.studies.stability_messages import distinct, without_folder
+from fsi_compare.studies.stability.map import AGREES, DEVIATES, UNCHECKED, WRONG
+from fsi_compare.studies.stability.messages import distinct, without_folder
 from fsi_compare.studies.study_file import read_study
 from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
 from fsi_compare.studies.study_run import WRONG as NOT_FINITE

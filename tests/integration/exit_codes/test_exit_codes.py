@@ -55,8 +55,8 @@ class ExitCodes(FolderTest):
             self.assertFinishedSteps(folder, 2)
             coupling = ["coupling.csv"] if program == PARTITIONED else []
             self.assertEqual(sorted(file.name for file in folder.iterdir()), [
-                "centerline_pressure.csv", "checkpoint.h5", *coupling, "fields.h5", "fields.xdmf", "flow.csv",
-                "iterations.csv", "run.log", "summary.json", "wall_displacement.csv"])
+                "centerline_pressure.csv", "checkpoint.h5", *coupling, "energy.csv", "fields.h5", "fields.xdmf",
+                "flow.csv", "iterations.csv", "run.log", "summary.json", "wall_displacement.csv"])
 
     def test_bad_input_writes_nothing(self):
         broken = self.base / "broken.toml"

@@ -76,7 +76,7 @@ class RigidPipe(FolderTest):
         self.assertEqual((reported["mesh"]["wall_nodes"], reported["mesh"]["interface_nodes"]), (0, 0))
         self.assertEqual((reported["unknowns"]["wall"], reported["unknowns"]["mesh_motion"]), (0, 0))
         self.assertEqual(set(calls(folder)), {"assembly: coupled residual", "assembly: coupled jacobian",
-                                              "factorisation: coupled", "solve: coupled", "output"})
+                                              "factorisation: coupled", "solve: coupled", "energy balance", "output"})
         self.assertFalse((folder / "wall_displacement.csv").exists())
         fields = {"/".join(name.split("/")[:2]) for name in arrays(folder / "fields.h5") if name.startswith("fluid/")}
         self.assertEqual(fields, {f"fluid/{what}" for what in ("points", "cells", "layer", "velocity", "pressure")})

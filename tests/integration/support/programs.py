@@ -17,7 +17,7 @@ CASES = Path(os.environ["FSI_CASES"])
 NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY = (CASES / f"{name}.toml" for name in ("neo-hookean", "mooney-rivlin", "artery"))
 
 POINTS = 181  # along the centre line and the wall
-TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv")
+TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "energy.csv")
 
 
 def execute(*command, **options):
@@ -78,6 +78,12 @@ def calls(folder):
 def table(folder, name):
     """All rows of a CSV file as an array of shape (rows, columns)."""
     return np.loadtxt(Path(folder) / name, delimiter=",", skiprows=1, ndmin=2)
+
+
+def energy(folder):
+    """energy.csv by column: {name without _uJ: values per step}."""
+    names = (Path(folder) / "energy.csv").open().readline().strip().split(",")
+    return {name.removesuffix("_uJ"): column for name, column in zip(names, table(folder, "energy.csv").T)}
 
 
 def pressure(folder):

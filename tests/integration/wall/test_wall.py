@@ -87,7 +87,7 @@ class StaticWall(FolderTest):
         self.assertEqual(reported["unknowns"]["coupled"], reported["unknowns"]["wall"])
         self.assertEqual((reported["mesh"]["fluid_nodes"], reported["mesh"]["interface_nodes"]), (0, 0))
         self.assertEqual(set(calls(self.coarse)), {"assembly: coupled residual", "assembly: coupled jacobian",
-                                                   "set-up: coupled", "solve: coupled", "output"})
+                                                   "set-up: coupled", "solve: coupled", "energy balance", "output"})
         self.assertFalse((self.coarse / "centerline_pressure.csv").exists())
         self.assertFalse((self.coarse / "flow.csv").exists())
         fields = {"/".join(name.split("/")[:2]) for name in arrays(self.coarse / "fields.h5")} - {

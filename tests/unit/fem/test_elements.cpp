@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "fem/facet_load.hpp"
 #include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "support/random.hpp"
@@ -226,6 +227,18 @@ TEST(AxisymmetricTriangleSide, SweepsItsArea) {
   const double corner[4][2] = {{1, 0}, {3, 1}, {2, 4}, {1, 0}};
   for (int s = 0; s < 3; ++s) along += swept(corner[s][0], corner[s][1], corner[s + 1][0], corner[s + 1][1])[2];
   EXPECT_NEAR(along, 0, 1e-13);
+}
+
+// |u|^2/2 u . n of a linear velocity is cubic: the rule is exact. u = (x, y, 1 + x) through the unit triangle z = 0,
+// and u = (r, 1) in (r, z) through the ring 1 < r < 2 whose normal points down.
+TEST(KineticFlux, IsExactForLinearVelocities) {
+  const std::vector<std::array<double, 3>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<double> flow{0, 0, 1, 9, 1, 0, 2, 9, 0, 1, 1, 9};
+  EXPECT_NEAR(kinetic_flux<Tet>(corners, std::vector<std::array<int, 3>>{{0, 1, 2}}, flow), 23.0 / 30, 1e-15);
+  EXPECT_NEAR(kinetic_flux<Tet>(corners, std::vector<std::array<int, 3>>{{0, 2, 1}}, flow), -23.0 / 30, 1e-15);
+  const std::vector<std::array<double, 3>> ends{{1, 0, 0}, {2, 0, 0}};
+  EXPECT_NEAR(kinetic_flux<Triangle>(ends, std::vector<std::array<int, 2>>{{0, 1}}, {1, 1, 9, 2, 1, 9}), -5.25 * pi,
+              1e-13);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ TEST(CaseReader, FillsInDefaults) {
   EXPECT_EQ(scene.monolithic.linear_solver, "fast");
   EXPECT_EQ(scene.partitioned.max_iterations, 200);
   EXPECT_EQ(scene.output.fields.size(), 3u);
+  EXPECT_TRUE(scene.output.energy);
 }
 
 TEST(CaseReader, ReadsEveryKey) {
@@ -128,6 +129,7 @@ direct_below = 77
 fields = []
 every = 0
 checkpoint_every = 5
+energy = false
 )",
                                 "case.toml");
   EXPECT_EQ(scene.title, "all of it");
@@ -172,6 +174,7 @@ checkpoint_every = 5
   EXPECT_TRUE(scene.output.fields.empty());
   EXPECT_EQ(scene.output.every, 0);
   EXPECT_EQ(scene.output.checkpoint_every, 5);
+  EXPECT_FALSE(scene.output.energy);
 }
 
 TEST(CaseReader, ReadsAStaticWall) {

@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ResultTables all_tables{true, true, true};
+constexpr EnergyParts coupled{true, true, true};
+constexpr ResultTables all_tables{true, true, true, false, coupled};
 
 void write_step(ResultFolder& results, int step) {
   const double time = 0.1 * step;
@@ -20,6 +21,9 @@ void write_step(ResultFolder& results, int step) {
   results.write_wall(time, {0.5}, {1e-17}, {-0.25});
   results.write_flow(time, {1, 2, 0.003, 0.004});
   results.write_iterations({step, time, 4, 9, 0, 0.75});
+  EnergyRecord energy;
+  energy.inlet_work = 0.25 * step;
+  results.write_energy({step, time, 4, 9, 0, 0.75}, energy);
 }
 
 class Results : public FolderTest {
@@ -62,6 +66,54 @@ TEST_F(Results, TellHowFluidAndWallCameToAgree) {
             "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,"
             "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s\n"
             "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0\n");
+}
+
+TEST_F(Results, TellOfTheEnergyThatASceneHas) {
+  EnergyRecord energy;
+  double next = 1;
+  for (double* term :
+       {&energy.fluid_kinetic, &energy.wall_kinetic, &energy.wall_isochoric, &energy.wall_volumetric,
+        &energy.inlet_work, &energy.load_work, &energy.inlet_kinetic, &energy.outlet_kinetic, &energy.viscous,
+        &energy.remainder, &energy.fluid_inertia, &energy.fluid_mesh_motion, &energy.fluid_divergence,
+        &energy.fluid_stabilisation, &energy.wall_inertia, &energy.wall_stress, &energy.wall_stabilisation})
+    *term = next++;
+  const auto table = [&](const EnergyParts& parts) {
+    ResultTables tables;
+    tables.energy = parts;
+    ResultFolder results(run_, tables);
+    results.write_energy({2, 0.25, 1, 5, 0, 0.75}, energy);
+    return contents_of(run_ / "energy.csv");
+  };
+  EXPECT_EQ(table(coupled),
+            "step,time_ms,fluid_kinetic_energy_uJ,wall_kinetic_energy_uJ,wall_isochoric_energy_uJ,"
+            "wall_volumetric_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
+            "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_mesh_motion_uJ,"
+            "fluid_divergence_uJ,fluid_stabilisation_uJ,wall_inertia_uJ,wall_stress_uJ,wall_stabilisation_uJ\n"
+            "2,0.25,1,2,3,4,5,7,8,9,98,10,11,12,13,14,15,16,17\n");
+  EXPECT_EQ(table({true, false, true}),
+            "step,time_ms,fluid_kinetic_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
+            "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_divergence_uJ,"
+            "fluid_stabilisation_uJ\n"
+            "2,0.25,1,5,7,8,9,98,10,11,13,14\n");
+  EXPECT_EQ(table({false, true, false}),
+            "step,time_ms,wall_isochoric_energy_uJ,wall_volumetric_energy_uJ,load_work_uJ,numerical_dissipation_uJ,"
+            "remainder_uJ,wall_stress_uJ,wall_stabilisation_uJ\n"
+            "2,0.25,3,4,6,98,10,16,17\n");
+  ResultFolder results(run_, {});
+  EXPECT_FALSE(fs::exists(run_ / "energy.csv"));
+}
+
+TEST_F(Results, ContinueWithoutAnEarlierEnergyBalanceOnlyWhenNoneIsWanted) {
+  ResultTables tables;
+  { ResultFolder results(run_, tables); }
+  EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, run_, 0.2));
+  tables.energy = coupled;
+  try {
+    ResultFolder results(folder_ / "other", tables, run_, 0.2);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--set output.energy=false"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Results, HoldOnlyTheTablesOfTheScene) {
@@ -120,7 +172,8 @@ TEST_F(Results, ContinueAfterTheCheckpointInPlace) {
   }
   ResultFolder whole(folder_ / "whole", all_tables);
   for (int step = 1; step <= 5; ++step) write_step(whole, step);
-  for (const auto* table : {"centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "iterations.csv"})
+  for (const auto* table :
+       {"centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "iterations.csv", "energy.csv"})
     EXPECT_EQ(contents_of(run_ / table), contents_of(folder_ / "whole" / table)) << table;
 }
 

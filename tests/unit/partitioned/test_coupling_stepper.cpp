@@ -131,6 +131,33 @@ TEST(CouplingStepper, ExplicitTakesOnePass) {
   EXPECT_GT(report.coupling->displacement_residual, 1e-6) << "reported as it is";
 }
 
+TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
+  Case setup = partitioned_case("explicit", 1e-6);
+  setup.time->predictor = 0;
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  EXPECT_THROW(CouplingStepper<Tet>(*scene, loads, setup), InputError);
+}
+
+TEST(CouplingStepper, ADivergingIterationEndsEarly) {
+  Case setup = partitioned_case("constant", 1e-6);
+  setup.partitioned.relaxation = 3;             // more than 2 diverges without any added mass
+  setup.inlet = PressureTable{{{0.0, 1e-12}}};  // so small that no element is inverted on the way
+  setup.partitioned.absolute_tolerance = 0;
+  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  try {
+    stepper.advance(state);
+    FAIL();
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what()).find("diverges"), std::string::npos) << error.what();
+  }
+  EXPECT_LT(stepper.report().outer_iterations, 200);
+  EXPECT_EQ(state.step, 0);
+}
+
 TEST(CouplingStepper, ObeysTheForceTolerance) {
   Case setup = partitioned_case("iqn-ils", 1e-2);
   setup.partitioned.force_tolerance = 1e-8;

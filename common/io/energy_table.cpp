@@ -1,0 +1,68 @@
+#include "io/energy_table.hpp"
+
+namespace fsi {
+
+namespace {
+
+struct Column {
+  const char* name;
+  double (*value)(const EnergyRecord& record);
+  bool (*present)(const EnergyParts& parts);
+};
+
+bool always(const EnergyParts&) {
+  return true;
+}
+bool fluid(const EnergyParts& parts) {
+  return parts.fluid;
+}
+bool wall(const EnergyParts& parts) {
+  return parts.wall;
+}
+bool moving_wall(const EnergyParts& parts) {
+  return parts.wall && parts.in_time;
+}
+bool wall_alone(const EnergyParts& parts) {
+  return parts.wall && !parts.fluid;
+}
+
+using R = EnergyRecord;
+constexpr Column columns[] = {
+    {"fluid_kinetic_energy_uJ", [](const R& r) { return r.fluid_kinetic; }, fluid},
+    {"wall_kinetic_energy_uJ", [](const R& r) { return r.wall_kinetic; }, moving_wall},
+    {"wall_isochoric_energy_uJ", [](const R& r) { return r.wall_isochoric; }, wall},
+    {"wall_volumetric_energy_uJ", [](const R& r) { return r.wall_volumetric; }, wall},
+    {"inlet_work_uJ", [](const R& r) { return r.inlet_work; }, fluid},
+    {"load_work_uJ", [](const R& r) { return r.load_work; }, wall_alone},
+    {"inlet_kinetic_inflow_uJ", [](const R& r) { return r.inlet_kinetic; }, fluid},
+    {"outlet_kinetic_outflow_uJ", [](const R& r) { return r.outlet_kinetic; }, fluid},
+    {"viscous_dissipation_uJ", [](const R& r) { return r.viscous; }, fluid},
+    {"numerical_dissipation_uJ", [](const R& r) { return r.numerical(); }, always},
+    {"remainder_uJ", [](const R& r) { return r.remainder; }, always},
+    {"fluid_inertia_uJ", [](const R& r) { return r.fluid_inertia; }, fluid},
+    {"fluid_mesh_motion_uJ", [](const R& r) { return r.fluid_mesh_motion; },
+     [](const EnergyParts& parts) { return parts.fluid && parts.wall; }},
+    {"fluid_divergence_uJ", [](const R& r) { return r.fluid_divergence; }, fluid},
+    {"fluid_stabilisation_uJ", [](const R& r) { return r.fluid_stabilisation; }, fluid},
+    {"wall_inertia_uJ", [](const R& r) { return r.wall_inertia; }, moving_wall},
+    {"wall_stress_uJ", [](const R& r) { return r.wall_stress; }, wall},
+    {"wall_stabilisation_uJ", [](const R& r) { return r.wall_stabilisation; }, wall},
+};
+
+}  // namespace
+
+std::string energy_header(const EnergyParts& parts) {
+  std::string header = "step,time_ms";
+  for (const auto& column : columns)
+    if (column.present(parts)) header += std::string(",") + column.name;
+  return header;
+}
+
+std::vector<double> energy_row(const EnergyParts& parts, int step, double time, const EnergyRecord& record) {
+  std::vector<double> row{static_cast<double>(step), time};
+  for (const auto& column : columns)
+    if (column.present(parts)) row.push_back(column.value(record));
+  return row;
+}
+
+}  // namespace fsi

@@ -1,0 +1,37 @@
+#pragma once
+
+namespace fsi {
+
+/// Energy balance of one step: a row of energy.csv, docs/energy.md. Everything in uJ = mm^3 kPa. Energies are those at
+/// the step's end, the rest is of the step alone. Each is evaluated on its own but `remainder`, which is what the
+/// others leave over.
+struct EnergyRecord {
+  double fluid_kinetic = 0, wall_kinetic = 0;
+  double wall_isochoric = 0, wall_volumetric = 0;  ///< elastic energy of the wall
+
+  double inlet_work = 0;                         ///< of the inlet's pressure on the fluid
+  double load_work = 0;                          ///< of the pressure on a wall without fluid
+  double inlet_kinetic = 0, outlet_kinetic = 0;  ///< kinetic energy that flows in, and out
+  double viscous = 0;                            ///< dissipation
+
+  // Numerical dissipation by origin; negative where the discretisation adds energy.
+  double fluid_inertia = 0, fluid_mesh_motion = 0, fluid_divergence = 0, fluid_stabilisation = 0;
+  double wall_inertia = 0, wall_stress = 0, wall_stabilisation = 0;
+
+  double remainder = 0;  ///< supply() - change of energy() - viscous - numerical()
+
+  double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric; }
+  double supply() const { return inlet_work + load_work + inlet_kinetic - outlet_kinetic; }
+  double numerical() const {
+    return fluid_inertia + fluid_mesh_motion + fluid_divergence + fluid_stabilisation + wall_inertia + wall_stress +
+           wall_stabilisation;
+  }
+};
+
+/// What of it a scene has.
+struct EnergyParts {
+  bool fluid = false, wall = false;
+  bool in_time = true;  ///< not static
+};
+
+}  // namespace fsi

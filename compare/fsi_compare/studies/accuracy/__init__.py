@@ -1,0 +1,1 @@
+"""The kind `accuracy-cost`: error against seconds."""

@@ -1,0 +1,1 @@
+"""The kind `coupling`: the schemes of the partitioned driver."""

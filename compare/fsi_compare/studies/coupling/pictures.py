@@ -1,0 +1,56 @@
+"""Pictures of the coupling study."""
+
+from dataclasses import dataclass
+from typing import Any, List, Mapping, Optional, Sequence
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ...pictures import finish
+
+# Told apart without colour by marker, dash pattern and lightness.
+STYLES = (
+    {"linestyle": "-", "marker": "o", "color": "#000000"},
+    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
+    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
+    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
+    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
+    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
+    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
+    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
+    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
+)
+
+
+@dataclass(frozen=True)
+class Series:
+    label: str
+    x: Sequence[float]
+    passes: Sequence[Optional[float]]  # None: failed
+
+
+def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any]) -> Figure:
+    """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed."""
+    width, height = 7.4, 5.4
+    figure = Figure(figsize=(width, height))
+    canvas = FigureCanvasAgg(figure)
+    strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 3])
+    handles = []
+    for i, line in enumerate(all_series):
+        style = dict(STYLES[i % len(STYLES)], markersize=5, linewidth=1.3, label=line.label)
+        y = [float("nan") if value is None else value for value in line.passes]
+        handles += axes.plot(line.x, y, **style)
+        failed = [x for x, value in zip(line.x, line.passes) if value is None]
+        strip.plot(failed, [i] * len(failed), linestyle="none", marker=style["marker"], color=style["color"],
+                   markersize=6, fillstyle="none")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(xlabel)
+    axes.set_ylabel("coupling iterations per step")
+    strip.set_ylim(len(all_series) - 0.4, -0.6)
+    strip.set_yticks(range(len(all_series)), [line.label for line in all_series], fontsize=6.5)
+    strip.set_title("failed", loc="left")
+    tolerance = settings.get("partitioned.tolerance", 1e-6)
+    finish(figure, canvas, handles, [line.label for line in all_series], f"Coupling iterations, tolerance {tolerance:g}",
+           (width, height))
+    return figure

@@ -1,0 +1,226 @@
+"""The kind `coupling`: passes per step of the coupling schemes, their agreement with the monolithic solution, what the added
+mass does to them, and their cost beside the monolithic driver's.
+
+Groups by name, or by name and a suffix (passes, passes-fine), each of which may be missing:
+  passes     the schemes at their tolerance; varied: mesh
+  agreement  the same with a tight tolerance, and the monolithic driver, for the same cases and meshes
+  density, step   the schemes over structure.density and time.step
+  cost       the schemes and the monolithic driver; the first method is the reference
+`[report]`: `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
+
+from typing import List, Optional, Sequence
+
+from ...cost import cost_table, read_cost
+from ...differences import largest_difference
+from ...errors import InputError
+from ...layout import Table, fixed
+from ...names import MATERIALS
+from . import added_mass_runs, pictures as coupling_pictures
+from ..context import Context
+from ..study_file import Study, show
+from ..study_run import StudyRun
+
+GROUPS = ("passes", "agreement", "density", "step", "cost")
+MONOLITHIC = "fsi-monolithic"
+
+
+def check(study: Study) -> None:
+    for request in study.requests:
+        if base(request.group) not in GROUPS:
+            raise InputError(study.path, f"runs.{request.group}", "is no group of a coupling study",
+                             f"there are {', '.join(GROUPS)}")
+    added_mass_runs.check(study)
+
+
+def evaluate(context: Context) -> int:
+    report = context.report
+    report.section("Coupling iterations")
+    passes = chosen(context, "passes")
+    if passes:
+        report.text("Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; of "
+                    "`newton-krylov` every evaluation of the interface residual counts.")
+        report.table(passes_table(context, passes))
+    agreement = chosen(context, "agreement")
+    if agreement:
+        report.text("The converged partitioned step and the monolithic step solve the same equations. Largest difference of "
+                    "the pressure along the centre line, relative to the largest pressure of the time level, worst of all levels:")
+        report.table(agreement_table(agreement))
+    for group, quantity, unit in (("density", "density ratio of wall and fluid", ""), ("step", "time step", "ms")):
+        runs = chosen(context, group)
+        if runs:
+            report.section(f"Against the {quantity}")
+            label = quantity + (f" in {unit}" if unit else "")
+            report.figure(f"passes_{group}", lambda: coupling_pictures.passes_figure(series(runs), label, runs[0].request.settings),
+                          f"Mean coupling iterations per step against the {label}. In the strip above, a mark per scheme: the run "
+                          "failed there, i.e. it diverged or reached its limit of iterations, and said so.")
+            report.table(sweep_table(group, label, runs))
+    if context.study.report:
+        report.section("Added mass")
+        added_mass_runs.report(context)
+    runs = chosen(context, "cost")
+    if runs:
+        report.section("Cost at the same accuracy of the interface condition")
+        cost_section(context, runs)
+    missing = [run for run in context.runs if base(run.request.group) in ("passes", "agreement", "cost") and not run.done]
+    for run in missing:
+        report.text(f"**Missing:** {run.request.group}, {run.request.label}: {run.status}, {run.message}")
+    return 2 if missing else 0
+
+
+def base(group: str) -> str:
+    return group.partition("-")[0]
+
+
+def chosen(context: Context, group: str) -> List[StudyRun]:
+    return [run for run in context.runs if base(run.request.group) == group]
+
+
+def methods(runs: Sequence[StudyRun]) -> List[str]:
+    return list(dict.fromkeys(run.request.method.name for run in runs))
+
+
+def mesh_name(run: StudyRun) -> str:
+    return run.request.mesh.name if run.request.mesh else ""
+
+
+def step_range(run: StudyRun):
+    outer = run.columns("iterations.csv")["outer_iterations"]
+    return float(outer.mean()), int(outer.min()), int(outer.max()), len(outer)
+
+
+def passes_table(context: Context, runs: Sequence[StudyRun]) -> Table:
+    """A line per scheme, a column per mesh and material."""
+    columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in runs))
+    names = {(mesh, case): (f"{mesh}, {steps(runs, mesh)} steps", MATERIALS.get(case, case)) for mesh, case in columns}
+    table = Table(stem="coupling_passes", title="Coupling iterations per step, mean (range)", left=1,
+                  columns=[("", "scheme"), *(names[key] for key in columns)],
+                  csv_columns=["scheme", "mesh", "case", "tolerance", "steps", "mean", "least", "most", "status"])
+    for name in methods(runs):
+        cells = []
+        for mesh, case in columns:
+            found = [r for r in runs if r.request.method.name == name and r.request.case == case
+                     and mesh_name(r) == mesh]
+            if not found:
+                cells.append("")
+                continue
+            run = found[0]
+            tolerance = run.request.settings.get("partitioned.tolerance")
+            if run.done:
+                mean, least, most, count = step_range(run)
+                cells.append(f"{mean:.1f} ({least}-{most})")
+                table.csv_rows.append([name, mesh, case, tolerance, count, mean, least, most, run.status])
+            else:
+                cells.append(run.status)
+                table.csv_rows.append([name, mesh, case, tolerance, run.steps, None, None, None, run.status])
+        table.rows.append([runs_label(runs, name), *cells])
+    return table
+
+
+def steps(runs: Sequence[StudyRun], mesh: str) -> int:
+    return max(r.steps for r in runs if mesh_name(r) == mesh)
+
+
+def runs_label(runs: Sequence[StudyRun], method: str) -> str:
+    return next(run.request.method.label for run in runs if run.request.method.name == method)
+
+
+def agreement_table(runs: Sequence[StudyRun]) -> Table:
+    """A line per scheme, a column per mesh and material: difference (iterations per step)."""
+    schemes = [run for run in runs if run.request.method.program != MONOLITHIC]
+    tolerances = sorted({show(run.request.settings.get("partitioned.tolerance", "?")) for run in schemes})
+    columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in schemes))
+    table = Table(stem="coupling_agreement", left=1,
+                  title=f"Difference to the monolithic pressure at tolerance {', '.join(tolerances)} (iterations per step)",
+                  columns=[("", "scheme"), *((mesh, MATERIALS.get(case, case)) for mesh, case in columns)],
+                  csv_columns=["scheme", "mesh", "case", "tolerance", "common_levels", "iterations_per_step",
+                               "largest_relative_difference", "status"])
+    for name in methods(schemes):
+        cells = []
+        for mesh, case in columns:
+            own = [r for r in schemes if (r.request.method.name, mesh_name(r), r.request.case) == (name, mesh, case)]
+            cells.append(agreement_cell(table, own[0], runs) if own else "")
+        table.rows.append([runs_label(runs, name), *cells])
+    counts = [(row[1], row[4]) for row in table.csv_rows]
+    for mesh in dict.fromkeys(mesh for mesh, _ in columns):
+        levels = sorted({count for m, count in counts if m == mesh and count})
+        table.notes.append(f"{mesh}: time levels compared {', '.join(map(str, levels))}.")
+    return table
+
+
+def agreement_cell(table: Table, run: StudyRun, runs: Sequence[StudyRun]) -> str:
+    r = run.request
+    whole = [m for m in runs if m.request.method.program == MONOLITHIC and m.request.case == r.case
+             and mesh_name(m) == mesh_name(run) and m.done]
+    difference: Optional[float] = None
+    levels = 0
+    if whole and run.done:
+        over_time = largest_difference(max(whole, key=lambda m: m.steps).pressure, run.pressure)
+        levels, difference = over_time.levels, over_time.largest.max_relative if over_time.largest else None
+    table.csv_rows.append([r.method.name, mesh_name(run), r.case, r.settings.get("partitioned.tolerance"), levels,
+                           run.passes if run.done else None, difference, run.status])
+    return f"{fixed(difference, '.1e')} ({run.passes:.1f})" if run.done else run.status
+
+
+def varied(run: StudyRun) -> float:
+    """The value of the one quantity that a sweep varies."""
+    return float(next(value for name, value in run.request.values.items() if name != "mesh"))
+
+
+def series(runs: Sequence[StudyRun]) -> List["coupling_pictures.Series"]:
+    found = []
+    for name in methods(runs):
+        own = sorted((run for run in runs if run.request.method.name == name), key=varied)
+        found.append(coupling_pictures.Series(
+            label=runs_label(runs, name), x=[varied(run) for run in own],
+            passes=[run.passes if run.done else None for run in own]))
+    return found
+
+
+def sweep_table(group: str, label: str, runs: Sequence[StudyRun]) -> Table:
+    values = sorted({varied(run) for run in runs})
+    table = Table(stem=f"coupling_{group}", title=f"Mean coupling iterations per step against the {label}", left=1,
+                  columns=[("", "scheme"), *(("", f"{value:g}") for value in values)],
+                  csv_columns=["scheme", group, "steps", "mean", "status", "message", "command"])
+    for name in methods(runs):
+        cells = []
+        for value in values:
+            run = next(r for r in runs if r.request.method.name == name and varied(r) == value)
+            cells.append(f"{run.passes:.1f}" if run.done else run.status)
+            table.csv_rows.append([name, value, run.steps, run.passes if run.done else None, run.status, run.message, run.command])
+        table.rows.append([runs_label(runs, name), *cells])
+    return table
+
+
+def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
+    done = [run for run in runs if run.done]
+    for mesh in dict.fromkeys(mesh_name(run) for run in done):
+        here = [run for run in done if mesh_name(run) == mesh]
+        for case in dict.fromkeys(run.request.case for run in here):
+            own = [run for run in here if run.request.case == case]
+            costs = [read_cost(run.folder, run.request.method.label) for run in own]
+            table = cost_table(costs, f"Cost, {MATERIALS.get(case, case)}, {mesh} mesh")
+            table.stem = f"coupling_cost_{case}_{mesh}".strip("_")
+            context.report.table(table)
+            context.report.text(*saving(own, costs))
+
+
+def saving(runs: Sequence[StudyRun], costs) -> List[str]:
+    """The paper's "almost 50 %" in its own currency and in seconds."""
+    whole = [cost for run, cost in zip(runs, costs) if run.request.method.program == MONOLITHIC]
+    if not whole:
+        return []
+    best = min(whole, key=lambda cost: cost.seconds_per_step)
+    lines = []
+    for run, cost in zip(runs, costs):
+        if run.request.method.program == MONOLITHIC:
+            continue
+        seconds = 1 - best.seconds_per_step / cost.seconds_per_step
+        linear = 1 - (best.linear / best.steps) / (cost.linear / cost.steps) if cost.linear else 0.0
+        lines.append(f"`{cost.label}`: the monolithic driver ({best.label}) " + said(seconds, "of its seconds") +
+                     f"; linear iterations are {cost.linear / cost.steps:.0f} against {best.linear / best.steps:.0f} a step"
+                     + (f" ({linear:+.0%})" if linear else "") + ".")
+    return lines
+
+
+def said(share: float, of: str) -> str:
+    return f"saves {share:.0%} {of}" if share >= 0 else f"takes {1 / (1 + share) if share > -1 else 0:.2f} of them"

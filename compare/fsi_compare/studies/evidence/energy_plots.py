@@ -1,0 +1,127 @@
+"""The energy balance of runs from their `energy.csv`: what there is, what was put in, and where it went."""
+
+from dataclasses import dataclass
+from typing import List, Optional, Sequence
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ...layout import Table
+from ...pictures import PANEL_INCHES, finish
+from ..study_run import StudyRun
+
+FILE = "energy.csv"
+ENERGIES = ("fluid_kinetic_energy_uJ", "wall_kinetic_energy_uJ", "wall_isochoric_energy_uJ",
+            "wall_volumetric_energy_uJ")
+SUPPLIES = (("inlet_work_uJ", 1), ("load_work_uJ", 1), ("inlet_kinetic_inflow_uJ", 1),
+            ("outlet_kinetic_outflow_uJ", -1))
+
+LINES = {
+    "supplied": {"linestyle": "-", "color": "#000000", "linewidth": 2.0},
+    "kinetic, fluid": {"linestyle": "--", "color": "#2c6fbb", "linewidth": 1.4},
+    "kinetic, wall": {"linestyle": (0, (1, 1.5)), "color": "#2c6fbb", "linewidth": 1.4},
+    "elastic": {"linestyle": "-.", "color": "#e8871e", "linewidth": 1.4},
+    "lost by viscosity": {"linestyle": ":", "color": "#b02a5b", "linewidth": 1.8},
+    "lost by discretisation": {"linestyle": (0, (7, 2)), "color": "#5fa55a", "linewidth": 1.4},
+    "left over": {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#777777", "linewidth": 1.2},
+}
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Over time, in uJ; what a step supplies or loses is summed from the start."""
+
+    times: np.ndarray  # ms
+    parts: dict  # name in LINES -> values
+
+    def end(self, name: str) -> float:
+        return float(self.parts[name][-1])
+
+    @property
+    def largest_remainder(self) -> float:
+        """Relative to what was supplied in all."""
+        supplied = np.max(np.abs(self.parts["supplied"]))
+        return float(np.max(np.abs(self.parts["left over"])) / supplied) if supplied > 0 else float("nan")
+
+
+def balance(run: StudyRun) -> Optional[Balance]:
+    """None: the run wrote no energy balance."""
+    if not run.has(FILE):
+        return None
+    columns = run.columns(FILE)
+    zero = np.zeros(len(columns["time_ms"]))
+
+    def get(name: str) -> np.ndarray:
+        return columns.get(name, zero)
+
+    return Balance(columns["time_ms"], {
+        "supplied": np.cumsum(sum(sign * get(name) for name, sign in SUPPLIES)),
+        "kinetic, fluid": get(ENERGIES[0]),
+        "kinetic, wall": get(ENERGIES[1]),
+        "elastic": get(ENERGIES[2]) + get(ENERGIES[3]),
+        "lost by viscosity": np.cumsum(get("viscous_dissipation_uJ")),
+        "lost by discretisation": np.cumsum(get("numerical_dissipation_uJ")),
+        "left over": np.cumsum(get("remainder_uJ")),
+    })
+
+
+def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str) -> Figure:
+    """A panel per run, on one scale."""
+    columns = min(len(balances), 3)
+    rows = -(-len(balances) // columns)
+    width, panels = columns * (PANEL_INCHES[0] - 0.7) + (2 if columns == 1 else 0), rows * (PANEL_INCHES[1] + 0.5)
+    figure = Figure(figsize=(width, panels))
+    canvas = FigureCanvasAgg(figure)
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    for axes in grid.flat[len(balances):]:
+        axes.set_visible(False)
+    for axes, one, label in zip(grid.flat, balances, labels):
+        handles = [axes.plot(one.times, one.parts[name], **style)[0] for name, style in LINES.items()]
+        axes.set_title(label)
+        axes.set_xlabel("t in ms")
+        axes.set_xlim(0, one.times[-1])
+    for row in grid:
+        row[0].set_ylabel("energy in uJ")
+    finish(figure, canvas, handles, list(LINES), title, (width, panels))
+    return figure
+
+
+def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str = "energy") -> Table:
+    table = Table(
+        stem=stem,
+        title="Energy at the end of the runs, in percent of what was supplied",
+        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in list(LINES)[1:]),
+                 ("", "left over at most")],
+        csv_columns=[
+            "run", "time_ms", *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in LINES),
+            "largest_remainder_relative"
+        ],
+        notes=[
+            "Left over: what the balance of the discrete equations misses, summed over the steps; the last column "
+            "its largest value at any time."
+        ])
+    for one, label in zip(balances, labels):
+        supplied = one.end("supplied")
+        table.rows.append([label, f"{supplied:.4g}",
+                           *(f"{100 * one.end(name) / supplied:.2f}" if name != "left over" else
+                             f"{100 * one.end(name) / supplied:.1e}" for name in list(LINES)[1:]),
+                           f"{100 * one.largest_remainder:.1e}"])
+        table.csv_rows.append([label, float(one.times[-1]), *(one.end(name) for name in LINES), one.largest_remainder])
+    return table
+
+
+def energy_section(report, runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "energy") -> List[Balance]:
+    """Table and picture of the runs that have a balance; a sentence where none has."""
+    found = [(balance(run), label) for run, label in zip(runs, labels)]
+    balances = [one for one, _ in found if one is not None]
+    names = [label for one, label in found if one is not None]
+    if not balances:
+        report.text(f"The runs hold no `{FILE}`.")
+        return []
+    report.figure(stem, lambda: energy_figure(balances, names, "Energy balance"),
+                  "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less "
+                  "what flows out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and "
+                  "volumetric.")
+    report.table(energy_table(balances, names, stem))
+    return balances

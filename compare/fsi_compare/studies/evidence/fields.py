@@ -1,0 +1,57 @@
+"""Nodal fields of a run at one time, found through `fields.xdmf` and read from the HDF5 file that it names."""
+
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict
+
+import h5py
+import numpy as np
+
+from ...errors import InputError
+
+FILE = "fields.xdmf"
+
+
+@dataclass(frozen=True)
+class Medium:
+    """Fluid or wall on its tetrahedra, in reference coordinates."""
+
+    points: np.ndarray  # mm, (nodes, 3)
+    cells: np.ndarray  # (tetrahedra, 4)
+    data: Dict[str, np.ndarray]  # by name: at nodes (mm, mm/ms, kPa), `layer` at cells
+
+
+def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
+    """Media by name at `time` in ms. Raises InputError when the run wrote nothing then."""
+    path = folder / FILE
+    try:
+        root = ElementTree.parse(path).getroot()
+    except (OSError, ElementTree.ParseError) as error:
+        raise InputError(path, "", f"cannot be read: {error}", "run it with output.every above 0") from None
+    media = {}
+    for collection in root.iter("Grid"):
+        if collection.get("CollectionType") != "Temporal":
+            continue
+        for grid in collection.findall("Grid"):
+            if abs(float(grid.find("Time").get("Value")) - time) < 1e-6:
+                media[collection.get("Name")] = _medium(folder, grid)
+    if not media:
+        raise InputError(path, f"time {time:g} ms", "is not among the times written",
+                         "choose output.every so that it is")
+    return media
+
+
+def _medium(folder: Path, grid) -> Medium:
+    data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
+    return Medium(_item(folder, grid.find("Geometry")), _item(folder, grid.find("Topology")).astype(np.int64), data)
+
+
+def _item(folder: Path, element) -> np.ndarray:
+    """The data set named by the element, `FILE:/PATH`."""
+    file, _, name = element.find("DataItem").text.strip().partition(":")
+    try:
+        with h5py.File(folder / file, "r") as data:
+            return data[name][()]
+    except (OSError, KeyError) as error:
+        raise InputError(folder / file, name, f"cannot be read: {error}", "run it again") from None

@@ -1,0 +1,1 @@
+"""The kind `paper`: the paper's tables, figures and claims beside ours."""

@@ -1,0 +1,187 @@
+"""The kind `paper`: the paper's tables and figures beside ours, and each of its claims with what became of it.
+
+Groups of runs by name, all but `waves` may be missing: waves, newton, fixed-point, cost, stopped-early, fibres,
+printed-density (see paper_runs). `[report.linear]`: meshes and methods of the linear-solver tables (see
+paper_linear)."""
+
+from typing import Dict, List, Optional
+
+from ... import paper, solver_pictures
+from ...errors import InputError
+from ...names import MATERIALS
+from ...solver_tables import Grid, solver_tables
+from . import cost as paper_cost, linear as paper_linear, tables as paper_tables, waves as paper_waves
+from ..evidence import wave_speed
+from ..context import Context
+from ..evidence.energy_plots import energy_section
+from .claims import IN_PART, NOT_REPRODUCED, REPRODUCED, Claim, claims_table
+from .runs import GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
+from .solver_claims import solver_claims
+from .wave_claims import wave_claims
+from ..evidence.phase_bars import MEANING, phase_figure, phase_table
+from ..study_file import Study
+from ..study_run import StudyRun
+from ..suggestions import nearest
+
+RUN_FOLDERS = (f"{paper_linear.FOLDER}/runs",)  # beside `runs`; --fresh empties them too
+REPORT_KEYS = ("linear",)
+
+
+def check(study: Study) -> None:
+    for case in study.cases:
+        if case not in MATERIALS:
+            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials",
+                             f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}")
+    for request in study.requests:
+        if request.group not in GROUPS:
+            raise InputError(study.path, f"runs.{request.group}", "is no group of this kind of study",
+                             f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}")
+    for name in study.report:
+        if name not in REPORT_KEYS:
+            raise InputError(study.path, f"report.{name}", "is unknown",
+                             f"did you mean '{nearest(name, REPORT_KEYS)}'?")
+    if not any(request.group == WAVES and request.method.name == MONOLITHIC for request in study.requests):
+        raise InputError(study.path, f"runs.{WAVES}", f"has no runs of a method '{MONOLITHIC}'",
+                         "the whole report stands on them")
+    paper_linear.check(study)
+
+
+def also_runs(study: Study) -> List[str]:
+    """For `--list`: what is run beside the study's runs."""
+    chosen = paper_linear.chosen(study)
+    if chosen is None:
+        return []
+    meshes, methods = chosen
+    return [f"linear systems: {material}, {mesh}: {', '.join(methods)}" for mesh in meshes for material in study.cases]
+
+
+def evaluate(context: Context) -> int:
+    """Exit code 2 when a run is missing."""
+    grid = paper_linear.solve(context)
+    runs = PaperRuns(context.runs)
+    meshes = paper_tables.mesh_counts(runs, grid)
+    agreements = paper_waves.agreements(runs)
+    reference, stopped = paper_waves.stopped_early(runs)
+    speeds = paper_waves.speeds(runs)
+    costs = paper_cost.costs(runs, grid)
+    cycles = paper_cost.cycles_per_iteration(grid, mesh_of(costs[-1].run)) if costs else None
+    claims = [
+        *solver_claims(grid, meshes), *wave_claims(runs, agreements, stopped, speeds),
+        *paper_cost.cost_claims(runs, costs, cycles)
+    ]
+
+    report = context.report
+    _claims(report, claims)
+    report.section("Parameters, meshes, solvers: the paper's tables")
+    report.table(paper_tables.parameter_table(context.study.cases))
+    report.table(paper_tables.mesh_table(meshes))
+    if grid:
+        _linear(report, grid)
+
+    report.section("Pressure waves")
+    paper_waves.wave_pictures(report, runs)
+    if agreements:
+        report.table(paper_waves.agreement_table(agreements))
+    report.section("Deformed wall and velocity")
+    paper_waves.tube_picture(report, runs)
+    if stopped:
+        report.section("Why a partitioned wave can differ")
+        report.text("The same partitioned program, told to accept an interface that does not match yet:")
+        report.figure("stopped_early", lambda: paper_waves.stopped_figure(reference, runs),
+                      "The wave when the interface iteration is stopped early, beside the monolithic one.")
+        report.table(paper_waves.stopped_table(reference, stopped))
+    if speeds:
+        _speeds(report, runs, speeds)
+
+    report.section("Energy")
+    shown, labels = _finest(runs)
+    energy_section(report, shown, labels)
+
+    report.section("Cost")
+    if costs:
+        _cost(report, costs)
+    _phases(report, runs, costs)
+    return _missing(report, context.runs, grid)
+
+
+def _claims(report, claims: List[Claim]) -> None:
+    counts = {kind: sum(c.verdict == kind for c in claims) for kind in (REPRODUCED, IN_PART, NOT_REPRODUCED)}
+    report.section("Claims")
+    report.text(f"{paper.source().split(', section')[0]}. Of {len(claims)} claims " +
+                ", ".join(f"{n} {kind}" for kind, n in counts.items()) +
+                f"; {len(claims) - sum(counts.values())} not examined in this form of the study.")
+    report.table(claims_table(claims))
+
+
+def _linear(report, grid: Grid) -> None:
+    for table in solver_tables(grid):
+        report.table(table)
+    if len(grid.meshes) < 2:
+        return  # a single mesh makes no curve
+    for path in solver_pictures.write_solver_pictures(report.folder, grid):
+        report.written.append(path)
+        if path.suffix == ".png":
+            what = "Iterations" if path.stem.startswith("iterations") else "Cost"
+            report.image(path, f"{what} of the linear solvers against the number of unknowns, first Newton system "
+                               "from rest.")
+
+
+def _speeds(report, runs: PaperRuns, speeds) -> None:
+    report.section("Speed of the wave")
+    tubes: Dict[str, wave_speed.Tube] = {
+        material: wave_speed.read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials}
+    levels = [mesh for mesh in runs.meshes if any(mesh in s.measured for s in speeds)]
+    report.figure("wave_speed", lambda: paper_waves.speed_figure(speeds, tubes, levels),
+                  "Left: phase speed in the thick wall against the wave number. Right: Moens-Korteweg and the thick "
+                  "wall's long waves as lines, the crest's speed in the runs as marks.")
+    report.table(paper_waves.speed_table(speeds, levels))
+
+
+def _finest(runs: PaperRuns):
+    """The monolithic runs on the finest mesh, and their names."""
+    found = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
+    found = [(material, run) for material, run in found if run]
+    return [run for _, run in found], [f"{MATERIALS[material]}, {runs.finest}" for material, _ in found]
+
+
+def _cost(report, costs) -> None:
+    own = paper_cost.paper_rounds()
+    report.text(f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned "
+                f"approach (50 to 55 fixed-point iterations of 4 to 5 Newton iterations) and {own['monolithic']:.0f} "
+                "for the monolithic one (4 Newton iterations of 10 coupled iterations), and states a saving of "
+                "almost 50 %. It gives no seconds.")
+    report.table(paper_cost.cost_table(costs))
+    saved = paper_cost.savings(costs)
+    if saved:
+        report.table(paper_cost.saving_table(saved))
+
+
+def _phases(report, runs: PaperRuns, costs) -> None:
+    shown: List[StudyRun] = [c.run for c in costs]
+    if not shown:
+        shown = [run for method in (MONOLITHIC, PARTITIONED) for run in runs.all(WAVES, method=method)]
+    by_mesh: Dict[str, List[StudyRun]] = {}
+    for run in shown:
+        by_mesh.setdefault(mesh_of(run), []).append(run)
+    for mesh, group in by_mesh.items():
+        labels = [run.request.method.label for run in group]
+        report.figure(f"phases_{mesh}", lambda: phase_figure(group, labels, f"Where the time goes, {mesh} mesh"),
+                      f"Wall time of a step by phase. {MEANING}")
+        report.table(
+            phase_table(group, labels, stem=f"phases_{mesh}",
+                        title=f"Milliseconds per time step by phase, {mesh} mesh"))
+
+
+def _missing(report, all_runs, grid: Optional[Grid]) -> int:
+    lines = [
+        f"{run.request.group}, {run.request.label}: {run.status}: {run.message}" for run in all_runs if not run.done
+    ]
+    for material in grid.materials if grid else ():
+        for mesh in grid.meshes:
+            outcome = grid.outcome(material, mesh)
+            if outcome and not outcome.results:
+                lines.append(f"linear systems, {material}, {mesh}: {outcome.failure}")
+    if lines:
+        report.section("Missing")
+        report.list(lines)
+    return 2 if lines else 0

@@ -1,0 +1,83 @@
+"""The paper's Tables 1 and 2 beside ours: parameters and meshes."""
+
+import tomllib
+from pathlib import Path
+from typing import Dict, List, Mapping, Optional
+
+from ... import paper
+from ...errors import InputError
+from ...layout import Table, fixed
+from ...names import MATERIALS, MESHES
+from ...solver_tables import Grid
+from .runs import WAVES, PaperRuns, mesh_of
+
+LAYERS = ("media", "adventitia")
+UNITS = {"c10": "kPa", "c01": "kPa", "k1": "kPa", "k2": "", "alpha": "deg", "density": "mg/mm^3", "bulk_modulus": "kPa"}
+
+
+def parameter_table(cases: Mapping[str, Path]) -> Table:
+    table = Table(stem="table1_parameters", title="Table 1: parameters of the walls, ours and the paper's", left=3,
+                  columns=[("", "material"), ("", "layer"), ("", "parameter"), ("", "ours"), ("", "paper")],
+                  csv_columns=["material", "layer", "parameter", "unit", "ours", "paper", "same"])
+    differing = set()
+    for material in [name for name in MATERIALS if name in cases]:
+        structure = _structure(cases[material])
+        rows = [(layer, name, structure.get("layers", {}).get(layer, {}).get(name), values[i])
+                for name, values in paper.parameters(material).items() for i, layer in enumerate(LAYERS)]
+        rows += [("both", name, structure.get(name), value) for name, value in paper.wall().items()]
+        for i, (layer, name, ours, theirs) in enumerate(rows):
+            same = ours is not None and abs(ours - theirs) <= 1e-12 * abs(theirs)
+            if not same:
+                differing.add(name)
+            unit = f" {UNITS[name]}" if UNITS[name] else ""
+            table.rows.append([MATERIALS[material] if i == 0 else "", layer, name.replace("_", " "),
+                               fixed(ours, "g") + unit + ("" if same else " !"), f"{theirs:g}{unit}"])
+            table.csv_rows.append([material, layer, name, UNITS[name], ours, theirs, "yes" if same else "no"])
+    table.notes.append("!: differs from the paper: " + (", ".join(sorted(differing)) or "none") +
+                       ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
+                       "is 1.2 mg/mm^3 = 1200 kg/m^3, and the printed value is tried below.")
+    return table
+
+
+def _structure(case: Path) -> dict:
+    try:
+        return tomllib.loads(case.read_text(encoding="utf-8")).get("structure", {})
+    except (OSError, ValueError) as error:
+        raise InputError(case, "", f"cannot be read: {error}", "give one of the paper's cases") from None
+
+
+def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, int]]:
+    """Nodes, tetrahedra and unknowns of our meshes by level. Unknowns are those of the paper's coupled system where the
+    linear solvers were run: mesh displacement, velocity and pressure of the fluid, displacement and
+    pressure of the wall."""
+    found: Dict[str, Dict[str, int]] = {}
+    for run in runs.all(WAVES):
+        mesh = run.summary.get("mesh", {})
+        if mesh_of(run) in MESHES and "nodes" in mesh:
+            found[mesh_of(run)] = {name: mesh[name] for name in ("nodes", "tetrahedra") if name in mesh}
+    for mesh in grid.meshes if grid else ():
+        for material in grid.materials:
+            outcome = grid.outcome(material, mesh)
+            if outcome and outcome.results:
+                counts = outcome.results.mesh
+                found[mesh] = {name: counts[name] for name in ("nodes", "tetrahedra") if name in counts}
+                system = next(iter(outcome.results.systems.values()), None)
+                if system:
+                    found[mesh]["unknowns"] = system.unknowns["total"]
+    return {mesh: found[mesh] for mesh in MESHES if mesh in found}
+
+
+def mesh_table(counts: Mapping[str, Mapping[str, int]]) -> Table:
+    names = ("nodes", "tetrahedra", "unknowns")
+    table = Table(stem="table2_meshes", title="Table 2: the meshes, ours and the paper's",
+                  columns=[("", "mesh"), *((name, who) for name in names for who in ("ours", "paper"))],
+                  csv_columns=["mesh", "quantity", "ours", "paper"],
+                  notes=["The paper's 6,959 unknowns of the coarse mesh do not fit its other rows."])
+    for mesh, ours in counts.items():
+        theirs = paper.mesh_counts(mesh)
+        cells: List[str] = [mesh]
+        for name in names:
+            cells += [fixed(ours.get(name), ",d"), fixed(theirs.get(name), ",d")]
+            table.csv_rows.append([mesh, name, ours.get(name), theirs.get(name)])
+        table.rows.append(cells)
+    return table

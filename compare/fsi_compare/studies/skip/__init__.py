@@ -1,0 +1,1 @@
+"""The kind `skip`: what the economies save."""

@@ -1,0 +1,54 @@
+"""What each economy saves, as bars."""
+
+import math
+from typing import Sequence
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, NullFormatter
+
+from ...pictures import finish
+
+WITH = {"facecolor": "#303030", "edgecolor": "#303030"}
+WITHOUT = {"facecolor": "#ffffff", "edgecolor": "#b06a2a", "hatch": "////"}
+BAR = 0.36  # of a row
+
+
+def bars_figure(measured: Sequence) -> Figure:
+    """Left seconds, right counts; `measured` from top to bottom."""
+    size = (9.4, 0.7 + 0.52 * len(measured))
+    figure = Figure(figsize=size)
+    canvas = FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2, sharey=True)
+    _bars(left, [(m.on_s, m.off_s) for m in measured], "{:.2g}x")
+    _bars(right, [(m.on_count or 0, m.off_count or 0) for m in measured], "{:.2g}x")
+    left.set_xlabel("seconds of the run (log scale)")
+    right.set_xlabel("counted work (log scale)")
+    left.set_ylim(len(measured) - 0.4, -0.6)
+    left.set_yticks(range(len(measured)), [f"{m.economy.label}\n({m.economy.counter})" for m in measured])
+    for axes in (left, right):
+        axes.tick_params(axis="y", length=0, labelsize=7.5)
+        axes.grid(axis="y", visible=False)
+        axes.set_axisbelow(True)
+    finish(figure, canvas, [Patch(**WITH), Patch(**WITHOUT)], ["with the economy", "switched off"],
+           "The same scenes with and without each economy", size)
+    return figure
+
+
+def _bars(axes, pairs: Sequence, form: str) -> None:
+    shown = [value for pair in pairs for value in pair if value > 0]
+    low = 10 ** math.floor(math.log10(min(shown)) - 0.3) if shown else 0.1
+    high = max(shown) if shown else 1.0
+    for row, (on, off) in enumerate(pairs):
+        for value, offset, look in ((on, -0.5 * BAR, WITH), (off, 0.5 * BAR, WITHOUT)):
+            if value > 0:
+                axes.barh(row + offset, value - low, left=low, height=0.9 * BAR, linewidth=0.8, **look)
+            else:
+                axes.text(low * 1.1, row + offset, "none", va="center", fontsize=7)
+        if on > 0 and off > 0:
+            axes.text(max(on, off) * 1.12, row + 0.5 * BAR, form.format(off / on), va="center", fontsize=7.5)
+    axes.set_xscale("log")
+    axes.set_xlim(low, high * 4)
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: format(value, "g")))
+    axes.xaxis.set_minor_formatter(NullFormatter())

@@ -1,0 +1,210 @@
+"""Kind `skip`: what is saved by not doing what a scene does not need. Each group of runs is a scene in two forms, first
+with an economy and then with that economy switched off from outside; several repetitions, of which the median counts.
+What no key switches off is shown by the counters of `summary.json`."""
+
+import statistics
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+
+from ...differences import largest_difference
+from ...errors import InputError
+from ...layout import Table, fixed
+from ..context import Context
+from ..stability.map import waves_of
+from ..study_file import Request, Study, show
+from ..study_run import StudyRun
+from ..suggestions import nearest
+
+REPORT_KEYS = ("repeat", "economies")
+ECONOMY_KEYS = ("label", "counter", "off", "off_label", "differs")
+
+
+@dataclass(frozen=True)
+class Economy:
+    name: str  # of its group of runs
+    label: str
+    counter: str  # of summary.json: a total, a counter, a phase whose calls are meant, or "PHASE seconds"
+    on_label: str
+    off_label: str
+    on: Sequence[Any]  # requests or runs, its repetitions
+    off: Sequence[Any]
+    differs: str  # why the two answers are not the same; empty: they are
+
+
+def check(study: Study) -> None:
+    for name in study.report:
+        if name not in REPORT_KEYS:
+            raise InputError(study.path, f"report.{name}", "is unknown",
+                             f"did you mean '{nearest(name, REPORT_KEYS)}'?")
+    economies(study, study.requests, lambda request: request)
+
+
+def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
+    """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are left
+    out."""
+    repeat = study.report.get("repeat", "repeat")
+    groups: Dict[str, Dict[Tuple, List[Any]]] = {}
+    for item in items:
+        request: Request = request_of(item)
+        form = (request.case, request.method.name, *((k, show(v)) for k, v in request.values.items() if k != repeat))
+        groups.setdefault(request.group, {}).setdefault(form, []).append(item)
+    named = study.report.get("economies")
+    if not isinstance(named, dict) or not named:
+        raise InputError(study.path, "report.economies", "is missing",
+                         "name each group of runs there, with label and counter")
+    found = []
+    for name, entry in named.items():
+        key = f"report.economies.{name}"
+        if not isinstance(entry, dict) or any(k not in ECONOMY_KEYS for k in entry):
+            raise InputError(study.path, key, "is no section of " + ", ".join(ECONOMY_KEYS), "see the ready study")
+        for needed in ("label", "counter"):
+            if not isinstance(entry.get(needed), str):
+                raise InputError(study.path, f"{key}.{needed}", "is missing", "give it in quotes")
+        if name not in groups:
+            if study.quick:
+                continue
+            raise InputError(study.path, key, "is no group of runs", f"did you mean '{nearest(name, list(groups))}'?")
+        found.append(_economy(study, name, entry, groups, repeat, request_of))
+    return found
+
+
+def _economy(study: Study, name: str, entry: Mapping[str, str], groups, repeat: str, request_of) -> Economy:
+    forms = list(groups[name].items())
+    if "off" in entry:
+        if entry["off"] not in groups:
+            raise InputError(study.path, f"report.economies.{name}.off", f"'{entry['off']}' is no group of runs",
+                             f"did you mean '{nearest(entry['off'], list(groups))}'?")
+        forms += list(groups[entry["off"]].items())
+    if len(forms) != 2:
+        raise InputError(study.path, f"runs.{name}", f"has {len(forms)} forms beside its repetitions",
+                         "give two: first with the economy, then without")
+
+    def label(items) -> str:
+        request = request_of(items[0])
+        return ", ".join(show(v) for k, v in request.values.items() if k != repeat) or request.case
+
+    (_, on), (_, off) = forms
+    return Economy(name, entry["label"], entry["counter"], label(on), entry.get("off_label", label(off)), on, off,
+                   entry.get("differs", ""))
+
+
+@dataclass(frozen=True)
+class Measured:
+    economy: Economy
+    on_s: float  # median seconds of the run, mesh and output included
+    off_s: float
+    spread: float  # largest over smallest seconds among the repetitions of one form
+    on_count: Optional[float]
+    off_count: Optional[float]
+    difference: Optional[float]  # of the two answers: largest over the time levels, relative to each level's largest
+
+    @property
+    def ratio(self) -> float:
+        return self.off_s / self.on_s
+
+
+def evaluate(context: Context) -> int:
+    report = context.report
+    found = economies(context.study, context.runs, lambda run: run.request)
+    broken = [run for economy in found for run in (*economy.on, *economy.off) if not run.done]
+    measured = [measure(e) for e in found if all(run.done for run in (*e.on, *e.off))]
+    report.section("In short")
+    if broken:
+        report.text(f"**{len(broken)} runs did not come to their end; their economies are left out:**")
+        report.list([f"{run.request.label}: {run.status}, {run.message}" for run in broken])
+    if not measured:
+        return 2
+    best = sorted(measured, key=lambda m: -m.ratio)
+    report.text("Each row is one scene, run as the toolkit does it and with one economy switched off. The largest "
+                "saving: "
+                + "; ".join(f"{m.economy.label.lower()}, {m.ratio:.2g} times the seconds without it" for m in best[:3])
+                + ". "
+                f"Medians of {len(measured[0].economy.on)} runs each; runs of one form differ by a factor of up to "
+                f"{max(m.spread for m in measured):.2f}, so ratios nearer to 1 than that say nothing.")
+    from .pictures import bars_figure
+
+    report.section("With and without")
+    report.figure("skip", lambda: bars_figure(measured),
+                  "Seconds of a run and the work that the economy is about, each on its own logarithmic scale. Behind "
+                  "the bars: without over with.")
+    report.table(_table(measured))
+    report.section("What no key switches off")
+    report.text("Operators that do not change are built once, and kept factors and set-ups serve over many steps; no "
+                "key makes the drivers build them anew. Their counters show it; the last column states what it would "
+                "cost to build them once in each time step, from the seconds of one call as measured here.")
+    report.table(_constant_operators(measured))
+    return 2 if broken else 0
+
+
+def measure(economy: Economy) -> Measured:
+    seconds = [[run.wall_s for run in runs] for runs in (economy.on, economy.off)]
+    waves = [waves_of(runs[0]) for runs in (economy.on, economy.off)]
+    difference = None
+    if all(wave is not None for wave in waves):
+        largest = largest_difference(*waves).largest
+        difference = largest.max_relative if largest else None
+    return Measured(economy, *(statistics.median(s) for s in seconds), max(max(s) / min(s) for s in seconds),
+                    *(counter(runs[0], economy.counter) for runs in (economy.on, economy.off)), difference)
+
+
+def counter(run: StudyRun, name: str) -> Optional[float]:
+    """A total, a counter, the calls of a phase or, as "PHASE seconds", its seconds; 0 where the run did not do it."""
+    phases = run.summary.get("phases", {})
+    if name.endswith(" seconds"):
+        return float(phases.get(name.removesuffix(" seconds"), {}).get("seconds", 0.0))
+    for values in (run.summary.get("totals", {}), run.summary.get("counters", {})):
+        for key in (name, name.replace(" ", "_")):
+            if key in values:
+                return float(values[key])
+    return float(phases.get(name, {}).get("calls", 0))
+
+
+def _table(measured: Sequence[Measured]) -> Table:
+    table = Table(stem="skip", title="The same scene with and without each economy", left=3,
+                  columns=[("", "economy"), ("", "with it"), ("", "switched off"), ("seconds", "with"),
+                           ("seconds", "without"),
+                           ("seconds", "ratio"), ("", "counted"), ("count", "with"), ("count", "without"),
+                           ("", "answers differ by")],
+                  csv_columns=["economy", "label", "with", "switched_off", "case", "method", "with_s", "without_s",
+                               "ratio", "spread",
+                               "counter", "with_count", "without_count", "largest_difference"])
+    for m in measured:
+        e, request = m.economy, m.economy.on[0].request
+        table.rows.append([e.label, f"{e.on_label} ({request.method.label})", e.off_label, fixed(m.on_s, ".2f"),
+                           fixed(m.off_s, ".2f"),
+                           fixed(m.ratio, ".2f"), e.counter, fixed(m.on_count, ".4g"), fixed(m.off_count, ".4g"),
+                           e.differs or fixed(m.difference, ".1e")])
+        table.csv_rows.append([e.name, e.label, e.on_label, e.off_label, request.case, request.method.name, m.on_s,
+                               m.off_s, m.ratio,
+                               m.spread, e.counter, m.on_count, m.off_count, m.difference])
+    table.notes.append("Counted: of `summary.json`; of a phase its calls. Answers: largest difference over all time "
+                       "levels, relative to the largest pressure of the level.")
+    return table
+
+
+def _constant_operators(measured: Sequence[Measured]) -> Table:
+    """What a run built less often than once a step, of one run for each method, the longest."""
+    table = Table(stem="constant_operators", title="Built once or seldom", left=2,
+                  columns=[("", "run"), ("", "operator"), ("", "steps"), ("", "built"), ("", "seconds each"),
+                           ("", "more seconds if built in each step"), ("", "of the run")],
+                  csv_columns=["economy", "method", "phase", "steps", "calls", "seconds_per_call", "saved_s",
+                               "saved_share"])
+    chosen: Dict[str, Measured] = {}
+    for m in measured:
+        name = m.economy.on[0].request.method.name
+        if name not in chosen or m.on_s > chosen[name].on_s:
+            chosen[name] = m
+    for name, m in chosen.items():
+        run = m.economy.on[0]
+        for phase, entry in run.summary.get("phases", {}).items():
+            kind = phase.partition(":")[0]
+            calls = int(entry["calls"])
+            if kind not in ("assembly", "factorisation", "set-up") or not 0 < calls < run.steps:
+                continue
+            each = entry["seconds"] / calls
+            saved = each * (run.steps - calls)
+            table.rows.append([f"{run.request.method.label} ({m.economy.label.lower()})", phase, str(run.steps),
+                               str(calls),
+                               f"{each:.3g}", f"{saved:.2f}", f"{100 * saved / run.wall_s:.0f} %"])
+            table.csv_rows.append([m.economy.name, name, phase, run.steps, calls, each, saved, saved / run.wall_s])
+    return table

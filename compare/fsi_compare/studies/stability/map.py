@@ -1,0 +1,122 @@
+"""How each run of a stability study ended, and whether what it says it solved is what the other driver finds."""
+
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+from ...differences import largest_difference
+from ...errors import InputError
+from ...pressure_waves import PressureWaves
+from ..study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from ..study_run import WRONG as NOT_FINITE
+
+AGREES = "converged"  # and no time level is further from the other driver's than the bound
+UNCHECKED = "converged, unchecked"  # the other driver found nothing there, or broke off earlier
+DEVIATES = "deviates"  # of a method that makes one pass and so claims no agreement
+WRONG = "wrong"  # it says converged, and the other driver says otherwise
+OUTCOMES = (AGREES, UNCHECKED, DEVIATES, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, NOT_FINITE, CRASHED)
+ONE_PASS_BOUND = 1.0  # of such a method's difference: beyond it nothing of the wave is right, and it must not say done
+FAULTS = (WRONG, NOT_FINITE, CRASHED)  # what may happen nowhere on the map
+
+Point = Tuple[str, str, Any]  # case, quantity, value
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One method at one point of the map."""
+
+    run: StudyRun
+    outcome: str  # one of OUTCOMES
+    levels: int  # that the run finished, of failed runs too
+    difference: Optional[float]  # largest over the time levels in common, relative to the largest of each level
+    against: Optional[StudyRun]  # whose levels these are
+
+    @property
+    def method(self) -> str:
+        return self.run.request.method.name
+
+
+def quantity(run: StudyRun) -> str:
+    return next(iter(run.request.values))
+
+
+def point_of(run: StudyRun) -> Point:
+    name = quantity(run)
+    return run.request.case, name, run.request.values[name]
+
+
+def waves_of(run: StudyRun) -> Optional[PressureWaves]:
+    """Pressure along the centre line in Pa; of a wall without fluid the radial displacement of its inner face in mm in
+    the pressure's place. None: no finished time level."""
+    try:
+        if run.has("centerline_pressure.csv"):
+            return run.pressure
+        columns = run.columns("wall_displacement.csv")
+        points = int((columns["time_ms"] == columns["time_ms"][0]).sum())
+        shape = (-1, points)
+        return PressureWaves(columns["time_ms"].reshape(shape)[:, 0], columns["z_mm"][:points],
+                             columns["radial_mm"].reshape(shape))
+    except (InputError, KeyError, IndexError, ValueError):
+        return None
+
+
+def cells(runs: Sequence[StudyRun], references: Sequence[str], one_pass: Sequence[str], bound: float) -> List[Cell]:
+    """A cell for each run. `references`: methods of one driver that the others are held against, the best first;
+    `one_pass`: methods that do not iterate until fluid and wall agree."""
+    points: Dict[Point, List[StudyRun]] = {}
+    for run in runs:
+        points.setdefault(point_of(run), []).append(run)
+    found = {}
+    for there in points.values():
+        found.update({id(run): cell for run, cell in _at_point(there, references, one_pass, bound)})
+    return [found[id(run)] for run in runs]
+
+
+def _at_point(runs, references, one_pass, bound) -> List[Tuple[StudyRun, Cell]]:
+    waves = {run.request.method.name: waves_of(run) for run in runs}
+    by_name = {run.request.method.name: run for run in runs}
+    reference = next((by_name[name] for name in references if waves.get(name) is not None), None)
+    return [(run, _cell(run, reference, by_name, waves, one_pass, bound)) for run in runs]
+
+
+def _cell(run, reference, by_name, waves, one_pass, bound) -> Cell:
+    name = run.request.method.name
+    own = waves[name]
+    levels = 0 if own is None else len(own.times)
+    against, difference, common = None, None, 0
+    if own is not None and reference is not None:
+        if run is reference:
+            against, difference, common = _confirmed_by(run, by_name, waves, one_pass)
+        else:
+            against = reference
+            difference, common = _difference(waves[reference.request.method.name], own)
+    outcome = run.status if run.status != DONE else AGREES
+    if run.status == NOT_FINITE:
+        outcome = NOT_FINITE
+    elif difference is not None and difference > bound and run.status not in (CRASHED,):
+        if name not in one_pass or (run.done and difference > ONE_PASS_BOUND):
+            outcome = WRONG
+        elif run.done:
+            outcome = DEVIATES
+    elif run.done and (difference is None or common < levels):
+        outcome = UNCHECKED
+    return Cell(run, outcome, levels, difference, against)
+
+
+def _confirmed_by(run, by_name, waves, one_pass):
+    """The run of the other driver that bears this one out best: over most time levels, then most closely."""
+    best = None
+    for name, other in by_name.items():
+        if waves[name] is None or name in one_pass or other.request.method.program == run.request.method.program:
+            continue
+        difference, common = _difference(waves[run.request.method.name], waves[name])
+        if difference is not None and (best is None or (-common, difference) < (-best[2], best[1])):
+            best = other, difference, common
+    return best or (None, None, 0)
+
+
+def _difference(reference: PressureWaves, other: PressureWaves) -> Tuple[Optional[float], int]:
+    """(largest difference relative to the reference's largest of the same level, levels in common)."""
+    if not other.covers_line(reference.z):
+        return None, 0
+    over_time = largest_difference(reference, other)
+    return (over_time.largest.max_relative if over_time.largest else None), over_time.levels
