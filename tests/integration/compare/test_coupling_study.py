@@ -5,10 +5,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
 from fsi_compare.studies.coupling import study as coupling
+from fsi_compare.studies.coupling import added_mass_runs
 from fsi_compare.studies.coupling.added_mass import Tube
 from fsi_compare.studies.evidence.bessel import bessel_i
 from fsi_compare.studies.coupling.bisection import bisect
@@ -29,6 +31,11 @@ class AddedMass(unittest.TestCase):
         self.assertAlmostEqual(tube.gain(0.125), 94, delta=0.5)
         self.assertAlmostEqual(tube.largest_factor(0.125), 0.0211, 4)
         self.assertAlmostEqual(Tube(wall_density=1.2e-3).largest_factor(0.125), 0.0011, 4)  # the paper's misprint
+
+    def test_this_scheme(self):
+        self.assertAlmostEqual(Tube().whole_wall, 0.884, 3)
+        self.assertAlmostEqual(Tube().explicit_limit(1), 268, delta=1)
+        self.assertAlmostEqual(Tube().explicit_limit(2), 3 * Tube().explicit_limit(1), 9)
 
     def test_at_the_critical_density_the_mass_ratio_is_one(self):
         critical = Tube().critical_density_ratio()
@@ -86,13 +93,32 @@ class Tables(unittest.TestCase):
         self.assertEqual(table.rows[0][1], "7.5 (6-9)")
 
 
+class Growth(unittest.TestCase):
+    """A march of 80 steps at three points, alternating with a factor per step on top of a smooth wave."""
+
+    def march(self, factor, size):
+        times = 0.125 * np.arange(1, 81)
+        radial = np.sin(0.3 * times)[:, None] * np.ones(3) + size * (-factor) ** np.arange(80)[:, None]
+
+        class Fake:
+            def columns(self, file):
+                return {"time_ms": np.repeat(times, 3), "radial_mm": radial.ravel()}
+        return added_mass_runs.alternates_ever_more(Fake())
+
+    def test_only_what_grows_and_is_not_small_is_unstable(self):
+        self.assertTrue(self.march(1.02, 0.1))
+        self.assertFalse(self.march(0.98, 0.5))
+        self.assertFalse(self.march(1.02, 1e-4))
+        self.assertFalse(self.march(1.0, 0.0))
+
+
 class StudyFile(unittest.TestCase):
     def test_mistakes_are_named(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "study.toml"
             (Path(folder) / "case.toml").write_text("")
             good = ('title = "t"\nkind = "coupling"\n[cases]\na = "case.toml"\n[methods.explicit]\nprogram = "fsi-partitioned"\n'
-                    '[runs.passes]\n[report.explicit]\nmethod = "explicit"\ncase = "a"\nlow = 1.0\nhigh = 2.0\nsteps = [0.1]\n')
+                    '[runs.passes]\n[report.explicit]\nmethod = "explicit"\ncase = "a"\nlow = 1.0\nhigh = 2.0\nsteps = [0.1]\nstabilisations = [0.5]\n')
             path.write_text(good)
             coupling.check(read_study(path, ["coupling"]))
             for old, new, expected in (("[runs.passes]", "[runs.pass]", "runs.pass"),

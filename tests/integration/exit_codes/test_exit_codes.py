@@ -33,7 +33,7 @@ class ExitCodes(FolderTest):
         """Exit code 2, a message that helps, and a folder that says how far the run came."""
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
-        self.assertRegex(process.stderr, rf"error: step {steps + 1} \(to t = .*; try ")
+        self.assertRegex(process.stderr, rf"error: (load )?step {steps + 1} \(to .*; try ")
         self.assertEqual(summary(folder)["status"], "not converged")
         self.assertIn(summary(folder)["failure"], process.stderr)
         self.assertIn(summary(folder)["failure"], (folder / "run.log").read_text())

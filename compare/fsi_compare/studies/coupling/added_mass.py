@@ -38,6 +38,19 @@ class Tube:
         """a in kPa/mm; E = 2 (1 + nu) mu."""
         return sum(2 * (1 + self.poisson) * mu * h for h, mu in self.layers) / ((1 - self.poisson ** 2) * self.radius ** 2)
 
+    @property
+    def whole_wall(self) -> float:
+        """e: the mass with which a thick ring answers that moves as a whole, over rho_s h; incompressible, so that the
+        outside moves less than the inside: (R/h) ln(1 + h/R)."""
+        return self.radius / self.thickness * math.log(1 + self.thickness / self.radius)
+
+    def explicit_limit(self, order: int) -> float:
+        """Density ratio below which the drivers' `explicit` is unstable, with first guesses extrapolated by `order` (1 or
+        2): rho_s h e = M rho_f m, M = 2 or 6. At the root -1 of the amplification, where steps alternate, Newmark's beta =
+        gamma = 1 leaves the wall half as heavy as central differences (M = 1), and the second order's extrapolation
+        overshoots three times as far. Derived in docs/coupling.md; for a wall that moves as a whole."""
+        return {1: 2.0, 2: 6.0}[order] * self.critical_density_ratio() / self.whole_wall
+
     def mass_ratio(self) -> float:
         """rho_s h/(rho_f m). In the semi-discrete theory a loosely coupled Dirichlet-Neumann scheme is unstable below 1."""
         return self.wall_density * self.thickness / (self.fluid_density * self.added_mass_length)
