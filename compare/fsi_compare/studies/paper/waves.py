@@ -290,9 +290,12 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], meshes: Sequen
                               markersize=7,
                               markeredgewidth=1.6)
         labels.append(f"crest measured, {mesh}")
+    many = len(found) > 4
     right.set_xticks(range(len(found)), [s.label.replace(", ", ",\n", 1) for s in found],
-                     fontsize=6.5 if len(found) > 4 else 8)
+                     fontsize=6.5 if many else 8, rotation=40 if many else 0, ha="right" if many else "center",
+                     rotation_mode="anchor")
     right.set_xlim(-0.6, len(found) - 0.4)
+    right.set_ylim(0, 1.05 * max(max(s.thick, s.thin, *(v for v in s.measured.values() if v)) for s in found))
     right.grid(axis="x", visible=False)
     right.set_title("theory and runs")
     finish(figure, canvas, handles, labels, "Speed of the pressure wave", (width, height))
