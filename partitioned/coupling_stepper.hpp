@@ -101,7 +101,6 @@ class CouplingStepper : public Stepper {
     if (scheme_.one_pass) {
       memory.numbers["alternating_steps"] = march_.steps();
       memory.numbers["last_gap"] = march_.last_gap();
-      memory.numbers["sawtooth_steps"] = sawtooth_.steps();
     }
     return memory;
   }
@@ -113,8 +112,6 @@ class CouplingStepper : public Stepper {
     const auto steps = memory.numbers.find("alternating_steps"), gap = memory.numbers.find("last_gap");
     if (steps != memory.numbers.end() && gap != memory.numbers.end())
       march_.set(static_cast<int>(steps->second), gap->second);
-    const auto sawtooth = memory.numbers.find("sawtooth_steps");
-    if (sawtooth != memory.numbers.end()) sawtooth_.set(static_cast<int>(sawtooth->second));
   }
 
  private:
@@ -180,14 +177,6 @@ class CouplingStepper : public Stepper {
 
   /// One pass a step: a march that has become unstable ends here, long before an element is inverted.
   void check_march(const State& state, const StepData& data) {
-    const auto& before = state.before;
-    if (sawtooth_.persists({&state.now.wall, &before[0].wall, &before[1].wall, &before[2].wall},
-                           Element::components + 1))
-      throw ConvergenceError(
-          fmt::format("step {} (to t = {:g} ms): the {} coupling is unstable: the wall has swung to and fro with every "
-                      "step, undamped for {} steps",
-                      state.step + 1, data.time, scheme_.name, sawtooth_.steps()),
-          scheme_.advice);
     if (!march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual)) return;
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling is unstable: {} steps running the wall has missed the "
@@ -255,7 +244,6 @@ class CouplingStepper : public Stepper {
   CouplingReport coupling_;
   DivergenceMonitor monitor_;  ///< of the step's passes
   AlternationMonitor march_;   ///< of the steps, with one pass each
-  SawtoothMonitor sawtooth_;   ///< of the same
   int order_ = 0;              ///< of the extrapolated start
   bool starts_far_ = true;     ///< the last step's first guess was far from its end
 };

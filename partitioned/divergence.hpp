@@ -1,8 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -53,42 +51,6 @@ class AlternationMonitor {
  private:
   int steps_ = 0;
   double last_gap_ = 0;
-};
-
-/// Notices a march whose steps alternate without end though each is small: second differences of the wall's
-/// displacement in time that point against the step's before and are as long. A wave that the time step resolves has
-/// neither; an alternation that decays by a few percent a step dies out by itself.
-class SawtoothMonitor {
- public:
-  static constexpr int most_steps = 10;       ///< in a row
-  static constexpr double opposite = -0.9;    ///< cosine between consecutive second differences, at most
-  static constexpr double undamped = 0.98;    ///< ratio of their lengths, at least
-  static constexpr double noticeable = 0.01;  ///< of the displacement
-
-  /// \param d  displacement of the wall in mm at four time levels, the newest first, in nodal arrays of `stride`
-  /// numbers
-  ///           a node, the last of which is not looked at
-  bool persists(const std::array<const std::vector<double>*, 4>& d, std::size_t stride) {
-    double here = 0, before = 0, product = 0, size = 0;
-    for (std::size_t i = 0; i < d[0]->size(); ++i) {
-      if (i % stride == stride - 1) continue;
-      const double a = (*d[0])[i] - 2 * (*d[1])[i] + (*d[2])[i], b = (*d[1])[i] - 2 * (*d[2])[i] + (*d[3])[i];
-      here += a * a;
-      before += b * b;
-      product += a * b;
-      size += (*d[0])[i] * (*d[0])[i];
-    }
-    const bool alternates = product < opposite * std::sqrt(here * before) && here > undamped * undamped * before &&
-                            here > noticeable * noticeable * size;
-    steps_ = alternates ? steps_ + 1 : 0;
-    return steps_ >= most_steps;
-  }
-
-  int steps() const { return steps_; }
-  void set(int steps) { steps_ = steps; }
-
- private:
-  int steps_ = 0;
 };
 
 }  // namespace fsi

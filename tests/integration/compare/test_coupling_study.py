@@ -3,6 +3,7 @@
 import math
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,15 @@ class Tables(unittest.TestCase):
     def test_passes_are_mean_and_range(self):
         table = coupling.passes_table(None, [self.run_of("iqn-ils", "fsi-partitioned", [9, 6], group="passes")])
         self.assertEqual(table.rows[0][1], "7.5 (6-9)")
+
+
+    def test_meshes_compare_over_the_same_steps(self):
+        coarse = self.run_of("iqn-ils", "fsi-partitioned", [9, 6, 3, 3], group="passes")
+        fine = self.run_of("finer", "fsi-partitioned", [10, 8], group="passes")
+        method = coarse.request.method
+        fine = replace(fine, request=replace(fine.request, method=method, mesh=StudyMesh("fine", "fine", ())))
+        table = coupling.growth_table([coarse, fine])
+        self.assertEqual(table.rows, [["iqn-ils", "neo-Hookean", "fine", "2", "7.5", "9.0", "1.20"]])
 
 
 class Growth(unittest.TestCase):

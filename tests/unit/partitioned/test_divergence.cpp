@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "partitioned/divergence.hpp"
 
@@ -61,34 +58,6 @@ TEST(AlternationMonitor, GoesOnAfterARestart) {
   monitor.alternates(2, 4);
   again.set(monitor.steps(), monitor.last_gap());
   EXPECT_TRUE(again.alternates(3, 4));
-}
-
-/// Marches 60 steps of a wave with an alternation on top; returns after how many the monitor speaks, 0: never. One node
-/// of two displacements and a pressure, which alternates always.
-int sawtooth_speaks(double size, double factor) {
-  SawtoothMonitor monitor;
-  std::array<std::vector<double>, 4> levels;
-  levels.fill({0, 0, 0});
-  for (int step = 1; step <= 60; ++step) {
-    std::rotate(levels.rbegin(), levels.rbegin() + 1, levels.rend());
-    const double wave = std::sin(0.1 * step), tooth = size * std::pow(-factor, step);
-    levels[0] = {wave + tooth, 0.5 * wave - tooth, 100 * std::pow(-1.0, step)};
-    if (monitor.persists({&levels[0], &levels[1], &levels[2], &levels[3]}, 3)) return step;
-  }
-  return 0;
-}
-
-TEST(SawtoothMonitor, SpeaksAfterTenStepsThatDoNotDecay) {
-  const int after = sawtooth_speaks(0.3, 1.0);
-  EXPECT_GE(after, SawtoothMonitor::most_steps);
-  EXPECT_LE(after, SawtoothMonitor::most_steps + 4);
-  EXPECT_GT(sawtooth_speaks(0.01, 1.05), 0);
-}
-
-TEST(SawtoothMonitor, IsSilentAboutWavesAndWhatDecays) {
-  EXPECT_EQ(sawtooth_speaks(0, 1.0), 0);
-  EXPECT_EQ(sawtooth_speaks(0.3, 0.9), 0);
-  EXPECT_EQ(sawtooth_speaks(1e-4, 1.0), 0) << "too small to notice";
 }
 
 }  // namespace

@@ -40,6 +40,9 @@ def evaluate(context: Context) -> int:
         report.text("Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; of "
                     "`newton-krylov` every evaluation of the interface residual counts.")
         report.table(passes_table(context, passes))
+        growth = growth_table(passes)
+        if growth.rows:
+            report.table(growth)
     agreement = chosen(context, "agreement")
     if agreement:
         report.text("The converged partitioned step and the monolithic step solve the same equations. Largest difference of "
@@ -122,6 +125,30 @@ def steps(runs: Sequence[StudyRun], mesh: str) -> int:
 
 def runs_label(runs: Sequence[StudyRun], method: str) -> str:
     return next(run.request.method.label for run in runs if run.request.method.name == method)
+
+
+def growth_table(runs: Sequence[StudyRun]) -> Table:
+    """Mean over the steps that both runs have, on the finer mesh over the coarsest: the first steps take the most passes, so
+    that only equal numbers of steps compare."""
+    done = [run for run in runs if run.done]
+    meshes = list(dict.fromkeys(mesh_name(run) for run in done))
+    table = Table(stem="coupling_growth", title="Coupling iterations against the mesh, over the same steps", left=3,
+                  columns=[("", "scheme"), ("", "material"), ("", "mesh"), ("", "steps"), ("", f"mean, {meshes[0] if meshes else ''}"),
+                           ("", "mean here"), ("", "ratio")],
+                  csv_columns=["scheme", "case", "mesh", "steps", "mean_coarsest", "mean", "ratio"])
+    for run in done:
+        coarsest = [r for r in done if mesh_name(r) == meshes[0] and r.request.case == run.request.case
+                    and r.request.method.name == run.request.method.name]
+        if mesh_name(run) == meshes[0] or not coarsest:
+            continue
+        passes = [r.columns("iterations.csv")["outer_iterations"] for r in (coarsest[0], run)]
+        count = min(len(p) for p in passes)
+        base_mean, mean = (float(p[:count].mean()) for p in passes)
+        r = run.request
+        table.rows.append([r.method.label, MATERIALS.get(r.case, r.case), mesh_name(run), str(count), f"{base_mean:.1f}",
+                           f"{mean:.1f}", f"{mean / base_mean:.2f}"])
+        table.csv_rows.append([r.method.name, r.case, mesh_name(run), count, base_mean, mean, mean / base_mean])
+    return table
 
 
 def agreement_table(runs: Sequence[StudyRun]) -> Table:
