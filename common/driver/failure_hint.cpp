@@ -63,13 +63,24 @@ struct WallAtFailure {
   Extreme stretch;       ///< at the last finished level
   bool growing = false;  ///< it was far already and grew in each of the last levels: no accident of one step
   double axial = 0;      ///< mm, where it is
-  double load = 0;       ///< kPa, in the step that failed
+  double load = 0;       ///< kPa, largest until the step that failed; at rest, that step's
+  double mean_load = 0;  ///< kPa, over the time until then; at rest, that step's
 };
 
+/// Of a run in time the load until now, which may have ended while the wall still yields.
+void add_load(WallAtFailure& wall, const Loads& loads, int last_step, bool at_rest) {
+  const int first = at_rest ? last_step : 1;
+  for (int step = first; step <= last_step; ++step) {
+    const double load = std::max(loads.inlet_pressure(step), loads.wall_pressure(step));
+    wall.load = std::max(wall.load, load);
+    wall.mean_load += load / (last_step - first + 1);
+  }
+}
+
 /// At rest the load alone tells. In time inertia bears any load for a while, and a coupling that is unstable stretches
-/// the wall too: only a wall that yields steadily while the load acts has met its limit.
+/// the wall too: only a wall that yields steadily under a load that is too high in the mean has met its limit.
 std::string wall_hint(const WallAtFailure& wall, std::optional<double> limit, bool at_rest) {
-  const bool far = wall.stretch.value >= far_stretched, beyond = limit && wall.load >= *limit;
+  const bool far = wall.stretch.value >= far_stretched, beyond = limit && wall.mean_load >= *limit;
   if (at_rest ? !far && !beyond : !(far && beyond && wall.growing)) return {};
   std::string text;
   if (far)
@@ -103,8 +114,9 @@ std::string failure_hint(const Case& setup, const TetrahedralMesh& mesh, const S
     wall.growing = state.step >= 3 && levels[0].value > levels[1].value && levels[1].value > levels[2].value &&
                    levels[2].value > already_stretched;
     wall.axial = frame.axial(wall.stretch.where);
-    wall.load = std::max(loads.inlet_pressure(state.step + 1), loads.wall_pressure(state.step + 1));
-    const auto text = wall_hint(wall, tube_limit_load(*setup.structure, mesh), setup.static_load.has_value());
+    const bool at_rest = setup.static_load.has_value();
+    add_load(wall, loads, state.step + 1, at_rest);
+    const auto text = wall_hint(wall, tube_limit_load(*setup.structure, mesh), at_rest);
     if (!text.empty()) found.push_back(text);
   }
   if (scene.coupled()) {

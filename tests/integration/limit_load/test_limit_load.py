@@ -31,6 +31,11 @@ class LimitLoad(FolderTest):
             self.assertIn(LIMIT, said)
             self.assertIn(LIMIT, summary(self.base / "run")["failure"])
 
+    def test_pulse_that_has_ended_when_the_wall_is_lost(self):
+        said = self.failure(MONOLITHIC, NEO_HOOKEAN, "inlet.until=2", "time.end=4")
+        self.assertIn(LIMIT, said)
+        self.assertIn("1.332 kPa", said)
+
     def test_not_where_a_coupling_is_unstable(self):
         said = self.failure(PARTITIONED, NEO_HOOKEAN, 'partitioned.scheme="explicit"', "inlet.until=5", "time.end=2")
         self.assertNotIn("kPa at rest", said)
