@@ -168,11 +168,11 @@ class Failures(FolderTest):
         self.assertIn("iqn-ils", message)
 
     def test_explicit_has_the_limits_of_theory(self):
-        """Densities below and above 2 and 6 times rho_f m / (0.886 h), for an extrapolation of order 1 and 2, of a wall that
+        """Densities below and above 2 and 6 times rho_f m / (0.884 h), for an extrapolation of order 1 and 2, of a wall that
         moves as a whole: with little stabilisation."""
         fluid, thickness, added = 1.0, 0.39, 46.3  # mg/mm^3, mm, mm
         for order, factor in ((1, 2), (2, 6)):
-            limit = factor * fluid * added / (0.886 * thickness)
+            limit = factor * fluid * added / (0.884 * thickness)
             settings = (*scheme("explicit"), "structure.stabilisation=1e-5", f"time.predictor={order}", "output.every=0")
             with self.subTest(order=order):
                 self.assertIn("unstable", self.refused(*settings, f"structure.density={limit / 1.5}"))
