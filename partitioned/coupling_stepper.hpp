@@ -30,7 +30,8 @@ class CouplingStepper : public Stepper {
         options_(setup.partitioned),
         predictor_(setup.time ? setup.time->predictor : std::nullopt),
         scheme_(coupling_scheme(options_.scheme)),
-        accelerator_(scheme_.make_accelerator(options_)) {
+        accelerator_(scheme_.make_accelerator(options_)),
+        velocity_gap_(options_.velocity_gap) {
     if (scheme_.one_pass && first_order() == 0)
       throw InputError(
           "", "time.predictor",
@@ -101,17 +102,22 @@ class CouplingStepper : public Stepper {
     if (scheme_.one_pass) {
       memory.numbers["alternating_steps"] = march_.steps();
       memory.numbers["last_gap"] = march_.last_gap();
+      memory.numbers["steps_apart"] = velocity_gap_.steps();
+      memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
     }
     return memory;
   }
   void recall(const Memory& memory) override {
     problem_->recall(memory);
     accelerator_->recall(memory);
-    const auto far_start = memory.numbers.find("starts_far");
-    if (far_start != memory.numbers.end()) starts_far_ = far_start->second != 0;
-    const auto steps = memory.numbers.find("alternating_steps"), gap = memory.numbers.find("last_gap");
-    if (steps != memory.numbers.end() && gap != memory.numbers.end())
-      march_.set(static_cast<int>(steps->second), gap->second);
+    const auto number =
+        [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
+          const auto found = memory.numbers.find(name);
+          return found == memory.numbers.end() ? 0.0 : found->second;
+        };
+    if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
+    march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
+    velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
   }
 
  private:
@@ -175,14 +181,25 @@ class CouplingStepper : public Stepper {
         scheme_.advice);
   }
 
-  /// One pass a step: a march that has become unstable ends here, long before an element is inverted.
+  /// One pass a step, and no claim that fluid and wall agree: a march that has become unstable ends here, long before
+  /// an element is inverted, and so does one that lingers at its stability limit with a pressure that means nothing.
   void check_march(const State& state, const StepData& data) {
-    if (!march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual)) return;
-    throw ConvergenceError(
-        fmt::format("step {} (to t = {:g} ms): the {} coupling is unstable: {} steps running the wall has missed the "
-                    "extrapolated displacement by more than its own, and further each time (now {:.2e} times)",
-                    state.step + 1, data.time, scheme_.name, march_.steps(), coupling_.displacement_residual),
-        scheme_.advice);
+    const auto give_up = [&](const std::string& what) {
+      throw ConvergenceError(
+          fmt::format("step {} (to t = {:g} ms): the {} coupling {}", state.step + 1, data.time, scheme_.name, what),
+          scheme_.advice);
+    };
+    if (march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual))
+      give_up(
+          fmt::format("is unstable: {} steps running the wall has missed the extrapolated displacement by more than "
+                      "its own, and further each time (now {:.2e} times)",
+                      march_.steps(), coupling_.displacement_residual));
+    if (velocity_gap_.comes_apart(coupling_.displacement_gap, problem_->movement()))
+      give_up(
+          fmt::format("does not hold fluid and wall together, and its pressure is wrong: {} steps running their "
+                      "velocities on the interface differ by more than {:g} times the largest so far (now {:.2f} "
+                      "times)",
+                      velocity_gap_.steps(), options_.velocity_gap, velocity_gap_.last()));
   }
 
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
@@ -242,10 +259,11 @@ class CouplingStepper : public Stepper {
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<Element>> problem_;
   CouplingReport coupling_;
-  DivergenceMonitor monitor_;  ///< of the step's passes
-  AlternationMonitor march_;   ///< of the steps, with one pass each
-  int order_ = 0;              ///< of the extrapolated start
-  bool starts_far_ = true;     ///< the last step's first guess was far from its end
+  DivergenceMonitor monitor_;        ///< of the step's passes
+  AlternationMonitor march_;         ///< of the steps, with one pass each,
+  VelocityGapMonitor velocity_gap_;  ///< and of what they leave
+  int order_ = 0;                    ///< of the extrapolated start
+  bool starts_far_ = true;           ///< the last step's first guess was far from its end
 };
 
 }  // namespace fsi

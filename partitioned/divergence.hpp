@@ -53,4 +53,37 @@ class AlternationMonitor {
   double last_gap_ = 0;
 };
 
+/// Notices a march without iterations in which fluid and wall have come apart: over `most_steps` steps in a row their
+/// velocities on the interface differ by more than `bound` times the largest of the march. Displacements alone do not
+/// show it, their differences weigh in the pressure with 1/step^2. A jump of the load upsets a sound march for less.
+class VelocityGapMonitor {
+ public:
+  static constexpr int most_steps = 8;
+
+  explicit VelocityGapMonitor(double bound) : bound_(bound) {}
+  /// \param gap       |d~ - d| of the step, mm: the velocities' difference times the time step
+  /// \param movement  |d~ - d^{n-1}|, mm: the wall's velocity times the time step
+  bool comes_apart(double gap, double movement) {
+    largest_movement_ = std::max(largest_movement_, movement);
+    last_ = gap / std::max(largest_movement_, 1e-300);
+    steps_ = last_ > bound_ ? steps_ + 1 : 0;
+    return steps_ >= most_steps;
+  }
+
+  /// Of the last step, over the largest velocity so far.
+  double last() const { return last_; }
+  int steps() const { return steps_; }
+  double largest_movement() const { return largest_movement_; }
+  void set(int steps, double largest_movement) {
+    steps_ = steps;
+    largest_movement_ = largest_movement;
+  }
+
+ private:
+  double bound_;
+  int steps_ = 0;
+  double largest_movement_ = 0;
+  double last_ = 0;
+};
+
 }  // namespace fsi

@@ -57,6 +57,14 @@ class InterfaceProblem {
   /// differences of its positions, are then the wall's.
   void follow_wall() { move_mesh(wall_displacement(state_->now)); }
 
+  /// |d~ - d^{n-1}| of the last pass, mm.
+  double movement() const {
+    const std::vector<double> now = wall_displacement(state_->now), last = wall_displacement(state_->before[0]);
+    double sum = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) sum += (now[i] - last[i]) * (now[i] - last[i]);
+    return std::sqrt(sum);
+  }
+
   /// What the momentum balance on the interface lacks when the fluid is given the wall's answer there, relative to the
   /// force between them: the interface rows of the monolithic residual of this iterate, Euclidean norm.
   double force_residual() {

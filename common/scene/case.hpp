@@ -105,6 +105,7 @@ struct PartitionedData {
   double tolerance = 1e-6;            ///< ||d~ - d|| <= tolerance ||d~|| on the interface
   double absolute_tolerance = 1e-13;  ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
   double force_tolerance = 0;         ///< further demand: force residual relative to the interface force; 0: none
+  double velocity_gap = 0.5;          ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
   double relaxation = 0;              ///< constant factor, or the first of the scheme; 0 lets the scheme choose
   int max_iterations = 200;
   int reused_steps = 10;               ///< earlier time steps whose differences iqn-ils keeps

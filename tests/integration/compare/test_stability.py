@@ -9,11 +9,12 @@ import numpy as np
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
+from fsi_compare.pressure_waves import PressureWaves
 from fsi_compare.studies.stability import study as stability
 from fsi_compare.studies.context import Context
 from fsi_compare.studies.stability.limit_load import Tube
 from fsi_compare.studies.report import Report
-from fsi_compare.studies.stability.map import AGREES, DEVIATES, UNCHECKED, WRONG
+from fsi_compare.studies.stability.map import AGREES, DEVIATES, UNCHECKED, WRONG, difference_of
 from fsi_compare.studies.stability.messages import distinct, without_folder
 from fsi_compare.studies.study_file import read_study
 from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
@@ -128,6 +129,13 @@ class Outcomes(StabilityCase):
     def test_one_pass_claims_no_agreement(self):
         code, rows = self.evaluate({("once", 12.0): (DONE, 1.3, 4)})
         self.assertEqual((code, rows[12.0, "once"]["outcome"]), (0, DEVIATES))
+
+    def test_one_pass_is_measured_by_the_largest_of_all_levels(self):
+        z = np.array([0.0, 1.0])
+        reference = PressureWaves(np.array([1.0, 2.0]), z, np.array([[10.0, 0.0], [1.0, 0.0]]))
+        other = PressureWaves(np.array([1.0, 2.0]), z, np.array([[10.0, 0.0], [2.0, 0.0]]))
+        self.assertEqual(difference_of(reference, other), (1.0, 2))
+        self.assertEqual(difference_of(reference, other, of_all=True), (0.1, 2))
 
     def test_one_pass_must_not_say_done_when_nothing_is_right(self):
         code, rows = self.evaluate({("once", 12.0): (DONE, 50.0, 4), ("once", 1.2): (NOT_CONVERGED, 50.0, 3)})

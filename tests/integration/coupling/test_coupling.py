@@ -173,12 +173,28 @@ class Failures(FolderTest):
         fluid, thickness, added = 1.0, 0.39, 46.3  # mg/mm^3, mm, mm
         for order, factor in ((1, 2), (2, 6)):
             limit = factor * fluid * added / (0.884 * thickness)
-            settings = (*scheme("explicit"), "structure.stabilisation=1e-5", f"time.predictor={order}", "output.every=0")
+            settings = (*scheme("explicit"), "structure.stabilisation=1e-5", f"time.predictor={order}", "output.every=0",
+                        "partitioned.velocity_gap=1e9")
             with self.subTest(order=order):
                 self.assertIn("unstable", self.refused(*settings, f"structure.density={limit / 1.5}"))
                 folder = run(PARTITIONED, NEO_HOOKEAN, self.base / f"stable-{order}", *settings,
                              f"structure.density={limit * 1.5}")
                 self.assertEqual(table(folder, "iterations.csv")[:, 2].tolist(), [1] * 96)
+
+    def test_explicit_is_no_answer_at_its_limit(self):
+        """It neither grows nor decays there, and the pressure is tens of times too high."""
+        message = self.refused(*scheme("explicit"), "structure.density=1200", "time.end=2")
+        self.assertIn("its pressure is wrong", message)
+        self.assertIn("iqn-ils", message)
+
+    def test_explicit_goes_on_from_a_checkpoint_as_without_one(self):
+        settings = (*scheme("explicit"), "structure.density=1400")
+        whole = self.refused(*settings, "time.end=2")
+        folder = run(PARTITIONED, NEO_HOOKEAN, self.base / "parts", *settings, "time.end=0.5")
+        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", "--restart", folder, folder=folder,
+                          settings=(*settings, "time.end=2"))
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertEqual(whole.split("[")[0], process.stderr.split("[")[0])
 
     def test_explicit_needs_an_extrapolation(self):
         process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", folder=self.base / "none",

@@ -60,6 +60,28 @@ TEST(AlternationMonitor, GoesOnAfterARestart) {
   EXPECT_TRUE(again.alternates(3, 4));
 }
 
+TEST(VelocityGapMonitor, SpeaksAfterEightStepsApart) {
+  VelocityGapMonitor monitor(0.5);
+  for (int step = 1; step < 8; ++step) EXPECT_FALSE(monitor.comes_apart(0.6, 1)) << step;
+  EXPECT_TRUE(monitor.comes_apart(0.6, 0.1)) << "measured by the largest movement, not the last";
+  EXPECT_DOUBLE_EQ(monitor.last(), 0.6);
+}
+
+TEST(VelocityGapMonitor, IsSilentAfterAJumpAndWhenMotionDiesAway) {
+  VelocityGapMonitor monitor(0.5);
+  for (const double gap : {4.5, 1.6, 1.1, 0.6, 0.51}) EXPECT_FALSE(monitor.comes_apart(gap, 1)) << "a start";
+  for (int step = 0; step < 40; ++step)
+    EXPECT_FALSE(monitor.comes_apart(2 * std::pow(0.7, step + 5), std::pow(0.7, step + 5))) << "it swings, and decays";
+}
+
+TEST(VelocityGapMonitor, GoesOnAfterARestart) {
+  VelocityGapMonitor monitor(0.5), again(0.5);
+  monitor.comes_apart(0.1, 1);
+  for (int step = 0; step < 7; ++step) monitor.comes_apart(0.6, 0.2);
+  again.set(monitor.steps(), monitor.largest_movement());
+  EXPECT_TRUE(again.comes_apart(0.6, 0.2));
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -14,7 +14,9 @@ UNCHECKED = "converged, unchecked"  # the other driver found nothing there, or b
 DEVIATES = "deviates"  # of a method that makes one pass and so claims no agreement
 WRONG = "wrong"  # it says converged, and the other driver says otherwise
 OUTCOMES = (AGREES, UNCHECKED, DEVIATES, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, NOT_FINITE, CRASHED)
-ONE_PASS_BOUND = 1.0  # of such a method's difference: beyond it nothing of the wave is right, and it must not say done
+# Such a method misses a jump of the load by its nature, where the levels soon after are small: its difference is relative
+# to the largest pressure of all levels. Beyond half of that nothing of the wave is right, and it must not say done.
+ONE_PASS_BOUND = 0.5
 FAULTS = (WRONG, NOT_FINITE, CRASHED)  # what may happen nowhere on the map
 
 Point = Tuple[str, str, Any]  # case, quantity, value
@@ -27,7 +29,8 @@ class Cell:
     run: StudyRun
     outcome: str  # one of OUTCOMES
     levels: int  # that the run finished, of failed runs too
-    difference: Optional[float]  # largest over the time levels in common, relative to the largest of each level
+    # Largest over the time levels in common, relative to the largest of each level; of a method with one pass, of all.
+    difference: Optional[float]
     against: Optional[StudyRun]  # whose levels these are
 
     @property
@@ -88,7 +91,7 @@ def _cell(run, reference, by_name, waves, one_pass, bound) -> Cell:
             against, difference, common = _confirmed_by(run, by_name, waves, one_pass)
         else:
             against = reference
-            difference, common = _difference(waves[reference.request.method.name], own)
+            difference, common = difference_of(waves[reference.request.method.name], own, of_all=name in one_pass)
     outcome = run.status if run.status != DONE else AGREES
     if run.status == NOT_FINITE:
         outcome = NOT_FINITE
@@ -108,15 +111,20 @@ def _confirmed_by(run, by_name, waves, one_pass):
     for name, other in by_name.items():
         if waves[name] is None or name in one_pass or other.request.method.program == run.request.method.program:
             continue
-        difference, common = _difference(waves[run.request.method.name], waves[name])
+        difference, common = difference_of(waves[run.request.method.name], waves[name])
         if difference is not None and (best is None or (-common, difference) < (-best[2], best[1])):
             best = other, difference, common
     return best or (None, None, 0)
 
 
-def _difference(reference: PressureWaves, other: PressureWaves) -> Tuple[Optional[float], int]:
-    """(largest difference relative to the reference's largest of the same level, levels in common)."""
+def difference_of(reference: PressureWaves, other: PressureWaves, of_all: bool = False) -> Tuple[Optional[float], int]:
+    """(largest difference relative to the reference's largest of the same level, or `of_all`; levels in common)."""
     if not other.covers_line(reference.z):
         return None, 0
     over_time = largest_difference(reference, other)
-    return (over_time.largest.max_relative if over_time.largest else None), over_time.levels
+    if over_time.largest is None:
+        return None, over_time.levels
+    if not of_all:
+        return over_time.largest.max_relative, over_time.levels
+    largest = max(float(abs(reference.at(t)).max()) for t in reference.times if other.level(t) is not None)
+    return (over_time.largest.max_norm / largest if largest > 0 else None), over_time.levels

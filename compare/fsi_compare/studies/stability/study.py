@@ -109,8 +109,8 @@ def _summary(context: Context, found: Sequence[Cell], settings: Settings) -> Non
                 f"input, {count[OUT_OF_TIME]} were stopped after {context.study.time_limit:g} s.")
     if count[DEVIATES]:
         report.text(f"{count[DEVIATES]} runs of methods with one pass a step ({', '.join(settings.one_pass)}) came to "
-                    "their end further away than that: they do not iterate until fluid and wall agree, and "
-                    "`coupling.csv` states what they lack.")
+                    "their end further away than that, by up to the stated part of the run's largest pressure: they do "
+                    "not iterate until fluid and wall agree, and `coupling.csv` states what they lack.")
     report.table(_by_method(context, found))
 
 
@@ -277,7 +277,7 @@ def _all_runs(found: Sequence[Cell]) -> Table:
                                cell.against.request.method.name if cell.against else None, run.seconds, run.folder.name,
                                run.command])
     table.notes.append("Difference: largest over the time levels in common with the other driver's run, relative to "
-                       "the largest value of the level.")
+                       "the largest value of the level; of methods with one pass a step, of all levels.")
     return table
 
 
