@@ -51,10 +51,16 @@ class CoupledLinearSolver : public LinearSolver {
       preconditioner_ =
           make_block_preconditioner(options_.block_preconditioner, system_.matrix(), multigrid_->finest_sub_solvers());
     }
+    mesh_motion_is_set_up();
   }
   bool ready() const override { return preconditioner_ != nullptr; }
 
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override {
+    if (set_up_ != blocks_.scene.mesh_motion_assemblies) {
+      system_.update_mesh_motion();
+      multigrid_->update_mesh_motion();
+      mesh_motion_is_set_up();
+    }
     system_.expand(b, b_);
     flatten(b_, flat_b_);
     flat_x_.assign(flat_b_.size(), 0.0);
@@ -99,6 +105,11 @@ class CoupledLinearSolver : public LinearSolver {
   const CoupledSystem<Element>& system() const { return system_; }
 
  private:
+  void mesh_motion_is_set_up() {
+    set_up_ = blocks_.scene.mesh_motion_assemblies;
+    blocks_.scene.profile.count("mesh motion set-ups");
+  }
+
   JacobianBlocks<Element> blocks_;
   CoupledSolverOptions options_;
   CoupledSystem<Element> system_;
@@ -110,6 +121,7 @@ class CoupledLinearSolver : public LinearSolver {
   CoupledVector b_, in_, out_, zero_;
   std::vector<double> flat_b_, flat_x_;
   double cycle_memory_ = 0;
+  int set_up_ = 0;  ///< the assembly whose mesh motion is set up
 };
 
 }  // namespace fsi

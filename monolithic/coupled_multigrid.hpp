@@ -100,6 +100,8 @@ class CoupledMultigrid {
     wall_.update();
     for (auto& c : couplings_) c->update();
   }
+  /// The mesh motion's operator alone was assembled again.
+  void update_mesh_motion() { mesh_.update(); }
 
   /// Lays down the smoothing steps of all levels for the present values.
   void set_smoothing(const CoupledSmoothingOptions& options) {

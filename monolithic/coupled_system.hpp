@@ -84,8 +84,7 @@ class CoupledSystem {
   /// Takes over the values that the block matrices hold now.
   void update() {
     const double rate = 1.0 / blocks_.scene.scheme.step;
-    copy(*blocks_.mesh, mesh_);
-    impose_diagonal();
+    update_mesh_motion();
     copy(*blocks_.flow, flow_);
     impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, [](int) { return 1.0; });
     copy(*blocks_.mesh_motion, flow_mesh_);
@@ -99,6 +98,12 @@ class CoupledSystem {
     impose(flow_wall_, {}, clamped_, [](int) { return 0.0; });
     copy(*blocks_.wall, wall_);
     impose(wall_, constraints_.wall_fixed, clamped_, [&](int node) { return clamped_[node] ? 1.0 : rate; });
+  }
+
+  /// Takes over the mesh motion's operator alone.
+  void update_mesh_motion() {
+    copy(*blocks_.mesh, mesh_);
+    impose_diagonal();
   }
 
   /// b of K from b of the numbering: mesh, flow and wall equations to their rows; identity rows are zero.

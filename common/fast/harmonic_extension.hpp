@@ -9,25 +9,20 @@
 namespace fsi {
 
 /// The mesh motion's equations, solved exactly. Their matrix is constant and, the components not coupling, one scalar
-/// matrix for each distinct component: factorised once.
+/// matrix for each distinct component: factorised once, or as often as the scene assembles it.
 template <class Element>
 class HarmonicExtension {
  public:
   static constexpr int n = Element::components;
 
-  explicit HarmonicExtension(const JacobianBlocks<Element>& blocks) : matrix_(*blocks.mesh) {
+  explicit HarmonicExtension(const JacobianBlocks<Element>& blocks) : scene_(blocks.scene), matrix_(*blocks.mesh) {
     const auto& graph = *matrix_.graph;
     const auto& numbering = blocks.numbering;
     // Equations of the mesh motion exist at its inner nodes only.
     inner_.assign(graph.rows(), -1);
     for (int a = 0; a < graph.rows(); ++a)
       if (numbering.mesh_rows[static_cast<std::size_t>(a) * n].index >= 0) inner_[a] = inner_nodes_++;
-    for (int k = 0; k < n; ++k) {
-      solver_of_[k] = k;
-      for (int earlier = 0; earlier < k && solver_of_[k] == k; ++earlier)
-        if (same_component(earlier, k)) solver_of_[k] = solver_of_[earlier];
-      if (solver_of_[k] == k) factorise(k);
-    }
+    factorise();
     values_.resize(static_cast<std::size_t>(graph.rows()) * n);
     rows_ = values_;
   }
@@ -35,6 +30,7 @@ class HarmonicExtension {
   /// Sets the inner values of `field` (n numbers per fluid node) so that the rows of A field at inner nodes equal
   /// `right` there; the other values of `field` are given.
   void solve(const std::vector<double>& right, std::vector<double>& field) {
+    if (factorised_ != scene_.mesh_motion_assemblies) factorise();
     for (int a = 0; a < matrix_.graph->rows(); ++a)
       for (int k = 0; k < n; ++k) {
         const std::size_t i = static_cast<std::size_t>(a) * n + k;
@@ -73,6 +69,17 @@ class HarmonicExtension {
   }
 
  private:
+  void factorise() {
+    for (int k = 0; k < n; ++k) {
+      solver_of_[k] = k;
+      for (int earlier = 0; earlier < k && solver_of_[k] == k; ++earlier)
+        if (same_component(earlier, k)) solver_of_[k] = solver_of_[earlier];
+      if (solver_of_[k] == k) factorise(k);
+    }
+    factorised_ = scene_.mesh_motion_assemblies;
+    scene_.profile.count("mesh motion factorisations");
+  }
+
   bool same_component(int i, int k) const {
     for (int at = 0; at < matrix_.graph->blocks(); ++at)
       if (matrix_.block(at)[i] != matrix_.block(at)[k]) return false;
@@ -83,6 +90,7 @@ class HarmonicExtension {
     // The matrix is symmetric: its rows serve as columns.
     const auto& graph = *matrix_.graph;
     SparseMatrix& a = scalars_[component];
+    a = {};
     a.offsets = {0};
     for (int row = 0; row < graph.rows(); ++row) {
       if (inner_[row] < 0) continue;
@@ -93,10 +101,13 @@ class HarmonicExtension {
         }
       a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
     }
+    solvers_[component] = DirectSolver();
     if (inner_nodes_ > 0) solvers_[component].factorise(a);
   }
 
+  const Scene<Element>& scene_;
   const MeshMotionMatrix<Element>& matrix_;
+  int factorised_ = 0;      ///< the assembly whose operator it is
   std::vector<int> inner_;  ///< per fluid node, its row; -1 where the displacement is given
   int inner_nodes_ = 0;
   int solver_of_[n] = {};

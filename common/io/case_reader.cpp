@@ -505,6 +505,15 @@ const std::vector<CaseKey<OutputData>>& output_keys() {
   return keys;
 }
 
+const std::vector<CaseKey<EconomyData>>& economy_keys() {
+  static const std::vector<CaseKey<EconomyData>> keys = {
+      {"constant_operators", optional,
+       "the mesh motion's operator, which never changes: kept (default), or rebuilt and factorised at each use",
+       name_from(&EconomyData::constant_operators, {"kept", "rebuilt"})},
+  };
+  return keys;
+}
+
 // The whole case.
 
 /// A section whose struct is an optional member of the case: present when the section is.
@@ -539,6 +548,8 @@ const std::vector<CaseKey<Case>>& case_keys() {
       default_section("monolithic", optional, "for fsi-monolithic", monolithic_keys(), &Case::monolithic),
       default_section("partitioned", optional, "for fsi-partitioned", partitioned_keys(), &Case::partitioned),
       default_section("output", optional, "what is written", output_keys(), &Case::output),
+      default_section("economy", optional, "savings to switch off, to see what they are worth", economy_keys(),
+                      &Case::economy),
   };
   return keys;
 }

@@ -23,7 +23,7 @@ struct HarmonicMeshMotion {
 };
 
 /// The operator of the mesh motion: components do not couple, each node pair holds one number per component. Constant,
-/// so assembled once.
+/// so assembled once, unless a case wants to see what that saves.
 template <class Element>
 using MeshMotionMatrix = BlockMatrix<1, Element::components>;
 

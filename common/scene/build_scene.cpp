@@ -136,11 +136,8 @@ std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const Tetra
     scene->profile.count("fluid elements", static_cast<std::int64_t>(scene->fluid->part().cells.size()));
   }
 
-  if (scene->coupled()) {
-    const auto phase = scene->profile.phase("assembly: mesh motion");
-    scene->mesh_motion = MeshMotionMatrix<P1Tetrahedron>(scene->fluid->graph());
-    assemble_mesh_motion(scene->fluid->packs(), scene->mesh_motion);
-  }
+  scene->keep_constant_operators = setup.economy.constant_operators == "kept";
+  if (scene->coupled()) scene->assemble_mesh_motion();
   return scene;
 }
 

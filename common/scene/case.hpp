@@ -123,6 +123,11 @@ struct OutputData {
   bool energy = true;        ///< energy.csv
 };
 
+/// [economy]: savings switched off to see what they are worth. The answers stay the same.
+struct EconomyData {
+  std::string constant_operators = "kept";  ///< "rebuilt": the mesh motion's is assembled and set up at each use
+};
+
 /// Names that monolithic.linear_solver can have.
 const std::vector<std::string>& linear_solver_names();
 /// Names that partitioned.scheme can have.
@@ -143,6 +148,7 @@ struct Case {
   MonolithicData monolithic;
   PartitionedData partitioned;
   OutputData output;
+  EconomyData economy;
 };
 
 }  // namespace fsi

@@ -30,15 +30,29 @@ class Scene {
 
   std::unique_ptr<FluidProblem<Element>> fluid;
   std::unique_ptr<WallProblem<Element>> wall;
-  MeshMotionMatrix<Element> mesh_motion;  ///< assembled once; empty unless fluid and wall meet
+  MeshMotionMatrix<Element> mesh_motion;  ///< empty unless fluid and wall meet
+  int mesh_motion_assemblies = 0;         ///< what is made of the matrix is as old as the count it was made at
+  bool keep_constant_operators = true;    ///< false: assembled at each use, to see what keeping them saves
   std::vector<InterfaceNode> interface;   ///< ascending in the fluid's numbers
   std::vector<char> no_slip;              ///< per fluid node: velocity prescribed zero
   std::vector<char> mesh_fixed;           ///< per fluid node: mesh displacement prescribed zero
   std::vector<char> clamped;              ///< per wall node: displacement prescribed zero
   TimeScheme scheme;
-  Profile profile;
+  mutable Profile profile;  ///< also of those who only read the scene
 
   bool coupled() const { return fluid && wall; }
+
+  /// Assembles the mesh motion's operator; its storage stays in place.
+  void assemble_mesh_motion() {
+    const auto phase = profile.phase("assembly: mesh motion");
+    if (mesh_motion.values.empty()) mesh_motion = MeshMotionMatrix<Element>(fluid->graph());
+    fsi::assemble_mesh_motion(fluid->packs(), mesh_motion);
+    ++mesh_motion_assemblies;
+  }
+  /// To be called before each use of operators that never change.
+  void renew_constant_operators() {
+    if (!keep_constant_operators) assemble_mesh_motion();
+  }
 
   /// The state at rest.
   State at_rest() const {

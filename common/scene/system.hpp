@@ -71,6 +71,7 @@ class System : public NewtonProblem {
   }
 
   double evaluate() override {
+    if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
     const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
     const AssemblyResult result = assemble(false);
     if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();

@@ -17,6 +17,7 @@ class Coupled(FolderTest):
     def test_mesh_motion_is_assembled_once(self):
         for folder in self.runs.values():
             self.assertEqual(calls(folder)["assembly: mesh motion"], 1)
+        self.assertEqual(summary(self.runs[MONOLITHIC])["counters"]["mesh motion factorisations"], 1)
         self.assertEqual(calls(self.runs[PARTITIONED])["factorisation: mesh motion"], 1)
 
     def test_partitioned_solves_each_part_as_often_as_it_says(self):
@@ -49,6 +50,41 @@ class Coupled(FolderTest):
         points = arrays(self.runs[MONOLITHIC] / "fields.h5")
         self.assertEqual(len(points["fluid/points"]), mesh["fluid_nodes"])
         self.assertEqual(len(points["wall/points"]), mesh["wall_nodes"])
+
+
+class ConstantOperators(FolderTest):
+    """Switched off, the economy costs time and nothing else: the same bits."""
+
+    def pair(self, name, program, *settings):
+        return [run(program, NEO_HOOKEAN, self.base / f"{name}-{form}", *SHORT, *settings,
+                    f"economy.constant_operators={form}") for form in ("kept", "rebuilt")]
+
+    def test_monolithic_builds_in_each_newton_iteration(self):
+        for name, settings, built in (
+                ("fast", (), "mesh motion factorisations"),
+                ("direct", ("monolithic.linear_solver=direct",), None),
+                ("ilu", ("monolithic.linear_solver=ilu",), "mesh motion set-ups"),
+        ):
+            with self.subTest(name):
+                kept, rebuilt = self.pair(name, MONOLITHIC, *settings)
+                self.assertSameResults(kept, rebuilt)
+                counted = calls(rebuilt)
+                self.assertEqual(calls(kept)["assembly: mesh motion"], 1)
+                self.assertEqual(counted["assembly: mesh motion"], 1 + counted["assembly: coupled residual"])
+                if built:
+                    reported, totals = summary(kept)["counters"], summary(rebuilt)["totals"]
+                    self.assertLessEqual(reported[built], counted["assembly: coupled jacobian"])
+                    self.assertGreaterEqual(summary(rebuilt)["counters"][built], totals["newton_iterations"])
+
+    def test_partitioned_builds_in_each_mesh_motion(self):
+        for scheme in ("robin-neumann-iqn", "iqn-ils"):
+            with self.subTest(scheme):
+                kept, rebuilt = self.pair(scheme, PARTITIONED, f"partitioned.scheme={scheme}")
+                self.assertSameResults(kept, rebuilt)
+                counted = calls(rebuilt)
+                for phase in ("assembly: mesh motion", "factorisation: mesh motion"):
+                    self.assertEqual(calls(kept)[phase], 1)
+                    self.assertEqual(counted[phase], 1 + counted["solve: mesh motion"])
 
 
 class Fibres(FolderTest):

@@ -63,6 +63,7 @@ TEST(CaseReader, FillsInDefaults) {
   EXPECT_EQ(scene.partitioned.max_iterations, 200);
   EXPECT_EQ(scene.output.fields.size(), 3u);
   EXPECT_TRUE(scene.output.energy);
+  EXPECT_EQ(scene.economy.constant_operators, "kept");
 }
 
 TEST(CaseReader, ReadsEveryKey) {
@@ -130,9 +131,12 @@ fields = []
 every = 0
 checkpoint_every = 5
 energy = false
+[economy]
+constant_operators = "rebuilt"
 )",
                                 "case.toml");
   EXPECT_EQ(scene.title, "all of it");
+  EXPECT_EQ(scene.economy.constant_operators, "rebuilt");
   EXPECT_EQ(scene.mesh.level, "fine");
   EXPECT_TRUE(scene.mesh.file.empty());
   EXPECT_EQ(scene.structure->stabilisation, 0.05);
@@ -231,8 +235,9 @@ TEST_F(FolderTest, CaseReaderLooksForAnOverriddenMeshInTheWorkingDirectoryFirst)
 
 TEST(CaseReader, HelpNamesTheKeysOfEverySection) {
   const auto help = case_keys_help();
-  for (const auto* key : {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step",
-                          "static.load_steps", "monolithic.mode", "partitioned.scheme", "output.every"})
+  for (const auto* key :
+       {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step", "static.load_steps",
+        "monolithic.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
     EXPECT_NE(help.find(key), std::string::npos) << key;
 }
 
