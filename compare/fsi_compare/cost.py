@@ -14,7 +14,7 @@ from .run_folder import PROGRAMS, read_summary
 DESCRIPTION = """\
 Tabulates what finished runs took: wall time, coupling iterations, solves of the whole system and of the
 sub-problems, Newton and linear iterations, factorisations, memory. The first run is the reference of the column
-"time". Writes to OUTDIR:
+"relative time". Writes to OUTDIR:
   cost.csv   all numbers, in full precision, with units in the column names
   cost.md    the table for documents
 Seconds compare only between runs on the same, otherwise idle machine with the same number of threads; a run that
@@ -147,11 +147,12 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     keys = (COUPLED, FLUID, WALL, MESH)
     table = Table(
         stem="cost", title=title, left=3,
-        columns=[("", "run"), ("", "driver"), ("", "mesh"), ("", "steps"), ("seconds", "per step"), ("seconds", "time"),
-                 ("coupling", "mean"), ("coupling", "range"), ("linear solves per step", "whole"),
-                 ("linear solves per step", "fluid"), ("linear solves per step", "wall"),
-                 ("linear solves per step", "mesh"), ("linear it.", "per step"), ("factorised", "or set up"),
-                 ("interface residual", "displ."), ("interface residual", "force"), ("memory", "MiB")],
+        columns=[("", "run"), ("", "driver"), ("", "mesh"), ("", "steps"), ("", "seconds per step"),
+                 ("", "relative time"), ("coupling iterations", "mean"), ("coupling iterations", "range"),
+                 ("linear solves per step", "whole"), ("linear solves per step", "fluid"),
+                 ("linear solves per step", "wall"), ("linear solves per step", "mesh"),
+                 ("linear iterations", "per step"), ("", "set-ups"),
+                 ("interface residual", "displacement"), ("interface residual", "force"), ("", "memory in MiB")],
         csv_columns=["run", "program", "mesh", "unknowns", "threads", "steps", "wall_s", "wall_s_per_step",
                      "wall_relative_to_first", "coupling_iterations_mean", "coupling_iterations_min",
                      "coupling_iterations_max", "newton_iterations", "linear_iterations",
@@ -172,10 +173,11 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
             c.label, c.program, c.mesh, c.unknowns, c.threads, c.steps, c.seconds, c.seconds_per_step, relative,
             c.coupling_mean, low, high, c.newton, c.linear, *solves, *prepared, c.displacement_residual,
             c.force_residual, c.memory_mib])
-    table.notes.append("time: seconds per step over the first run's. Solves: of the whole system (monolithic) or of "
-                       "the sub-problems (partitioned).")
-    table.notes.append("Interface residual: largest of the steps; zero by construction in a monolithic run, up to "
-                       "Newton's tolerance.")
+    table.notes.append("Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
+                       "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
+                       "preconditioner, in all steps.")
+    table.notes.append("Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
+                       "up to Newton's tolerance.")
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
         table.notes.append(f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do "

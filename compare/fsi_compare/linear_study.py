@@ -70,6 +70,8 @@ class Outcome:
     results: Optional[LinearSolvers]
     failure: str = ""
     refused: bool = False  # as wrong use or bad input
+    taken_up: bool = False  # made by an earlier call
+    executable: str = ""  # digest of the program that made it; empty: not recorded
 
     @property
     def converged(self) -> bool:
@@ -87,8 +89,9 @@ def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet
         place = folder / request.name
         found = finished(place, request, program.version)
         if found:
-            progress.known(found[1])
-            outcomes.append(Outcome(request, found[0]))
+            results, seconds, executable = found
+            progress.known(seconds)
+            outcomes.append(Outcome(request, results, taken_up=True, executable=executable))
         else:
             outcomes.append(_run(program, place, request, progress))
     if outcomes and all(outcome.refused for outcome in outcomes):
@@ -96,8 +99,9 @@ def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet
     return outcomes
 
 
-def finished(place: Path, request: Request, version: str) -> Optional[Tuple[LinearSolvers, float]]:
-    """Results and seconds of an earlier run in this folder when they hold all that is asked for now."""
+def finished(place: Path, request: Request, version: str) -> Optional[Tuple[LinearSolvers, float, str]]:
+    """Results, seconds and the program's digest of an earlier run in this folder when it holds all that is asked for
+    now."""
     try:
         results = read_linear_solvers(place / FILE)
         memory = json.loads((place / REQUEST).read_text(encoding="utf-8"))
@@ -105,7 +109,7 @@ def finished(place: Path, request: Request, version: str) -> Optional[Tuple[Line
         if results.version != version or any(memory.get(key) != value for key, value in wanted.items()):
             return None
         _require(results, request)
-        return results, float(memory["seconds"])
+        return results, float(memory["seconds"]), memory.get("executable", "")
     except (InputError, OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
@@ -135,7 +139,8 @@ def _run(program: Program, place: Path, request: Request, progress: Progress) ->
     seconds = time.monotonic() - start
     outcome = _outcome(place, request, ended, program.version)
     if outcome.results is not None:
-        memory = {**request.fingerprint(), "case_hash": outcome.results.case_hash, "seconds": round(seconds, 3)}
+        memory = {**request.fingerprint(), "case_hash": outcome.results.case_hash, "seconds": round(seconds, 3),
+                  "executable": program.digest}
         with replacing(place / REQUEST) as temporary:
             temporary.write_text(json.dumps(memory, indent=2) + "\n", encoding="utf-8")
     progress.end(outcome.failure, outcome.refused, seconds)

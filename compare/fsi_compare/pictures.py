@@ -73,7 +73,6 @@ def pressure_figure(waves: Sequence[PressureWaves], labels: Sequence[str], times
     rows = -(-len(times) // columns)
     width = columns * PANEL_INCHES[0] + (1.5 if columns == 1 else 0)
     figure = Figure(figsize=(width, rows * PANEL_INCHES[1]))
-    canvas = FigureCanvasAgg(figure)
     grid = figure.subplots(rows, columns, squeeze=False)
     for axes in grid.flat[len(times):]:
         axes.set_visible(False)
@@ -88,15 +87,15 @@ def pressure_figure(waves: Sequence[PressureWaves], labels: Sequence[str], times
         axes.set_ylabel("pressure in Pa")
     _share_scales(grid, len(times))
 
-    finish(figure, canvas, grid[0, 0].get_lines()[:len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
+    finish(figure, grid[0, 0].get_lines()[:len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
     return figure
 
 
-def finish(figure: Figure, canvas: FigureCanvasAgg, handles, labels: Sequence[str], title: str, panels) -> None:
+def finish(figure: Figure, handles, labels: Sequence[str], title: str, panels) -> None:
     """Puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
     curve, and sets the figure's size; `panels` are width and height of the panels together, in inches."""
     width, panels_inches = panels
-    legend_inches = _place_legend(figure, canvas, handles, labels, width)
+    legend_inches = _place_legend(figure, handles, labels, width)
     title = "\n".join(textwrap.wrap(_plain(title), int(14 * width)))
     title_inches = 0.14 + 0.18 * len(title.splitlines())
     height = panels_inches + legend_inches + title_inches
@@ -126,12 +125,13 @@ def _share_scales(grid: np.ndarray, panels: int) -> None:
                 axes.set_ylim(low, high)
 
 
-def _place_legend(figure: Figure, canvas: FigureCanvasAgg, handles, labels: Sequence[str], width: float) -> float:
+def _place_legend(figure: Figure, handles, labels: Sequence[str], width: float) -> float:
     """Puts the legend at the bottom with as many columns as fit the width; returns the strip's height in inches."""
+    renderer = FigureCanvasAgg(figure).get_renderer()
     labels = ["\n".join(textwrap.wrap(_plain(label), int(12 * width))) for label in labels]
     for columns in range(min(len(labels), 4), 0, -1):
         legend = figure.legend(handles, labels, loc="lower center", ncol=columns, borderaxespad=0.0)
-        box = legend.get_window_extent(canvas.get_renderer())
+        box = legend.get_window_extent(renderer)
         if box.width <= 0.98 * width * figure.dpi or columns == 1:
             return box.height / figure.dpi + 0.12
         legend.remove()

@@ -82,7 +82,8 @@ def peak(z: np.ndarray, pressure: np.ndarray) -> Crest:
 
 
 def crest_speed(waves: PressureWaves, window=SPEED_WINDOW_MS) -> Optional[float]:
-    """Speed in mm/ms of the main crest: slope of the least-squares line through its positions at the levels of `window`.
+    """Speed in mm/ms of the main crest: slope of the least-squares line through its positions at the levels of
+    `window`.
 
     The crest is the largest maximum at the first of these levels. From one level to the next it is the largest maximum
     within the stretch around its last position where the pressure was above half of its peak, so that another crest

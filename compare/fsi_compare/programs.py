@@ -1,5 +1,6 @@
 """The programs of the project: where they are, and which version."""
 
+import hashlib
 import os
 import shutil
 import subprocess
@@ -17,16 +18,22 @@ BUILD = "build it with cmake --build --preset release, or name it with --program
 class Program:
     path: Path
     version: str
+    digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
 
 
 def find_monolithic(named: Optional[Path]) -> Program:
     """The program named, else the one beside fsi-compare, else the one on the path. It must answer, and know how to
     solve single systems."""
     program = find_program("fsi-monolithic", named)
+    require_linear_systems(program)
+    return program
+
+
+def require_linear_systems(program: Program) -> None:
+    """Raises InputError unless fsi-monolithic knows how to solve single systems."""
     if "--linear-systems" not in _answer(program.path, "--help"):
         raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems",
                          "take the program built from the same sources as fsi-compare")
-    return program
 
 
 def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
@@ -42,7 +49,14 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     words = _answer(path, "--version").split()
     if len(words) != 2 or words[0] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
-    return Program(path, words[1])
+    return Program(path, words[1], _executable_digest(path, option))
+
+
+def _executable_digest(path: Path, option: str) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise InputError(path, option, f"cannot be read: {error.strerror}", BUILD) from None
 
 
 def find_mesh_maker(monolithic: Program) -> Optional[Path]:

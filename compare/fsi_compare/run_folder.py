@@ -99,7 +99,8 @@ def read_pressure(path: Path) -> PressureWaves:
             raise InputError(path, "line 1", f"column '{name}' is missing",
                              f"the first line must read {','.join(PRESSURE_COLUMNS)}")
     if not text.endswith("\n"):
-        raise InputError(path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it again")
+        raise InputError(path, f"line {len(lines)}", "is cut off",
+                         "the run was interrupted while writing; run it again")
     if len(lines) == 1:
         raise InputError(path, "", "holds no time level", "the run wrote no time step; run it again")
 
@@ -133,7 +134,8 @@ def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -
         raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the centre line")
     for start, stop in zip(starts[1:-1], starts[2:]):
         if time[start] < time[start - 1]:
-            raise InputError(path, f"line {start + 2}", f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
+            raise InputError(path, f"line {start + 2}",
+                             f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
                              "time levels must be ordered; run it again")
         if stop - start != points:
             raise InputError(path, f"time_ms {time[start]:g}", f"has {stop - start} of {points} points",

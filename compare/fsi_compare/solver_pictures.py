@@ -3,42 +3,29 @@
 from pathlib import Path
 from typing import List, Sequence, Tuple
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from . import paper
 from .linear_solvers import System
-from .names import BLOCK_PRECONDITIONERS, MATERIALS, MULTILEVEL
+from .names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
 from .pictures import finish, write_figure
 from .solver_tables import Grid, suffix
 
-# By material: dash pattern, marker and lightness differ, so that they are told apart in grey. Later ones are narrower, so
-# that curves that coincide are all seen.
+# By material: dash pattern, marker and lightness differ, so that they are told apart in grey. Later ones are narrower,
+# so that curves that coincide are all seen.
 MATERIAL_LINES = {
     "neo-hookean": {"linestyle": "-", "marker": "o", "color": "#000000", "linewidth": 2.4, "markersize": 7},
     "mooney-rivlin": {"linestyle": "--", "marker": "s", "color": "#e8871e", "linewidth": 1.6, "markersize": 4.5},
-    "artery": {"linestyle": "-.", "marker": "^", "color": "#8fc1f0", "linewidth": 1.0, "markersize": 3},
+    "artery": {"linestyle": "-.", "marker": "^", "color": "#2c6fbb", "linewidth": 1.0, "markersize": 3},
 }
 PAPER_LINE = {"linestyle": (0, (1, 2)), "linewidth": 0.8, "markerfacecolor": "none", "markersize": 9}
-# By method: one colour to a family, one dash pattern and marker to a method; AMG broad and light below AMLI, which
-# often coincides with it.
-_BLOCK, _AMG, _AMLI = "#e8871e", "#7fb0e0", "#7a2150"
-METHOD_LINES = {
-    "direct": {"linestyle": ":", "marker": "x", "color": "#000000"},
-    "fast": {"linestyle": "-", "marker": "*", "color": "#000000", "linewidth": 2.2, "markersize": 9},
-    "diagonal": {"linestyle": "-", "marker": "o", "color": _BLOCK},
-    "lower": {"linestyle": "--", "marker": "v", "color": _BLOCK},
-    "upper": {"linestyle": "-.", "marker": "^", "color": _BLOCK},
-    "ssor": {"linestyle": (0, (6, 2)), "marker": "s", "color": _BLOCK},
-    "ilu": {"linestyle": ":", "marker": "D", "color": _BLOCK},
-    "amg": {"linestyle": "-", "marker": "P", "color": _AMG, "linewidth": 2.2, "markersize": 7},
-    "amg_gmres": {"linestyle": "--", "marker": "<", "color": _AMG, "linewidth": 2.2, "markersize": 7},
-    "amg_fgmres": {"linestyle": "-.", "marker": ">", "color": _AMG, "linewidth": 2.2, "markersize": 7},
-    "amli": {"linestyle": "-", "marker": "X", "color": _AMLI},
-    "amli_gmres": {"linestyle": "--", "marker": "h", "color": _AMLI},
-    "amli_fgmres": {"linestyle": "-.", "marker": "d", "color": _AMLI},
+# By mesh, from light to dark.
+MESH_MARKS = {
+    "coarse": {"marker": "o", "markerfacecolor": "#ffffff"},
+    "intermediate": {"marker": "s", "markerfacecolor": "#a9cbe8"},
+    "fine": {"marker": "D", "markerfacecolor": "#2c4a6e"},
 }
 PANEL_INCHES = (2.9, 2.2)
 
@@ -64,7 +51,6 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     columns = min(3, len(methods))
     rows = -(-len(methods) // columns)
     figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
-    canvas = FigureCanvasAgg(figure)
     panels = figure.subplots(rows, columns, squeeze=False)
     for axes in panels.flat[len(methods):]:
         axes.set_visible(False)
@@ -81,36 +67,46 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     for material in grid.materials:
         handles += [Line2D([], [], **MATERIAL_LINES[material]), Line2D([], [], **_paper_line(material))]
         labels += [MATERIALS[material], f"{MATERIALS[material]}, paper{'' if key == (1, 1) else ' (first system)'}"]
-    finish(figure, canvas, handles, labels, f"Iterations, {grid.heading(key)}",
+    finish(figure, handles, labels, f"Iterations, {grid.heading(key)}",
            (max(columns * PANEL_INCHES[0], 4.5), rows * PANEL_INCHES[1]))
     return figure
 
 
 def cost_figure(grid: Grid, key: System) -> Figure:
-    """Work units above and seconds below, one column per material, one curve per method."""
-    methods = [method for method in grid.methods if method in METHOD_LINES]
-    quantities = (("work_units", "work units of the solve"), ("solve_seconds", "solve in s"),
-                  ("total_seconds", "set-up and solve in s"))
+    """Work units above and seconds below, one column per material. A line for each method, named beside it, with a mark
+    per mesh: as curves they would lie on each other."""
+    methods = [method for method in grid.methods if method not in EXACT.values()]
+    quantities = (("work_units", "work units of the solve"), ("total_seconds", "set-up and solve in s"))
     columns = len(grid.materials)
-    size = (PANEL_INCHES[0] + (1.6 if columns == 1 else 0.3), PANEL_INCHES[1] + 0.4)
-    figure = Figure(figsize=(columns * size[0], len(quantities) * size[1]))
-    canvas = FigureCanvasAgg(figure)
-    panels = figure.subplots(len(quantities), columns, squeeze=False, sharex="col", sharey="row")
+    width, height = columns * PANEL_INCHES[0] + 1.2, len(quantities) * (0.8 + 0.2 * len(methods))
+    figure = Figure(figsize=(width, height))
+    panels = figure.subplots(len(quantities), columns, squeeze=False, sharex="row", sharey=True)
     for row, (quantity, name) in zip(panels, quantities):
         for axes, material in zip(row, grid.materials):
-            for method in methods:
-                axes.plot(*_columns(_curve(grid, material, key, method, quantity)),
-                          **{"linewidth": 1.2, "markersize": 5, **METHOD_LINES[method]})
-        for axes in row:  # only now: the first limits set would hold for the whole row
-            _log_axes(axes)
-        row[0].set_ylabel(name)
+            for mesh in grid.meshes:
+                axes.plot(*_columns(_points(grid, material, mesh, key, methods, quantity)), linestyle="none",
+                          **_mesh_mark(mesh))
+            axes.set_xscale("log")
+            axes.set_xlabel(name)
+    panels[0, 0].set_yticks(range(len(methods)), methods)
+    panels[0, 0].set_ylim(len(methods) - 0.4, -0.6)
     for axes, material in zip(panels[0], grid.materials):
         axes.set_title(MATERIALS[material])
-    for axes in panels[-1]:
-        axes.set_xlabel("unknowns")
-    handles = [Line2D([], [], **{"linewidth": 1.2, "markersize": 5, **METHOD_LINES[method]}) for method in methods]
-    finish(figure, canvas, handles, methods, f"Cost, {grid.heading(key)}", (columns * size[0], len(quantities) * size[1]))
+    handles = [Line2D([], [], linestyle="none", **_mesh_mark(mesh)) for mesh in grid.meshes]
+    finish(figure, handles, [f"{mesh} mesh" for mesh in grid.meshes], f"Cost, {grid.heading(key)}", (width, height))
     return figure
+
+
+def _mesh_mark(mesh: str) -> dict:
+    return {"markersize": 5, "color": "#000000", "markeredgewidth": 0.8, **MESH_MARKS[mesh]}
+
+
+def _points(grid: Grid, material: str, mesh: str, key: System, methods: Sequence[str],
+            quantity: str) -> List[Tuple[float, float]]:
+    """(value, line) of the methods that have converged; the axis is logarithmic."""
+    solves = [(grid.entry(material, mesh, key, method).solve, line) for line, method in enumerate(methods)]
+    values = [(getattr(solve, quantity), line) for solve, line in solves if solve is not None]
+    return [(value, line) for value, line in values if value is not None and value > 0]
 
 
 def _paper_line(material: str) -> dict:
@@ -140,8 +136,8 @@ def _columns(points: Sequence[Tuple[float, float]]):
 
 
 def _log_axes(axes) -> None:
-    """Logarithmic axes: at least one decade of unknowns, so that there is a tick, and a factor of 4 of values, so that one
-    iteration more looks like no more."""
+    """Logarithmic axes: at least one decade of unknowns, so that there is a tick, and a factor of 4 of values, so that
+    one iteration more looks like no more."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(x=0.12, y=0.15)

@@ -82,7 +82,8 @@ def solvers(options: argparse.Namespace) -> int:
     systems = read_systems(options.systems or ("1:1" if options.stress else "1:1,12:2"))
     without = read_without(options.without)
     if not (math.isfinite(options.tolerance) and 0 < options.tolerance < 1):
-        raise InputError("", "--tolerance", f"{options.tolerance:g} will not do", "give a number between 0 and 1, e.g. 1e-9")
+        raise InputError("", "--tolerance", f"{options.tolerance:g} will not do",
+                         "give a number between 0 and 1, e.g. 1e-9")
     if options.threads is not None and options.threads < 0:
         raise InputError("", "--threads", f"{options.threads} is negative", "give 1 or more, or 0 for one per core")
     if options.stress:
@@ -124,7 +125,8 @@ def solvers(options: argparse.Namespace) -> int:
 
 def stress(options, program, base: Request, materials, meshes) -> int:
     planned = stress_study.plan(options.output, program, base, materials, meshes, options.case_dir)
-    runs = iter(run_study(program, options.output / "runs", [p.request for p in planned if not p.failure], options.quiet))
+    requests = [p.request for p in planned if not p.failure]
+    runs = iter(run_study(program, options.output / "runs", requests, options.quiet))
     outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
     table = stress_study.stress_table(planned, outcomes, base.solvers)
     report(options, [table], write(options, [table], "stress.md", "Linear solvers under stress"))

@@ -131,8 +131,8 @@ def stress_table(planned: Sequence[Planned], outcomes: Sequence[Outcome], method
                         solve.relative_residual) if good else (None,) * 5)
             table.csv_rows.append((request.material, request.mesh,
                                    outcome.results.mesh.get("nodes") if outcome.results else None,
-                                   system.unknowns["total"] if system else None, row.quantity, row.value, row.unit, method,
-                                   status, *numbers, message))
+                                   system.unknowns["total"] if system else None, row.quantity, row.value, row.unit,
+                                   method, status, *numbers, message))
         table.rows.append(line)
     table.notes = ["seconds: set-up and solve", *dict.fromkeys(failures)]
     return table

@@ -3,14 +3,13 @@
 import argparse
 import platform
 import re
-import shutil
+import sys
 import time
 from pathlib import Path
 from typing import List
 
 from ..errors import InputError
 from ..files import make_folder
-from ..layout import write_markdown
 from ..progress import duration
 from ..programs import find_mesh_maker, find_program
 from . import kinds
@@ -22,11 +21,14 @@ READY = Path(__file__).resolve().parents[2] / "studies"
 DESCRIPTION = """\
 Makes the runs that a study file lists, each in a folder of its own, and the report from them. A study that was stopped
 goes on where it stopped: a finished run is taken up again when case, mesh, settings, threads and program version are
-the same; after a change of the programs without a new version, --fresh makes all runs anew. Writes to OUTDIR:
+the same; comments and the title of a case file do not count. Where another build of the same version made some of the
+runs, a warning and the report tell how many; --fresh makes them anew. Writes to OUTDIR:
   report.html           the report, in one file
-  tables.md, *.csv      its tables
+  report.md             its text and tables, to be kept; pictures by name
+  *.csv                 its tables
   *.png, *.svg          its pictures
   runs/, meshes/        the result folders, each with its command in study_run.json
+  linear/               of the kind paper: linear systems, shared with fsi-compare solvers -o OUTDIR/linear
 Exit code 2: a run that the report needs is missing; the report says which."""
 
 EXAMPLES = """\
@@ -44,7 +46,9 @@ def add_parser(commands, version: str) -> None:
     study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
     study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
-    study.add_argument("--fresh", action="store_true", help="make finished runs anew")
+    study.add_argument("--fresh", action="store_true",
+                       help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
+                            "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew")
     study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
     study.add_argument("--partitioned",
                        metavar="PATH",
@@ -65,7 +69,7 @@ def ready() -> List[str]:
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    from .runner import Runner
+    from .runner import Runner, remove_runs
 
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
         if value is not None and value < 1:
@@ -84,8 +88,7 @@ def study(options: argparse.Namespace) -> int:
         return 0
     folder = options.output or Path("results/studies") / (asked.path.stem + ("-quick" if options.quick else ""))
     if options.fresh:
-        for place in ("runs", *getattr(kind, "RUN_FOLDERS", ())):
-            shutil.rmtree(folder / place, ignore_errors=True)
+        remove_runs(folder)
     make_folder(folder)
     begin = time.monotonic()
     runner = Runner(asked, folder, programs, find_mesh_maker(programs["fsi-monolithic"]), options.threads, options.jobs,
@@ -101,8 +104,9 @@ def study(options: argparse.Namespace) -> int:
     code = kind.evaluate(Context(asked, runs, runner, report)) or 0
     about(report, asked, runner, programs)
     path = report.write()
-    write_markdown(folder / "tables.md", asked.title, report.tables)
     if not options.quiet:
+        if runner.warning:
+            print(f"fsi-compare: warning: {runner.warning}", file=sys.stderr)
         print(f"Runs took {duration(runner.seconds)} in all, this call {duration(time.monotonic() - begin)}.")
         print(f"Report: {path.resolve()}")
     return code
@@ -110,7 +114,7 @@ def study(options: argparse.Namespace) -> int:
 
 def study_path(text: str) -> Path:
     path = Path(text)
-    if path.suffix == ".toml" or path.exists():
+    if path.suffix == ".toml" or path.is_file():
         return path
     if text in ready():
         return READY / f"{text}.toml"
@@ -121,6 +125,8 @@ def study_path(text: str) -> Path:
 def about(report, asked: Study, runner, programs) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
+    if runner.warning:
+        report.text(f"**Note:** {runner.warning}.")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
     report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
                 f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "

@@ -6,13 +6,15 @@ import tomllib
 from pathlib import Path
 from typing import Optional
 
+from ..case_digest import case_digest
 from ..programs import Program
 from .study_file import Request
 
+HEADINGS = ("title",)  # in the results; nothing is solved differently
+
 
 def fingerprint(request: Request, program: Program, mesh_file: Optional[Path], threads: int) -> str:
-    digest = hashlib.sha256()
-    digest.update(request.case_file.read_bytes())
+    digest = hashlib.sha256(case_digest(request.case_file, request.method.program, HEADINGS).encode())
     mesh = mesh_file or _own_mesh(request)
     if mesh is not None and mesh.is_file():
         digest.update(mesh.read_bytes())

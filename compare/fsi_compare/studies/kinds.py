@@ -1,7 +1,6 @@
 """The kinds of study by name. A kind is a module with `check(study)`, which raises InputError before the first run when
 the study lacks something, and `evaluate(context)`, which fills the report and returns the exit code, 0 where it returns
-nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list, and RUN_FOLDERS,
-which --fresh empties beside `runs`."""
+nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list."""
 
 import importlib
 from typing import Tuple

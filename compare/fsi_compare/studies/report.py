@@ -1,5 +1,5 @@
 """A report in one HTML file: text, tables and pictures in reading order, nothing loaded from elsewhere. Every table is
-written as CSV beside it, every picture as PNG and SVG."""
+written as CSV beside it, every picture as PNG and SVG, and the whole as Markdown, to be kept under version control."""
 
 import base64
 import html
@@ -37,27 +37,32 @@ class Report:
     def __init__(self, folder: Path, title: str):
         self.folder, self.title = folder, title
         self.written: List[Path] = []
-        self.tables: List[Table] = []
         self._body: List[str] = []
+        self._markdown: List[str] = [f"# {title}"]  # blocks with an empty line between them
         self._sections: List[str] = []
 
     def section(self, heading: str) -> None:
         self._sections.append(heading)
         self._body.append(f'<h2 id="s{len(self._sections)}">{_inline(heading)}</h2>')
+        self._markdown.append(f"## {heading}")
 
     def subsection(self, heading: str) -> None:
         self._body.append(f"<h3>{_inline(heading)}</h3>")
+        self._markdown.append(f"### {heading}")
 
     def text(self, *paragraphs: str) -> None:
         self._body += [f"<p>{_inline(paragraph)}</p>" for paragraph in paragraphs]
+        self._markdown += paragraphs
 
     def list(self, items: Sequence[str]) -> None:
-        self._body.append("<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>")
+        if items:
+            self._body.append("<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>")
+            self._markdown.append("\n".join(f"- {item}" for item in items))
 
     def table(self, table: Table) -> None:
-        self.tables.append(table)
         self.written.append(table.write_csv(self.folder))
         self._body.append(_html_table(table))
+        self._markdown.append(table.markdown("**{}**").strip())
 
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
         """`draw` makes the figure under the common style (see pictures.write_figure)."""
@@ -70,9 +75,12 @@ class Report:
         text = re.sub(r"[`*]", "", caption)
         self._body.append(f'<figure><img alt="{html.escape(text, quote=True)}" src="data:image/png;base64,{data}">'
                           f"<figcaption>{_inline(caption)}</figcaption></figure>")
+        self._markdown += [f"![{png.stem.replace('_', ' ')}]({png.name})", caption]
 
     def write(self) -> Path:
-        """Writes `report.html`; the path."""
+        """Writes `report.md` and `report.html`; the latter's path."""
+        with replacing(self.folder / "report.md") as temporary:
+            temporary.write_text("\n\n".join(self._markdown) + "\n", encoding="utf-8")
         links = " &middot; ".join(f'<a href="#s{i}">{_inline(name)}</a>' for i, name in enumerate(self._sections, 1))
         page = "\n".join([
             "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',

@@ -6,20 +6,24 @@ import re
 import shlex
 import shutil
 import time
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ..errors import InputError
 from ..files import make_folder, replacing
 from ..processes import End, Job, execute, run_jobs
 from ..programs import Program
 from ..run_folder import read_summary
+from . import repeats
+from .builds import Builds
 from .fingerprint import fingerprint
 from .study_file import Request, Study, StudyMesh
 from .study_progress import StudyProgress
 from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, StudyRun
 
 RECORD = "study_run.json"  # written last: a folder without it is not finished
+OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a repetition of it
 NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
 
 
@@ -34,11 +38,13 @@ class Runner:
         self.quiet = quiet
         self._known: Dict[str, StudyRun] = {}  # by fingerprint
         self.seconds = 0.0  # of all runs asked for, whenever they were made
+        self._taken_up = Builds("finished runs", "`--fresh`")
+        self.builds = [self._taken_up]  # and of what a kind takes up by other means
 
     def run(self, requests: Sequence[Request]) -> List[StudyRun]:
         """In the order of the requests. The same run asked for twice is made once."""
         make_folder(self.folder / "runs")
-        keys = [fingerprint(r, self._program(r), self._mesh_file(r.mesh), self.threads) for r in requests]
+        keys = [fingerprint(*self._what_decides(r)) for r in requests]
         progress = StudyProgress(self.quiet, self.jobs)
         jobs: List[Job] = []
         wanted: Dict[str, Request] = {}
@@ -66,16 +72,62 @@ class Runner:
             progress.end(request, run)
 
         run_jobs(jobs, self.jobs, ended, lambda running: progress.tick([order[i][1] for i in running]))
+        self._repeat(dict(zip(keys, requests)), progress)
         # What is known may have been asked for under another name: the run is the same, its place in the study is not.
         return [self._as(self._known[key], request) for key, request in zip(keys, requests)]
 
+    def _repeat(self, requests: Mapping[str, Request], progress: StudyProgress) -> None:
+        """Times the short runs again, one round after the other, so that a disturbance does not meet all of a run's."""
+        study = self.study
+        known = self._known
+        short = {key: request for key, request in requests.items() if study.repeats > 1 and known[key].done
+                 and known[key].seconds < study.repeat_below and len(known[key].timings) < study.repeats}
+        again = [(key, request, repeats.place_of(self._place(key, request), n))
+                 for n in range(2, study.repeats + 1) for key, request in short.items()]
+        places: Dict[str, List[Path]] = {key: [] for key in short}
+        progress.repeat([request for _, request, _ in again])
+        for _, _, place in again:
+            shutil.rmtree(place, ignore_errors=True)
+
+        def ended(i: int, end: End) -> None:
+            key, request, place = again[i]
+            self.seconds += end.seconds
+            progress.end(request, StudyRun(request, place, *judge(place, end), end.seconds, ""))
+            places[key].append(place)
+            if len(places[key]) == study.repeats - 1:
+                self._settle(key, request, places[key])
+
+        run_jobs([Job(i, self._command(request, place), request.time_limit)
+                  for i, (_, request, place) in enumerate(again)],
+                 self.jobs, ended, lambda running: progress.tick([again[i][1] for i in running]))
+
+    def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
+        """Of all repetitions the median stays, if they had the same results."""
+        run, folder = self._known[key], self._place(key, request)
+        record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+        if repeats.same_results([folder, *places]):
+            record["timings"] = repeats.keep_median(folder, places)
+        else:
+            record.update(status=CRASHED, message=repeats.NOT_THE_SAME)
+        write_record(folder, record)
+        self._known[key] = replace(run, status=record["status"], message=record["message"],
+                                   timings=tuple(record.get("timings", ())))
+
+    @property
+    def warning(self) -> str:
+        """About runs of other builds; empty: there are none."""
+        return "; ".join(builds.warning for builds in self.builds if builds.warning)
+
     def _take(self, key: str, run: StudyRun) -> None:
         self._known[key] = run
-        self.seconds += run.seconds
+        self.seconds += max(run.seconds, sum(run.timings))
 
     @staticmethod
     def _as(run: StudyRun, request: Request) -> StudyRun:
-        return StudyRun(request, run.folder, run.status, run.message, run.seconds, run.command)
+        return replace(run, request=request)
+
+    def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int]:
+        return request, self._program(request), self._mesh_file(request.mesh), self.threads
 
     def _program(self, request: Request) -> Program:
         return self.programs[request.method.program]
@@ -128,8 +180,10 @@ class Runner:
                 return None
             if record["status"] == DONE:
                 read_summary(folder / "summary.json")
-            return StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]),
-                            record["command"])
+            run = StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]),
+                           record["command"], tuple(record.get("timings", ())))
+            self._taken_up.count(self._program(request), record.get("executable", ""))
+            return run
         except (OSError, ValueError, KeyError, TypeError, InputError):
             return None
 
@@ -137,12 +191,23 @@ class Runner:
         folder = self._place(key, request)
         status, message = judge(folder, end)
         command = shlex.join(self._command(request, folder))
-        record: Dict[str, Any] = {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds,
-                                  "command": command, "run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S")}
         make_folder(folder)
-        with replacing(folder / RECORD) as temporary:
-            temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+        write_record(folder, {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds,
+                              "command": command, "run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
+                              "executable": self._program(request).digest})
         return StudyRun(request, folder, status, message, end.seconds, command)
+
+
+def write_record(folder: Path, record: Dict[str, Any]) -> None:
+    with replacing(folder / RECORD) as temporary:
+        temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+
+
+def remove_runs(folder: Path) -> None:
+    """All runs that a study keeps in `folder`, unfinished ones too, but nothing that another command put there."""
+    for place in (folder / "runs").glob("*"):
+        if OWN_PLACE.fullmatch(place.name):
+            shutil.rmtree(place, ignore_errors=True)
 
 
 def judge(folder: Path, end: End):

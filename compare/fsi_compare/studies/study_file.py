@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ..errors import InputError
-from .suggestions import nearest
+from .suggestions import check_keys, nearest
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 LEVELS = ("coarse", "intermediate", "fine")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 
-TOP_KEYS = ("title", "kind", "threads", "jobs", "time_limit", "set", "cases", "methods", "meshes", "runs", "report")
+TOP_KEYS = ("title", "kind", "threads", "jobs", "time_limit", "repeats", "repeat_below", "set", "cases", "methods",
+            "meshes", "runs", "report")
 METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "set")
 MESH_KEYS = ("options", "label")
@@ -70,6 +71,8 @@ class Study:
     requests: Sequence[Request]
     report: Mapping[str, Any]  # settings of the report, checked by its kind
     quick: bool
+    repeats: int = 1  # of each run that takes less than `repeat_below` s: its seconds are then their median
+    repeat_below: float = 60.0
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
     case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
 
@@ -125,6 +128,7 @@ class _Reader:
             requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
         return Study(path=self.path, title=self.text(data, "title"), kind=kind,
                      threads=self.count(data, "threads", 1), jobs=self.count(data, "jobs", 1), time_limit=limit,
+                     repeats=self.count(data, "repeats", 1), repeat_below=self.number(data, "repeat_below", 60.0),
                      cases=cases, methods=methods, meshes=meshes, requests=requests, report=self.table(data, "report"),
                      quick=self.quick, settings=settings, case_settings=of_case)
 
@@ -204,9 +208,7 @@ class _Reader:
     def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
         if not isinstance(entry, dict):
             raise self.wrong(key, "is not a section", f"its keys are {', '.join(keys)}")
-        for name in entry:
-            if name not in keys:
-                raise self.wrong(f"{key}.{name}".lstrip("."), "is unknown", f"did you mean '{nearest(name, keys)}'?")
+        check_keys(self.path, key, entry, keys)
 
     def one_of(self, key: str, name: Any, names) -> str:
         if name not in names:

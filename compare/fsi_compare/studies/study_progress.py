@@ -42,6 +42,13 @@ class StudyProgress:
             failed = f" ({self._failed_count} of them failed; --fresh makes all anew)" if self._failed_count else ""
             self._say(f"{self._known_count} runs are there already{failed}, {self._total} to go{self._left_text()}")
 
+    def repeat(self, requests: Sequence[Request]) -> None:
+        """The same request as often as it is run again."""
+        self._left = list(requests)
+        self._total = len(self._left)
+        if self._left:
+            self._say(f"Again for their seconds: {self._total} runs{self._left_text()}")
+
     def end(self, request: Request, run: StudyRun) -> None:
         self._left.remove(request)
         if run.done:

@@ -4,7 +4,7 @@ import functools
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict
+from typing import Dict, Tuple
 
 import numpy as np
 
@@ -30,6 +30,7 @@ class StudyRun:
     message: str  # why it is not done
     seconds: float  # of the process, start to end
     command: str  # to repeat it by hand
+    timings: Tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
 
     @property
     def done(self) -> bool:

@@ -5,13 +5,14 @@
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
   "nan"       {WORD: FILE}: such a run says done, but the CSV file holds a NaN
   "signal"    {WORD: number}: such a run ends by this signal
+  "seconds"   list: what the first, second, ... call says its time steps took, again from the start after the last
+  "drifts"    true: each call has results of its own
   "sleep"     seconds that each run takes; it writes its process number to `pid`, and begin and end to `times.txt`
 Each run adds its command line to `calls.txt`. Single linear systems are left to fake_monolithic.
 """
 
 import json
 import os
-import stat
 import sys
 import time
 from pathlib import Path
@@ -26,15 +27,19 @@ def install(folder):
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     for name in DRIVERS:
-        program = folder / name
-        program.write_text(f"#!{sys.executable} -E\nimport sys\nsys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-                           "from fake_drivers import main\nsys.exit(main(sys.argv))\n")
-        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        fake_monolithic.install(folder, name, "fake_drivers")
     return folder
 
 
 def behave(folder, **behaviour):
     (folder / "behaviour.json").write_text(json.dumps(behaviour))
+
+
+def build_anew(folder, *names):
+    """Other executables that do and say the same."""
+    for name in names:
+        with open(folder / name, "a") as program:
+            program.write("# built anew\n")
 
 
 def calls(folder):
@@ -78,7 +83,12 @@ def main(words):
         code, message = named("end")
         print(f"{program.name}: error: {message}", file=sys.stderr)
         return code
-    write_results(folder, program.name)
+    call = len(calls(home)) - 1
+    seconds = behaviour.get("seconds", [1.0])
+    write_results(folder, program.name, wall_s=seconds[call % len(seconds)])
+    if behaviour.get("drifts"):
+        with open(folder / "centerline_pressure.csv", "a") as file:
+            file.write(f"99,0,{call}\n")
     if named("nan"):
         path = folder / named("nan")
         text = path.read_text()
@@ -86,7 +96,7 @@ def main(words):
     return 0
 
 
-def write_results(folder, program, steps=96, step=0.125):
+def write_results(folder, program, steps=96, step=0.125, wall_s=1.0):
     """A small crest that travels at 0.7 mm/ms."""
     partitioned = program == "fsi-partitioned"
     passes = 5 if partitioned else 1
@@ -105,4 +115,4 @@ def write_results(folder, program, steps=96, step=0.125):
         "program": program, "version": "0.1.0", "title": "A tube", "status": "done", "threads": 1,
         "mesh": {"name": "level coarse", "nodes": 1032, "tetrahedra": 4968}, "phases": phases,
         "totals": {"steps": steps, "outer_iterations": passes * steps, "newton_iterations": 3 * passes * steps,
-                   "linear_iterations": 9 * passes * steps, "wall_s": 1.0}}))
+                   "linear_iterations": 9 * passes * steps, "wall_s": wall_s}}))

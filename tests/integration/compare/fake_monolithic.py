@@ -27,12 +27,17 @@ PAPER = {  # neo-Hookean column, the others fall back on it
     "amli_gmres": (7, 7, 8), "amli_fgmres": (6, 7, 8), "fast": (9, 10, 11), "direct": (1, 1, 1)}
 
 
-def install(folder):
-    """Makes the program; returns its path."""
-    program = Path(folder) / "fsi-monolithic"
-    program.write_text(f"#!{sys.executable} -E\nimport sys\nsys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-                       "from fake_monolithic import main\nsys.exit(main(sys.argv))\n")
-    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+def make_executable(path, text):
+    path.write_text(text)
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+def install(folder, name="fsi-monolithic", module="fake_monolithic"):
+    """Makes the program, which is `main` of the module; returns its path."""
+    program = Path(folder) / name
+    make_executable(program, f"#!{sys.executable} -E\nimport sys\n"
+                    f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+                    f"from {module} import main\nsys.exit(main(sys.argv))\n")
     return program
 
 
@@ -101,7 +106,8 @@ def main(words):
         "threads": int(options.get("--threads", 2)),
         "mesh": {"name": f"level {mesh}", "nodes": NODES[mesh], "tetrahedra": 5 * NODES[mesh]}, "tolerance": tolerance,
         "newton": [{"step": step, "time_ms": 0.125 * step, "increments": [2.2, 1.7e-2, 6.4e-6, 4.9e-13],
-                    "residuals": [1.0, 1e-2, 1e-5, 1e-12], "iterations": 4} for step in sorted({s for s, _ in systems})],
+                    "residuals": [1.0, 1e-2, 1e-5, 1e-12], "iterations": 4}
+                   for step in sorted({s for s, _ in systems})],
         "systems": [{"step": step, "newton_iteration": iteration, "time_ms": 0.125 * step,
                      "unknowns": {"mesh": 462, "flow": 960, "wall": 3240, "total": UNKNOWNS[mesh]},
                      "product_seconds": 1e-3, "right_hand_side": 1.0,

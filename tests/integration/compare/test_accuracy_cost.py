@@ -1,25 +1,23 @@
 """The study kind accuracy-cost: orders, frontier, extrapolation and errors on made-up data with known answers, and a
 whole study with programs that write waves of known error."""
 
-import contextlib
-import csv
-import io
 import json
 import math
-import stat
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from fake_drivers import DRIVERS
+from fake_monolithic import make_executable
+from folder_case import FolderCase
 from synthetic import Z
 
-from fsi_compare.cli import main
 from fsi_compare.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
-from fsi_compare.studies.accuracy.reach import Growth, Part, reach
+from fsi_compare.studies.accuracy.trend import trend
 from fsi_compare.studies.accuracy.waves import Waves, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
@@ -63,27 +61,25 @@ class Frontier(unittest.TestCase):
         self.assertIsNone(cheapest(self.POINTS, 1))
 
 
-class Reaching(unittest.TestCase):
-    def test_meets_the_target_at_the_least_cost(self):
-        space, time, growth = Part(0.04, 2.0), Part(0.06, 1.0), Growth(1.1, 0.9)
+class Trends(unittest.TestCase):
+    def points(self, exponent, errors=(0.4, 0.3, 0.2, 0.16)):
+        return [(10 * (errors[-1] / e) ** (1 / exponent), e) for e in errors]
 
-        def cost(size, step):
-            return size ** (-3 * growth.nodes) * step ** -growth.steps
+    def test_goes_on_as_the_frontier_falls(self):
+        found = trend(self.points(0.5) + [(20.0, 0.9)])
+        self.assertAlmostEqual(found.exponent, 0.5)
+        self.assertAlmostEqual(found.seconds(0.04), 160)  # a quarter of the error in 4^2 times the seconds
 
-        for target in (0.03, 0.01):
-            found = reach(target, space, time, growth)
-            total = 0.04 * found.size_factor ** 2 + 0.06 * found.step_factor
-            self.assertAlmostEqual(total, target)
-            self.assertAlmostEqual(found.seconds_factor, cost(found.size_factor, found.step_factor))
-            for size in np.linspace(0.02, 1, 200):
-                left = target - 0.04 * size ** 2
-                if left > 0:
-                    self.assertGreaterEqual(cost(size, min(1, left / 0.06)), found.seconds_factor * (1 - 1e-9))
+    def test_coarser_settings_do_not_count(self):
+        self.assertAlmostEqual(trend([(1e-6, 0.9), *self.points(0.5)]).exponent, 0.5)
 
-    def test_makes_nothing_coarser(self):
-        found = reach(0.03, Part(0.001, 2.0), Part(0.058, 1.0), Growth(1, 1))
-        self.assertEqual((found.size_factor, found.nodes_factor), (1, 1))
-        self.assertAlmostEqual(found.step_factor, 0.5)
+    def test_says_nothing_far_away(self):
+        self.assertIsNone(trend(self.points(0.5)).seconds(0.03))
+
+    def test_says_nothing_without_a_fall(self):
+        self.assertIsNone(trend(self.points(0.01)))
+        self.assertIsNone(trend(self.points(0.5)[:1] + [(10.0, 0.16)]), "two points")
+        self.assertIsNone(trend([]))
 
 
 class Errors(unittest.TestCase):
@@ -184,15 +180,11 @@ vary = { mesh = ["coarse"], "partitioned.tolerance" = [1e-2, 1e-4] }
 """
 
 
-class WholeStudy(unittest.TestCase):
+class WholeStudy(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
-        for name in ("fsi-monolithic", "fsi-partitioned"):
-            program = self.base / name
-            program.write_text(DRIVER.format(python=sys.executable))
-            program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        super().setUp()
+        for name in DRIVERS:
+            make_executable(self.base / name, DRIVER.format(python=sys.executable))
         (self.base / "tube.toml").write_text('title = "A tube"\n')
         folder = self.base / "reference"
         folder.mkdir()
@@ -204,48 +196,41 @@ class WholeStudy(unittest.TestCase):
 
     def study(self, text=STUDY):
         (self.base / "made-up.toml").write_text(text)
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main(["study", str(self.base / "made-up.toml"), "-o", str(self.base / "out"), "-q",
-                         "--monolithic", str(self.base / "fsi-monolithic"),
-                         "--partitioned", str(self.base / "fsi-partitioned")], version="1.2.3")
-        return code, err.getvalue()
-
-    def rows(self, name):
-        with open(self.base / "out" / name, encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        code, _, err = self.call("study", self.base / "made-up.toml", "-o", self.out, "-q", "--monolithic",
+                                 self.base / "fsi-monolithic", "--partitioned", self.base / "fsi-partitioned")
+        return code, err
 
     def test_numbers(self):
         code, err = self.study()
         self.assertEqual((code, err), (0, ""))
-        settings = self.rows("settings.csv")
+        settings = self.csv("settings.csv")
         self.assertEqual(len(settings), 9 + 1 + 2 + 2)  # the run that diverged has a table of its own
         fine = [row for row in settings if row["mesh"] == "fine" and row["step_ms"] == "0.0625"][0]
         self.assertAlmostEqual(float(fine["pressure_error"]), 0.01 + 0.05, places=6)
         self.assertAlmostEqual(float(fine["seconds"]), 64000e-6 * 48 * 1.8)
         loose = [row for row in settings if row["solved_by"] == "monolithic, newton tolerance 0.01"][0]
         self.assertAlmostEqual(float(loose["pressure_solver_error"]), 0.1 / (1 + 0.26), places=6)
-        self.assertEqual([row["message"] for row in self.rows("failed.csv")], ["diverged"])
+        self.assertEqual([row["message"] for row in self.csv("failed.csv")], ["diverged"])
 
-        orders = self.rows("orders.csv")
+        orders = self.csv("orders.csv")
         self.assertEqual(len(orders), 2 * (3 + 3))
         for row in orders:
             # Distances are relative to the finer solution, itself off by some percent: hence the tolerance.
             self.assertAlmostEqual(float(row["order"]), 2 if row["refined"] == "element size" else 1, delta=0.15)
 
-        frontier_rows = self.rows("frontier_centerline_pressure.csv")
+        frontier_rows = self.csv("frontier_centerline_pressure.csv")
         errors = [float(row["relative_error"]) for row in frontier_rows]
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertIn("fine mesh, step 0.0625 ms", frontier_rows[-1]["equations"])
 
-        report = (self.base / "out" / "report.html").read_text(encoding="utf-8")
+        report = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("<strong>10 %</strong>: intermediate mesh, step 0.0625 ms, monolithic", report)
-        self.assertIn("No partitioned setting of this study reaches it.", report)
+        self.assertIn("The partitioned driver was not tried on these equations.", report)
         self.assertIn("<strong>1.0 %</strong>: no setting of this study reaches it in both; the best is 6.0 %", report)
-        self.assertIn("Extrapolated by the observed orders in centre-line pressure it would take about", report)
+        self.assertIn("The runs are too far from it to say what it would take.", report)
         for picture in ("work_precision", "orders_space", "orders_time", "algebraic_centerline_pressure"):
             for ending in (".png", ".svg"):
-                self.assertTrue((self.base / "out" / (picture + ending)).is_file(), picture)
+                self.assertTrue((self.out / (picture + ending)).is_file(), picture)
 
     def test_mistakes_are_named(self):
         for old, new, expected in (
@@ -259,7 +244,7 @@ class WholeStudy(unittest.TestCase):
             code, err = self.study(STUDY.replace(old, new))
             self.assertEqual((code, err.count("\n")), (1, 1), err)
             self.assertIn(expected, err)
-            self.assertFalse((self.base / "out").exists())
+            self.assertFalse((self.out).exists())
 
 
 class ReadyStudy(unittest.TestCase):

@@ -1,8 +1,5 @@
 """fsi-compare as a user meets it: options, exit codes, printed tables, files written."""
 
-import contextlib
-import csv
-import io
 import json
 import os
 import subprocess
@@ -11,29 +8,16 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, write_run
 
-from fsi_compare.cli import main
 
-
-class CommandLine(unittest.TestCase):
+class CommandLine(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
+        super().setUp()
         wave = parabola(0.66)
         self.one = write_run(self.base / "one", wave)
         self.two = write_run(self.base / "two", lambda t, z: 0.99 * wave(t, z), program="fsi-partitioned")
-        self.out = self.base / "out"
-
-    def call(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                code = main([str(a) for a in arguments], version="1.2.3")
-            except SystemExit as end:
-                code = end.code
-        return code, out.getvalue(), err.getvalue()
 
     def assert_refused(self, expected, *arguments):
         code, out, err = self.call(*arguments)
@@ -59,8 +43,7 @@ class CommandLine(unittest.TestCase):
 
     def test_csv(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "--times", "3,1.55", "--labels", "mono, part", "-q")
-        with open(self.out / "pressure_waves.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = self.csv("pressure_waves.csv")
         self.assertEqual(list(rows[0]), ["run", "time_ms", "z_mm", "pressure_Pa"])
         self.assertEqual(len(rows), 2 * 2 * 181)
         self.assertEqual([(row["run"], row["time_ms"]) for row in rows[::181]],
@@ -116,8 +99,8 @@ class CommandLine(unittest.TestCase):
 
     def test_time_outside_names_the_range(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES[:24])
-        self.assert_refused("short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between 0.125 "
-                            "and 3 ms", "pressure", self.one, short, "-o", self.out)
+        self.assert_refused("short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between "
+                            "0.125 and 3 ms", "pressure", self.one, short, "-o", self.out)
 
     def test_other_length(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES, Z[:100])
@@ -159,7 +142,8 @@ class CommandLine(unittest.TestCase):
 @unittest.skipUnless(os.environ.get("FSI_COMPARE"), "FSI_COMPARE names the built program")
 class BuiltProgram(unittest.TestCase):
     def call(self, *arguments, **options):
-        return subprocess.run([os.environ["FSI_COMPARE"], *map(str, arguments)], capture_output=True, text=True, **options)
+        words = [os.environ["FSI_COMPARE"], *map(str, arguments)]
+        return subprocess.run(words, capture_output=True, text=True, **options)
 
     def test_version(self):
         done = self.call("--version")
@@ -178,8 +162,8 @@ class BuiltProgram(unittest.TestCase):
     def test_exit_code_of_an_error(self):
         done = self.call("pressure", "/nowhere")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertEqual(done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote with "
-                                      "-o\n")
+        self.assertEqual(done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote "
+                                      "with -o\n")
 
 
 if __name__ == "__main__":

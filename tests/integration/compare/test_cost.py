@@ -1,16 +1,10 @@
 """fsi-compare cost: the table of what finished runs took."""
 
-import contextlib
-import csv
-import io
 import json
-import tempfile
 import unittest
-from pathlib import Path
 
+from folder_case import FolderCase
 from synthetic import parabola, write_run
-
-from fsi_compare.cli import main
 
 ITERATIONS = "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n"
 COUPLING = "step,time_ms,displacement_residual,force_residual\n"
@@ -23,11 +17,9 @@ def phases(**calls):
     return {spelt(name): {"seconds": 0.1, "calls": n} for name, n in calls.items()}
 
 
-class Cost(unittest.TestCase):
+class Cost(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base, self.out = Path(temporary.name), Path(temporary.name) / "out"
+        super().setUp()
         common = {"mesh": {"nodes": 1032}, "unknowns": {"coupled": 4662}, "threads": 1, "peak_memory_MiB": 30.5}
         self.whole = write_run(self.base / "whole", parabola(0.66), phases=phases(
             solve__coupled=10, factorisation__coupled=1), **common)
@@ -36,12 +28,6 @@ class Cost(unittest.TestCase):
             solve__fluid=30, solve__wall=20, solve__mesh_motion=11, factorisation__fluid=1, set_up__wall=2), **common)
         (self.parts / "iterations.csv").write_text(ITERATIONS + "1,0.125,8,30,70,1\n2,0.25,3,20,30,0.5\n")
         (self.parts / "coupling.csv").write_text(COUPLING + "1,0.125,4e-7,2e-6\n2,0.25,9e-7,1e-6\n")
-
-    def call(self, *arguments):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main([str(a) for a in arguments], version="1.2.3")
-        return code, out.getvalue(), err.getvalue()
 
     def assert_refused(self, expected, *arguments):
         code, out, err = self.call("cost", *arguments, "-o", self.out)
@@ -52,8 +38,7 @@ class Cost(unittest.TestCase):
     def test_numbers(self):
         code, out, err = self.call("cost", self.whole, self.parts, "-o", self.out)
         self.assertEqual((code, err), (0, ""))
-        with open(self.out / "cost.csv", encoding="utf-8") as file:
-            whole, parts = csv.DictReader(file)
+        whole, parts = self.csv("cost.csv")
         self.assertEqual((whole["run"], whole["program"], whole["steps"]), ("whole", "monolithic", "2"))
         self.assertEqual((float(whole["wall_s"]), float(parts["wall_relative_to_first"])), (0.75, 2.0))
         self.assertEqual((whole["coupling_iterations_mean"], whole["displacement_residual_max"]), ("", ""))

@@ -7,19 +7,23 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
+from fsi_compare.pictures import write_figure
+from fsi_compare.studies.commands import with_name
 from fsi_compare.studies.coupling import study as coupling
-from fsi_compare.studies.coupling import added_mass_runs
-from fsi_compare.studies.coupling.added_mass import Tube
+from fsi_compare.studies.coupling import added_mass_runs, pictures, sweeps
+from fsi_compare.studies.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG
+from fsi_compare.studies.coupling.added_mass import ARTERY, AddedMass
 from fsi_compare.studies.evidence.bessel import bessel_i
 from fsi_compare.studies.coupling.bisection import bisect
 from fsi_compare.studies.study_file import Method, Request, StudyMesh, read_study
 from fsi_compare.studies.study_run import DONE, NOT_CONVERGED, StudyRun
 
 
-class AddedMass(unittest.TestCase):
+class AddedMassTheory(unittest.TestCase):
     def test_bessel_functions(self):
         # Abramowitz and Stegun, table 9.8
         self.assertAlmostEqual(bessel_i(0, 1.0), 1.2660658777520084, 14)
@@ -27,20 +31,21 @@ class AddedMass(unittest.TestCase):
         self.assertAlmostEqual(bessel_i(1, 5.0), 24.335642142450524, 11)
 
     def test_the_artery(self):
-        tube = Tube()
-        self.assertAlmostEqual(tube.mass_ratio(), 0.0101, 4)
-        self.assertAlmostEqual(tube.gain(0.125), 94, delta=0.5)
-        self.assertAlmostEqual(tube.largest_factor(0.125), 0.0211, 4)
-        self.assertAlmostEqual(Tube(wall_density=1.2e-3).largest_factor(0.125), 0.0011, 4)  # the paper's misprint
+        theory = AddedMass()
+        self.assertAlmostEqual(theory.mass_ratio(), 0.0101, 4)
+        self.assertAlmostEqual(theory.gain(0.125), 94, delta=0.5)
+        self.assertAlmostEqual(theory.largest_factor(0.125), 0.0211, 4)
+        misprint = AddedMass(replace(ARTERY, wall_density=1.2e-3))
+        self.assertAlmostEqual(misprint.largest_factor(0.125), 0.0011, 4)
 
     def test_this_scheme(self):
-        self.assertAlmostEqual(Tube().whole_wall, 0.884, 3)
-        self.assertAlmostEqual(Tube().explicit_limit(1), 268, delta=1)
-        self.assertAlmostEqual(Tube().explicit_limit(2), 3 * Tube().explicit_limit(1), 9)
+        self.assertAlmostEqual(AddedMass().whole_wall, 0.884, 3)
+        self.assertAlmostEqual(AddedMass().explicit_limit(1), 268, delta=1)
+        self.assertAlmostEqual(AddedMass().explicit_limit(2), 3 * AddedMass().explicit_limit(1), 9)
 
     def test_at_the_critical_density_the_mass_ratio_is_one(self):
-        critical = Tube().critical_density_ratio()
-        self.assertAlmostEqual(Tube(wall_density=critical).mass_ratio(), 1, 12)
+        critical = AddedMass().critical_density_ratio()
+        self.assertAlmostEqual(AddedMass(replace(ARTERY, wall_density=critical)).mass_ratio(), 1, 12)
 
 
 class Bisection(unittest.TestCase):
@@ -60,21 +65,13 @@ class Bisection(unittest.TestCase):
         self.assertAlmostEqual(bracket.width, max(bracket.fails, bracket.holds) / min(bracket.fails, bracket.holds) - 1)
 
 
-class Tables(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
-
+class Tables(FolderCase):
     def run_of(self, name, program, passes, status=DONE, group="agreement", factor=1.0):
-        waves = parabola(0.66)
-        folder = write_run(self.base / name, waves, program=program,
+        wave = parabola(0.66)
+        folder = write_run(self.base / name, lambda t, z: factor * wave(t, z), program=program,
                            totals={"steps": 2, "outer_iterations": sum(passes), "newton_iterations": 9, "wall_s": 1.0})
-        pressure = folder / "centerline_pressure.csv"
-        lines = pressure.read_text().splitlines()
-        scaled = [lines[0]] + [",".join([*line.split(",")[:2], repr(float(line.split(",")[2]) * factor)]) for line in lines[1:]]
-        pressure.write_text("\n".join(scaled) + "\n")
-        (folder / "iterations.csv").write_text("step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1)))
+        (folder / "iterations.csv").write_text(
+            "step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1)))
         request = Request(group, "neo-hookean", Method(name, name, program, {}), {"mesh": "coarse"}, Path("case.toml"),
                           StudyMesh("coarse", "coarse", ()), {"partitioned.tolerance": 1e-9}, 1.0)
         return StudyRun(request, folder, status, "" if status == DONE else "diverged", 1.0, "")
@@ -93,7 +90,6 @@ class Tables(unittest.TestCase):
         table = coupling.passes_table(None, [self.run_of("iqn-ils", "fsi-partitioned", [9, 6], group="passes")])
         self.assertEqual(table.rows[0][1], "7.5 (6-9)")
 
-
     def test_meshes_compare_over_the_same_steps(self):
         coarse = self.run_of("iqn-ils", "fsi-partitioned", [9, 6, 3, 3], group="passes")
         fine = self.run_of("finer", "fsi-partitioned", [10, 8], group="passes")
@@ -101,6 +97,54 @@ class Tables(unittest.TestCase):
         fine = replace(fine, request=replace(fine.request, method=method, mesh=StudyMesh("fine", "fine", ())))
         table = coupling.growth_table([coarse, fine])
         self.assertEqual(table.rows, [["iqn-ils", "neo-Hookean", "fine", "2", "7.5", "9.0", "1.20"]])
+
+
+class Sweeps(FolderCase):
+    """A monolithic run, an iterating scheme and one with one pass a step, at two density ratios."""
+
+    SETTINGS = sweeps.Settings(1e-3, ["explicit"])
+
+    def cells(self, factors, monolithic=(1.0, 10.0)):
+        """`factors` on the wave by scheme and density; None: not converged."""
+        runs = []
+        for (name, density), factor in {**{("whole", d): 1.0 for d in monolithic}, **factors}.items():
+            wave = parabola(0.66)
+            program = "fsi-monolithic" if name == "whole" else "fsi-partitioned"
+            folder = write_run(self.base / f"{name}-{density}", lambda t, z: (factor or 1.0) * wave(t, z),
+                               program=program, totals={"steps": 2, "outer_iterations": 4, "newton_iterations": 8})
+            request = Request("density", "a", Method(name, name, program, {}), {"structure.density": density},
+                              Path("case.toml"), None, {}, 1.0)
+            runs.append(StudyRun(request, folder, DONE if factor else NOT_CONVERGED, "" if factor else "diverged", 1.0,
+                                 f"/opt/bin/{program} case.toml"))
+        return sweeps.checked(runs, self.SETTINGS)
+
+    def test_every_answer_is_checked(self):
+        found = self.cells({("iqn-ils", 1.0): 1 + 1e-5, ("iqn-ils", 10.0): 1.01, ("explicit", 1.0): None,
+                            ("explicit", 10.0): 1.12})
+        self.assertEqual([cell.outcome for cell in found], [AGREES, WRONG, NOT_CONVERGED, DEVIATES])
+        self.assertEqual([cell.method for cell in sweeps.faults(found)], ["iqn-ils"])
+        table = sweeps.sweep_table("density", "density ratio", found, self.SETTINGS)
+        self.assertEqual(table.rows, [["iqn-ils", "2.0", "2.0 (off 1 %)", "1.0e-02"],
+                                      ["explicit", "not converged", "2.0 (off 12 %)", "1.2e-01"]])
+        self.assertTrue(all(row[-1] == "fsi-partitioned case.toml" for row in table.csv_rows))
+        self.assertIn("2 are off by more than that", sweeps.in_words(found, self.SETTINGS))
+        lines = sweeps.series(found)
+        self.assertEqual(([line.off for line in lines], lines[1].passes), ([[False, True], [False, True]], [None, 2.0]))
+        write_figure(self.base, "sweep", lambda: pictures.passes_figure(lines, "density ratio", {}, 1e-3))
+        text = (self.base / "sweep.svg").read_text()
+        self.assertIn("pressure off by more than 0.1 %", text)
+
+    def test_without_monolithic_run_nothing_is_checked(self):
+        found = self.cells({("iqn-ils", 1.0): 1.0, ("iqn-ils", 10.0): 1.0}, monolithic=(1.0,))
+        self.assertEqual([cell.outcome for cell in found], [AGREES, UNCHECKED])
+        self.assertIn("1 has no monolithic run", sweeps.in_words(found, self.SETTINGS))
+
+
+class Commands(unittest.TestCase):
+    def test_program_by_name(self):
+        self.assertEqual(with_name("'/a b/fsi-monolithic' case.toml --set 'x=\"y\"'"),
+                         "fsi-monolithic case.toml --set 'x=\"y\"'")
+        self.assertEqual(with_name(""), "")
 
 
 class Growth(unittest.TestCase):
@@ -122,21 +166,41 @@ class Growth(unittest.TestCase):
         self.assertFalse(self.march(1.0, 0.0))
 
 
+GOOD = """
+title = "t"
+kind = "coupling"
+[cases]
+a = "case.toml"
+[methods.explicit]
+program = "fsi-partitioned"
+[runs.passes]
+[report.explicit]
+method = "explicit"
+case = "a"
+low = 1.0
+high = 2.0
+steps = [0.1]
+stabilisations = [0.5]
+"""
+
+
 class StudyFile(unittest.TestCase):
     def test_mistakes_are_named(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "study.toml"
             (Path(folder) / "case.toml").write_text("")
-            good = ('title = "t"\nkind = "coupling"\n[cases]\na = "case.toml"\n[methods.explicit]\nprogram = "fsi-partitioned"\n'
-                    '[runs.passes]\n[report.explicit]\nmethod = "explicit"\ncase = "a"\nlow = 1.0\nhigh = 2.0\nsteps = [0.1]\nstabilisations = [0.5]\n')
-            path.write_text(good)
+            path.write_text(GOOD)
             coupling.check(read_study(path, ["coupling"]))
             for old, new, expected in (("[runs.passes]", "[runs.pass]", "runs.pass"),
                                        ("[report.explicit]", "[report.explicitt]", "did you mean 'explicit'"),
+                                       ("[report.explicit]", "[report.sweeps]\nbound = 0\n[report.explicit]",
+                                        "report.sweeps.bound"),
+                                       ("[report.explicit]", "[report.sweeps]\none_pass = ['a']\n[report.explicit]",
+                                        "did you mean 'explicit'"),
                                        ("low = 1.0", "low = 3.0", "report.explicit.low"),
                                        ('case = "a"', 'case = "b"', "report.explicit.case"),
                                        ("steps = [0.1]\n", "", "report.explicit.steps")):
-                path.write_text(good.replace(old, new))
+                path.write_text(GOOD.replace(old, new))
                 with self.assertRaises(InputError) as caught:
                     coupling.check(read_study(path, ["coupling"]))
                 self.assertIn(expected, str(caught.exception))

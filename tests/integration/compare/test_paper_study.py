@@ -1,13 +1,13 @@
 """The kind `paper`: cuts, energy, phases, claims, and the whole study with drivers that answer at once."""
 
 import json
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
 import numpy as np
-from fake_drivers import behave, calls
+from fake_drivers import behave, build_anew, calls
+from folder_case import FolderCase
 from study_case import StudyCase
 from test_report import outside_references
 
@@ -16,7 +16,14 @@ from fsi_compare.case_digest import case_digest
 from fsi_compare.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies import kinds
+from fsi_compare.names import MATERIALS
 from fsi_compare.studies.paper import cost as paper_cost
+from fsi_compare.studies.paper.claims import (FEWER, IN_PART, MIXED, MORE, NO_RUN, NOT_COMPARABLE, Claim, claims_table,
+                                              compared, rules_table, tally, unexamined)
+from fsi_compare.studies.paper.energy import remainders
+from fsi_compare.studies.paper.solver_claims import best_order
+from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
+from fsi_compare.studies.paper.wave_claims import wave_claims
 from fsi_compare.studies.command import READY
 from fsi_compare.studies.evidence.plane_cut import cut
 from fsi_compare.studies.study_file import Method, Request, read_study
@@ -63,25 +70,18 @@ def run_in(folder, program="fsi-monolithic", group="waves", case="neo-hookean", 
     return StudyRun(request, folder, DONE, "", 1.0, "")
 
 
-class OwnFolder(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-
-class Energy(OwnFolder):
+class Energy(FolderCase):
     def test_none_without_the_file(self):
-        self.assertIsNone(energy_plots.balance(run_in(self.folder)))
+        self.assertIsNone(energy_plots.balance(run_in(self.base)))
 
     def test_sums_and_signs(self):
-        (self.folder / "energy.csv").write_text(
+        (self.base / "energy.csv").write_text(
             "step,time_ms,fluid_kinetic_energy_uJ,wall_kinetic_energy_uJ,wall_isochoric_energy_uJ,"
             "wall_volumetric_energy_uJ,"
             "inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,viscous_dissipation_uJ,"
             "numerical_dissipation_uJ,remainder_uJ\n"
             "1,0.125,4,1,2,0.5,10,1,0.5,1,2,0\n2,0.25,3,1,2,0.5,0,0,0.5,0.25,0.25,-0.001\n")
-        found = energy_plots.balance(run_in(self.folder))
+        found = energy_plots.balance(run_in(self.base))
         self.assertEqual(found.parts["supplied"].tolist(), [10.5, 10.0])
         self.assertEqual(found.parts["elastic"].tolist(), [2.5, 2.5])
         self.assertEqual(found.parts["lost by discretisation"].tolist(), [2.0, 2.25])
@@ -90,21 +90,85 @@ class Energy(OwnFolder):
         self.assertEqual(table.rows[0][:3], ["a run", "10", "30.00"])
 
 
-class Phases(OwnFolder):
+    def test_the_worst_of_each_group(self):
+        def one(left_over):
+            return energy_plots.Balance(np.array([1.0]), {"supplied": np.array([2.0]),
+                                                          energy_plots.REMAINDER: np.array([left_over])})
+
+        pairs = [(run_in(self.base), one(2e-9)), (run_in(self.base), one(-4e-9)),
+                 (run_in(self.base, case="artery"), one(2e-6)),
+                 (run_in(self.base, "fsi-partitioned", "stopped-early"), one(0.2))]
+        self.assertEqual([(r.group, r.approach, r.wall, r.runs, r.worst) for r in remainders(pairs)],
+                         [("waves", "monolithic", "without fibres", 2, 2e-9),
+                          ("waves", "monolithic", "with fibres", 1, 1e-6),
+                          ("stopped-early", "partitioned", "without fibres", 1, 0.1)])
+
+
+class Phases(FolderCase):
     def test_parts_make_up_the_whole(self):
         phases = {"assembly: fluid residual": 1.0, "assembly: interface balance": 0.5, "factorisation: fluid": 0.25,
                   "set-up: wall": 0.5,
                   "solve: wall": 2.0, "output": 0.125, "energy balance": 0.125, "something new": 0.25}
-        (self.folder / "summary.json").write_text(json.dumps(
+        (self.base / "summary.json").write_text(json.dumps(
             {"phases": {name: {"calls": 1, "seconds": s} for name, s in phases.items()}, "totals": {"steps": 2,
                                                                                                     "wall_s": 6.0}}))
-        (self.folder / "coupling.csv").write_text("step,coupling_s\n1,0.125\n2,0.125\n")
-        parts = phase_bars.phase_seconds(run_in(self.folder, "fsi-partitioned"))
+        (self.base / "coupling.csv").write_text("step,coupling_s\n1,0.125\n2,0.125\n")
+        parts = phase_bars.phase_seconds(run_in(self.base, "fsi-partitioned"))
         self.assertEqual(parts, {"assembly": 1.0, "set-up": 0.75, "solve": 2.0, "coupling": 0.75, "output": 0.25,
                                  "other": 1.25})
         self.assertEqual(sum(parts.values()), 6.0)
-        table = phase_bars.phase_table([run_in(self.folder)], ["a run"])
-        self.assertEqual(table.rows[0], ["a run", "500", "375", "1e+03", "375", "125", "625", "3e+03"])
+        table = phase_bars.phase_table([run_in(self.base)], ["a run"])
+        self.assertEqual(table.rows[0], ["a run", "500", "375", "1000", "375", "125", "625", "3000"])
+
+
+class Verdicts(unittest.TestCase):
+    def test_the_tally_follows_from_the_table(self):
+        found = [Claim("5", "a", IN_PART, ""), Claim("5", "b", IN_PART, ""), Claim("5", "c", NOT_COMPARABLE, ""),
+                 unexamined("5", "d", "a rule"), Claim("5", "e", FEWER, "")]
+        self.assertEqual(tally(found), "Of 4 claims: 2 in part, 1 not comparable, 1 no run for it.")
+        self.assertEqual([row[2] for row in claims_table(found).rows],
+                         [IN_PART, IN_PART, NOT_COMPARABLE, NO_RUN, FEWER])
+        self.assertEqual(rules_table(found).rows, [["5", "d", "a rule"]])
+
+    def test_comparisons(self):
+        self.assertEqual([compared(3, 0), compared(0, 0), compared(0, 2), compared(3, 2)], [FEWER, FEWER, MORE, MIXED])
+
+    def test_order_of_newtons_increments(self):
+        self.assertAlmostEqual(best_order([1.0, 1e-1, 1e-2, 1e-4, 1e-8]), 2.0)
+        self.assertAlmostEqual(best_order([1.0, 1e-1, 1e-2, 1e-13]), 1.0)  # the last one is rounding
+        self.assertIsNone(best_order([1.0, 1e-5]))
+
+
+class Levels(unittest.TestCase):
+    """Wave speeds on levels of resolution, and what their errors make of a claim."""
+
+    @staticmethod
+    def wall(material, *levels):
+        found, before = {}, None
+        for name, speed in zip(("coarse", "intermediate", "fine, 0.05"), levels):
+            found[name] = Measured(name, speed, 10 * speed, before and abs(speed - before),
+                                   before and 10 * abs(speed - before))
+            before = speed
+        return Speeds(material, "", 1.0, 1.2, 1.1, 0.9, found)
+
+    def verdicts(self, neo_hookean, mooney_rivlin, artery):
+        walls = [self.wall(name, *levels) for name, levels in zip(MATERIALS, (neo_hookean, mooney_rivlin, artery))]
+        return [claim.verdict for claim in wave_claims([], [], walls)][3:]
+
+    def test_within_the_errors_is_in_part(self):
+        self.assertEqual(self.verdicts((0.7, 0.71), (0.7, 0.72), (0.5, 0.51)), ["reproduced"] * 3)
+        self.assertEqual(self.verdicts((0.7, 0.71), (0.7, 0.72), (0.6, 0.7)), ["reproduced", "in part", "in part"])
+        self.assertEqual(self.verdicts((0.6, 0.62), (0.7, 0.9), (1.0, 1.0)),
+                         ["not reproduced", "not reproduced", "not reproduced"])
+        # on the finest level that all have
+        self.assertEqual(self.verdicts((0.7, 0.71, 0.1), (0.7, 0.72, 9.0), (0.5, 0.51)), ["reproduced"] * 3)
+        self.assertEqual(self.verdicts((), (0.7, 0.72), (1.0,)), [NO_RUN] * 3)
+
+    def test_table(self):
+        table = speed_table([self.wall("artery", 0.87, 0.82, 1.0), self.wall("neo-hookean", 0.67, 0.63)],
+                            ["coarse", "intermediate", "fine, 0.05"])
+        self.assertEqual(table.rows[0][5:9], ["0.870", "0.820", "1.000", "0.180"])
+        self.assertEqual(table.rows[1][5:9], ["0.670", "0.630", "-", "0.040"])
 
 
 class PaperNumbers(unittest.TestCase):
@@ -119,11 +183,11 @@ class PaperNumbers(unittest.TestCase):
         self.assertEqual(paper.mesh_counts("fine")["tetrahedra"], 308736)
 
 
-class Checks(OwnFolder):
+class Checks(FolderCase):
     def refused(self, old, new, *expected):
         text = (READY / "paper.toml").read_text().replace("../../meshes", str(READY.parents[1] / "meshes"))
         self.assertIn(old, text)
-        path = self.folder / "paper.toml"
+        path = self.base / "paper.toml"
         path.write_text(text.replace(old, new))
         with self.assertRaises(InputError) as caught:
             study = read_study(path, kinds.NAMES)
@@ -136,13 +200,15 @@ class Checks(OwnFolder):
         self.refused("[runs.waves]", "[runs.cost2]", "runs.cost2")
         self.refused("[report.linear]", "[report.linar]", "report.linar", "did you mean 'linear'?")
         self.refused('"amli_fgmres"', '"amli_fgmre"', "report.linear.methods", "did you mean 'amli_fgmres'?")
+        self.refused('later_meshes = ["coarse"', 'later_meshes = ["corse"', "report.linear.later_meshes",
+                     "did you mean 'coarse'?")
         self.refused("neo-hookean =", "neohookean =", "runs.cost", "'neo-hookean' is unknown")
         self.refused("[methods.monolithic]", "[methods.mono]", "runs.waves")
 
 
-class CaseDigest(OwnFolder):
+class CaseDigest(FolderCase):
     def digest(self, text, program="fsi-monolithic"):
-        path = self.folder / "case.toml"
+        path = self.base / "case.toml"
         path.write_text(text)
         return case_digest(path, program)
 
@@ -197,6 +263,23 @@ class WholeStudy(StudyCase):
             code, _, err = self.call("--quick", "-q")
         self.assertEqual((code, len(calls(self.programs))), (0, made), err)
 
+    def test_fresh_leaves_the_linear_systems(self):
+        def call(*words):
+            with mock.patch("fsi_compare.pictures.Figure.savefig"), \
+                    mock.patch("fsi_compare.studies.report.Report.image"):
+                return self.call("--quick", *words)
+
+        call()
+        linear = len(list(self.out.glob("linear/runs/*/request.json")))
+        made = len(calls(self.programs))
+        self.assertGreater(linear, 0)
+        build_anew(self.programs, "fsi-monolithic")
+        code, _, err = call("--fresh")
+        self.assertEqual((code, len(calls(self.programs))), (0, 2 * made - linear), err)
+        self.assertIn(f"warning: {linear} of {linear} runs of linear systems were made by another build of "
+                      "fsi-monolithic 0.1.0: removing `linear/runs` makes them again\n", err)
+        self.assertNotIn("finished runs", err)
+
     def test_a_missing_run_is_told_and_its_claims_are_left_open(self):
         behave(self.programs, end={"fibre_scale": [2, "no convergence"], "scheme=aitken": [2, "no convergence either"]})
         with mock.patch("fsi_compare.pictures.Figure.savefig"), mock.patch("fsi_compare.studies.report.Report.image"):
@@ -213,7 +296,16 @@ class WholeStudy(StudyCase):
         verdicts = {row["verdict"] for row in self.claims().values()}
         self.assertNotIn("no run for it", verdicts)
         self.assertEqual(self.verdict("increase when the mesh is refined"), "reproduced")
-        self.assertEqual(self.verdict("Table 5"), "in part")  # one cell of Mooney-Rivlin's: 12 where the paper has 11
+        # one cell of Mooney-Rivlin's: 12 where the paper has 11
+        self.assertEqual(self.verdict("Table 5, iterations"), "fewer and more")
+        self.assertEqual(self.verdict("similarly for all Newton iterations"), "reproduced")
+        self.assertEqual(self.verdict("very similar range"), "reproduced")
+        self.assertEqual(self.verdict("more robust than the partitioned"), "not reproduced")
+        page = (self.out / "report.html").read_text()
+        examined = [row for row in self.claims().values() if "Table" not in row["claim"].split(",")[0]]
+        self.assertIn(f"Of {len(examined)} claims: ", page)
+        self.assertTrue(all(row["rule"] for row in examined))
+        self.assertIn("fine, 0.05", {row["level"] for row in self.csv("wave_speed.csv")})
         meshes = [row["mesh"] for row in self.csv("table2_meshes.csv")]
         self.assertEqual(meshes[::3], ["coarse", "intermediate", "fine"])
         self.assertIn("fibres times 0.5", {row["reading"] for row in self.csv("wave_speed.csv")})
@@ -223,6 +315,9 @@ class WholeStudy(StudyCase):
         code, out, _ = self.call("--list")
         self.assertEqual(code, 0)
         self.assertIn("linear systems: artery, fine: diagonal, lower,", out)
+        self.assertIn("linear systems: artery, coarse, later ones: diagonal, lower,", out)
+        self.assertIn("resolved: artery, monolithic, mesh fine", out)
+        self.assertNotIn("fine", self.call("--list", "--quick")[1])
 
 
 if __name__ == "__main__":

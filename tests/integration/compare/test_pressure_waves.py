@@ -95,7 +95,8 @@ class FollowsCrest(unittest.TestCase):
             "largest at the inlet": waves_of(lambda t, z: 20 - z),
             "leaves through the outlet": waves_of(parabola(2.5)),
             "disappears": waves_of(lambda t, z: fades(t, z) if t < 7 else 0 * z),
-            "levels too far apart": waves_of(parabola(3.0, start=-10.0, half_width=1.0), [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
+            "levels too far apart": waves_of(parabola(3.0, start=-10.0, half_width=1.0),
+                                             [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
         }
         for name, waves in cases.items():
             with self.subTest(name):

@@ -1,20 +1,25 @@
 """The report: one file that needs nothing else, tables and pictures beside it; shown by a browser."""
 
+import importlib.util
 import os
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
-import synthetic  # noqa: F401: the package's folder onto the path
+from folder_case import FolderCase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from study_case import StudyCase
 
 from fsi_compare.layout import Table
 from fsi_compare.studies.report import Report
+
+SCRIPT = Path(__file__).resolve().parents[3] / "scripts/keep_study.py"
+specification = importlib.util.spec_from_file_location("keep_study", SCRIPT)
+keep_study = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(keep_study)
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
@@ -34,14 +39,9 @@ def outside_references(page):
     return loaded + re.findall(r"https?://\S*|@import[^;]*|url\((?!['\"]?data:)[^)]*", page)
 
 
-class OneFile(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class OneFile(FolderCase):
     def report(self):
-        report = Report(self.folder, "A <title> & more")
+        report = Report(self.base, "A <title> & more")
         report.section("Numbers with `code`")
         report.text("Some **bold** text, 1 < 2 & so on.")
         columns = [("", "name"), ("pressure", "Pa"), ("pressure", "kPa")]
@@ -64,13 +64,40 @@ class OneFile(unittest.TestCase):
         for tag in ("table", "figure", "h2", "ul", "p"):
             self.assertEqual(page.count(f"<{tag}>") + page.count(f"<{tag} "), page.count(f"</{tag}>"), tag)
 
+    def test_markdown(self):
+        self.report().write()
+        text = (self.base / "report.md").read_text()
+        self.assertIn("# A <title> & more\n\n## Numbers with `code`\n\nSome **bold** text, 1 < 2 & so on.\n\n**N", text)
+        self.assertIn("| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\n"
+                      "a note\n", text)
+        self.assertIn("![line](line.png)\n\nA line, in `mm`\n", text)
+
+    def test_kept_in_docs(self):
+        """By scripts/keep_study.py: without the table of all runs, pictures found from where the text then lies."""
+        report = self.report()
+        report.section("All runs")
+        report.text("Hundreds of them.")
+        report.section("About this report")
+        report.write()
+        docs = self.base / "docs"
+        for name in ("studies", "pictures"):
+            (docs / name).mkdir(parents=True)
+        (docs / f"pictures/{self.base.name}-gone.png").write_text("of the last edition")
+        path = keep_study.keep(self.base, docs)
+        text = path.read_text()
+        self.assertNotIn("Hundreds", text)
+        self.assertIn("## About this report", text)
+        picture, = re.findall(r"\]\(([^)]*png)\)", text)
+        self.assertTrue((path.parent / picture).is_file())
+        self.assertEqual(len(list((docs / "pictures").iterdir())), 1)
+
     def test_files_beside_it(self):
         report = self.report()
         report.write()
         self.assertEqual({path.name for path in report.written}, {"numbers.csv", "line.png", "line.svg", "report.html"})
-        self.assertEqual((self.folder / "numbers.csv").read_text(), "name,pressure_Pa\none <b>,0.30000000000000004\n")
-        self.assertTrue((self.folder / "line.png").read_bytes().startswith(b"\x89PNG"))
-        self.assertIn("<svg", (self.folder / "line.svg").read_text())
+        self.assertEqual((self.base / "numbers.csv").read_text(), "name,pressure_Pa\none <b>,0.30000000000000004\n")
+        self.assertTrue((self.base / "line.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("<svg", (self.base / "line.svg").read_text())
 
     def test_references_are_found(self):
         for page in ('<img src="a.png">', '<script src="https://cdn/x.js"></script>',

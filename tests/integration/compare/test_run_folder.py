@@ -1,10 +1,9 @@
 """Folders that are not a finished run must be refused in one line that names file, place, problem and remedy."""
 
 import json
-import tempfile
 import unittest
-from pathlib import Path
 
+from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, pressure_csv, write_run
 
 from fsi_compare.errors import InputError
@@ -13,12 +12,7 @@ from fsi_compare.run_folder import default_labels, read_run
 SHORT = TIMES[:4]
 
 
-class ReadsRun(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
-
+class ReadsRun(FolderCase):
     def run_of(self, name, **arguments):
         return read_run(write_run(self.base / name, parabola(0.5), SHORT, **arguments))
 
@@ -56,12 +50,11 @@ class ReadsRun(unittest.TestCase):
         self.assertEqual(len(set(default_labels([a, a]))), 2)
 
 
-class RefusesBadFolder(unittest.TestCase):
+class RefusesBadFolder(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = write_run(Path(temporary.name) / "run", parabola(0.5), SHORT)
-        self.csv = self.folder / "centerline_pressure.csv"
+        super().setUp()
+        self.folder = write_run(self.base / "run", parabola(0.5), SHORT)
+        self.pressure = self.folder / "centerline_pressure.csv"
         self.summary = self.folder / "summary.json"
 
     def assert_refused(self, *parts, folder=None):
@@ -78,9 +71,9 @@ class RefusesBadFolder(unittest.TestCase):
         self.summary.write_text(json.dumps({key: value for key, value in summary.items() if value is not None}))
 
     def change_line(self, number, text):
-        lines = self.csv.read_text().splitlines()
+        lines = self.pressure.read_text().splitlines()
         lines[number - 1:number] = [] if text is None else [text]
-        self.csv.write_text("\n".join(lines) + "\n")
+        self.pressure.write_text("\n".join(lines) + "\n")
 
     def test_no_folder(self):
         self.assert_refused("nowhere: no such folder;", folder=self.folder / "nowhere")
@@ -129,23 +122,24 @@ class RefusesBadFolder(unittest.TestCase):
         self.assert_refused("status: 'fine' is unknown; it must be 'done'")
 
     def test_no_csv(self):
-        self.csv.unlink()
+        self.pressure.unlink()
         self.assert_refused("centerline_pressure.csv: is missing")
 
     def test_empty_csv(self):
-        self.csv.write_text("")
+        self.pressure.write_text("")
         self.assert_refused("centerline_pressure.csv: is empty")
 
     def test_header_only(self):
-        self.csv.write_text("time_ms,z_mm,pressure_Pa\n")
+        self.pressure.write_text("time_ms,z_mm,pressure_Pa\n")
         self.assert_refused("centerline_pressure.csv: holds no time level")
 
     def test_wrong_column(self):
         self.change_line(1, "time_ms,z_mm,pressure_kPa")
-        self.assert_refused("line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,pressure_Pa")
+        self.assert_refused("line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,"
+                            "pressure_Pa")
 
     def test_last_line_cut_off(self):
-        self.csv.write_text(self.csv.read_text()[:-4])
+        self.pressure.write_text(self.pressure.read_text()[:-4])
         self.assert_refused("line 725: is cut off; the run was interrupted")
 
     def test_missing_value(self):
@@ -161,8 +155,8 @@ class RefusesBadFolder(unittest.TestCase):
         self.assert_refused("line 300: pressure_Pa is nan;", "run.log")
 
     def test_partial_last_level(self):
-        lines = self.csv.read_text().splitlines()[:-81]
-        self.csv.write_text("\n".join(lines) + "\n")
+        lines = self.pressure.read_text().splitlines()[:-81]
+        self.pressure.write_text("\n".join(lines) + "\n")
         self.assert_refused("time_ms 0.5: has 100 of 181 points; the run was interrupted")
 
     def test_line_lost_inside(self):
@@ -179,15 +173,15 @@ class RefusesBadFolder(unittest.TestCase):
 
     def test_time_goes_back(self):
         text = pressure_csv(parabola(0.5), [0.125, 0.5, 0.25])
-        self.csv.write_text(text)
+        self.pressure.write_text(text)
         self.assert_refused("line 364: time_ms goes back from 0.5 to 0.25")
 
     def test_single_point(self):
-        self.csv.write_text(pressure_csv(parabola(0.5), SHORT, Z[:1]))
+        self.pressure.write_text(pressure_csv(parabola(0.5), SHORT, Z[:1]))
         self.assert_refused("line 2: the first time level has a single point")
 
     def test_binary(self):
-        self.csv.write_bytes(b"\x89HDF\xff\xfe")
+        self.pressure.write_bytes(b"\x89HDF\xff\xfe")
         self.assert_refused("centerline_pressure.csv: is not a text file")
 
 

@@ -1,11 +1,9 @@
 """The kind `skip` of fsi-compare study: pairs of runs with and without an economy."""
 
-import csv
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
+from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
@@ -45,15 +43,13 @@ off_label = "a stiff wall"
 counter = "structure elements"
 differs = "it yields"
 """
-SECONDS = {("kept", "1"): 1.0, ("kept", "2"): 1.2, ("kept", "3"): 9.0, ("anew", "1"): 4.0, ("anew", "2"): 6.0,
+SECONDS = {("kept", "1"): 1.0, ("kept", "2"): 1.2, ("kept", "3"): 1.25, ("anew", "1"): 4.0, ("anew", "2"): 6.0,
            ("anew", "3"): 5.0}
 
 
-class Skip(unittest.TestCase):
+class Skip(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
+        super().setUp()
         (self.base / "tube.toml").write_text("")
 
     def study(self, text=STUDY):
@@ -63,12 +59,12 @@ class Skip(unittest.TestCase):
         skip.check(study)
         return study
 
-    def evaluate(self, status=DONE):
+    def evaluate(self, status=DONE, seconds_of=SECONDS):
         study = self.study()
         runs = []
         for i, request in enumerate(study.requests):
             form = str(request.values.get("economy", request.group))
-            seconds = SECONDS.get((form, str(request.values.get("repeat"))), 2.0)
+            seconds = seconds_of.get((form, str(request.values.get("repeat"))), 2.0)
             wave = parabola(0.66)
             folder = write_run(self.base / "runs" / str(i), lambda t, z,
                                f=form: (1 + 1e-6 * (f == "anew")) * wave(t, z),
@@ -78,14 +74,12 @@ class Skip(unittest.TestCase):
                                counters={} if request.case == "pipe" else {"structure elements": 100})
             runs.append(StudyRun(request, folder, status if form == "anew" else DONE,
                                  "diverged" if status != DONE else "", 3.0, ""))
-        out = self.base / "out"
-        out.mkdir(exist_ok=True)
-        report = Report(out, study.title)
+        self.out.mkdir(exist_ok=True)
+        report = Report(self.out, study.title)
         self.code = skip.evaluate(Context(study, runs, None, report))
         self.page = report.write().read_text()
         self.runs = runs
-        with open(out / "skip.csv", newline="") as file:
-            return {row["economy"]: row for row in csv.DictReader(file)}
+        return {row["economy"]: row for row in self.csv("skip.csv")}
 
     def test_medians_counts_and_answers(self):
         rows = self.evaluate()
@@ -94,20 +88,33 @@ class Skip(unittest.TestCase):
         self.assertEqual([float(row[name]) for name in ("with_s", "without_s", "with_count", "without_count")],
                          [1.2, 5.0, 1, 12])
         self.assertAlmostEqual(float(row["ratio"]), 5.0 / 1.2)
-        self.assertEqual(float(row["spread"]), 9.0)
+        self.assertEqual((float(row["noise"]), row["in_noise"]), (1.5, "False"))
         self.assertAlmostEqual(float(row["largest_difference"]), 1e-6, 12)
         self.assertEqual((row["with"], row["switched_off"]), ("kept", "anew"))
         row = rows["pipe"]
         self.assertEqual((row["switched_off"], float(row["with_count"]), float(row["without_count"])),
                          ("a stiff wall", 0, 100))
         self.assertIn(">it yields<", self.page)
-        self.assertGreater((self.base / "out" / "skip.png").stat().st_size, 1000)
+        self.assertEqual(row["in_noise"], "True")  # 2 s in both forms
+        self.assertIn(">1.00 (in the noise)<", self.page)
+        self.assertIn("say nothing: no wall.", self.page)
+        self.assertGreater((self.out / "skip.png").stat().st_size, 1000)
 
-    def test_what_is_built_once_is_told(self):
+    def test_the_largest_savings_are_named(self):
         self.evaluate()
-        with open(self.base / "out" / "constant_operators.csv", newline="") as file:
-            row, = csv.DictReader(file)  # output is no operator
-        self.assertEqual((row["phase"], row["calls"], float(row["saved_s"])), ("factorisation: coupled", "1", 1.5))
+        self.assertIn("The largest savings: factors kept, 4.2 times", self.page)
+
+    def test_one_slow_repetition_makes_its_row_noise(self):
+        rows = self.evaluate(seconds_of={**SECONDS, ("kept", "3"): 9.0})
+        self.assertEqual((float(rows["kept"]["noise"]), rows["kept"]["in_noise"]), (9.0, "True"))
+        self.assertIn("No saving shows in the seconds.", self.page)
+
+    def test_no_row_has_less_noise_than_the_median_row(self):
+        rows = [skip.Measured(None, 1.0, ratio, noise, None, None, None)
+                for ratio, noise in ((0.95, 1.0), (1.3, 1.2), (1.3, 1.4))]
+        self.assertEqual([(m.noise, m.in_noise) for m in skip.with_common_noise(rows)],
+                         [(1.2, True), (1.2, False), (1.4, True)])
+        self.assertEqual(skip.with_common_noise([]), [])
 
     def test_counters(self):
         self.evaluate()

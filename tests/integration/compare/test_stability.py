@@ -1,22 +1,24 @@
 """The kind `stability` of fsi-compare study: outcomes, the check against the other driver, messages, the limit load."""
 
-import csv
-import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
 import numpy as np
+from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.errors import InputError
 from fsi_compare.pressure_waves import PressureWaves
 from fsi_compare.studies.stability import study as stability
 from fsi_compare.studies.context import Context
-from fsi_compare.studies.stability.limit_load import Tube
+from fsi_compare.studies.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG, Cell, difference_of
+from fsi_compare.studies.stability.beyond_limit_load import Inflated, limit_load_table
+from fsi_compare.studies.stability.limit_load import Inflation, apart, read_wall
+from fsi_compare.studies.stability.settings import Settings
 from fsi_compare.studies.report import Report
-from fsi_compare.studies.stability.map import AGREES, DEVIATES, UNCHECKED, WRONG, difference_of
 from fsi_compare.studies.stability.messages import distinct, without_folder
-from fsi_compare.studies.study_file import read_study
+from fsi_compare.studies.study_file import Method, Request, read_study
 from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
 from fsi_compare.studies.study_run import WRONG as NOT_FINITE
 
@@ -41,7 +43,13 @@ vary = { "structure.density" = [1.2, 12.0] }
 cases = ["wall"]
 methods = ["whole"]
 vary = { "load.pressure" = [0.6] }
+[runs.static-steps]
+cases = ["wall"]
+methods = ["whole"]
+set = { "load.pressure" = 0.6 }
+vary = { "static.load_steps" = [4] }
 [report]
+scope = "Twelve steps."
 references = ["whole", "other"]
 one_pass = ["once"]
 static = "static"
@@ -57,11 +65,13 @@ ENDS = {NOT_CONVERGED: "step 4 (to t = 0.5 ms): no step lowers the residual [the
         NOT_FINITE: "flow.csv"}
 
 
-class StabilityCase(unittest.TestCase):
+def artery_wall():
+    return read_wall(tomllib.loads(STUDY)["report"]["tube"], InputError)
+
+
+class StabilityCase(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.base = Path(temporary.name)
+        super().setUp()
         (self.base / "tube.toml").write_text("")
         self.file = self.base / "study.toml"
 
@@ -89,14 +99,12 @@ class StabilityCase(unittest.TestCase):
                 wave = parabola(0.66)
                 write_run(folder, lambda t, z: factor * wave(t, z), TIMES[:levels],
                           totals={"steps": levels, "outer_iterations": 9 * levels, "newton_iterations": 3 * levels})
-            runs.append(StudyRun(request, folder, status, ENDS.get(status, ""), 1.0, "command"))
-        out = self.base / "out"
-        out.mkdir(exist_ok=True)
-        report = Report(out, study.title)
+            runs.append(StudyRun(request, folder, status, ENDS.get(status, ""), 1.0, "/opt/bin/fsi-monolithic x.toml"))
+        self.out.mkdir(exist_ok=True)
+        report = Report(self.out, study.title)
         code = stability.evaluate(Context(study, runs, None, report))
         self.page = report.write().read_text()
-        with open(out / "runs.csv", newline="") as file:
-            return code, {(float(row["value"]), row["method"]): row for row in csv.DictReader(file)}
+        return code, {(float(row["value"]), row["method"]): row for row in self.csv("runs.csv")}
 
 
 class Outcomes(StabilityCase):
@@ -156,16 +164,21 @@ class Outcomes(StabilityCase):
         self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "other"]["outcome"]),
                          (2, CRASHED, NOT_FINITE))
 
+    def test_scope_and_commands(self):
+        self.evaluate({})
+        self.assertIn("Twelve steps.", self.page)
+        self.assertEqual({row["command"] for row in self.csv("runs.csv")}, {"fsi-monolithic x.toml"})
+
     def test_pictures_and_limit_load(self):
         self.evaluate({})
         for name in ("map_structure_density", "map_load_pressure", "limit_load"):
             for suffix in ("png", "svg"):
-                self.assertGreater((self.base / "out" / f"{name}.{suffix}").stat().st_size, 1000)
-        with open(self.base / "out" / "limit_load.csv", newline="") as file:
-            row, = csv.DictReader(file)
+                self.assertGreater((self.out / f"{name}.{suffix}").stat().st_size, 1000)
+        row, finer = self.csv("limit_load.csv")
+        self.assertEqual((row["group"], finer["group"]), ("static", "static-steps"))
+        self.assertEqual(finer["load_kPa_or_pulse_ms"], "0.6")
         self.assertAlmostEqual(float(row["largest_widening"]), 1 + 0.25 / 1.43, 12)
-        self.assertAlmostEqual(float(row["closed_form_widening"]), Tube([1.43, 1.69, 1.82], [3.0, 0.3]).widening(0.3),
-                               9)
+        self.assertAlmostEqual(float(row["closed_form_widening"]), artery_wall().widening(0.3), 9)
 
 
 class Messages(StabilityCase):
@@ -186,13 +199,44 @@ class Messages(StabilityCase):
 
 
 class LimitLoad(unittest.TestCase):
+    def test_methods_that_come_equally_far_share_a_row(self):
+        wall = artery_wall()
+        settings = Settings("", 1e-3, ["whole"], ["once"], {}, wall, "static", "inlet.until")
+
+        def inflated(method, until, reached):
+            levels = Inflation(np.array([0.5, reached]), np.array([0.1, 0.143]), np.array([0.0, 0.0]))
+            request = Request("pulse", "tube", Method(method, method, "p", {}), {"inlet.until": until}, None, None, {},
+                              1.0)
+            run = StudyRun(request, Path("nowhere"), DONE, "", 1.0, "")
+            return Inflated(Cell(run, AGREES, 2, None, None), False, until, levels, wall)
+
+        names = ["whole", "other", "iqn", "robin"]
+        table = limit_load_table([*(inflated(name, 1.0, 3.0) for name in [*names, "once"]),
+                                  *(inflated(name, 5.0, 2.0 if name == "iqn" else 2.5) for name in names)], settings)
+        self.assertEqual([row[:5] for row in table.rows],
+                         [["pulse of 1 ms", "-", "all 4 methods", AGREES, "3 ms"],
+                          ["pulse of 5 ms", "-", "whole; other; robin", AGREES, "2.5 ms"],
+                          ["pulse of 5 ms", "-", "iqn", AGREES, "2 ms"]])
+        self.assertEqual(len(table.csv_rows), 9)
+
+    def test_a_long_tube_bulges_before_its_limit(self):
+        wall = artery_wall()
+        self.assertAlmostEqual(wall.bulge, 1.775, 3)
+        self.assertAlmostEqual(wall.pressure(wall.bulge), 0.4563, 4)
+        self.assertAlmostEqual(wall.pressure_and_force(1.3, 1)[0], wall.pressure(1.3), 9)
+
+    def test_labels_that_would_cover_each_other_move_apart(self):
+        placed = apart([(0.2, 0.5), (0.2, 0.1), (0.25, 0.5), (0.8, 0.5)])
+        self.assertEqual((placed[0], placed[1], placed[3]), ((0.2, 0.5), (0.2, 0.1), (0.8, 0.5)))
+        self.assertGreater(placed[2][1] - placed[0][1], 0.05)
+
     def test_table_of_closed_form_pressures(self):
-        tube = Tube([1.43, 1.69, 1.82], [3.0, 0.3])
-        self.assertAlmostEqual(tube.limit, 0.5234, 4)
+        wall = artery_wall()
+        self.assertAlmostEqual(wall.limit, 0.5234, 4)
         for widening, pressure in ((1.01, 0.0173), (1.1, 0.1452), (1.4, 0.3623)):
-            self.assertAlmostEqual(tube.pressure(widening), pressure, delta=6e-5)
-            self.assertAlmostEqual(tube.widening(tube.pressure(widening)), widening, 9)
-        self.assertIsNone(tube.widening(0.53))
+            self.assertAlmostEqual(wall.pressure(widening), pressure, delta=6e-5)
+            self.assertAlmostEqual(wall.widening(wall.pressure(widening)), widening, 9)
+        self.assertIsNone(wall.widening(0.53))
 
 
 class Refusals(StabilityCase):

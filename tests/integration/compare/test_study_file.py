@@ -1,10 +1,8 @@
 """Study files: what is refused, and in which words; what a good one asks for."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
-import synthetic  # noqa: F401: the package's folder onto the path
+from folder_case import FolderCase
 
 from fsi_compare.errors import InputError
 from fsi_compare.studies import kinds
@@ -39,11 +37,10 @@ cases = ["pipe"]
 """
 
 
-class StudyFile(unittest.TestCase):
+class StudyFile(FolderCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.path = Path(temporary.name) / "study.toml"
+        super().setUp()
+        self.path = self.base / "study.toml"
         for name in ("tube", "pipe"):
             (self.path.parent / f"{name}.toml").write_text("")
 

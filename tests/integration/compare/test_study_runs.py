@@ -1,5 +1,6 @@
 """`fsi-compare study` with drivers whose behaviour is known: what is run, what is not run again, what is recorded."""
 
+import json
 import os
 import re
 import signal
@@ -9,11 +10,11 @@ import time
 import unittest
 from pathlib import Path
 
-from fake_drivers import behave, calls
+from fake_drivers import behave, build_anew, calls
 from study_case import STUDY, StudyCase
 
 from fsi_compare.processes import End, Job, execute, run_jobs
-from fsi_compare.studies.runner import first_not_finite, judge
+from fsi_compare.studies.runner import RECORD, first_not_finite, judge
 from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
 
 
@@ -37,7 +38,9 @@ class Restart(StudyCase):
     def test_a_change_makes_a_run_anew(self):
         self.call()
         for change, again in (
-                (lambda: self.case_file.write_text('title = "Another"\n'), 2),
+                (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n'), 2),
+                (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n[monolithic]\n'
+                                                   'newton_tolerance = 1e-6\n'), 1),
                 (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken")), 1),
                 (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken") + 'vary = { mesh = ["fine"] }\n'), 2),
                 (lambda: behave(self.programs, version="0.2.0"), 2)):
@@ -45,6 +48,22 @@ class Restart(StudyCase):
             before = len(calls(self.programs))
             self.call()
             self.assertEqual(len(calls(self.programs)) - before, again)
+
+    def test_what_decides_nothing_makes_no_run_anew(self):
+        self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n')
+        self.call()
+        for text in ('# a comment\ntitle = "A tube"\n[time]\nstep = 0.25  # ms\n', 'time.step = 0.25\n',
+                     'title = "Another"\n[time]\nstep = 0.25\n'):
+            self.case_file.write_text(text)
+            self.call()
+            self.assertEqual(len(calls(self.programs)), 2, text)
+
+    def test_of_a_case_that_is_no_toml_every_byte_counts(self):
+        self.case_file.write_text("tube\n")
+        self.call()
+        self.case_file.write_text("tube \n")
+        self.call()
+        self.assertEqual(len(calls(self.programs)), 4)
 
     def test_a_changed_mesh_makes_a_run_anew(self):
         mesh = self.base / "tube.msh"
@@ -65,8 +84,17 @@ class Restart(StudyCase):
 
     def test_fresh(self):
         self.call()
+        others = [self.out / name for name in ("runs/notes", "runs/artery-coarse", "linear/runs/artery-coarse")]
+        stale = self.out / "runs" / "tube-mono-0123456789ab"  # unfinished, or of the study as it was
+        for place in (*others, stale):
+            place.mkdir(parents=True)
         self.call("--fresh")
         self.assertEqual(len(calls(self.programs)), 4)
+        self.assertEqual([place.is_dir() for place in (*others, stale)], [True, True, True, False])
+
+    def test_help_says_what_fresh_removes(self):
+        _, out, _ = self.call("--help")
+        self.assertIn("the linear systems in OUTDIR/linear stay", " ".join(out.split()))
 
     def test_quick_form_and_list(self):
         code, out, _ = self.call("--list")
@@ -115,6 +143,53 @@ class Restart(StudyCase):
                 return True
             time.sleep(0.05)
         return False
+
+
+class Builds(StudyCase):
+    WARNING = "fsi-compare: warning: 1 of 2 finished runs was made by another build of fsi-partitioned 0.1.0: "
+
+    def note(self):
+        return re.search("<strong>Note:</strong> ([^<]*)", (self.out / "report.html").read_text())
+
+    def test_the_same_executable(self):
+        self.call()
+        _, _, err = self.call()
+        self.assertEqual((err, self.note()), ("", None))
+
+    def test_runs_of_another_executable_are_taken_up_with_a_warning(self):
+        self.call()
+        build_anew(self.programs, "fsi-partitioned")
+        code, _, err = self.call()
+        self.assertEqual((code, len(calls(self.programs))), (0, 2))
+        self.assertEqual(err, self.WARNING + "`--fresh` makes it again\n")
+        self.assertIn(self.note()[1], self.WARNING)
+        _, _, err = self.call("-q")
+        self.assertEqual(err, "")
+        self.assertIsNotNone(self.note())
+
+        build_anew(self.programs, "fsi-monolithic")
+        _, _, err = self.call()
+        self.assertIn("2 of 2 finished runs were made by another build of fsi-monolithic 0.1.0 and fsi-partitioned "
+                      "0.1.0: `--fresh` makes them again\n", err)
+        _, _, err = self.call("--fresh")
+        self.assertNotIn("another build", err)
+        self.assertIsNone(self.note())
+
+    def test_a_run_made_now_is_of_this_build(self):
+        self.call("--quick")
+        build_anew(self.programs, "fsi-monolithic", "fsi-partitioned")
+        _, _, err = self.call()
+        self.assertIn("1 of 1 finished runs was made by another build of fsi-monolithic 0.1.0", err)
+
+    def test_a_run_without_a_record_of_its_executable_is_of_another_build(self):
+        self.call()
+        for place in self.out.glob("runs/tube-part-*"):
+            record = self.record(place)
+            del record["executable"]
+            (place / RECORD).write_text(json.dumps(record))
+        _, _, err = self.call()
+        self.assertIn(self.WARNING, err)
+        self.assertEqual(len(calls(self.programs)), 2)
 
 
 class Failures(StudyCase):

@@ -1,17 +1,14 @@
 """What to use for a wanted error, in plain words, from measured runs."""
 
-import math
 from typing import List, Optional, Sequence, Tuple
 
 from ...progress import duration
 from .plan import Plan
-from .convergence import SPACE, TIME, Series, growth
+from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
-from .measured import Measured
-from .reach import Part, Reach, reach
+from .measured import GAIN, Measured
+from .trend import trend
 from .waves import QUANTITIES, Quantity
-
-OUT_OF_REACH = 86400.0  # s, a day
 
 
 def percent(value: float) -> str:
@@ -23,7 +20,7 @@ def percent(value: float) -> str:
     return f"{100 * value:{form}} %"
 
 
-def total_advice(measured: Sequence[Measured], series: Sequence[Series], plan: Plan, case: str) -> List[str]:
+def total_advice(measured: Sequence[Measured], plan: Plan, case: str) -> List[str]:
     """A line per target: the fastest setting whose two errors against the reference stay below it."""
     own = max(plan.references[case].own_error.values())
     lines, missed = [], False
@@ -35,7 +32,7 @@ def total_advice(measured: Sequence[Measured], series: Sequence[Series], plan: P
             best = min(measured, key=lambda m: m.worst)
             line = (f"**{percent(target)}**: no setting of this study reaches it in both; the best is "
                     + percent(best.worst) + (f" ({_use(best)})" if not missed else "") + "."
-                    + _one_alone(measured, target) + " " + _extrapolation(measured, series, plan, case, target))
+                    + _one_alone(measured, target) + _beyond(measured, target, own))
             missed = True
         if own > target / 3:
             line += (f" The reference is itself uncertain by about {percent(own)}, which is not small beside this "
@@ -63,11 +60,13 @@ def _other_driver(measured: Sequence[Measured], chosen: Measured, target: float)
     others = [m for m in measured if m.partitioned != chosen.partitioned]
     found = cheapest([(m.seconds, m.worst) for m in others], target)
     name = "monolithic" if chosen.partitioned else "partitioned"
-    if found is None:
-        return f" No {name} setting of this study reaches it."
-    other = others[found]
-    return (f" With the {name} driver: {other.words}, {duration(other.seconds)}, "
-            f"{other.seconds / chosen.seconds:.2g} times as long.")
+    if found is not None:
+        other = others[found]
+        return (f" With the {name} driver: {other.words}, {duration(other.seconds)}, "
+                f"{other.seconds / chosen.seconds:.2g} times as long.")
+    if all(m.discretisation != chosen.discretisation for m in others):
+        return f" The {name} driver was not tried on these equations."
+    return f" No {name} setting of this study reaches it."
 
 
 def estimate(series: Sequence[Series], case: str, quantity: Quantity) -> Optional[Tuple[Series, Series]]:
@@ -81,43 +80,24 @@ def estimate(series: Sequence[Series], case: str, quantity: Quantity) -> Optiona
             max(time, key=lambda s: (s.finest.nodes, -s.finest.step)))
 
 
-def _extrapolation(measured: Sequence[Measured], series: Sequence[Series], plan: Plan, case: str, target: float) -> str:
-    method = [m for m in measured if m.run.request.method.name == plan.method and m.mesh in plan.family]
-    try:
-        exponents, constant = growth(method)
-    except ValueError:
-        return "The runs do not vary mesh and step enough to extrapolate their seconds."
-    demands: List[Tuple[float, float, float, Reach, str]] = []
-    for quantity in QUANTITIES:
-        chosen = estimate(series, case, quantity)
-        if chosen is None:
-            continue
-        space, time = (one.last(quantity.column) for one in chosen)
-        need = reach(target, Part(space.remaining, space.order), Part(time.remaining, time.order), exponents)
-        nodes, step = chosen[0].finest.nodes * need.nodes_factor, chosen[1].finest.step * need.step_factor
-        seconds = math.exp(constant) * nodes ** exponents.nodes * step ** -exponents.steps
-        demands.append((seconds, nodes, step, need, quantity.name))
-    if not demands:
-        return "The observed orders do not allow an extrapolation."
-    seconds, nodes, step, need, name = max(demands, key=lambda demand: demand[0])
-    return (f"Extrapolated by the observed orders in {name} it would take about {_round(nodes)} nodes, steps of "
-            f"{step:.2g} ms and {_long(seconds)} with the monolithic driver (seconds grow with nodes to the "
-            f"{exponents.nodes:.2f} and steps to the {exponents.steps:.2f}); an extrapolation by "
-            f"{_round(need.nodes_factor)} in nodes and {_round(1 / need.step_factor)} in steps, good "
-            "for the order of magnitude."
-            + (" That is out of reach: other elements, or an axisymmetric scene, are the way there."
-               if seconds > OUT_OF_REACH else ""))
+def _beyond(measured: Sequence[Measured], target: float, own: float) -> str:
+    """What an error that no run has reached would take."""
+    if own > target:
+        return " Nor could it be judged by this reference."
+    found = trend([(m.seconds, m.worst) for m in measured], GAIN)
+    seconds = found.seconds(target) if found else None
+    if not found or seconds is None:
+        return " The runs are too far from it to say what it would take."
+    return (f" Along the frontier the larger error has fallen as seconds^-{found.exponent:.2f}, from "
+            f"{percent(found.largest[1])} in {duration(found.largest[0])} to {percent(found.smallest[1])} in "
+            f"{duration(found.smallest[0])}; going on like that, mesh and step refined together, it would take about "
+            f"{_long(seconds)}. That is an extrapolation by {found.smallest[1] / target:.2g} in the error, good for "
+            "the order of magnitude.")
 
 
 def _long(seconds: float) -> str:
     days = seconds / 86400
-    return duration(seconds) if days < 2 else f"{days:.0f} days" if days < 700 else f"{_round(days / 365)} years"
-
-
-def _round(value: float) -> str:
-    """Two digits."""
-    digits = 1 - int(math.floor(math.log10(value)))
-    return f"{round(value, digits):,.{max(0, digits)}f}"
+    return duration(seconds) if days < 2 else f"{days:.0f} days"
 
 
 def algebraic_advice(group: Sequence[Measured], targets: Sequence[float]) -> List[str]:

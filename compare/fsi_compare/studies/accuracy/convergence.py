@@ -3,12 +3,9 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-import numpy as np
-
 from .plan import Plan
 from .measured import STEP, Measured
 from .observed_order import SelfConvergence, self_convergence, slope
-from .reach import Growth
 from .waves import QUANTITIES, relative_difference
 
 SPACE, TIME = "element size", "time step"
@@ -75,13 +72,3 @@ def _series(what: str, runs: Sequence[Measured], sizes: Sequence[float], plan: P
     words = finest.equations.split(", ")
     fixed = ", ".join([finest.run.request.case, *(words[1:] if what == SPACE else [words[0], *words[2:]])])
     return Series(what, runs, sizes, fixed, distances, orders, slopes)
-
-
-def growth(runs: Sequence[Measured]) -> Tuple[Growth, float]:
-    """Exponents of seconds in nodes and steps, and log seconds at one node and one step per ms: least squares over
-    runs of several meshes and steps. Raises ValueError when they do not vary both."""
-    rows = np.array([[1.0, np.log(m.nodes), -np.log(m.step)] for m in runs])
-    if len(runs) < 3 or np.linalg.matrix_rank(rows) < 3:
-        raise ValueError("nodes and steps are not varied independently")
-    constant, nodes, steps = np.linalg.lstsq(rows, np.log([m.seconds for m in runs]), rcond=None)[0]
-    return Growth(float(nodes), float(steps)), float(constant)

@@ -2,7 +2,6 @@
 
 from typing import Dict, List, Mapping, Sequence
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
@@ -29,7 +28,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
     def size(m: Measured) -> float:
         return 4.0 + 5.5 * (steps.index(m.step) / max(1, len(steps) - 1))
 
-    figure, canvas, panels = _panels(len(QUANTITIES))
+    figure, panels = _panels(len(QUANTITIES))
     for axes, quantity in zip(panels, QUANTITIES):
         points = [(m.seconds, 100 * m.total[quantity.column]) for m in measured]
         _scatter(axes, points, measured, lambda m: meshes[m.mesh_label], size, GAIN)
@@ -41,7 +40,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
         handles.append(Line2D([], [], linestyle="none", marker="o", color=ON_FRONTIER,
                               markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1)))
         labels.append(f"step {step:g} ms")
-    _finish(figure, canvas, handles, labels, measured, title)
+    _finish(figure, handles, labels, measured, title)
     return figure
 
 
@@ -49,7 +48,7 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity,
     """Error of stopping early against seconds, a panel per mesh and step: shape by method, a line along tolerances."""
     everyone = [m for group in groups.values() for m in group]
     methods = _named(everyone, lambda m: (m.partitioned, m.run.request.method.label))
-    figure, canvas, panels = _panels(len(groups))
+    figure, panels = _panels(len(groups))
     for axes, (name, group) in zip(panels, groups.items()):
         points = [(m.seconds, max(100 * m.algebraic[quantity.column], FLOOR)) for m in group]
         for label in methods:
@@ -63,13 +62,13 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity,
                       markerfacecolor=PARTITIONED_FILL if any(m.partitioned for m in everyone
                                                               if m.run.request.method.label == label)
                       else ON_FRONTIER) for label, marker in methods.items()]
-    _finish(figure, canvas, handles, list(methods), everyone, title, drivers=False)
+    _finish(figure, handles, list(methods), everyone, title, drivers=False)
     return figure
 
 
 def orders(series: Sequence[Series], what: str, title: str) -> Figure:
     """Distance of each solution from the next finer one against its size, a panel per quantity."""
-    figure, canvas, panels = _panels(len(QUANTITIES))
+    figure, panels = _panels(len(QUANTITIES))
     handles: List[Line2D] = []
     for axes, quantity in zip(panels, QUANTITIES):
         for i, one in enumerate(series):
@@ -84,7 +83,7 @@ def orders(series: Sequence[Series], what: str, title: str) -> Figure:
         axes.set_title(quantity.name)
         axes.set_ylabel("difference from the next finer in %")
         _log(axes, "element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step in ms")
-    _finish(figure, canvas, handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s)
+    _finish(figure, handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s)
                                        for s in (":", "--")],
             [one.fixed for one in series] + ["first order", "second order"], [], title, drivers=False)
     return figure
@@ -111,11 +110,10 @@ def _panels(count: int):
     columns = min(2, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
-    canvas = FigureCanvasAgg(figure)
     panels = figure.subplots(rows, columns, squeeze=False)
     for axes in panels.flat[count:]:
         axes.set_visible(False)
-    return figure, canvas, list(panels.flat[:count])
+    return figure, list(panels.flat[:count])
 
 
 def _named(measured: Sequence[Measured], key) -> Dict[str, str]:
@@ -143,7 +141,7 @@ def _mesh_handles(meshes: Mapping[str, str]):
     return handles, [f"{name} mesh" for name in meshes]
 
 
-def _finish(figure, canvas, handles, labels, measured: Sequence[Measured], title: str, drivers: bool = True) -> None:
+def _finish(figure: Figure, handles, labels, measured: Sequence[Measured], title: str, drivers: bool = True) -> None:
     if drivers:
         handles.append(Line2D([], [], color=ON_FRONTIER, linewidth=1.0, marker="o", markersize=5))
         labels.append("on the frontier")
@@ -154,7 +152,7 @@ def _finish(figure, canvas, handles, labels, measured: Sequence[Measured], title
                                   markerfacecolor=PARTITIONED_FILL))
             labels.append("hollow: partitioned")
     width, height = figure.get_size_inches()
-    finish(figure, canvas, handles, labels, title, (width, height))
+    finish(figure, handles, labels, title, (width, height))
 
 
 def _log(axes, name: str) -> None:

@@ -5,7 +5,7 @@ from typing import Any, Dict, List, Mapping, Tuple
 
 from ...errors import InputError
 from ..study_file import Study
-from ..suggestions import nearest
+from ..suggestions import check_keys, nearest
 from .reference import WaveReference, read_reference
 
 KEYS = ("references", "times", "targets", "method", "tight", "family")
@@ -33,9 +33,7 @@ def read_plan(study: Study) -> Plan:
     def wrong(key: str, problem: str, remedy: str) -> InputError:
         return InputError(study.path, f"report.{key}", problem, remedy)
 
-    for key in report:
-        if key not in KEYS:
-            raise wrong(key, "is unknown", f"did you mean '{nearest(key, KEYS)}'?")
+    check_keys(study.path, "report", report, KEYS)
 
     def numbers(key: str, default: List[float]) -> List[float]:
         values: Any = report.get(key, default)

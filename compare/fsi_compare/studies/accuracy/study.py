@@ -15,6 +15,7 @@ from .convergence import SPACE, TIME, Series, series
 from .frontier import frontier
 from .measured import GAIN, Measured, measure
 from ..plain_runs import runs_table
+from ..repeats import timing_words
 from ..study_file import Study
 from .waves import QUANTITIES, Quantity
 
@@ -31,7 +32,7 @@ def evaluate(context: Context) -> int:
     groups = _same_equations(measured, plan)
     report = context.report
     _summary(context, plan, measured, found, cases, groups)
-    _method(report, plan, cases)
+    _method(report, plan, cases, timing_words(m.run for m in measured))
     for case in cases:
         _total(report, case, [m for m in measured if m.run.request.case == case], len(cases) > 1)
     _orders(report, found, cases)
@@ -58,7 +59,7 @@ def _summary(context: Context, plan: Plan, measured, found, cases, groups) -> No
     for case in cases:
         own = [m for m in measured if m.run.request.case == case]
         report.subsection(f"Total error, {case}")
-        report.list(total_advice(own, found, plan, case))
+        report.list(total_advice(own, plan, case))
         report.list([line for line in (_balance(found, case, q) for q in QUANTITIES) if line])
     for name, group in groups.items():
         report.subsection(f"Solver's error alone, {name}")
@@ -75,15 +76,20 @@ def _balance(found: Sequence[Series], case: str, quantity: Quantity) -> str:
     chosen = estimate(found, case, quantity)
     if not chosen:
         return ""
-    space, time = chosen
-    left = [one.last(quantity.column) for one in chosen]
+    parts = []
+    for one in chosen:
+        left, total = one.last(quantity.column), one.finest.total[quantity.column]
+        where = (f"the elements of the {one.finest.mesh_label} mesh" if one.what == SPACE
+                 else f"the step of {one.finest.step:g} ms")
+        part = f"{percent(left.remaining)} from {where} (order {left.order:.2f}; {one.fixed})"
+        # A part that exceeds the whole: the sizes are not small enough for C h^p.
+        parts.append(part if left.remaining <= total else
+                     f"{part}, more than the whole of {percent(total)}: not yet in the range where an order holds")
     return (f"Where the error in {quantity.name} comes from, by self-convergence, without the reference: "
-            f"{percent(left[0].remaining)} from the elements of the {space.finest.mesh_label} mesh (order "
-            f"{left[0].order:.2f}; {space.fixed}), {percent(left[1].remaining)} from the step of "
-            f"{time.finest.step:g} ms (order {left[1].order:.2f}; {time.fixed}).")
+            f"{'; '.join(parts)}.")
 
 
-def _method(report, plan: Plan, cases) -> None:
+def _method(report, plan: Plan, cases, timing: str) -> None:
     report.section("How it is measured")
     for case in cases:
         reference = plan.references[case]
@@ -95,8 +101,8 @@ def _method(report, plan: Plan, cases) -> None:
                 "against the solution of the same discrete equations with tightly converged steps; from tolerances and "
                 "schemes alone. The two must not be confused: a tolerance can be changed for nothing, a mesh cannot.",
                 "**Frontier**: no other setting is both faster and more accurate; of total errors, a gain of less "
-                f"than {percent(GAIN)} of the error does not count. Single timings on one thread; differences of a few "
-                "percent are noise, so neighbours of the frontier are as good as those on it.",
+                f"than {percent(GAIN)} of the error does not count. {timing} Neighbours of the frontier are as good as "
+                "those on it.",
                 "**Observed order**: from the differences of three successive solutions, whatever the ratio of their "
                 "sizes; it needs no reference. The last column gives the slope against the reference instead.")
 

@@ -1,47 +1,54 @@
-"""Critical density ratio of `explicit` and largest stable factor of `constant`, by bisection over runs, beside the theory.
+"""Critical density ratio of `explicit` and largest stable factor of `constant`, by bisection over runs, beside the
+theory.
 
-`[report.explicit]` and `[report.constant]`: `method` and `case` (by name), `low`, `high` (density ratio, factor), `width`
-(relative, at which bisection stops), `steps` (list of time steps in ms), `stabilisations` (list of the wall's alpha), `levels`
-(time steps of a run), `set` (entries of the case file for these runs)."""
+`[report.explicit]` and `[report.constant]`: `method` and `case` (by name), `low`, `high` (density ratio, factor),
+`width` (relative, at which bisection stops), `steps` (list of time steps in ms), `stabilisations` (list of the wall's
+alpha), `levels` (time steps of a run), `set` (entries of the case file for these runs)."""
 
-from typing import Any, Dict, Mapping
+from typing import Any, Dict, List, Mapping
 
 import numpy as np
 
 from ...errors import InputError
 from ...layout import Table
-from .added_mass import Tube
+from .added_mass import AddedMass
 from .bisection import Bracket, bisect
 from ..context import Context
 from ..study_file import Study
 from ..study_run import DONE, NOT_CONVERGED, StudyRun
-from ..suggestions import nearest
+from ..suggestions import check_keys
 
 KEYS = ("method", "case", "low", "high", "width", "steps", "stabilisations", "levels", "set")
 QUANTITIES = {"explicit": "structure.density", "constant": "partitioned.relaxation"}
 
 
 def check(study: Study) -> None:
-    for name, entry in study.report.items():
-        if name not in QUANTITIES:
-            raise InputError(study.path, f"report.{name}", "is unknown", f"did you mean '{nearest(name, list(QUANTITIES))}'?")
-        for key in entry:
-            if key not in KEYS:
-                raise InputError(study.path, f"report.{name}.{key}", "is unknown", f"did you mean '{nearest(key, KEYS)}'?")
+    for name, entry in sections(study).items():
+        check_keys(study.path, f"report.{name}", entry, KEYS)
         for key in ("method", "case", "low", "high", "steps", "stabilisations"):
             if key not in entry:
                 raise InputError(study.path, f"report.{name}.{key}", "is missing", f"the keys are {', '.join(KEYS)}")
         if entry["method"] not in study.methods:
-            raise InputError(study.path, f"report.{name}.method", f"'{entry['method']}' is unknown", "name one of [methods]")
+            raise InputError(study.path, f"report.{name}.method", f"'{entry['method']}' is unknown",
+                             "name one of [methods]")
         if entry["case"] not in study.cases:
             raise InputError(study.path, f"report.{name}.case", f"'{entry['case']}' is unknown", "name one of [cases]")
         if not 0 < entry["low"] < entry["high"]:
-            raise InputError(study.path, f"report.{name}.low", "is not below `high`, or not positive", "give the ends of the search")
+            raise InputError(study.path, f"report.{name}.low", "is not below `high`, or not positive",
+                             "give the ends of the search")
 
 
-def report(context: Context) -> None:
-    for name, entry in context.study.report.items():
-        (explicit if name == "explicit" else constant)(context, entry)
+def sections(study: Study) -> Mapping[str, Mapping[str, Any]]:
+    """What is bisected, by the name of its section."""
+    return {name: entry for name, entry in study.report.items() if name in QUANTITIES}
+
+
+def report(context: Context) -> int:
+    """The number of runs made or taken up for it."""
+    brackets: List[Bracket] = []
+    for name, entry in sections(context.study).items():
+        brackets += (explicit if name == "explicit" else constant)(context, entry)
+    return sum(bracket.runs for bracket in brackets)
 
 
 def search(context: Context, name: str, entry: Mapping[str, Any], step: float, stabilisation: float) -> Bracket:
@@ -83,40 +90,51 @@ def flatten(entries: Mapping[str, Any], prefix: str = "") -> Dict[str, Any]:
     return found
 
 
-def explicit(context: Context, entry: Mapping[str, Any]) -> None:
-    tube = Tube()
-    table = Table(stem="added_mass_explicit", title="Critical density ratio of the wall to the fluid: `explicit` is unstable below",
-                  left=2, columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"), ("theory", "as published"),
-                                   ("theory", "for this scheme"), ("", "runs")],
-                  csv_columns=["stabilisation", "time_step_ms", "unstable_at", "stable_at", "theory_published", "theory_this_scheme", "runs"])
+def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
+    theory, brackets = AddedMass(), []
+    table = Table(stem="added_mass_explicit", left=2,
+                  title="Critical density ratio of the wall to the fluid: `explicit` is unstable below",
+                  columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"),
+                           ("theory", "as published"), ("theory", "for this scheme"), ("", "runs")],
+                  csv_columns=["stabilisation", "time_step_ms", "unstable_at", "stable_at", "theory_published",
+                               "theory_this_scheme", "runs"])
     for stabilisation in entry["stabilisations"]:
         for step in entry["steps"]:
             bracket = search(context, "explicit", entry, step, stabilisation)
-            published, own = tube.critical_density_ratio(), tube.explicit_limit(1)
-            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{published:.0f}", f"{own:.0f}", str(bracket.runs)])
+            brackets.append(bracket)
+            published, own = theory.critical_density_ratio(), theory.explicit_limit(1)
+            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{published:.0f}", f"{own:.0f}",
+                               str(bracket.runs)])
             table.csv_rows.append([stabilisation, step, bracket.fails, bracket.holds, published, own, bracket.runs])
     table.notes += [
-        "As published (Causin, Gerbeau and Nobile): rho_s h = rho_f m. For this scheme: rho_s h e = 2 rho_f m, since Newmark's "
-        "beta = gamma = 1 leaves the wall half as heavy when steps alternate, e = (R/h) ln(1 + h/R) for a thick wall.",
-        "The quasi-static stabilisation of the wall, tau = alpha h^2/(2 mu), lets volume leak through heavy elements, so that "
-        "only the nodes of the inner face answer: with alpha = 0.5 the limit lies higher still (docs/coupling.md)."]
+        "As published (Causin, Gerbeau and Nobile): rho_s h = rho_f m. For this scheme: rho_s h e = 2 rho_f m, since "
+        "Newmark's beta = gamma = 1 leaves the wall half as heavy when steps alternate, e = (R/h) ln(1 + h/R) for a "
+        "thick wall.",
+        "The quasi-static stabilisation of the wall, tau = alpha h^2/(2 mu), lets volume leak through heavy elements, "
+        "so that only the nodes of the inner face answer: with alpha = 0.5 the limit lies higher still "
+        "(docs/coupling.md)."]
     context.report.table(table)
+    return brackets
 
 
-def constant(context: Context, entry: Mapping[str, Any]) -> None:
-    tube = Tube()
+def constant(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
+    theory, brackets = AddedMass(), []
     table = Table(stem="added_mass_constant", title="Largest factor of `constant` that converges", left=2,
-                  columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"), ("", "theory 2/(1 + |G|)"), ("", "runs")],
+                  columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"),
+                           ("", "theory 2/(1 + |G|)"), ("", "runs")],
                   csv_columns=["stabilisation", "time_step_ms", "converges_at", "diverges_at", "theory", "runs"])
     for stabilisation in entry["stabilisations"]:
         for step in entry["steps"]:
             bracket = search(context, "constant", entry, step, stabilisation)
-            theory = tube.largest_factor(step)
-            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{theory:.4f}", str(bracket.runs)])
-            table.csv_rows.append([stabilisation, step, bracket.holds, bracket.fails, theory, bracket.runs])
-    table.notes.append("Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers with 0.74 "
-                       "(alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md.")
+            brackets.append(bracket)
+            largest = theory.largest_factor(step)
+            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{largest:.4f}",
+                               str(bracket.runs)])
+            table.csv_rows.append([stabilisation, step, bracket.holds, bracket.fails, largest, bracket.runs])
+    table.notes.append("Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers "
+                       "with 0.74 (alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md.")
     context.report.table(table)
+    return brackets
 
 
 def text(bracket: Bracket) -> str:

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import Any, List, Mapping, Optional, Sequence
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ...pictures import finish
@@ -20,6 +19,7 @@ STYLES = (
     {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
     {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
 )
+OFF = {"linestyle": "none", "marker": "x", "color": "#000000", "markersize": 15, "markeredgewidth": 2.5, "zorder": 1.5}
 
 
 @dataclass(frozen=True)
@@ -27,13 +27,14 @@ class Series:
     label: str
     x: Sequence[float]
     passes: Sequence[Optional[float]]  # None: failed
+    off: Sequence[bool]  # it did not fail, and its answer is another than the monolithic one
 
 
-def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any]) -> Figure:
-    """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed."""
+def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any], bound: float) -> Figure:
+    """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed. Answers further than
+    `bound` from the monolithic ones are crossed out."""
     width, height = 7.4, 5.4
     figure = Figure(figsize=(width, height))
-    canvas = FigureCanvasAgg(figure)
     strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 3])
     handles = []
     for i, line in enumerate(all_series):
@@ -43,6 +44,11 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
         failed = [x for x, value in zip(line.x, line.passes) if value is None]
         strip.plot(failed, [i] * len(failed), linestyle="none", marker=style["marker"], color=style["color"],
                    markersize=6, fillstyle="none")
+    wrong = [(x, value) for line in all_series for x, value, off in zip(line.x, line.passes, line.off) if off]
+    labels = [line.label for line in all_series]
+    if wrong:
+        handles += axes.plot(*zip(*wrong), **OFF)
+        labels.append(f"pressure off by more than {100 * bound:g} %")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(xlabel)
@@ -51,6 +57,6 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
     strip.set_yticks(range(len(all_series)), [line.label for line in all_series], fontsize=6.5)
     strip.set_title("failed", loc="left")
     tolerance = settings.get("partitioned.tolerance", 1e-6)
-    finish(figure, canvas, handles, [line.label for line in all_series], f"Coupling iterations, tolerance {tolerance:g}",
+    finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}",
            (width, height))
     return figure

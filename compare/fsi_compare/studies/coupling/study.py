@@ -1,12 +1,12 @@
-"""The kind `coupling`: passes per step of the coupling schemes, their agreement with the monolithic solution, what the added
-mass does to them, and their cost beside the monolithic driver's.
+"""The kind `coupling`: passes per step of the coupling schemes, their agreement with the monolithic solution, what the
+added mass does to them, and their cost beside the monolithic driver's.
 
 Groups by name, or by name and a suffix (passes, passes-fine), each of which may be missing:
   passes     the schemes at their tolerance; varied: mesh
   agreement  the same with a tight tolerance, and the monolithic driver, for the same cases and meshes
-  density, step   the schemes over structure.density and time.step
+  density, step   the schemes, and the monolithic driver, over structure.density and time.step (see sweeps)
   cost       the schemes and the monolithic driver; the first method is the reference
-`[report]`: `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
+`[report]`: `sweeps` (see sweeps); `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
 
 from typing import List, Optional, Sequence
 
@@ -15,13 +15,17 @@ from ...differences import largest_difference
 from ...errors import InputError
 from ...layout import Table, fixed
 from ...names import MATERIALS
-from . import added_mass_runs, pictures as coupling_pictures
+from . import added_mass_runs, sweeps
+from .pictures import passes_figure
 from ..context import Context
+from ..cross_check import WRONG, Cell
 from ..study_file import Study, show
 from ..study_run import StudyRun
+from ..suggestions import check_keys
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
-MONOLITHIC = "fsi-monolithic"
+REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)
+MONOLITHIC = sweeps.MONOLITHIC
 
 
 def check(study: Study) -> None:
@@ -29,7 +33,16 @@ def check(study: Study) -> None:
         if base(request.group) not in GROUPS:
             raise InputError(study.path, f"runs.{request.group}", "is no group of a coupling study",
                              f"there are {', '.join(GROUPS)}")
+    check_keys(study.path, "report", study.report, REPORT_KEYS)
+    sweeps.settings_of(study)
     added_mass_runs.check(study)
+
+
+def also_runs(study: Study) -> List[str]:
+    """For `--list`: what is run beside the study's runs."""
+    return [f"{name}: {entry['case']}, {entry['method']}, bisection of {added_mass_runs.QUANTITIES[name]} from "
+            f"{entry['low']:g} to {entry['high']:g}, {len(entry['steps']) * len(entry['stabilisations'])} times"
+            for name, entry in added_mass_runs.sections(study).items()]
 
 
 def evaluate(context: Context) -> int:
@@ -37,37 +50,66 @@ def evaluate(context: Context) -> int:
     report.section("Coupling iterations")
     passes = chosen(context, "passes")
     if passes:
-        report.text("Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; of "
-                    "`newton-krylov` every evaluation of the interface residual counts.")
+        report.text("Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; "
+                    "of `newton-krylov` every evaluation of the interface residual counts.")
         report.table(passes_table(context, passes))
         growth = growth_table(passes)
         if growth.rows:
             report.table(growth)
     agreement = chosen(context, "agreement")
     if agreement:
-        report.text("The converged partitioned step and the monolithic step solve the same equations. Largest difference of "
-                    "the pressure along the centre line, relative to the largest pressure of the time level, worst of all levels:")
+        report.text("The converged partitioned step and the monolithic step solve the same equations. Largest "
+                    "difference of the pressure along the centre line, relative to the largest pressure of the time "
+                    "level, worst of all levels:")
         report.table(agreement_table(agreement))
+    wrong: List[Cell] = []
     for group, quantity, unit in (("density", "density ratio of wall and fluid", ""), ("step", "time step", "ms")):
-        runs = chosen(context, group)
-        if runs:
-            report.section(f"Against the {quantity}")
-            label = quantity + (f" in {unit}" if unit else "")
-            report.figure(f"passes_{group}", lambda: coupling_pictures.passes_figure(series(runs), label, runs[0].request.settings),
-                          f"Mean coupling iterations per step against the {label}. In the strip above, a mark per scheme: the run "
-                          "failed there, i.e. it diverged or reached its limit of iterations, and said so.")
-            report.table(sweep_table(group, label, runs))
-    if context.study.report:
+        wrong += sweep_section(context, group, quantity + (f" in {unit}" if unit else ""), f"Against the {quantity}")
+    bisected = 0
+    if added_mass_runs.sections(context.study):
         report.section("Added mass")
-        added_mass_runs.report(context)
+        bisected = added_mass_runs.report(context)
     runs = chosen(context, "cost")
     if runs:
         report.section("Cost at the same accuracy of the interface condition")
         cost_section(context, runs)
-    missing = [run for run in context.runs if base(run.request.group) in ("passes", "agreement", "cost") and not run.done]
+    missing = [run for run in context.runs
+               if base(run.request.group) in ("passes", "agreement", "cost") and not run.done]
+    report.section("Runs")
+    report.text(count_in_words(context, bisected))
+    for cell in wrong:
+        report.text(f"**At fault:** {cell.run.request.group}, {cell.run.request.label}: {cell.outcome}"
+                    + (f", off by {cell.difference:.1e}" if cell.outcome == WRONG else f", {cell.run.message}"))
     for run in missing:
         report.text(f"**Missing:** {run.request.group}, {run.request.label}: {run.status}, {run.message}")
-    return 2 if missing else 0
+    return 2 if missing or wrong else 0
+
+
+def sweep_section(context: Context, group: str, label: str, heading: str) -> List[Cell]:
+    """The runs at fault."""
+    runs = chosen(context, group)
+    if not runs:
+        return []
+    settings = sweeps.settings_of(context.study)
+    found = sweeps.checked(runs, settings)
+    context.report.section(heading)
+    context.report.text(sweeps.in_words(found, settings))
+    context.report.figure(
+        f"passes_{group}",
+        lambda: passes_figure(sweeps.series(found), label, runs[0].request.settings, settings.bound),
+        f"Mean coupling iterations per step against the {label}. In the strip above, a mark per scheme: the run failed "
+        "there, i.e. it diverged or reached its limit of iterations, and said so."
+        + (" Crossed out: the run came to its end with another answer than the monolithic one."
+           if any(sweeps.off(cell) for cell in found) else ""))
+    context.report.table(sweeps.sweep_table(group, label, found, settings))
+    return sweeps.faults(found)
+
+
+def count_in_words(context: Context, bisected: int) -> str:
+    different = len({run.folder for run in context.runs})
+    text = (f"The study file asks for {len(context.runs)} runs, {different} of them different: one that is asked for "
+            "twice is made once.")
+    return text + (f" Bisection added {bisected}, {different + bisected} in all." if bisected else "")
 
 
 def base(group: str) -> str:
@@ -128,13 +170,13 @@ def runs_label(runs: Sequence[StudyRun], method: str) -> str:
 
 
 def growth_table(runs: Sequence[StudyRun]) -> Table:
-    """Mean over the steps that both runs have, on the finer mesh over the coarsest: the first steps take the most passes, so
-    that only equal numbers of steps compare."""
+    """Mean over the steps that both runs have, on the finer mesh over the coarsest: the first steps take the most
+    passes, so that only equal numbers of steps compare."""
     done = [run for run in runs if run.done]
     meshes = list(dict.fromkeys(mesh_name(run) for run in done))
     table = Table(stem="coupling_growth", title="Coupling iterations against the mesh, over the same steps", left=3,
-                  columns=[("", "scheme"), ("", "material"), ("", "mesh"), ("", "steps"), ("", f"mean, {meshes[0] if meshes else ''}"),
-                           ("", "mean here"), ("", "ratio")],
+                  columns=[("", "scheme"), ("", "material"), ("", "mesh"), ("", "steps"),
+                           ("", f"mean, {meshes[0] if meshes else ''}"), ("", "mean here"), ("", "ratio")],
                   csv_columns=["scheme", "case", "mesh", "steps", "mean_coarsest", "mean", "ratio"])
     for run in done:
         coarsest = [r for r in done if mesh_name(r) == meshes[0] and r.request.case == run.request.case
@@ -145,8 +187,8 @@ def growth_table(runs: Sequence[StudyRun]) -> Table:
         count = min(len(p) for p in passes)
         base_mean, mean = (float(p[:count].mean()) for p in passes)
         r = run.request
-        table.rows.append([r.method.label, MATERIALS.get(r.case, r.case), mesh_name(run), str(count), f"{base_mean:.1f}",
-                           f"{mean:.1f}", f"{mean / base_mean:.2f}"])
+        table.rows.append([r.method.label, MATERIALS.get(r.case, r.case), mesh_name(run), str(count),
+                           f"{base_mean:.1f}", f"{mean:.1f}", f"{mean / base_mean:.2f}"])
         table.csv_rows.append([r.method.name, r.case, mesh_name(run), count, base_mean, mean, mean / base_mean])
     return table
 
@@ -157,7 +199,8 @@ def agreement_table(runs: Sequence[StudyRun]) -> Table:
     tolerances = sorted({show(run.request.settings.get("partitioned.tolerance", "?")) for run in schemes})
     columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in schemes))
     table = Table(stem="coupling_agreement", left=1,
-                  title=f"Difference to the monolithic pressure at tolerance {', '.join(tolerances)} (iterations per step)",
+                  title=f"Relative difference to the monolithic pressure at tolerance {', '.join(tolerances)} "
+                        "(iterations per step)",
                   columns=[("", "scheme"), *((mesh, MATERIALS.get(case, case)) for mesh, case in columns)],
                   csv_columns=["scheme", "mesh", "case", "tolerance", "common_levels", "iterations_per_step",
                                "largest_relative_difference", "status"])
@@ -186,36 +229,6 @@ def agreement_cell(table: Table, run: StudyRun, runs: Sequence[StudyRun]) -> str
     table.csv_rows.append([r.method.name, mesh_name(run), r.case, r.settings.get("partitioned.tolerance"), levels,
                            run.passes if run.done else None, difference, run.status])
     return f"{fixed(difference, '.1e')} ({run.passes:.1f})" if run.done else run.status
-
-
-def varied(run: StudyRun) -> float:
-    """The value of the one quantity that a sweep varies."""
-    return float(next(value for name, value in run.request.values.items() if name != "mesh"))
-
-
-def series(runs: Sequence[StudyRun]) -> List["coupling_pictures.Series"]:
-    found = []
-    for name in methods(runs):
-        own = sorted((run for run in runs if run.request.method.name == name), key=varied)
-        found.append(coupling_pictures.Series(
-            label=runs_label(runs, name), x=[varied(run) for run in own],
-            passes=[run.passes if run.done else None for run in own]))
-    return found
-
-
-def sweep_table(group: str, label: str, runs: Sequence[StudyRun]) -> Table:
-    values = sorted({varied(run) for run in runs})
-    table = Table(stem=f"coupling_{group}", title=f"Mean coupling iterations per step against the {label}", left=1,
-                  columns=[("", "scheme"), *(("", f"{value:g}") for value in values)],
-                  csv_columns=["scheme", group, "steps", "mean", "status", "message", "command"])
-    for name in methods(runs):
-        cells = []
-        for value in values:
-            run = next(r for r in runs if r.request.method.name == name and varied(r) == value)
-            cells.append(f"{run.passes:.1f}" if run.done else run.status)
-            table.csv_rows.append([name, value, run.steps, run.passes if run.done else None, run.status, run.message, run.command])
-        table.rows.append([runs_label(runs, name), *cells])
-    return table
 
 
 def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
@@ -254,8 +267,8 @@ def saving_table(runs: Sequence[StudyRun], costs, stem: str, title: str) -> Opti
                  share(best.linear / best.steps, cost.linear / cost.steps)]
         table.rows.append([cost.label, *(fixed(None if x is None else 100 * x, ".0f") for x in saved)])
         table.csv_rows.append([cost.label, *saved])
-    table.notes.append("Negative: the monolithic driver takes more. A linear solve of the whole system counts as one, like one "
-                       "of the fluid, the wall or the mesh motion.")
+    table.notes.append("Negative: the monolithic driver takes more. A linear solve of the whole system counts as one, "
+                       "like one of the fluid, the wall or the mesh motion.")
     return table
 
 

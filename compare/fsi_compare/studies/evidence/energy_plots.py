@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import List, Optional, Sequence
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ...layout import Table
@@ -17,15 +16,19 @@ ENERGIES = ("fluid_kinetic_energy_uJ", "wall_kinetic_energy_uJ", "wall_isochoric
 SUPPLIES = (("inlet_work_uJ", 1), ("load_work_uJ", 1), ("inlet_kinetic_inflow_uJ", 1),
             ("outlet_kinetic_outflow_uJ", -1))
 
+# Each with a marker of its own, so that they are told apart in grey.
 LINES = {
-    "supplied": {"linestyle": "-", "color": "#000000", "linewidth": 2.0},
-    "kinetic, fluid": {"linestyle": "--", "color": "#2c6fbb", "linewidth": 1.4},
-    "kinetic, wall": {"linestyle": (0, (1, 1.5)), "color": "#2c6fbb", "linewidth": 1.4},
-    "elastic": {"linestyle": "-.", "color": "#e8871e", "linewidth": 1.4},
-    "lost by viscosity": {"linestyle": ":", "color": "#b02a5b", "linewidth": 1.8},
-    "lost by discretisation": {"linestyle": (0, (7, 2)), "color": "#5fa55a", "linewidth": 1.4},
-    "left over": {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#777777", "linewidth": 1.2},
+    "supplied": {"linestyle": "-", "color": "#000000", "linewidth": 2.0, "marker": ""},
+    "lost by discretisation": {"linestyle": "-", "color": "#5fa55a", "linewidth": 1.4, "marker": "D"},
+    "elastic": {"linestyle": "-.", "color": "#e8871e", "linewidth": 1.4, "marker": "^"},
+    "kinetic, fluid": {"linestyle": "--", "color": "#2c6fbb", "linewidth": 1.4, "marker": "o"},
+    "lost by viscosity": {"linestyle": ":", "color": "#b02a5b", "linewidth": 1.8, "marker": "x"},
+    "kinetic, wall": {"linestyle": (0, (1, 1.5)), "color": "#2c6fbb", "linewidth": 1.4, "marker": "s"},
 }
+SHOWN = 3e-3  # of what was supplied: the picture's lower end
+REMAINDER = "left over"  # too small for the picture
+PARTS = ("supplied", "kinetic, fluid", "kinetic, wall", "elastic", "lost by viscosity", "lost by discretisation",
+         REMAINDER)
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Balance:
     """Over time, in uJ; what a step supplies or loses is summed from the start."""
 
     times: np.ndarray  # ms
-    parts: dict  # name in LINES -> values
+    parts: dict  # name in PARTS -> values
 
     def end(self, name: str) -> float:
         return float(self.parts[name][-1])
@@ -42,7 +45,7 @@ class Balance:
     def largest_remainder(self) -> float:
         """Relative to what was supplied in all."""
         supplied = np.max(np.abs(self.parts["supplied"]))
-        return float(np.max(np.abs(self.parts["left over"])) / supplied) if supplied > 0 else float("nan")
+        return float(np.max(np.abs(self.parts[REMAINDER])) / supplied) if supplied > 0 else float("nan")
 
 
 def balance(run: StudyRun) -> Optional[Balance]:
@@ -62,28 +65,33 @@ def balance(run: StudyRun) -> Optional[Balance]:
         "elastic": get(ENERGIES[2]) + get(ENERGIES[3]),
         "lost by viscosity": np.cumsum(get("viscous_dissipation_uJ")),
         "lost by discretisation": np.cumsum(get("numerical_dissipation_uJ")),
-        "left over": np.cumsum(get("remainder_uJ")),
+        REMAINDER: np.cumsum(get("remainder_uJ")),
     })
 
 
 def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str) -> Figure:
-    """A panel per run, on one scale."""
+    """A panel per run, on one logarithmic scale: most parts are small beside what was supplied and lost."""
     columns = min(len(balances), 3)
     rows = -(-len(balances) // columns)
     width, panels = columns * (PANEL_INCHES[0] - 0.7) + (2 if columns == 1 else 0), rows * (PANEL_INCHES[1] + 0.5)
     figure = Figure(figsize=(width, panels))
-    canvas = FigureCanvasAgg(figure)
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for axes in grid.flat[len(balances):]:
         axes.set_visible(False)
     for axes, one, label in zip(grid.flat, balances, labels):
-        handles = [axes.plot(one.times, one.parts[name], **style)[0] for name, style in LINES.items()]
+        every = max(1, len(one.times) // 6)
+        handles = [axes.plot(one.times, one.parts[name], markersize=4.5, markevery=(i * every // len(LINES), every),
+                             markerfacecolor="#ffffff", **style)[0] for i, (name, style) in enumerate(LINES.items())]
+        axes.set_yscale("log")
         axes.set_title(label)
         axes.set_xlabel("t in ms")
         axes.set_xlim(0, one.times[-1])
+    most = max(float(np.max(one.parts["supplied"])) for one in balances)
+    if most > 0:
+        grid[0, 0].set_ylim(SHOWN * most, 1.6 * most)  # shared by all
     for row in grid:
         row[0].set_ylabel("energy in uJ")
-    finish(figure, canvas, handles, list(LINES), title, (width, panels))
+    finish(figure, handles, list(LINES), title, (width, panels))
     return figure
 
 
@@ -91,10 +99,10 @@ def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str =
     table = Table(
         stem=stem,
         title="Energy at the end of the runs, in percent of what was supplied",
-        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in list(LINES)[1:]),
+        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in PARTS[1:]),
                  ("", "left over at most")],
         csv_columns=[
-            "run", "time_ms", *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in LINES),
+            "run", "time_ms", *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in PARTS),
             "largest_remainder_relative"
         ],
         notes=[
@@ -104,10 +112,10 @@ def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str =
     for one, label in zip(balances, labels):
         supplied = one.end("supplied")
         table.rows.append([label, f"{supplied:.4g}",
-                           *(f"{100 * one.end(name) / supplied:.2f}" if name != "left over" else
-                             f"{100 * one.end(name) / supplied:.1e}" for name in list(LINES)[1:]),
+                           *(f"{100 * one.end(name) / supplied:.2f}" if name != REMAINDER else
+                             f"{100 * one.end(name) / supplied:.1e}" for name in PARTS[1:]),
                            f"{100 * one.largest_remainder:.1e}"])
-        table.csv_rows.append([label, float(one.times[-1]), *(one.end(name) for name in LINES), one.largest_remainder])
+        table.csv_rows.append([label, float(one.times[-1]), *(one.end(name) for name in PARTS), one.largest_remainder])
     return table
 
 
@@ -122,6 +130,7 @@ def energy_section(report, runs: Sequence[StudyRun], labels: Sequence[str], stem
     report.figure(stem, lambda: energy_figure(balances, names, "Energy balance"),
                   "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less "
                   "what flows out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and "
-                  "volumetric.")
+                  f"volumetric. Logarithmic, down to {SHOWN:g} of the most that was supplied; what is left over is far "
+                  "below.")
     report.table(energy_table(balances, names, stem))
     return balances

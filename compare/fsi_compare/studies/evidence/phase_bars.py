@@ -2,7 +2,6 @@
 
 from typing import Dict, Sequence
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -24,6 +23,7 @@ MEANING = ("Assembly: residuals and matrices. Set-up: factorisations and precond
            "Coupling: the interface's balance and acceleration. Output: result files and energy balance. Other: what "
            "is in no phase of `summary.json`.")
 COUPLING_PHASES = ("assembly: interface balance",)
+TOO_SHORT = 0.015  # of the longest bar: a part that is nowhere longer is not seen
 
 
 def phase_seconds(run: StudyRun) -> Dict[str, float]:
@@ -55,30 +55,44 @@ def phase_table(runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "ph
     for run, label in zip(runs, labels):
         parts = phase_seconds(run)
         steps = max(run.steps, 1)
-        table.rows.append(
-            [label, *(f"{1e3 * s / steps:.3g}" for s in parts.values()), f"{1e3 * run.wall_s / steps:.3g}"])
+        table.rows.append([label, *(_shown(1e3 * s / steps) for s in (*parts.values(), run.wall_s))])
         table.csv_rows.append([label, run.steps, *parts.values(), run.wall_s])
     table.notes.append(MEANING)
     return table
 
 
+def _shown(milliseconds: float) -> str:
+    return format(milliseconds, ".3g" if milliseconds < 1000 else ".0f")
+
+
 def phase_figure(runs: Sequence[StudyRun], labels: Sequence[str], title: str) -> Figure:
-    """A bar per run, first on top; the length is the milliseconds of a time step."""
+    """A bar per run, first on top; the length is the milliseconds of a time step, and stands at its end. Parts too
+    short to be seen have their numbers in the legend."""
     width, height = 7.4, 0.7 + 0.34 * len(runs)
     figure = Figure(figsize=(width, height))
-    canvas = FigureCanvasAgg(figure)
     axes = figure.subplots()
-    for row, run in enumerate(runs):
-        left, steps = 0.0, max(run.steps, 1)
-        for part, seconds in phase_seconds(run).items():
-            length = 1e3 * seconds / steps
+    lengths = [{part: 1e3 * seconds / max(run.steps, 1) for part, seconds in phase_seconds(run).items()}
+               for run in runs]
+    longest = max(sum(bar.values()) for bar in lengths)
+    for row, bar in enumerate(lengths):
+        left = 0.0
+        for part, length in bar.items():
             axes.barh(row, length, left=left, height=0.62, edgecolor="#000000", linewidth=0.6, **PARTS[part])
             left += length
+        axes.text(left + 0.01 * longest, row, _shown(left), va="center", fontsize=8)
+    axes.set_xlim(0, 1.1 * longest)
     axes.set_yticks(range(len(runs)), labels)
     axes.set_ylim(len(runs) - 0.4, -0.6)
     axes.set_axisbelow(True)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ms of wall time per time step")
     handles = [Patch(edgecolor="#000000", linewidth=0.6, **style) for style in PARTS.values()]
-    finish(figure, canvas, handles, list(PARTS), title, (width, height))
+    finish(figure, handles, [_legend(part, [bar[part] for bar in lengths], longest) for part in PARTS], title,
+           (width, height))
     return figure
+
+
+def _legend(part: str, lengths: Sequence[float], longest: float) -> str:
+    if max(lengths) > TOO_SHORT * longest:
+        return part
+    return f"{part}: {min(lengths):.2g} to {max(lengths):.2g} ms" if max(lengths) > 0 else f"{part}: none"

@@ -1,13 +1,13 @@
 """Pictures of a tube cut along its axis: the deformed wall, and the velocity of the fluid in it."""
 
 from dataclasses import dataclass
-from typing import Mapping, Sequence
+from typing import Mapping, Optional, Sequence
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.quiver import Quiver
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
@@ -25,10 +25,10 @@ ARROWS = (28, 5)  # along the axis and across
 
 @dataclass(frozen=True)
 class TubeCut:
-    """Triangles in the plane of the cut; coordinates (z, r) in mm, r of either sign."""
+    """Triangles in the plane of the cut; coordinates (z, x) in mm, x across the axis."""
 
     fluid: np.ndarray  # deformed, (triangles, 3, 2)
-    velocity: np.ndarray  # (v_z, v_r) at the corners, mm/ms
+    velocity: np.ndarray  # (v_z, v_x) at the corners, mm/ms
     speed: np.ndarray  # |v| at the corners
     wall: np.ndarray
     layer: np.ndarray  # of each wall triangle
@@ -42,9 +42,13 @@ def round_factor(displacement: float, shown: float = SHOWN_MM) -> float:
     """The largest of 1, 2, 5, 10, ... that shows `displacement`, in mm, no larger than `shown`; 1 without any."""
     if not displacement > 0:
         return 1.0
-    wanted = shown / displacement
-    power = 10.0 ** np.floor(np.log10(wanted))
-    return float(max(1.0, next(factor * power for factor in (5, 2, 1) if factor * power <= wanted * (1 + 1e-12))))
+    return max(1.0, round_below(shown / displacement))
+
+
+def round_below(value: float) -> float:
+    """The largest of ..., 0.1, 0.2, 0.5, 1, ... that is no larger than `value`, which is positive."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(next(factor * power for factor in (5, 2, 1) if factor * power <= value * (1 + 1e-12)))
 
 
 def tube_cut(media: Mapping[str, Medium], factor: float) -> TubeCut:
@@ -80,33 +84,35 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     """One cut above the other, on one colour scale."""
     width, height = 8.0, 1.95 * len(cuts)
     figure = Figure(figsize=(width, height))
-    canvas = FigureCanvasAgg(figure)
     grid = figure.subplots(len(cuts), 1, squeeze=False, sharex=True)[:, 0]
     fastest = max(float(one.speed.max()) for one in cuts)
     every = np.concatenate([one.wall.reshape(-1, 2) for one in cuts])
     low, high, reach = every[:, 0].min(), every[:, 0].max(), 1.06 * np.abs(every[:, 1]).max()
     for axes, one, label in zip(grid, cuts, labels):
         numbers = np.arange(3 * len(one.fluid)).reshape(-1, 3)
-        z, r = one.fluid.reshape(-1, 2).T
+        z, x = one.fluid.reshape(-1, 2).T
         # One picture within the SVG in place of thousands of shaded triangles.
-        shades = axes.tripcolor(Triangulation(z, r, numbers), one.speed.ravel(), shading="gouraud", cmap="cividis",
+        shades = axes.tripcolor(Triangulation(z, x, numbers), one.speed.ravel(), shading="gouraud", cmap="cividis",
                                 vmin=0, vmax=fastest, rasterized=True)
         layer = np.minimum(one.layer, len(LAYERS) - 1)
         for i, style in enumerate(LAYERS):
             axes.add_collection(PolyCollection(one.wall[layer == i], edgecolor=EDGE, linewidth=0.25,
                                                facecolor=style["facecolor"], hatch=style["hatch"]))
-        _arrows(axes, one, fastest)
+        arrows = _arrows(axes, one, fastest)
+        if arrows is not None and axes is grid[0]:
+            size = round_below(fastest)
+            axes.quiverkey(arrows, 0.86, 1.09, size, f"{size:g} mm/ms", labelpos="E", fontproperties={"size": 8})
         axes.grid(visible=False)
         axes.set_aspect("equal")
         axes.set_xlim(low - 0.2, high + 0.2)
         axes.set_ylim(-reach, reach)
         axes.set_title(label)
-        axes.set_ylabel("r in mm")
+        axes.set_ylabel("x in mm")
     grid[-1].set_xlabel("z in mm")
     grid[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 3, 5, 10]))
     handles = [Patch(edgecolor=EDGE, facecolor=style["facecolor"], hatch=style["hatch"]) for style in LAYERS]
     times = "" if factor == 1 else f", displacement {factor:g} times"
-    finish(figure, canvas, handles, ["media", "adventitia"], f"Deformed wall and velocity at t = {time:g} ms{times}",
+    finish(figure, handles, ["media", "adventitia"], f"Deformed wall and velocity at t = {time:g} ms{times}",
            (width, height))
     # Beside the panels that tight_layout has placed.
     figure.subplots_adjust(right=0.88)
@@ -116,27 +122,20 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     return figure
 
 
-def _arrows(axes, one: TubeCut, fastest: float) -> None:
+def _arrows(axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
     """Direction and size of the velocity on a regular grid of points."""
-    z, r = one.fluid.reshape(-1, 2).T
+    z, x = one.fluid.reshape(-1, 2).T
     points, index = np.unique(np.round(one.fluid.reshape(-1, 2), 9), axis=0, return_inverse=True)
     index = index.reshape(-1, 3)
     proper = np.array([len(set(row)) == 3 for row in index])
     mesh = Triangulation(points[:, 0], points[:, 1], index[proper])
     values = np.zeros((len(points), 2))
     values[index.ravel()] = one.velocity.reshape(-1, 2)
-    at_z, at_r = np.meshgrid(
-        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * r.max() * np.linspace(-1, 1, ARROWS[1]))
+    at_z, at_x = np.meshgrid(
+        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * x.max() * np.linspace(-1, 1, ARROWS[1]))
     try:
-        across = [LinearTriInterpolator(mesh, values[:, i])(at_z, at_r) for i in (0, 1)]
+        along = [LinearTriInterpolator(mesh, values[:, i])(at_z, at_x) for i in (0, 1)]
     except (RuntimeError, ValueError):
-        return  # a cut that matplotlib cannot search goes without arrows
-    axes.quiver(at_z,
-                at_r,
-                *across,
-                color="#ffffff",
-                edgecolor="#000000",
-                linewidth=0.4,
-                scale=30 * fastest,
-                width=0.0022,
-                zorder=3)
+        return None  # a cut that matplotlib cannot search goes without arrows
+    return axes.quiver(at_z, at_x, *along, color="#ffffff", edgecolor="#000000", linewidth=0.4, scale=30 * fastest,
+                       width=0.0022, zorder=3)

@@ -1,26 +1,32 @@
 """The linear-solver part of the paper's study: the first Newton system of each material and mesh by each solver, made
-by the machinery of `fsi-compare solvers` in the folder `linear` beside `runs`."""
+by the machinery of `fsi-compare solvers` in the folder `linear` beside `runs`. That command's own runs are there as
+well and may hold more than the study asks for, so that --fresh leaves the folder alone."""
 
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...errors import InputError
 from ...files import make_folder
+from ...linear_solvers import System
 from ...names import MATERIALS, MESHES, METHODS
-from ...programs import find_monolithic
+from ...programs import require_linear_systems
 from ...solver_tables import Grid
 from ...linear_study import Request, run_study
+from ..builds import Builds
 from ..context import Context
 from ..study_file import Study
-from ..suggestions import nearest
+from ..suggestions import check_keys, nearest
 
 FOLDER = "linear"
 FIRST_SYSTEM = (1, 1)
+LATER_SYSTEMS = ((1, 2), (1, 3))  # Newton takes four iterations and more in the first step
 TOLERANCE = 1e-9  # the paper's
-KEYS = ("meshes", "methods", "quick")
+KEYS = ("meshes", "methods", "later_meshes", "quick")
 
 
 def check(study: Study) -> None:
-    """`[report.linear]`: meshes, methods, and both for the quick form. Without the section there are no such runs."""
+    """`[report.linear]`: meshes and methods, later_meshes where the first step's later Newton systems are solved too
+    (default: none), and the same for the quick form. Without the section there are no such runs."""
     if "linear" not in study.report:
         return
     section = study.report["linear"]
@@ -28,11 +34,11 @@ def check(study: Study) -> None:
     for key, part in (("report.linear", section), ("report.linear.quick", quick)):
         if not isinstance(part, dict):
             raise InputError(study.path, key, "is not a section", "write meshes and methods in it")
-        for name in part:
-            if name not in KEYS:
-                raise InputError(study.path, f"{key}.{name}", "is unknown", f"did you mean '{nearest(name, KEYS)}'?")
+        check_keys(study.path, key, part, KEYS)
         for name, known in (("meshes", list(MESHES)), ("methods", list(METHODS))):
             _names(study, f"{key}.{name}", part.get(name, known), known)
+        if "later_meshes" in part:
+            _names(study, f"{key}.later_meshes", part["later_meshes"], list(MESHES))
     for case in study.cases:
         if case not in MATERIALS:
             raise InputError(study.path, f"cases.{case}", "is none of the paper's materials",
@@ -47,28 +53,50 @@ def _names(study: Study, key: str, names: Any, known: List[str]) -> None:
             raise InputError(study.path, key, f"'{name}' is unknown", f"did you mean '{nearest(str(name), known)}'?")
 
 
-def chosen(study: Study) -> Optional[Tuple[List[str], List[str]]]:
-    """Meshes and methods of this form of the study; None: no such runs."""
+@dataclass(frozen=True)
+class Chosen:
+    meshes: List[str]
+    methods: List[str]
+    later_meshes: List[str]
+
+
+def chosen(study: Study) -> Optional[Chosen]:
+    """Of this form of the study; None: no such runs."""
     section: Optional[Mapping[str, Any]] = study.report.get("linear")
     if section is None or (study.quick and "quick" not in section):
         return None
-    merged: Dict[str, Any] = {**section, **(section["quick"] if study.quick else {})}
-    return merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS))
+    merged: Dict[str, Any] = {**section, **({"later_meshes": [], **section["quick"]} if study.quick else {})}
+    return Chosen(merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)),
+                  merged.get("later_meshes", []))
 
 
-def solve(context: Context) -> Optional[Grid]:
-    """All of them; those that are finished are taken up."""
+def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
+    """The first Newton system of each material and mesh, and the later ones of the first step; None: not asked for.
+    Those that are finished are taken up, and counted for the runner's warning."""
     wanted = chosen(context.study)
     if wanted is None:
-        return None
-    meshes, methods = wanted
+        return None, None
     runner = context.runner
-    program = find_monolithic(runner.programs["fsi-monolithic"].path)
+    program = runner.programs["fsi-monolithic"]
+    require_linear_systems(program)
     folder = runner.folder / FOLDER / "runs"
     make_folder(folder)
-    requests = [
-        Request(name=f"{material}-{mesh}", case=case, material=material, mesh=mesh, settings=(f"mesh.level={mesh}",),
-                solvers=tuple(methods), systems=(FIRST_SYSTEM,), tolerance=TOLERANCE, threads=runner.threads)
+    first = _requests(context, wanted.meshes, wanted.methods, (FIRST_SYSTEM,))
+    later = _requests(context, wanted.later_meshes, wanted.methods, LATER_SYSTEMS, "-later")
+    outcomes = run_study(program, folder, [*first, *later], runner.quiet)
+    builds = Builds("runs of linear systems", f"removing `{FOLDER}/runs`")
+    for outcome in outcomes:
+        if outcome.taken_up:
+            builds.count(program, outcome.executable)
+    runner.builds.append(builds)
+    return Grid(outcomes[:len(first)]), Grid(outcomes[len(first):]) if later else None
+
+
+def _requests(context: Context, meshes: Sequence[str], methods: Sequence[str], systems: Sequence[System],
+              ending: str = "") -> List[Request]:
+    return [
+        Request(name=f"{material}-{mesh}{ending}", case=case, material=material, mesh=mesh,
+                settings=(f"mesh.level={mesh}",), solvers=tuple(methods), systems=tuple(systems), tolerance=TOLERANCE,
+                threads=context.runner.threads)
         for mesh in sorted(meshes, key=list(MESHES).index)
         for material, case in context.study.cases.items()]
-    return Grid(run_study(program, folder, requests, runner.quiet))

@@ -6,9 +6,9 @@ from ...names import MATERIALS, MESHES
 from ..study_run import StudyRun
 
 MONOLITHIC, PARTITIONED = "monolithic", "robin-neumann-iqn"
-WAVES, NEWTON, FIXED_POINT, COST = "waves", "newton", "fixed-point", "cost"
+WAVES, RESOLVED, NEWTON, FIXED_POINT, COST = "waves", "resolved", "newton", "fixed-point", "cost"
 STOPPED_EARLY, FIBRES, DENSITY = "stopped-early", "fibres", "printed-density"
-GROUPS = (WAVES, NEWTON, FIXED_POINT, COST, STOPPED_EARLY, FIBRES, DENSITY)
+GROUPS = (WAVES, RESOLVED, NEWTON, FIXED_POINT, COST, STOPPED_EARLY, FIBRES, DENSITY)
 
 # The times of the paper's figures, ms: of each material's, and of the one that compares the three.
 TIMES = (1.5, 3.0, 4.5, 6.0, 7.5, 9.0)
@@ -17,9 +17,10 @@ PICTURE_TIME = 8.0  # of the deformed walls
 
 
 class PaperRuns:
-    """Those that are done."""
+    """Those that are done; `asked`: the others too."""
 
     def __init__(self, runs: Sequence[StudyRun]):
+        self.asked = list(runs)
         self._runs = [run for run in runs if run.done]
         present = {run.request.case for run in self._runs}
         self.materials = [material for material in MATERIALS if material in present]

@@ -1,29 +1,29 @@
 """The kind `paper`: the paper's tables and figures beside ours, and each of its claims with what became of it.
 
-Groups of runs by name, all but `waves` may be missing: waves, newton, fixed-point, cost, stopped-early, fibres,
-printed-density (see paper_runs). `[report.linear]`: meshes and methods of the linear-solver tables (see
-paper_linear)."""
+Groups of runs by name, all but `waves` may be missing: waves, resolved, newton, fixed-point, cost, stopped-early,
+fibres, printed-density (see paper.runs). `[report.linear]`: meshes and methods of the linear-solver tables (see
+paper.linear)."""
 
-from typing import Dict, List, Optional
+from typing import Dict, List, Sequence
 
 from ... import paper, solver_pictures
 from ...errors import InputError
 from ...names import MATERIALS
 from ...solver_tables import Grid, solver_tables
-from . import cost as paper_cost, linear as paper_linear, tables as paper_tables, waves as paper_waves
-from ..evidence import wave_speed
+from . import cost as paper_cost, linear as paper_linear, speeds as paper_speeds, tables as paper_tables
+from . import waves as paper_waves
 from ..context import Context
-from ..evidence.energy_plots import energy_section
-from .claims import IN_PART, NOT_REPRODUCED, REPRODUCED, Claim, claims_table
+from .claims import Claim, claims_table, rules_table, tally
+from .energy import write_energy
 from .runs import GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
-from .solver_claims import solver_claims
+from .solver_claims import comparisons, solver_claims
 from .wave_claims import wave_claims
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
+from ..evidence.tube import Tube, read_tube
 from ..study_file import Study
 from ..study_run import StudyRun
-from ..suggestions import nearest
+from ..suggestions import check_keys, nearest
 
-RUN_FOLDERS = (f"{paper_linear.FOLDER}/runs",)  # beside `runs`; --fresh empties them too
 REPORT_KEYS = ("linear",)
 
 
@@ -36,10 +36,7 @@ def check(study: Study) -> None:
         if request.group not in GROUPS:
             raise InputError(study.path, f"runs.{request.group}", "is no group of this kind of study",
                              f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}")
-    for name in study.report:
-        if name not in REPORT_KEYS:
-            raise InputError(study.path, f"report.{name}", "is unknown",
-                             f"did you mean '{nearest(name, REPORT_KEYS)}'?")
+    check_keys(study.path, "report", study.report, REPORT_KEYS)
     if not any(request.group == WAVES and request.method.name == MONOLITHIC for request in study.requests):
         raise InputError(study.path, f"runs.{WAVES}", f"has no runs of a method '{MONOLITHIC}'",
                          "the whole report stands on them")
@@ -51,24 +48,26 @@ def also_runs(study: Study) -> List[str]:
     chosen = paper_linear.chosen(study)
     if chosen is None:
         return []
-    meshes, methods = chosen
-    return [f"linear systems: {material}, {mesh}: {', '.join(methods)}" for mesh in meshes for material in study.cases]
+    methods = ", ".join(chosen.methods)
+    return [f"linear systems: {material}, {mesh}{which}: {methods}"
+            for meshes, which in ((chosen.meshes, ""), (chosen.later_meshes, ", later ones")) for mesh in meshes
+            for material in study.cases]
 
 
 def evaluate(context: Context) -> int:
     """Exit code 2 when a run is missing."""
-    grid = paper_linear.solve(context)
+    grid, later = paper_linear.solve(context)
     runs = PaperRuns(context.runs)
     meshes = paper_tables.mesh_counts(runs, grid)
     agreements = paper_waves.agreements(runs)
     reference, stopped = paper_waves.stopped_early(runs)
-    speeds = paper_waves.speeds(runs)
+    speeds = paper_speeds.speeds(runs)
     costs = paper_cost.costs(runs, grid)
     cycles = paper_cost.cycles_per_iteration(grid, mesh_of(costs[-1].run)) if costs else None
-    claims = [
-        *solver_claims(grid, meshes), *wave_claims(runs, agreements, stopped, speeds),
-        *paper_cost.cost_claims(runs, costs, cycles)
-    ]
+    claims = [*solver_claims(grid, later, meshes), *wave_claims(agreements, stopped, speeds),
+              *paper_cost.cost_claims(runs, costs, cycles)]
+    claims.sort(key=lambda claim: claim.section)  # keeps the order within a section
+    claims += comparisons(grid)
 
     report = context.report
     _claims(report, claims)
@@ -94,23 +93,20 @@ def evaluate(context: Context) -> int:
         _speeds(report, runs, speeds)
 
     report.section("Energy")
-    shown, labels = _finest(runs)
-    energy_section(report, shown, labels)
+    write_energy(report, runs)
 
     report.section("Cost")
     if costs:
         _cost(report, costs)
     _phases(report, runs, costs)
-    return _missing(report, context.runs, grid)
+    return _missing(report, context.runs, [one for one in (grid, later) if one])
 
 
 def _claims(report, claims: List[Claim]) -> None:
-    counts = {kind: sum(c.verdict == kind for c in claims) for kind in (REPRODUCED, IN_PART, NOT_REPRODUCED)}
     report.section("Claims")
-    report.text(f"{paper.source().split(', section')[0]}. Of {len(claims)} claims " +
-                ", ".join(f"{n} {kind}" for kind, n in counts.items()) +
-                f"; {len(claims) - sum(counts.values())} not examined in this form of the study.")
+    report.text(f"{paper.source().split(', section')[0]}. {tally(claims)}")
     report.table(claims_table(claims))
+    report.table(rules_table(claims))
 
 
 def _linear(report, grid: Grid) -> None:
@@ -121,27 +117,22 @@ def _linear(report, grid: Grid) -> None:
     for path in solver_pictures.write_solver_pictures(report.folder, grid):
         report.written.append(path)
         if path.suffix == ".png":
-            what = "Iterations" if path.stem.startswith("iterations") else "Cost"
-            report.image(path, f"{what} of the linear solvers against the number of unknowns, first Newton system "
-                               "from rest.")
+            what = ("Iterations of the linear solvers against the number of unknowns"
+                    if path.stem.startswith("iterations") else f"Cost of the linear solvers, timed once: differences "
+                    f"within a factor of {paper_cost.NOISE:g} say nothing")
+            report.image(path, f"{what}; first Newton system from rest.")
 
 
 def _speeds(report, runs: PaperRuns, speeds) -> None:
     report.section("Speed of the wave")
-    tubes: Dict[str, wave_speed.Tube] = {
-        material: wave_speed.read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials}
-    levels = [mesh for mesh in runs.meshes if any(mesh in s.measured for s in speeds)]
-    report.figure("wave_speed", lambda: paper_waves.speed_figure(speeds, tubes, levels),
-                  "Left: phase speed in the thick wall against the wave number. Right: Moens-Korteweg and the thick "
-                  "wall's long waves as lines, the crest's speed in the runs as marks.")
-    report.table(paper_waves.speed_table(speeds, levels))
-
-
-def _finest(runs: PaperRuns):
-    """The monolithic runs on the finest mesh, and their names."""
-    found = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
-    found = [(material, run) for material, run in found if run]
-    return [run for _, run in found], [f"{MATERIALS[material]}, {runs.finest}" for material, _ in found]
+    tubes: Dict[str, Tube] = {
+        material: read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials}
+    levels = paper_speeds.levels_of(runs)
+    report.figure("wave_speed", lambda: paper_speeds.speed_figure(speeds, tubes, levels),
+                  "Left: phase speed in the thick wall against the wave number. Right: theory as lines, the crest's "
+                  "speed in the runs as marks; their bars are the difference of the two finest levels. "
+                  f"{paper_speeds.MEANING}")
+    report.table(paper_speeds.speed_table(speeds, levels))
 
 
 def _cost(report, costs) -> None:
@@ -172,15 +163,16 @@ def _phases(report, runs: PaperRuns, costs) -> None:
                         title=f"Milliseconds per time step by phase, {mesh} mesh"))
 
 
-def _missing(report, all_runs, grid: Optional[Grid]) -> int:
+def _missing(report, all_runs, grids: Sequence[Grid]) -> int:
     lines = [
         f"{run.request.group}, {run.request.label}: {run.status}: {run.message}" for run in all_runs if not run.done
     ]
-    for material in grid.materials if grid else ():
-        for mesh in grid.meshes:
-            outcome = grid.outcome(material, mesh)
-            if outcome and not outcome.results:
-                lines.append(f"linear systems, {material}, {mesh}: {outcome.failure}")
+    for grid in grids:
+        for material in grid.materials:
+            for mesh in grid.meshes:
+                outcome = grid.outcome(material, mesh)
+                if outcome and not outcome.results:
+                    lines.append(f"linear systems, {material}, {mesh}: {outcome.failure}")
     if lines:
         report.section("Missing")
         report.list(lines)

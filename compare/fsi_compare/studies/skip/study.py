@@ -1,19 +1,19 @@
 """Kind `skip`: what is saved by not doing what a scene does not need. Each group of runs is a scene in two forms, first
 with an economy and then with that economy switched off from outside; several repetitions, of which the median counts.
-What no key switches off is shown by the counters of `summary.json`."""
+They also tell the noise of the seconds, and a ratio inside it is marked as such."""
 
 import statistics
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...differences import largest_difference
 from ...errors import InputError
 from ...layout import Table, fixed
 from ..context import Context
-from ..stability.map import waves_of
+from ..cross_check import waves_of
 from ..study_file import Request, Study, show
 from ..study_run import StudyRun
-from ..suggestions import nearest
+from ..suggestions import check_keys, nearest
 
 REPORT_KEYS = ("repeat", "economies")
 ECONOMY_KEYS = ("label", "counter", "off", "off_label", "differs")
@@ -32,10 +32,7 @@ class Economy:
 
 
 def check(study: Study) -> None:
-    for name in study.report:
-        if name not in REPORT_KEYS:
-            raise InputError(study.path, f"report.{name}", "is unknown",
-                             f"did you mean '{nearest(name, REPORT_KEYS)}'?")
+    check_keys(study.path, "report", study.report, REPORT_KEYS)
     economies(study, study.requests, lambda request: request)
 
 
@@ -93,7 +90,7 @@ class Measured:
     economy: Economy
     on_s: float  # median seconds of the run, mesh and output included
     off_s: float
-    spread: float  # largest over smallest seconds among the repetitions of one form
+    noise: float  # factor by which seconds differ for no reason; see with_common_noise
     on_count: Optional[float]
     off_count: Optional[float]
     difference: Optional[float]  # of the two answers: largest over the time levels, relative to each level's largest
@@ -102,41 +99,43 @@ class Measured:
     def ratio(self) -> float:
         return self.off_s / self.on_s
 
+    @property
+    def in_noise(self) -> bool:
+        return max(self.ratio, 1 / self.ratio) <= self.noise
+
 
 def evaluate(context: Context) -> int:
     report = context.report
     found = economies(context.study, context.runs, lambda run: run.request)
     broken = [run for economy in found for run in (*economy.on, *economy.off) if not run.done]
-    measured = [measure(e) for e in found if all(run.done for run in (*e.on, *e.off))]
+    measured = with_common_noise([measure(e) for e in found if all(run.done for run in (*e.on, *e.off))])
     report.section("In short")
     if broken:
         report.text(f"**{len(broken)} runs did not come to their end; their economies are left out:**")
         report.list([f"{run.request.label}: {run.status}, {run.message}" for run in broken])
     if not measured:
         return 2
-    best = sorted(measured, key=lambda m: -m.ratio)
-    report.text("Each row is one scene, run as the toolkit does it and with one economy switched off. The largest "
-                "saving: "
+    best = sorted((m for m in measured if not m.in_noise), key=lambda m: -m.ratio)
+    silent = [m.economy.label.lower() for m in measured if m.in_noise]
+    report.text("Each row is one scene, run as the toolkit does it and with one economy switched off. "
+                + ("The largest savings: " if best else "No saving shows in the seconds. ")
                 + "; ".join(f"{m.economy.label.lower()}, {m.ratio:.2g} times the seconds without it" for m in best[:3])
-                + ". "
-                f"Medians of {len(measured[0].economy.on)} runs each; runs of one form differ by a factor of up to "
-                f"{max(m.spread for m in measured):.2f}, so ratios nearer to 1 than that say nothing.")
+                + (". " if best else "")
+                + f"Medians of {len(measured[0].economy.on)} runs each. Runs of one and the same form differ too, by a "
+                f"factor of up to {max(m.noise for m in measured):.2f}"
+                + (f"; inside that noise, so that their seconds say nothing: {', '.join(silent)}." if silent else "."))
     from .pictures import bars_figure
 
     report.section("With and without")
     report.figure("skip", lambda: bars_figure(measured),
                   "Seconds of a run and the work that the economy is about, each on its own logarithmic scale. Behind "
-                  "the bars: without over with.")
+                  "the bars: without over with. Grey: the seconds differ by no more than their noise.")
     report.table(_table(measured))
-    report.section("What no key switches off")
-    report.text("Operators that do not change are built once, and kept factors and set-ups serve over many steps; no "
-                "key makes the drivers build them anew. Their counters show it; the last column states what it would "
-                "cost to build them once in each time step, from the seconds of one call as measured here.")
-    report.table(_constant_operators(measured))
     return 2 if broken else 0
 
 
 def measure(economy: Economy) -> Measured:
+    """Noise: the largest over the smallest seconds among the repetitions of one form."""
     seconds = [[run.wall_s for run in runs] for runs in (economy.on, economy.off)]
     waves = [waves_of(runs[0]) for runs in (economy.on, economy.off)]
     difference = None
@@ -145,6 +144,12 @@ def measure(economy: Economy) -> Measured:
         difference = largest.max_relative if largest else None
     return Measured(economy, *(statistics.median(s) for s in seconds), max(max(s) / min(s) for s in seconds),
                     *(counter(runs[0], economy.counter) for runs in (economy.on, economy.off)), difference)
+
+
+def with_common_noise(measured: Sequence[Measured]) -> List[Measured]:
+    """A few repetitions can agree by chance: no row has less noise than the median row."""
+    common = statistics.median(m.noise for m in measured) if measured else 1.0
+    return [replace(m, noise=max(m.noise, common)) for m in measured]
 
 
 def counter(run: StudyRun, name: str) -> Optional[float]:
@@ -162,49 +167,24 @@ def counter(run: StudyRun, name: str) -> Optional[float]:
 def _table(measured: Sequence[Measured]) -> Table:
     table = Table(stem="skip", title="The same scene with and without each economy", left=3,
                   columns=[("", "economy"), ("", "with it"), ("", "switched off"), ("seconds", "with"),
-                           ("seconds", "without"),
-                           ("seconds", "ratio"), ("", "counted"), ("count", "with"), ("count", "without"),
-                           ("", "answers differ by")],
+                           ("seconds", "without"), ("seconds", "ratio"), ("seconds", "noise"), ("", "counted"),
+                           ("count", "with"), ("count", "without"),
+                           ("", "relative difference of the answers")],
                   csv_columns=["economy", "label", "with", "switched_off", "case", "method", "with_s", "without_s",
-                               "ratio", "spread",
+                               "ratio", "noise", "in_noise",
                                "counter", "with_count", "without_count", "largest_difference"])
     for m in measured:
         e, request = m.economy, m.economy.on[0].request
         table.rows.append([e.label, f"{e.on_label} ({request.method.label})", e.off_label, fixed(m.on_s, ".2f"),
                            fixed(m.off_s, ".2f"),
-                           fixed(m.ratio, ".2f"), e.counter, fixed(m.on_count, ".4g"), fixed(m.off_count, ".4g"),
+                           f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
+                           f"{m.noise:.2f}", e.counter, fixed(m.on_count, ".4g"), fixed(m.off_count, ".4g"),
                            e.differs or fixed(m.difference, ".1e")])
         table.csv_rows.append([e.name, e.label, e.on_label, e.off_label, request.case, request.method.name, m.on_s,
                                m.off_s, m.ratio,
-                               m.spread, e.counter, m.on_count, m.off_count, m.difference])
-    table.notes.append("Counted: of `summary.json`; of a phase its calls. Answers: largest difference over all time "
+                               m.noise, m.in_noise, e.counter, m.on_count, m.off_count, m.difference])
+    table.notes.append("Noise: the factor between the slowest and the quickest run of one form, here or in the median "
+                       "row, whichever is larger; a ratio that is no further from 1 says nothing.")
+    table.notes.append("Counted: of `summary.json`; of a phase its calls. Difference: largest over all time "
                        "levels, relative to the largest pressure of the level.")
-    return table
-
-
-def _constant_operators(measured: Sequence[Measured]) -> Table:
-    """What a run built less often than once a step, of one run for each method, the longest."""
-    table = Table(stem="constant_operators", title="Built once or seldom", left=2,
-                  columns=[("", "run"), ("", "operator"), ("", "steps"), ("", "built"), ("", "seconds each"),
-                           ("", "more seconds if built in each step"), ("", "of the run")],
-                  csv_columns=["economy", "method", "phase", "steps", "calls", "seconds_per_call", "saved_s",
-                               "saved_share"])
-    chosen: Dict[str, Measured] = {}
-    for m in measured:
-        name = m.economy.on[0].request.method.name
-        if name not in chosen or m.on_s > chosen[name].on_s:
-            chosen[name] = m
-    for name, m in chosen.items():
-        run = m.economy.on[0]
-        for phase, entry in run.summary.get("phases", {}).items():
-            kind = phase.partition(":")[0]
-            calls = int(entry["calls"])
-            if kind not in ("assembly", "factorisation", "set-up") or not 0 < calls < run.steps:
-                continue
-            each = entry["seconds"] / calls
-            saved = each * (run.steps - calls)
-            table.rows.append([f"{run.request.method.label} ({m.economy.label.lower()})", phase, str(run.steps),
-                               str(calls),
-                               f"{each:.3g}", f"{saved:.2f}", f"{100 * saved / run.wall_s:.0f} %"])
-            table.csv_rows.append([m.economy.name, name, phase, run.steps, calls, each, saved, saved / run.wall_s])
     return table

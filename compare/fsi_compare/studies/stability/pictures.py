@@ -4,12 +4,11 @@ import math
 import textwrap
 from typing import Any, Dict, List, Sequence, Tuple
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from ...pictures import finish
-from .map import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
+from ..cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
 from ..study_file import show
 from ..study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
 
@@ -37,13 +36,14 @@ def map_figure(cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values
     width = 0.5 + 0.075 * longest + CELL_INCHES[0] * len(values)
     height = 0.6 + 0.14 * max(head.count("\n") for head in heads) + CELL_INCHES[1] * len(methods)
     figure = Figure(figsize=(width, height))
-    canvas = FigureCanvasAgg(figure)
     axes = figure.subplots()
     for row, (name, _) in enumerate(methods):
         for column, value in enumerate(values):
             cell = at.get((name, value))
             if cell is not None:
                 _draw(axes, column, row, cell)
+            else:
+                axes.text(column + 0.5, row + 0.5, "not run", ha="center", va="center", fontsize=7.5, color="#777777")
     axes.set_xlim(0, len(values))
     axes.set_ylim(len(methods), 0)
     axes.set_xticks([i + 0.5 for i in range(len(values))], heads)
@@ -56,7 +56,7 @@ def map_figure(cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values
     for side in axes.spines.values():
         side.set_visible(False)
     handles, labels = _legend({cell.outcome for cell in cells})
-    finish(figure, canvas, handles, labels, title, (width, height))
+    finish(figure, handles, labels, title, (width, height))
     return figure
 
 

@@ -1,30 +1,32 @@
-"""How each run of a stability study ended, and whether what it says it solved is what the other driver finds."""
+"""How each run ended, and whether what it says it solved is what the other driver finds."""
 
 from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-from ...differences import largest_difference
-from ...errors import InputError
-from ...pressure_waves import PressureWaves
-from ..study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
-from ..study_run import WRONG as NOT_FINITE
+from ..differences import largest_difference
+from ..errors import InputError
+from ..pressure_waves import PressureWaves
+from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from .study_run import WRONG as NOT_FINITE
 
 AGREES = "converged"  # and no time level is further from the other driver's than the bound
-UNCHECKED = "converged, unchecked"  # the other driver found nothing there, or broke off earlier
+UNCHECKED = "converged, unchecked"  # the other driver was not run there, found nothing, or broke off earlier
 DEVIATES = "deviates"  # of a method that makes one pass and so claims no agreement
 WRONG = "wrong"  # it says converged, and the other driver says otherwise
 OUTCOMES = (AGREES, UNCHECKED, DEVIATES, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, NOT_FINITE, CRASHED)
-# Such a method misses a jump of the load by its nature, where the levels soon after are small: its difference is relative
-# to the largest pressure of all levels. Beyond half of that nothing of the wave is right, and it must not say done.
+# Such a method misses a jump of the load by its nature, where the levels soon after are small: its difference is
+# relative to the largest pressure of all levels. Beyond half of that nothing of the wave is right, and it must not say
+# done.
 ONE_PASS_BOUND = 0.5
-FAULTS = (WRONG, NOT_FINITE, CRASHED)  # what may happen nowhere on the map
+FAULTS = (WRONG, NOT_FINITE, CRASHED)  # what may happen nowhere
+BOUND = 1e-3  # of the difference, relative to the largest value of a time level: a thousand interface tolerances
 
 Point = Tuple[str, str, Any]  # case, quantity, value
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One method at one point of the map."""
+    """One method at one point: a case, and a value of what is varied."""
 
     run: StudyRun
     outcome: str  # one of OUTCOMES

@@ -1,0 +1,174 @@
+"""What the runs make of loads that the wall cannot bear at rest: pictures, and a table without repetitions."""
+
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Sequence, Tuple
+
+from ...layout import Table, fixed
+from ..cross_check import Cell, quantity
+from ..report import Report
+from ..study_file import show
+from .limit_load import Curve, Inflation, Wall, inflation, pulse_figure, static_figure
+from .messages import without_folder
+from .settings import Settings
+
+CURVES = 6  # of a picture, at most
+
+
+@dataclass(frozen=True)
+class Inflated:
+    """A run and how far it came."""
+
+    cell: Cell
+    at_rest: bool
+    load: float  # kPa, the whole; of a pulse its length in ms
+    levels: Optional[Inflation]
+    wall: Wall
+
+    @property
+    def label(self) -> str:
+        if not self.at_rest:
+            return f"pulse of {show(self.load)} ms"
+        return f"{show(self.load)} kPa at rest" + (f" in {self.levels.steps} steps" if self.levels else "")
+
+    @property
+    def mesh(self) -> str:
+        """Its nodes."""
+        nodes = self.cell.run.summary.get("mesh", {}).get("nodes")
+        return "-" if nodes is None else f"{nodes:,}"
+
+    @property
+    def reached(self) -> Optional[float]:
+        """ms, or the fraction of the load."""
+        return None if self.levels is None else float(self.levels.times[-1])
+
+    @property
+    def pressure(self) -> float:
+        """kPa, the highest at rest."""
+        return (self.reached or 0) * self.load
+
+    @property
+    def widenings(self) -> List[Optional[float]]:
+        """The largest, half-way along the tube, and of a long tube at the same pressure."""
+        if self.levels is None:
+            return [None, None, None]
+        largest, middle = (1 + float(values[-1]) / self.wall.radius
+                           for values in (self.levels.largest, self.levels.middle))
+        return [largest, middle, self.wall.widening(self.pressure) if self.at_rest else None]
+
+    @property
+    def shown(self) -> List[str]:
+        reached = "-" if self.reached is None else (f"{self.pressure:.3f} kPa" if self.at_rest
+                                                    else f"{self.reached:g} ms")
+        return [self.cell.outcome, reached, *(fixed(widening, ".3f") for widening in self.widenings)]
+
+
+def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings) -> None:
+    wall = settings.wall
+    if wall is None:
+        return
+    runs = [_inflated(cell, True, wall) for cell in found if settings.at_rest(cell.run)]
+    runs += [_inflated(cell, False, wall) for cell in found if settings.pulse and quantity(cell.run) == settings.pulse]
+    if not runs:
+        return
+    report.section("Beyond the limit load")
+    report.text(*_in_words(runs, wall))
+    own = [run for run in runs if run.levels is not None and run.cell.method in settings.references]
+    furthest = _furthest(own)
+    if furthest:
+        curves = [Curve(f"run on {run.mesh} nodes, to {run.pressure:.3f} kPa", run.load, run.cell.run.done, run.levels)
+                  for run in furthest]
+        report.figure("limit_load", lambda: static_figure(curves[:CURVES], wall),
+                      "The wall alone under a static pressure, raised in equal steps: the run of each mesh that came "
+                      "furthest. A curve ends where no further solution was found.")
+    waves = [Curve(run.label, run.load, run.cell.run.done, run.levels) for run in own
+             if not run.at_rest and run.cell.method == settings.references[0]]
+    if waves:
+        report.figure("long_pulses", lambda: pulse_figure(waves[:CURVES], "Inflation by pulses of different length"),
+                      "Largest radial displacement of the inner face. A dot: the run reached its end, which is later "
+                      "for longer pulses. A cross: it ended with a message, for want of a solution of the next step. "
+                      "Curves of longer pulses coincide until the shorter one ends.")
+    report.table(limit_load_table(runs, settings))
+
+
+def _inflated(cell: Cell, at_rest: bool, wall: Wall) -> Inflated:
+    value = next(iter(cell.run.request.values.values()))
+    load = cell.run.request.settings.get("load.pressure", value) if at_rest else value
+    return Inflated(cell, at_rest, float(load), inflation(cell.run), wall)
+
+
+def _furthest(runs: Sequence[Inflated]) -> List[Inflated]:
+    """Of each mesh the run at rest that came furthest; the coarsest mesh first."""
+    best: Dict[str, Inflated] = {}
+    for run in runs:
+        if run.at_rest and (run.mesh not in best or run.pressure > best[run.mesh].pressure):
+            best[run.mesh] = run
+    return list(best.values())
+
+
+def _in_words(runs: Sequence[Inflated], wall: Wall) -> List[str]:
+    text = [f"A long tube of these layers that widens evenly bears less than {wall.limit:.3f} kPa at rest, at unit "
+            "axial stretch and whatever its radius. A longer pulse above that has no rest to tend to: only inertia "
+            "holds the wall, and the wall widens until the run can no longer follow it."]
+    if wall.bulge:
+        text[0] += (f" It bears less still, for it need not widen evenly: at {wall.bulge:.2f} times its radius, under "
+                    f"{wall.pressure(wall.bulge):.3f} kPa, a bulge sets in, which grows under falling pressure.")
+    if any(run.at_rest for run in runs):
+        text.append("The runs at rest end below these loads, all with a bulge half-way along the tube. Two things are "
+                    "not the long tube's. The ends are clamped, so that the middle lengthens at the cost of the ends. "
+                    "And the wall is softer on a coarse mesh: it widens further under the same pressure, less so on a "
+                    "finer one. Load steps are not cut back: a run ends at the first step without a solution, so that "
+                    "the load it reached falls short of its limit by up to one load step.")
+        reached = [f"{run.pressure:.3f} kPa on {run.mesh} nodes" for run in _furthest(runs)]
+        text.append(f"Highest static pressure with a solution: {', '.join(reached)}." + _same_steps(runs))
+    return text
+
+
+def _same_steps(runs: Sequence[Inflated]) -> str:
+    """Whether the mesh decides how far a run comes, by runs on different meshes with the same load steps."""
+    ends: Dict[Tuple[float, int], Dict[str, float]] = {}
+    for run in runs:
+        if run.at_rest and run.levels is not None and not run.cell.run.done:
+            ends.setdefault((run.load, run.levels.steps), {})[run.mesh] = run.pressure
+    shared = [list(there.values()) for there in ends.values() if len(there) > 1]
+    if not shared:
+        return ""
+    alike = sum(max(pressures) - min(pressures) < 1e-9 for pressures in shared)
+    said = f" Of {len(shared)} loads too high for two meshes, applied in the same steps, {alike} end at the same step"
+    return said + (": on a finer mesh the wall widens less, but does not bear more." if alike == len(shared) else ".")
+
+
+def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
+    """Methods that came equally far share a row. Those with one pass a step say nothing about the wall."""
+    table = Table(stem="limit_load", title="How far the wall is inflated", left=4,
+                  columns=[("", "load"), ("", "nodes"), ("", "method"), ("", "outcome"), ("", "reached"),
+                           ("inner radius over that at rest", "largest"),
+                           ("inner radius over that at rest", "half-way"),
+                           ("inner radius over that at rest", "long tube")],
+                  csv_columns=["group", "value", "load_kPa_or_pulse_ms", "nodes", "method", "outcome",
+                               "reached_time_ms_or_load_fraction", "largest_widening", "middle_widening",
+                               "closed_form_widening", "message"])
+    loads: Dict[Tuple[str, str], List[Inflated]] = {}
+    for run in runs:
+        if run.cell.method not in settings.one_pass:
+            loads.setdefault((run.label, run.mesh), []).append(run)
+        request = run.cell.run.request
+        table.csv_rows.append([request.group, next(iter(request.values.values())), run.load,
+                               run.cell.run.summary.get("mesh", {}).get("nodes"), run.cell.method, run.cell.outcome,
+                               run.reached, *run.widenings, without_folder(run.cell.run.message)])
+    for (label, mesh), there in loads.items():
+        alike: Dict[Tuple[str, ...], List[Inflated]] = {}
+        for run in there:
+            alike.setdefault(tuple(run.shown), []).append(run)
+        for shown, own in alike.items():
+            methods = list(dict.fromkeys(run.cell.run.request.method.label for run in own))
+            table.rows.append([label, mesh, _methods(methods, len(alike)), *shown])
+    table.notes.append("Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
+                       + (f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other "
+                          "reasons." if settings.one_pass else ""))
+    return table
+
+
+def _methods(names: Sequence[str], rows: int) -> str:
+    if len(names) <= 3:
+        return "; ".join(names)
+    return f"all {len(names)} methods" if rows == 1 else f"{names[0]}; {len(names) - 1} others alike"
