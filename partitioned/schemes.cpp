@@ -64,7 +64,9 @@ const std::vector<CouplingScheme>& coupling_schemes() {
   static const std::vector<CouplingScheme> schemes = {
       {"aitken", false, false, aitken, "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
       {"constant", false, false, constant, "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation"},
-      {"explicit", false, true, constant, "a scheme that iterates: partitioned.scheme = \"iqn-ils\""},
+      {"explicit", false, true, constant,
+       "a scheme that iterates: partitioned.scheme = \"iqn-ils\"; one pass a step is unstable where the fluid's added "
+       "mass exceeds the wall's"},
       {"iqn-ils", false, false, iqn_ils, other},
       {"iqn-imvj", false, false, iqn_imvj, other},
       {"newton-krylov", false, false, newton_krylov, other},

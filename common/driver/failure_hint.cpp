@@ -95,7 +95,10 @@ std::string wall_hint(const WallAtFailure& wall, std::optional<double> limit, bo
         "fibres (material = \"artery\")",
         wall.load);
   else
-    text += fmt::format(", less still where it bulges: {:.3g} kPa may be the limit load of this one", wall.load);
+    text += fmt::format(
+        ", less still where it bulges: {:.3g} kPa may be the limit load of this one; on a coarse mesh the wall is too "
+        "soft, which a finer mesh tells",
+        wall.load);
   return text;
 }
 

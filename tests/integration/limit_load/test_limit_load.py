@@ -24,6 +24,15 @@ class LimitLoad(FolderTest):
             self.assertIn(LIMIT, said)
             self.assertIn("artery", said)
 
+    def test_at_rest_below_the_limit(self):
+        said = self.failure(MONOLITHIC, STATIC, "load.pressure=0.5", "static.load_steps=3")
+        self.assertIn(LIMIT, said)
+        self.assertIn("may be the limit load of this one; on a coarse mesh the wall is too soft", said)
+
+    def test_one_pass_a_step_names_the_added_mass(self):
+        said = self.failure(PARTITIONED, NEO_HOOKEAN, 'partitioned.scheme="explicit"', "time.end=1")
+        self.assertRegex(said, "found no answer in pass 1: .*the fluid's added mass exceeds the wall's")
+
     def test_long_pulse(self):
         for program, scheme in ((MONOLITHIC, "aitken"), (PARTITIONED, "robin-neumann-iqn")):
             said = self.failure(program, NEO_HOOKEAN, "inlet.until=5", "time.end=5", f'partitioned.scheme="{scheme}"')
