@@ -22,9 +22,8 @@ struct FastOptions {
   std::int64_t direct_below = 2000;  ///< unknowns below which a sparse factorisation is quicker
   int max_iterations = 400;          ///< of GMRES in one solve, before the preconditioner is strengthened
   int restart = 50;                  ///< iterations between two residuals in double precision, at most
-  int momentum_sweeps =
-      0;                  ///< symmetric Gauss-Seidel sweeps on the momentum equations in the preconditioner; 0: chosen
-  int strong_sweeps = 8;  ///< the same when the preconditioner is strengthened
+  int momentum_sweeps = 0;           ///< symmetric Gauss-Seidel sweeps on the momentum equations; 0: chosen
+  int strong_sweeps = 8;             ///< the same when the preconditioner is strengthened
 };
 
 /// `fast`: the linear solver that a user should run. What is known exactly is eliminated: the numbering holds one
@@ -57,8 +56,7 @@ class FastSolver : public LinearSolver {
     } else {
       if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
       iterative_->matrix.fill();
-      iterative_->preconditioner.options().momentum_sweeps = options_.momentum_sweeps;
-      iterative_->preconditioner.set_up();
+      set_up_preconditioner(false);
       find_shape_derivatives();
     }
     ready_ = true;
@@ -68,9 +66,8 @@ class FastSolver : public LinearSolver {
     if (direct_) return direct_->solve(b, tolerance, x);
     LinearReport report = iterate(b, tolerance, x);
     if (report.converged) return report;
-    if (iterative_->preconditioner.momentum_sweeps() < options_.strong_sweeps) {
-      iterative_->preconditioner.options().momentum_sweeps = options_.strong_sweeps;
-      iterative_->preconditioner.set_up();
+    if (!strengthened_) {
+      set_up_preconditioner(true);
       LinearReport second = iterate(b, tolerance, x);
       second.iterations += report.iterations;
       if (second.converged) return second;
@@ -107,6 +104,16 @@ class FastSolver : public LinearSolver {
   bool uses_factorisation() const { return direct_ != nullptr; }
 
  private:
+  /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
+  void set_up_preconditioner(bool strong) {
+    typename VelocityPressurePreconditioner<Element>::Options options;
+    options.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
+    if (strong) options.coarse_from = 0;
+    iterative_->preconditioner.options() = options;
+    iterative_->preconditioner.set_up();
+    strengthened_ = strong;
+  }
+
   struct Iterative {
     VelocityPressureLayout<Element> layout;
     VelocityPressureMatrix<Element> matrix;
@@ -239,6 +246,7 @@ class FastSolver : public LinearSolver {
   std::unique_ptr<Iterative> iterative_;
   std::unique_ptr<DirectLinearSolver<Element>> direct_;
   bool ready_ = false;
+  bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
 };
 
 }  // namespace fsi

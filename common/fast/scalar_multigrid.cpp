@@ -1,68 +1,20 @@
 #include "fast/scalar_multigrid.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "fast/aggregation.hpp"
+#include "fast/dense_inverse.hpp"
 
 namespace fsi {
 
 namespace {
 
-std::vector<double> diagonal_of(const CsrMatrix<double>& a) {
-  std::vector<double> diagonal(a.rows(), 0.0);
-  for (int row = 0; row < a.rows(); ++row)
-    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
-      if (a.indices[at] == row) diagonal[row] = a.values[at];
-  return diagonal;
-}
-
-/// Which entries couple strongly; the diagonal always does.
-std::vector<char> strong_entries(const CsrMatrix<double>& a, const std::vector<double>& diagonal, double threshold) {
-  std::vector<char> strong(a.nonzeros());
-#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
-  for (int row = 0; row < a.rows(); ++row)
-    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at) {
-      const int column = a.indices[at];
-      strong[at] =
-          column == row || std::abs(a.values[at]) > threshold * std::sqrt(std::abs(diagonal[row] * diagonal[column]));
-    }
-  return strong;
-}
-
-/// The aggregate of each node. First whole neighbourhoods, then leftovers join a neighbour's, then form their own.
-std::vector<int> aggregates(const CsrMatrix<double>& a, const std::vector<char>& strong, int& count) {
-  std::vector<int> of(a.rows(), -1);
-  count = 0;
-  const auto neighbours = [&](int row, auto visit) {
-    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
-      if (strong[at]) visit(a.indices[at]);
-  };
-  for (int row = 0; row < a.rows(); ++row) {
-    bool untouched = of[row] < 0;
-    neighbours(row, [&](int j) { untouched = untouched && of[j] < 0; });
-    if (!untouched) continue;
-    of[row] = count;
-    neighbours(row, [&](int j) { of[j] = count; });
-    ++count;
-  }
-  std::vector<int> joined = of;
-  for (int row = 0; row < a.rows(); ++row)
-    if (of[row] < 0) neighbours(row, [&](int j) { joined[row] = joined[row] < 0 ? of[j] : joined[row]; });
-  for (int row = 0; row < a.rows(); ++row) {
-    if (joined[row] >= 0) continue;
-    joined[row] = count;
-    neighbours(row, [&](int j) { joined[j] = joined[j] < 0 ? count : joined[j]; });
-    ++count;
-  }
-  return joined;
-}
-
 /// Largest eigenvalue of D^-1 A, to a few percent, by power iteration from a fixed rough vector.
 double largest_eigenvalue(const CsrMatrix<double>& a, const std::vector<double>& diagonal) {
   std::vector<double> x(a.rows()), y(a.rows());
-  for (int i = 0; i < a.rows(); ++i) x[i] = (i * 2654435761u % 1024) / 512.0 - 1;
+  for (int i = 0; i < a.rows(); ++i) x[i] = rough_number(i);
   double eigenvalue = 1;
   for (int k = 0; k < 12; ++k) {
     multiply(a, x, y);
@@ -165,16 +117,14 @@ void ScalarMultigrid::invert_coarsest(const CsrMatrix<double>& matrix) {
   coarsest_size_ = matrix.rows();
   coarsest_inverse_.clear();
   if (coarsest_size_ == 0) return;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(coarsest_size_, coarsest_size_);
+  const std::size_t size = coarsest_size_;
+  std::vector<double> dense(size * size, 0.0);  // column-major
   for (int row = 0; row < matrix.rows(); ++row)
     for (int at = matrix.offsets[row]; at < matrix.offsets[row + 1]; ++at)
-      dense(row, matrix.indices[at]) = matrix.values[at];
-  const Eigen::MatrixXd inverse = dense.partialPivLu().inverse();
-  if (!inverse.allFinite()) throw ConvergenceError("the pressure matrix is singular on the coarsest level", "");
-  coarsest_inverse_.resize(static_cast<std::size_t>(coarsest_size_) * coarsest_size_);
-  for (int i = 0; i < coarsest_size_; ++i)
-    for (int j = 0; j < coarsest_size_; ++j)
-      coarsest_inverse_[static_cast<std::size_t>(j) * coarsest_size_ + i] = static_cast<float>(inverse(i, j));
+      dense[matrix.indices[at] * size + row] = matrix.values[at];
+  const auto inverse = dense_inverse(dense, coarsest_size_);
+  if (inverse.empty()) throw ConvergenceError("the pressure matrix is singular on the coarsest level", "");
+  coarsest_inverse_.assign(inverse.begin(), inverse.end());
 }
 
 void ScalarMultigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x) {

@@ -3,25 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "fast/register_blocks.hpp"
 #include "fast/velocity_pressure_layout.hpp"
 
 namespace fsi {
-
-namespace detail {
-
-/// A few floats in a register, with arithmetic lane by lane.
-template <int count>
-struct Floats;
-template <>
-struct Floats<4> {
-  using Type = float __attribute__((vector_size(16)));
-};
-template <>
-struct Floats<2> {
-  using Type = float __attribute__((vector_size(8)));
-};
-
-}  // namespace detail
 
 /// The Jacobian of velocities and pressures, F = [A G; B C], mesh motion left out, in single precision. Half the memory
 /// of the assembled matrices, and arranged so that products and smoothers run over whole registers. Vectors hold
@@ -30,27 +15,25 @@ template <class Element>
 class VelocityPressureMatrix {
  public:
   static constexpr int n = Element::components;
-  static constexpr int lanes = n == 3 ? 4 : n;  ///< floats of a nodal vector: padded, so that it fills a register
-  using Nodal = typename detail::Floats<lanes>::Type;  ///< one nodal vector in a register
+  static constexpr int lanes = padded<n>;  ///< floats of a nodal vector
+  using Nodal = Register<n>;               ///< one nodal vector in a register
 
-  static Nodal load(const float* from) {
-    Nodal x;
-    __builtin_memcpy(&x, from, sizeof(Nodal));
-    return x;
-  }
-  static void store(Nodal x, float* to) { __builtin_memcpy(to, &x, sizeof(Nodal)); }
+  static Nodal load(const float* from) { return fsi::load<n>(from); }
+  static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
 
   VelocityPressureMatrix(const JacobianBlocks<Element>& blocks, const VelocityPressureLayout<Element>& layout)
       : blocks_(blocks), layout_(layout) {
     make_momentum_pattern();
     make_continuity_pattern();
-    momentum_.resize(momentum_columns_.size() * n * lanes);
+    momentum_.values.resize(momentum_.columns.size() * n * lanes);
     gradient_.resize(gradient_columns_.size() * lanes);
     divergence_.resize(continuity_velocities_.size() * lanes);
     compressibility_.resize(continuity_velocities_.size());
   }
 
   const VelocityPressureLayout<Element>& layout() const { return layout_; }
+  /// The wall's part of the mesh; there must be a wall.
+  const auto& wall_part() const { return blocks_.scene.wall->part(); }
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
@@ -85,7 +68,7 @@ class VelocityPressureMatrix {
     const float* pressure = x.data() + velocity_size();
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
-      const Nodal sum = momentum_product(momentum_offsets_[v], momentum_offsets_[v + 1], x.data());
+      const Nodal sum = momentum_product(momentum_.offsets[v], momentum_.offsets[v + 1], x.data());
       store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
     }
     float* rows = y.data() + velocity_size();
@@ -103,17 +86,9 @@ class VelocityPressureMatrix {
     }
   }
 
-  /// Blocks begin ... end - 1 of A times x. One accumulator a column keeps the chains of additions short.
+  /// Blocks begin ... end - 1 of A times x.
   Nodal momentum_product(int begin, int end, const float* x) const {
-    Nodal parts[n] = {};
-    const float* a = momentum_.data() + static_cast<std::size_t>(begin) * n * lanes;
-    for (int at = begin; at < end; ++at, a += n * lanes) {
-      const float* from = x + static_cast<std::size_t>(momentum_columns_[at]) * lanes;
-      for (int k = 0; k < n; ++k) parts[k] += load(a + k * lanes) * from[k];
-    }
-    Nodal sum = parts[0];
-    for (int k = 1; k < n; ++k) sum += parts[k];
-    return sum;
+    return momentum_.product(begin, end, x);
   }
   /// G p of a velocity node.
   Nodal gradient_product(int v, const float* pressure) const {
@@ -131,10 +106,14 @@ class VelocityPressureMatrix {
 
   /// A by velocity nodes: sparsity, and blocks of n columns of `lanes` numbers.
   const std::vector<int>& momentum_offsets() const {
-    return momentum_offsets_;
+    return momentum_.offsets;
   }
   const std::vector<int>& momentum_columns() const {
-    return momentum_columns_;
+    return momentum_.columns;
+  }
+  /// Block `at` of A, columns padded.
+  const float* momentum(int at) const {
+    return momentum_.values.data() + static_cast<std::size_t>(at) * n * lanes;
   }
   /// G: pressures of each velocity node, one entry per assembled block.
   const std::vector<int>& gradient_offsets() const {
@@ -169,13 +148,13 @@ class VelocityPressureMatrix {
   }
 
   std::size_t bytes() const {
-    return sizeof(float) * (momentum_.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
-           sizeof(int) * (momentum_columns_.size() + gradient_columns_.size() + 2 * continuity_pressures_.size());
+    return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
+           sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + 2 * continuity_pressures_.size());
   }
 
  private:
   void make_momentum_pattern() {
-    momentum_offsets_ = {0};
+    momentum_.offsets = {0};
     gradient_offsets_ = {0};
     std::vector<int> row;
     for (int v = 0; v < layout_.velocities; ++v) {
@@ -186,8 +165,8 @@ class VelocityPressureMatrix {
       });
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
-      momentum_columns_.insert(momentum_columns_.end(), row.begin(), row.end());
-      momentum_offsets_.push_back(static_cast<int>(momentum_columns_.size()));
+      momentum_.columns.insert(momentum_.columns.end(), row.begin(), row.end());
+      momentum_.offsets.push_back(static_cast<int>(momentum_.columns.size()));
       gradient_offsets_.push_back(static_cast<int>(gradient_columns_.size()));
     }
   }
@@ -207,16 +186,16 @@ class VelocityPressureMatrix {
   void fill_momentum() {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
-      const int begin = momentum_offsets_[v], end = momentum_offsets_[v + 1];
-      std::fill(momentum_.begin() + static_cast<std::size_t>(begin) * n * lanes,
-                momentum_.begin() + static_cast<std::size_t>(end) * n * lanes, 0.0f);
+      const int begin = momentum_.offsets[v], end = momentum_.offsets[v + 1];
+      std::fill(momentum_.values.begin() + static_cast<std::size_t>(begin) * n * lanes,
+                momentum_.values.begin() + static_cast<std::size_t>(end) * n * lanes, 0.0f);
       int gradient_at = gradient_offsets_[v];
       for_blocks_of(v, [&](const double* block, int u, int, double factor) {
         float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
         for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[i * (n + 1) + n]);
         if (u < 0) return;
-        const auto column = std::lower_bound(momentum_columns_.begin() + begin, momentum_columns_.begin() + end, u);
-        float* a = momentum_.data() + static_cast<std::size_t>(column - momentum_columns_.begin()) * n * lanes;
+        const auto column = std::lower_bound(momentum_.columns.begin() + begin, momentum_.columns.begin() + end, u);
+        float* a = momentum_.values.data() + static_cast<std::size_t>(column - momentum_.columns.begin()) * n * lanes;
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k) a[k * lanes + i] += static_cast<float>(factor * block[i * (n + 1) + k]);
       });
@@ -239,8 +218,7 @@ class VelocityPressureMatrix {
 
   JacobianBlocks<Element> blocks_;
   const VelocityPressureLayout<Element>& layout_;
-  std::vector<int> momentum_offsets_, momentum_columns_;
-  std::vector<float> momentum_;  ///< n columns of `lanes` numbers a block
+  RegisterBlocks<n, n> momentum_;  ///< A
   std::vector<int> gradient_offsets_, gradient_columns_;
   std::vector<float> gradient_;  ///< `lanes` numbers a block
   std::vector<int> continuity_offsets_, continuity_velocities_, continuity_pressures_;

@@ -3,17 +3,20 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "fast/scalar_multigrid.hpp"
 #include "fast/sweep_chunks.hpp"
 #include "fast/velocity_pressure_matrix.hpp"
+#include "fast/wall_coarse_correction.hpp"
 
 namespace fsi {
 
 /// Upper block-triangular preconditioner of F = [A G; B C] over both media, mesh motion left out, in single precision:
 ///   p = S^-1 r_p,  v = A^-1 (r_v - G p),
-/// A^-1 by symmetric Gauss-Seidel sweeps over n x n node blocks, S^-1 by one multigrid cycle on S = C - B D^-1 G. In
+/// A^-1 by a symmetric Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff
+/// (WallCoarseCorrection), S^-1 by one multigrid cycle on S = C - B D^-1 G. In
 /// the fluid the mass matrix dominates A, and D is its lumped form; in the wall and on the interface D is A's diagonal,
 /// since there the stiffness has the same weight. One scalar problem holds the pressures of fluid and wall: they meet
 /// through the interface velocity, which carries the added mass.
@@ -25,9 +28,16 @@ class VelocityPressurePreconditioner {
   static constexpr int n = Matrix::n, lanes = Matrix::lanes;
 
   struct Options {
-    int momentum_sweeps = 0;  ///< symmetric Gauss-Seidel sweeps in place of A^-1; 0: by the wall's stiffness
-    int most_sweeps = 6;
+    /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
+    /// stiffness over its mass (diagonal over lumped diagonal) is at least `two_sweeps_from` and there are no coarse
+    /// levels, else one.
+    int momentum_sweeps = 0;
+    double two_sweeps_from = 14;
+    /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
+    /// save (fine artery, 0.125 ms).
+    double coarse_from = 39;
     ScalarMultigrid::Options pressure;
+    typename RigidMotionMultigrid<n>::Options wall;
   };
 
   explicit VelocityPressurePreconditioner(const Matrix& matrix, const Options& options = {})
@@ -44,17 +54,24 @@ class VelocityPressurePreconditioner {
   }
 
   Options& options() { return options_; }
-  /// Sweeps that apply() makes.
-  int momentum_sweeps() const { return sweeps_; }
+  /// The wall's momentum equations have coarse levels.
+  bool has_wall_levels() const { return coarse_ != nullptr; }
 
   /// Takes the present values of the matrix, which must have been filled.
   void set_up() {
     const double stiffness = fill_diagonals();
-    // Gauss-Seidel solves mass-dominated rows at once; a stiff wall takes about as many sweeps as the square root of
-    // the condition of D^-1 A (measured, docs/solvers.md).
-    sweeps_ = options_.momentum_sweeps > 0
-                  ? options_.momentum_sweeps
-                  : std::clamp(static_cast<int>(std::lround(0.4 * std::sqrt(stiffness))), 1, options_.most_sweeps);
+    // Gauss-Seidel solves mass-dominated rows at once, but leaves much of a stiff wall's smooth motions. Decided by the
+    // matrix alone, so that a restart decides the same.
+    const bool stiff = stiffness >= options_.coarse_from && !layout_.velocity_of_wall.empty();
+    if (!stiff) {
+      coarse_.reset();
+    } else {
+      if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<Element>>(matrix_);
+      coarse_->set_up(options_.wall);
+    }
+    sweeps_ = options_.momentum_sweeps > 0                        ? options_.momentum_sweeps
+              : !coarse_ && stiffness >= options_.two_sweeps_from ? 2
+                                                                  : 1;
     fill_schur_complement();
     multigrid_.set_up(schur_, options_.pressure);
   }
@@ -81,7 +98,7 @@ class VelocityPressurePreconditioner {
   }
   std::size_t bytes() const {
     return sizeof(float) * (inverse_diagonal_.size() + 4 * velocity_.size()) + 8 * inverse_lumped_.size() +
-           schur_.bytes() + multigrid_.bytes();
+           schur_.bytes() + multigrid_.bytes() + (coarse_ ? coarse_->bytes() : 0);
   }
 
  private:
@@ -192,19 +209,30 @@ class VelocityPressurePreconditioner {
     }
   }
 
-  /// velocity_ = sweeps of (D + U)^-1 D (D + L)^-1 on velocity_residual_.
+  /// velocity_ = approximate A^-1 velocity_residual_: sweeps of (D + U)^-1 D (D + L)^-1, and where the wall is stiff
+  /// its coarse correction and sweeps again.
   void solve_momentum() {
     symmetric_sweep(velocity_residual_, velocity_);
-    for (int sweep = 1; sweep < sweeps_; ++sweep) {
+    for (int sweep = 1; sweep < sweeps_; ++sweep) sweep_again();
+    if (!coarse_) return;
+    find_sweep_residual();
+    coarse_->add(sweep_residual_, velocity_);
+    for (int sweep = 0; sweep < sweeps_; ++sweep) sweep_again();
+  }
+
+  void sweep_again() {
+    find_sweep_residual();
+    symmetric_sweep(sweep_residual_, sweep_);
+    for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
+  }
+
+  void find_sweep_residual() {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
-      for (int v = 0; v < layout_.velocities; ++v) {
-        const std::size_t at = static_cast<std::size_t>(v) * lanes;
-        const Nodal product = matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1],
-                                                       velocity_.data());
-        Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
-      }
-      symmetric_sweep(sweep_residual_, sweep_);
-      for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
+    for (int v = 0; v < layout_.velocities; ++v) {
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      const Nodal product =
+          matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1], velocity_.data());
+      Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
     }
   }
 
@@ -237,6 +265,7 @@ class VelocityPressurePreconditioner {
 
   Options options_;
   int sweeps_ = 1;
+  std::unique_ptr<WallCoarseCorrection<Element>> coarse_;  ///< null where sweeps do
   SweepChunks chunks_;
   std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
   std::vector<double> inverse_lumped_;   ///< D^-1

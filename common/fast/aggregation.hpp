@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/csr_matrix.hpp"
+
+namespace fsi {
+
+/// Which entries couple strongly, |a_ij| > threshold sqrt(|a_ii a_jj|); the diagonal always does.
+std::vector<char> strong_entries(const CsrMatrix<double>& a, const std::vector<double>& diagonal, double threshold);
+
+/// The aggregate of each row (Vanek, Mandel, Brezina 1996): first whole neighbourhoods of strong couplings, then
+/// leftovers join a neighbour's, then form their own.
+std::vector<int> aggregates(const CsrMatrix<double>& a, const std::vector<char>& strong, int& count);
+
+/// A's diagonal.
+std::vector<double> diagonal_of(const CsrMatrix<double>& a);
+
+/// What a power iteration starts from: rough, and the same each time.
+inline double rough_number(int i) {
+  return (i * 2654435761u % 1024) / 512.0 - 1;
+}
+
+}  // namespace fsi

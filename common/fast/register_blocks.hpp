@@ -1,0 +1,101 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+
+namespace fsi {
+
+namespace detail {
+
+/// A few floats in a register, with arithmetic lane by lane.
+template <int count>
+struct Floats;
+template <>
+struct Floats<8> {
+  using Type = float __attribute__((vector_size(32)));
+};
+template <>
+struct Floats<4> {
+  using Type = float __attribute__((vector_size(16)));
+};
+template <>
+struct Floats<2> {
+  using Type = float __attribute__((vector_size(8)));
+};
+
+}  // namespace detail
+
+/// Floats of a vector of `size` numbers, padded so that it fills a register.
+template <int size>
+constexpr int padded = size <= 2   ? 2
+                       : size <= 4 ? 4
+                                   : 8;
+
+/// A padded vector in a register.
+template <int size>
+using Register = typename detail::Floats<padded<size>>::Type;
+
+template <int size>
+inline Register<size> load(const float* from) {
+  Register<size> x;
+  __builtin_memcpy(&x, from, sizeof x);
+  return x;
+}
+template <int size>
+inline void store(Register<size> x, float* to) {
+  __builtin_memcpy(to, &x, sizeof x);
+}
+
+/// A dense block times a vector, columns of padded<R> numbers. One accumulator a column keeps the chains short.
+template <int R, int C>
+inline Register<R> block_times(const float* block, const float* x) {
+  Register<R> sum{};
+  for (int k = 0; k < C; ++k) sum += load<R>(block + k * padded<R>) * x[k];
+  return sum;
+}
+
+/// A sparse matrix of dense R x C blocks in single precision, arranged so that products run over whole registers:
+/// columns of a block padded. Vectors hold padded<R> or padded<C> floats a node.
+template <int R, int C>
+struct RegisterBlocks {
+  static constexpr int stride = C * padded<R>;  ///< floats a block
+
+  std::vector<int> offsets{0}, columns;
+  std::vector<float> values;
+
+  RegisterBlocks() = default;
+  explicit RegisterBlocks(const BlockMatrix<R, C>& a)
+      : offsets(a.graph->offsets), columns(a.graph->columns), values(columns.size() * stride, 0.0f) {
+    for (std::size_t at = 0; at < columns.size(); ++at)
+      for (int r = 0; r < R; ++r)
+        for (int c = 0; c < C; ++c)
+          values[at * stride + c * padded<R> + r] = static_cast<float>(a.block(static_cast<int>(at))[r * C + c]);
+  }
+
+  int rows() const { return static_cast<int>(offsets.size()) - 1; }
+  std::size_t bytes() const { return values.size() * sizeof(float) + (columns.size() + offsets.size()) * sizeof(int); }
+
+  /// Blocks begin ... end - 1 times x. One accumulator a column keeps the chains of additions short.
+  Register<R> product(int begin, int end, const float* x) const {
+    Register<R> parts[C] = {};
+    const float* a = values.data() + static_cast<std::size_t>(begin) * stride;
+    for (int at = begin; at < end; ++at, a += stride) {
+      const float* from = x + static_cast<std::size_t>(columns[at]) * padded<C>;
+      for (int k = 0; k < C; ++k) parts[k] += load<R>(a + k * padded<R>) * from[k];
+    }
+    Register<R> sum = parts[0];
+    for (int k = 1; k < C; ++k) sum += parts[k];
+    return sum;
+  }
+  Register<R> row_product(int row, const float* x) const { return product(offsets[row], offsets[row + 1], x); }
+
+  /// y = A x
+  void multiply(const std::vector<float>& x, std::vector<float>& y) const {
+#pragma omp parallel for schedule(static) if (columns.size() > 5000)
+    for (int row = 0; row < rows(); ++row)
+      store<R>(row_product(row, x.data()), y.data() + static_cast<std::size_t>(row) * padded<R>);
+  }
+};
+
+}  // namespace fsi
