@@ -36,7 +36,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
         axes.set_ylabel("error in % of the reference")
         _log(axes, "seconds")
     handles, labels = _mesh_handles(meshes)
-    for step in (steps[0], steps[-1]) if len(steps) > 1 else ():
+    for step in steps if len(steps) > 1 else ():
         handles.append(Line2D([], [], linestyle="none", marker="o", color=ON_FRONTIER,
                               markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1)))
         labels.append(f"step {step:g} ms")
@@ -131,8 +131,9 @@ def _scatter(axes, points, measured: Sequence[Measured], marker, size, gain: flo
                   markerfacecolor=PARTITIONED_FILL if m.partitioned else colour, zorder=3 if i in best else 2)
     axes.plot([points[i][0] for i in best], [points[i][1] for i in best], color=ON_FRONTIER, linewidth=1.0, zorder=2.5)
     for number, i in enumerate(best, 1):
-        axes.annotate(str(number), points[i], textcoords="offset points", xytext=(-5, -11), fontsize=7, ha="center",
-                      zorder=4)
+        # On alternate sides of the frontier, which falls to the right: neighbours' numbers stay apart.
+        axes.annotate(str(number), points[i], textcoords="offset points", xytext=(-6, -11) if number % 2 else (6, 5),
+                      fontsize=7, ha="center", zorder=4)
 
 
 def _mesh_handles(meshes: Mapping[str, str]):

@@ -6,6 +6,7 @@ against the tight solution of the same discrete equations: what stopping early, 
 from typing import Dict, List, Optional, Sequence
 
 from ...layout import Table, fixed
+from ...names import MATERIALS
 from ...progress import duration
 from . import pictures
 from .plan import Plan, read_plan
@@ -58,7 +59,7 @@ def _summary(context: Context, plan: Plan, measured, found, cases, groups) -> No
                 "centre-line pressure and wall displacement counts. Seconds: of the time steps, one thread.")
     for case in cases:
         own = [m for m in measured if m.run.request.case == case]
-        report.subsection(f"Total error, {case}")
+        report.subsection(f"Total error, {MATERIALS.get(case, case)}")
         report.list(total_advice(own, plan, case))
         report.list([line for line in (_balance(found, case, q) for q in QUANTITIES) if line])
     for name, group in groups.items():
@@ -94,7 +95,7 @@ def _method(report, plan: Plan, cases, timing: str) -> None:
     for case in cases:
         reference = plan.references[case]
         own = ", ".join(f"{percent(reference.own_error[q.column])} in {q.name}" for q in QUANTITIES)
-        report.text(f"Reference, {case}: {reference.description}. Its own error is estimated as {own}; smaller "
+        report.text(f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as {own}; smaller "
                     "differences between runs mean nothing. It shares the weak forms with the drivers, but neither the "
                     "mesh nor the three dimensions.")
     report.text("**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "
@@ -108,10 +109,10 @@ def _method(report, plan: Plan, cases, timing: str) -> None:
 
 
 def _total(report, case: str, measured: Sequence[Measured], several: bool) -> None:
-    name = f", {case}" if several else ""
+    name = f", {MATERIALS.get(case, case)}" if several else ""
     stem = f"_{case}" if several else ""
     report.section(f"Total error against seconds{name}")
-    title = f"Error against seconds, {case}"
+    title = f"Error against seconds, {MATERIALS.get(case, case)}"
     report.figure(f"work_precision{stem}", lambda: pictures.work_precision(measured, title),
                   "Each mark is a run: shape by mesh, size by time step, hollow for the partitioned driver. **Black**: "
                   "on the frontier, numbered as in the tables; **grey**: dominated.")
