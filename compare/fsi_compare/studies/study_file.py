@@ -71,7 +71,7 @@ class Study:
     requests: Sequence[Request]
     report: Mapping[str, Any]  # settings of the report, checked by its kind
     quick: bool
-    repeats: int = 1  # of each run that takes less than `repeat_below` s: its seconds are then their median
+    repeats: int = 1  # of each run that takes less than `repeat_below` s, in full: its seconds are then their median
     repeat_below: float = 60.0
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
     case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
@@ -123,12 +123,13 @@ class _Reader:
         for name, entry in self.table(data, "meshes").items():
             meshes[name] = self.mesh(name, entry)
         settings = self.settings(data, "set")
+        repeats = self.count(data, "repeats", 1)
         requests: List[Request] = []
         for name, group in self.table(data, "runs").items():
             requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
         return Study(path=self.path, title=self.text(data, "title"), kind=kind,
                      threads=self.count(data, "threads", 1), jobs=self.count(data, "jobs", 1), time_limit=limit,
-                     repeats=self.count(data, "repeats", 1), repeat_below=self.number(data, "repeat_below", 60.0),
+                     repeats=1 if self.quick else repeats, repeat_below=self.number(data, "repeat_below", 60.0),
                      cases=cases, methods=methods, meshes=meshes, requests=requests, report=self.table(data, "report"),
                      quick=self.quick, settings=settings, case_settings=of_case)
 

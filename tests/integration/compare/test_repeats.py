@@ -46,6 +46,11 @@ class Repeats(StudyCase):
         self.call()
         self.assertEqual(len(calls(self.programs)), 2)
 
+    def test_the_quick_form_times_once(self):
+        self.repeat()
+        self.call("--quick")
+        self.assertEqual(len(calls(self.programs)), 1)
+
     def test_failures_are_not_repeated(self):
         behave(self.programs, end={"mono": [2, "no"]})
         self.repeat()
