@@ -462,8 +462,7 @@ const std::vector<CaseKey<PartitionedData>>& partitioned_keys() {
        inside(&PartitionedData::force_tolerance, {0, 1, true, false})},
       {"velocity_gap", optional,
        "explicit ends when fluid and wall differ in velocity by more than this part of the largest so far, over 8 "
-       "steps "
-       "in a row, default 0.5",
+       "steps in a row, default 0.5",
        positive(&PartitionedData::velocity_gap)},
       {"relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
        inside(&PartitionedData::relaxation, {0, 2, false, false})},

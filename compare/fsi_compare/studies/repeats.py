@@ -26,8 +26,9 @@ def step_seconds(folder: Path) -> float:
 
 
 def same_results(folders: Sequence[Path]) -> bool:
+    """Whether the repetitions have the first one's files, bit by bit; one that failed may lack them."""
     first = folders[0]
-    return all(filecmp.cmp(first / file, other / file, shallow=False)
+    return all((other / file).is_file() and filecmp.cmp(first / file, other / file, shallow=False)
                for other in folders[1:] for file in RESULTS if (first / file).is_file())
 
 

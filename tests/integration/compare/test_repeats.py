@@ -64,6 +64,13 @@ class Repeats(StudyCase):
         self.assertEqual({record["status"] for record in self.records().values()}, {"crashed"})
         self.assertIn("not the same", next(iter(self.records().values()))["message"])
 
+    def test_a_repetition_that_fails_is_a_fault_not_a_crash_of_the_study(self):
+        behave(self.programs, end={"-2 -q": [2, "no"]})
+        self.repeat()
+        code, _, err = self.call()
+        self.assertNotIn("Traceback", err)
+        self.assertEqual({record["status"] for record in self.records().values()}, {"crashed"})
+
     def test_leftovers_of_a_killed_repetition_do_no_harm(self):
         self.call()
         folder, = (self.out / "runs").glob("tube-mono-*")

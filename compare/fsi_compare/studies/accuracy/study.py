@@ -95,9 +95,9 @@ def _method(report, plan: Plan, cases, timing: str) -> None:
     for case in cases:
         reference = plan.references[case]
         own = ", ".join(f"{percent(reference.own_error[q.column])} in {q.name}" for q in QUANTITIES)
-        report.text(f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as {own}; smaller "
-                    "differences between runs mean nothing. It shares the weak forms with the drivers, but neither the "
-                    "mesh nor the three dimensions.")
+        report.text(f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as "
+                    f"{own}; smaller differences between runs mean nothing. It shares the weak forms with the drivers, but "
+                    "neither the mesh nor the three dimensions.")
     report.text("**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "
                 "against the solution of the same discrete equations with tightly converged steps; from tolerances and "
                 "schemes alone. The two must not be confused: a tolerance can be changed for nothing, a mesh cannot.",
