@@ -3,8 +3,8 @@
 
 #include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
-#include "scene/loads.hpp"
-#include "scene/system.hpp"
+#include "system/system.hpp"
+#include "time/loads.hpp"
 
 namespace {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "monolithic/coupled_multigrid.hpp"
-#include "scene/linear_solver.hpp"
+#include "monolithic/multigrid/coupled_multigrid.hpp"
 #include "solvers/krylov/gmres.hpp"
 #include "solvers/krylov/richardson.hpp"
+#include "system/linear_solver.hpp"
 
 namespace fsi {
 

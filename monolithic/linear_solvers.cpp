@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/fast_or_direct.hpp"
+#include "condensed_solver/fast_or_direct.hpp"
 #include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_linear_solver.hpp"

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "scene/case.hpp"
-#include "scene/linear_solver.hpp"
+#include "case/case.hpp"
+#include "system/linear_solver.hpp"
 
 namespace fsi {
 

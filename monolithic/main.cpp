@@ -1,7 +1,7 @@
 #include "driver/driver.hpp"
 #include "monolithic/linear_solvers.hpp"
-#include "monolithic/linear_study.hpp"
-#include "scene/newton_stepper.hpp"
+#include "monolithic/study/linear_study.hpp"
+#include "system/newton_stepper.hpp"
 
 int main(int argc, char** argv) {
   using namespace fsi;

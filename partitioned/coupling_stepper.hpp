@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "partitioned/dirichlet_neumann.hpp"
+#include "case/case.hpp"
 #include "partitioned/divergence.hpp"
-#include "partitioned/robin_neumann.hpp"
+#include "partitioned/interface/dirichlet_neumann.hpp"
+#include "partitioned/interface/robin_neumann.hpp"
 #include "partitioned/schemes.hpp"
-#include "scene/case.hpp"
-#include "scene/loads.hpp"
+#include "time/loads.hpp"
 
 namespace fsi {
 

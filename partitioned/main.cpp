@@ -1,5 +1,5 @@
+#include "condensed_solver/fast_or_direct.hpp"
 #include "driver/driver.hpp"
-#include "fast/fast_or_direct.hpp"
 #include "partitioned/coupling_stepper.hpp"
 
 int main(int argc, char** argv) {

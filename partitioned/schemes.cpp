@@ -2,10 +2,10 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
-#include "partitioned/iqn_ils.hpp"
-#include "partitioned/iqn_imvj.hpp"
-#include "partitioned/newton_krylov.hpp"
-#include "partitioned/relaxation.hpp"
+#include "partitioned/accelerators/iqn_ils.hpp"
+#include "partitioned/accelerators/iqn_imvj.hpp"
+#include "partitioned/accelerators/newton_krylov.hpp"
+#include "partitioned/accelerators/relaxation.hpp"
 
 namespace fsi {
 

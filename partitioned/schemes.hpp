@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "partitioned/accelerator.hpp"
-#include "scene/case.hpp"
+#include "case/case.hpp"
+#include "partitioned/accelerators/accelerator.hpp"
 
 namespace fsi {
 

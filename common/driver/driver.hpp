@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "case/case.hpp"
+#include "driver/command_line.hpp"
 #include "fem/p1_tetrahedron.hpp"
-#include "io/command_line.hpp"
-#include "scene/case.hpp"
-#include "scene/loads.hpp"
 #include "scene/scene.hpp"
-#include "scene/stepper.hpp"
+#include "time/loads.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
 

@@ -2,9 +2,9 @@
 
 #include <memory>
 
+#include "case/case.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "io/fields_writer.hpp"
-#include "scene/case.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {

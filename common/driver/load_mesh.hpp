@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "case/case.hpp"
 #include "mesh/simplex_mesh.hpp"
-#include "scene/case.hpp"
 
 namespace fsi {
 

@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "case/case.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "io/result_folder.hpp"
 #include "mesh/sampling.hpp"
-#include "scene/case.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
-#include "scene/state.hpp"
-#include "scene/stepper.hpp"
+#include "time/state.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
 

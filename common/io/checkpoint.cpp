@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "io/atomic_file.hpp"
-#include "io/hash.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace fsi {

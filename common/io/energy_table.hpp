@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/energy_record.hpp"
+#include "diagnostics/energy_record.hpp"
 
 namespace fsi {
 

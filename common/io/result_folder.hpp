@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "diagnostics/energy_record.hpp"
 #include "io/csv_file.hpp"
 #include "io/step_record.hpp"
-#include "scene/energy_record.hpp"
-#include "scene/stepper.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
 

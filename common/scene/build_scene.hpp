@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "fem/p1_tetrahedron.hpp"
-#include "scene/case.hpp"
+#include "case/case.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {

@@ -9,9 +9,9 @@
 #include "fluid/fluid_problem.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "mesh_motion/mesh_motion.hpp"
-#include "scene/state.hpp"
-#include "scene/time_scheme.hpp"
 #include "structure/wall_problem.hpp"
+#include "time/state.hpp"
+#include "time/time_scheme.hpp"
 
 namespace fsi {
 

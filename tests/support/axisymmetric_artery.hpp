@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/p1_axisymmetric_triangle.hpp"
-#include "scene/newton_stepper.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::testing {
 

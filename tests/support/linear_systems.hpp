@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/newton_stepper.hpp"
 #include "support/scenes.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::test {
 

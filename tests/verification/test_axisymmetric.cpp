@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "fem/p1_axisymmetric_triangle.hpp"
-#include "scene/newton_stepper.hpp"
 #include "sub_problem_jacobians.hpp"
 #include "support/meshes.hpp"
 #include "support/problems.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::test {
 

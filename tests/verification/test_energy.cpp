@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "scene/energy_balance.hpp"
-#include "scene/newton_stepper.hpp"
+#include "diagnostics/energy_balance.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::test {
 

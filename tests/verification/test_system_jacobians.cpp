@@ -7,9 +7,9 @@
 #include <map>
 
 #include "fem/gather_blocks.hpp"
-#include "scene/system.hpp"
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
+#include "system/system.hpp"
 
 namespace fsi::test {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "beltrami_flow.hpp"
-#include "scene/newton_stepper.hpp"
 #include "support/errors.hpp"
 #include "support/problems.hpp"
 #include "support/scenes.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::test {
 

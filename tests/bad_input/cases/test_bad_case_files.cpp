@@ -5,8 +5,8 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "case/case_reader.hpp"
 #include "example_cases.hpp"
-#include "io/case_reader.hpp"
 
 namespace fsi::test {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "io/command_line.hpp"
-#include "io/program.hpp"
+#include "driver/command_line.hpp"
+#include "driver/program.hpp"
 
 namespace fsi::test {
 

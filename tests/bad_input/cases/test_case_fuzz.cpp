@@ -4,9 +4,9 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "case/case_hash.hpp"
+#include "case/case_reader.hpp"
 #include "example_cases.hpp"
-#include "io/case_hash.hpp"
-#include "io/case_reader.hpp"
 
 namespace fsi::test {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 

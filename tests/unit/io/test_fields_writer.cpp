@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "sample_fields.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 

@@ -5,11 +5,11 @@
 
 #include <string>
 
+#include "base/hash.hpp"
 #include "io/checkpoint.hpp"
-#include "io/hash.hpp"
 #include "io/result_folder.hpp"
 #include "sample_fields.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 

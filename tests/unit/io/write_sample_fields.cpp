@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "io/program.hpp"
+#include "driver/program.hpp"
 #include "sample_fields.hpp"
 
 int main(int, char** argv) {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "monolithic/block_gauss_seidel.hpp"
-#include "monolithic/block_preconditioners.hpp"
-#include "monolithic/coupled_multigrid.hpp"
+#include "monolithic/block/block_gauss_seidel.hpp"
+#include "monolithic/block/block_preconditioners.hpp"
+#include "monolithic/multigrid/coupled_multigrid.hpp"
 #include "support/linear_systems.hpp"
 
 namespace fsi::test {

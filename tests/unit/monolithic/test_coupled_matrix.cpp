@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "algebra/direct_solver.hpp"
-#include "monolithic/coupled_system.hpp"
+#include "monolithic/block/coupled_system.hpp"
 #include "support/linear_systems.hpp"
 #include "support/nodal_arrays.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/accelerator.hpp"
+#include "partitioned/accelerators/accelerator.hpp"
 
 namespace fsi::test {
 

@@ -4,10 +4,10 @@
 
 #include "base/error.hpp"
 #include "model_maps.hpp"
-#include "partitioned/iqn_ils.hpp"
-#include "partitioned/iqn_imvj.hpp"
-#include "partitioned/newton_krylov.hpp"
-#include "partitioned/relaxation.hpp"
+#include "partitioned/accelerators/iqn_ils.hpp"
+#include "partitioned/accelerators/iqn_imvj.hpp"
+#include "partitioned/accelerators/newton_krylov.hpp"
+#include "partitioned/accelerators/relaxation.hpp"
 #include "partitioned/schemes.hpp"
 
 namespace fsi::test {

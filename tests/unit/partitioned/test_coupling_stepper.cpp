@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "partitioned/coupling_stepper.hpp"
-#include "scene/newton_stepper.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/scenes.hpp"
+#include "system/newton_stepper.hpp"
 
 namespace fsi::test {
 

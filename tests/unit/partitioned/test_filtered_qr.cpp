@@ -1,11 +1,11 @@
-#include "partitioned/filtered_qr.hpp"
+#include "partitioned/accelerators/filtered_qr.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "algebra/vector_operations.hpp"
-#include "partitioned/low_rank_map.hpp"
+#include "partitioned/accelerators/low_rank_map.hpp"
 
 namespace fsi::test {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "partitioned/membrane.hpp"
+#include "partitioned/interface/membrane.hpp"
 #include "support/scenes.hpp"
 
 namespace fsi::test {

@@ -6,9 +6,9 @@
 
 #include "mesh/artery_generator.hpp"
 #include "scene/build_scene.hpp"
-#include "scene/loads.hpp"
 #include "solvers/amg/transfer.hpp"
 #include "support/scenes.hpp"
+#include "time/loads.hpp"
 
 namespace fsi::test {
 

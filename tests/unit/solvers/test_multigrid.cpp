@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/threads.hpp"
-#include "solvers/amg/study.hpp"
+#include "monolithic/study/sub_problem_study.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
 #include "solvers/krylov/fgmres.hpp"
 #include "unit/solvers/artery_matrices.hpp"

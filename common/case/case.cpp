@@ -1,0 +1,50 @@
+#include "case/case.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsi {
+
+namespace {
+
+/// Integral of the line through (t0, p0), (t1, p1) over the part of [from, to] inside [t0, t1].
+double integral_of_segment(double t0, double p0, double t1, double p1, double from, double to) {
+  const double a = std::max(t0, from), b = std::min(t1, to);
+  if (b <= a) return 0.0;
+  const auto value = [&](double t) { return p0 + (p1 - p0) * (t - t0) / (t1 - t0); };
+  return 0.5 * (value(a) + value(b)) * (b - a);
+}
+
+}  // namespace
+
+double PressureTable::mean(double from, double to) const {
+  if (points.empty() || to <= from) return 0.0;
+  double integral = points.front().second * std::max(0.0, std::min(to, points.front().first) - from) +
+                    points.back().second * std::max(0.0, to - std::max(from, points.back().first));
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if (points[i + 1].first > points[i].first)
+      integral +=
+          integral_of_segment(points[i].first, points[i].second, points[i + 1].first, points[i + 1].second, from, to);
+  return integral / (to - from);
+}
+
+int TimeData::steps() const {
+  return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
+}
+
+const std::vector<std::string>& linear_solver_names() {
+  static const std::vector<std::string> names = {
+      "fast", "direct",         "diagonal",    "lower",       "upper",      "ssor",
+      "ilu",  "diagonal_exact", "lower_exact", "upper_exact", "ssor_exact", "ilu_exact",
+      "amg",  "amg_gmres",      "amg_fgmres",  "amli",        "amli_gmres", "amli_fgmres"};
+  return names;
+}
+
+const std::vector<std::string>& coupling_scheme_names() {
+  static const std::vector<std::string> names = {"aitken",        "constant",          "explicit",
+                                                 "iqn-ils",       "iqn-imvj",          "newton-krylov",
+                                                 "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
+  return names;
+}
+
+}  // namespace fsi

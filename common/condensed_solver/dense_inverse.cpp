@@ -1,0 +1,13 @@
+#include "condensed_solver/dense_inverse.hpp"
+
+#include <Eigen/Dense>
+
+namespace fsi {
+
+std::vector<double> dense_inverse(const std::vector<double>& matrix, int rows) {
+  const Eigen::MatrixXd inverse = Eigen::Map<const Eigen::MatrixXd>(matrix.data(), rows, rows).partialPivLu().inverse();
+  if (!inverse.allFinite()) return {};
+  return {inverse.data(), inverse.data() + inverse.size()};
+}
+
+}  // namespace fsi

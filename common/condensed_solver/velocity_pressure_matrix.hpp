@@ -1,0 +1,228 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "condensed_solver/register_blocks.hpp"
+#include "condensed_solver/velocity_pressure_layout.hpp"
+
+namespace fsi {
+
+/// The Jacobian of velocities and pressures, F = [A G; B C], mesh motion left out, in single precision. Half the memory
+/// of the assembled matrices, and arranged so that products and smoothers run over whole registers. Vectors hold
+/// `lanes` floats a velocity node (padded with zero), then one a pressure.
+template <class Element>
+class VelocityPressureMatrix {
+ public:
+  static constexpr int n = Element::components;
+  static constexpr int lanes = padded<n>;  ///< floats of a nodal vector
+  using Nodal = Register<n>;               ///< one nodal vector in a register
+
+  static Nodal load(const float* from) { return fsi::load<n>(from); }
+  static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
+
+  VelocityPressureMatrix(const JacobianBlocks<Element>& blocks, const VelocityPressureLayout<Element>& layout)
+      : blocks_(blocks), layout_(layout) {
+    make_momentum_pattern();
+    make_continuity_pattern();
+    momentum_.values.resize(momentum_.columns.size() * n * lanes);
+    gradient_.resize(gradient_columns_.size() * lanes);
+    divergence_.resize(continuity_velocities_.size() * lanes);
+    compressibility_.resize(continuity_velocities_.size());
+  }
+
+  const VelocityPressureLayout<Element>& layout() const { return layout_; }
+  /// The wall's part of the mesh; there must be a wall.
+  const auto& wall_part() const { return blocks_.scene.wall->part(); }
+  std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
+  std::size_t size() const { return velocity_size() + layout_.pressures; }
+
+  /// The same unknowns in double precision, not padded, and back.
+  void take(const std::vector<double>& from, double factor, std::vector<float>& to) const {
+    to.resize(size());
+#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
+    for (int v = 0; v < layout_.velocities; ++v)
+      for (int i = 0; i < lanes; ++i)
+        to[static_cast<std::size_t>(v) * lanes + i] =
+            i < n ? static_cast<float>(factor * from[static_cast<std::size_t>(v) * n + i]) : 0.0f;
+    for (int p = 0; p < layout_.pressures; ++p)
+      to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
+  }
+  void give(const std::vector<float>& from, double factor, std::vector<double>& to) const {
+    to.resize(layout_.size());
+#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
+    for (int v = 0; v < layout_.velocities; ++v)
+      for (int k = 0; k < n; ++k)
+        to[static_cast<std::size_t>(v) * n + k] = factor * from[static_cast<std::size_t>(v) * lanes + k];
+    for (int p = 0; p < layout_.pressures; ++p) to[layout_.velocity_size() + p] = factor * from[velocity_size() + p];
+  }
+
+  /// Takes the present values of the block matrices.
+  void fill() {
+    fill_momentum();
+    fill_continuity();
+  }
+
+  /// y = F x
+  void multiply(const std::vector<float>& x, std::vector<float>& y) const {
+    const float* pressure = x.data() + velocity_size();
+#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      const Nodal sum = momentum_product(momentum_.offsets[v], momentum_.offsets[v + 1], x.data());
+      store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
+    }
+    float* rows = y.data() + velocity_size();
+#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
+    for (int p = 0; p < layout_.pressures; ++p) {
+      Nodal sums{};
+      float sum = 0;
+      for (int at = continuity_offsets_[p]; at < continuity_offsets_[p + 1]; ++at) {
+        sums += load(divergence_.data() + static_cast<std::size_t>(at) * lanes) *
+                load(x.data() + static_cast<std::size_t>(continuity_velocities_[at]) * lanes);
+        sum += compressibility_[at] * pressure[continuity_pressures_[at]];
+      }
+      for (int i = 0; i < n; ++i) sum += sums[i];
+      rows[p] = sum;
+    }
+  }
+
+  /// Blocks begin ... end - 1 of A times x.
+  Nodal momentum_product(int begin, int end, const float* x) const {
+    return momentum_.product(begin, end, x);
+  }
+  /// G p of a velocity node.
+  Nodal gradient_product(int v, const float* pressure) const {
+    Nodal even{}, odd{};
+    int at = gradient_offsets_[v];
+    const int end = gradient_offsets_[v + 1];
+    const float* g = gradient_.data() + static_cast<std::size_t>(at) * lanes;
+    for (; at + 1 < end; at += 2, g += 2 * lanes) {
+      even += load(g) * pressure[gradient_columns_[at]];
+      odd += load(g + lanes) * pressure[gradient_columns_[at + 1]];
+    }
+    if (at < end) even += load(g) * pressure[gradient_columns_[at]];
+    return even + odd;
+  }
+
+  /// A by velocity nodes: sparsity, and blocks of n columns of `lanes` numbers.
+  const std::vector<int>& momentum_offsets() const {
+    return momentum_.offsets;
+  }
+  const std::vector<int>& momentum_columns() const {
+    return momentum_.columns;
+  }
+  /// Block `at` of A, columns padded.
+  const float* momentum(int at) const {
+    return momentum_.values.data() + static_cast<std::size_t>(at) * n * lanes;
+  }
+  /// G: pressures of each velocity node, one entry per assembled block.
+  const std::vector<int>& gradient_offsets() const {
+    return gradient_offsets_;
+  }
+  const std::vector<int>& gradient_columns() const {
+    return gradient_columns_;
+  }
+  const float* gradient(int at) const {
+    return gradient_.data() + static_cast<std::size_t>(at) * lanes;
+  }
+
+  /// Calls visit(block, velocity or -1, pressure, factor of the velocity) for the assembled blocks of a velocity node's
+  /// rows, the fluid's first; `factor` turns derivatives by displacement into those by velocity.
+  template <class Visit>
+  void for_blocks_of(int velocity, Visit visit) const {
+    const int f = layout_.fluid_of_velocity[velocity], w = layout_.wall_of_velocity[velocity];
+    if (f >= 0) for_blocks_of_node(false, f, visit);
+    if (w >= 0) for_blocks_of_node(true, w, visit);
+  }
+  template <class Visit>
+  void for_blocks_of_node(bool wall, int node, Visit visit) const {
+    const auto& matrix = wall ? *blocks_.wall : *blocks_.flow;
+    const auto& velocity_of = wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid;
+    const auto& pressure_of = wall ? layout_.pressure_of_wall : layout_.pressure_of_fluid;
+    const double factor = wall ? layout_.wall_factor : 1;
+    const auto& graph = *matrix.graph;
+    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
+      const int b = graph.columns[at];
+      visit(matrix.block(at), velocity_of[b], pressure_of[b], factor);
+    }
+  }
+
+  std::size_t bytes() const {
+    return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
+           sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + 2 * continuity_pressures_.size());
+  }
+
+ private:
+  void make_momentum_pattern() {
+    momentum_.offsets = {0};
+    gradient_offsets_ = {0};
+    std::vector<int> row;
+    for (int v = 0; v < layout_.velocities; ++v) {
+      row.clear();
+      for_blocks_of(v, [&](const double*, int u, int p, double) {
+        if (u >= 0) row.push_back(u);
+        gradient_columns_.push_back(p);
+      });
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+      momentum_.columns.insert(momentum_.columns.end(), row.begin(), row.end());
+      momentum_.offsets.push_back(static_cast<int>(momentum_.columns.size()));
+      gradient_offsets_.push_back(static_cast<int>(gradient_columns_.size()));
+    }
+  }
+
+  void make_continuity_pattern() {
+    continuity_offsets_ = {0};
+    for (int p = 0; p < layout_.pressures; ++p) {
+      for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                         [&](const double*, int v, int q, double) {
+                           continuity_velocities_.push_back(std::max(v, 0));
+                           continuity_pressures_.push_back(q);
+                         });
+      continuity_offsets_.push_back(static_cast<int>(continuity_pressures_.size()));
+    }
+  }
+
+  void fill_momentum() {
+#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      const int begin = momentum_.offsets[v], end = momentum_.offsets[v + 1];
+      std::fill(momentum_.values.begin() + static_cast<std::size_t>(begin) * n * lanes,
+                momentum_.values.begin() + static_cast<std::size_t>(end) * n * lanes, 0.0f);
+      int gradient_at = gradient_offsets_[v];
+      for_blocks_of(v, [&](const double* block, int u, int, double factor) {
+        float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
+        for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[i * (n + 1) + n]);
+        if (u < 0) return;
+        const auto column = std::lower_bound(momentum_.columns.begin() + begin, momentum_.columns.begin() + end, u);
+        float* a = momentum_.values.data() + static_cast<std::size_t>(column - momentum_.columns.begin()) * n * lanes;
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k) a[k * lanes + i] += static_cast<float>(factor * block[i * (n + 1) + k]);
+      });
+    }
+  }
+
+  void fill_continuity() {
+#pragma omp parallel for schedule(static) if (layout_.pressures > 500)
+    for (int p = 0; p < layout_.pressures; ++p) {
+      int at = continuity_offsets_[p];
+      for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                         [&](const double* block, int v, int, double factor) {
+                           float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
+                           for (int k = 0; k < n; ++k)
+                             b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[n * (n + 1) + k]);
+                           compressibility_[at++] = static_cast<float>(block[n * (n + 1) + n]);
+                         });
+    }
+  }
+
+  JacobianBlocks<Element> blocks_;
+  const VelocityPressureLayout<Element>& layout_;
+  RegisterBlocks<n, n> momentum_;  ///< A
+  std::vector<int> gradient_offsets_, gradient_columns_;
+  std::vector<float> gradient_;  ///< `lanes` numbers a block
+  std::vector<int> continuity_offsets_, continuity_velocities_, continuity_pressures_;
+  std::vector<float> divergence_, compressibility_;  ///< B, `lanes` numbers a block, and C
+};
+
+}  // namespace fsi

@@ -1,0 +1,277 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "condensed_solver/scalar_multigrid.hpp"
+#include "condensed_solver/sweep_chunks.hpp"
+#include "condensed_solver/velocity_pressure_matrix.hpp"
+#include "condensed_solver/wall_coarse_correction.hpp"
+
+namespace fsi {
+
+/// Upper block-triangular preconditioner of F = [A G; B C] over both media, mesh motion left out, in single precision:
+///   p = S^-1 r_p,  v = A^-1 (r_v - G p),
+/// A^-1 by a symmetric Gauss-Seidel sweep over n x n node blocks, around coarse levels where the wall is stiff
+/// (WallCoarseCorrection), S^-1 by one multigrid cycle on S = C - B D^-1 G. In
+/// the fluid the mass matrix dominates A, and D is its lumped form; in the wall and on the interface D is A's diagonal,
+/// since there the stiffness has the same weight. One scalar problem holds the pressures of fluid and wall: they meet
+/// through the interface velocity, which carries the added mass.
+template <class Element>
+class VelocityPressurePreconditioner {
+ public:
+  using Matrix = VelocityPressureMatrix<Element>;
+  using Nodal = typename Matrix::Nodal;
+  static constexpr int n = Matrix::n, lanes = Matrix::lanes;
+
+  struct Options {
+    /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
+    /// stiffness over its mass (diagonal over lumped diagonal) is at least `two_sweeps_from` and there are no coarse
+    /// levels, else one.
+    int momentum_sweeps = 0;
+    double two_sweeps_from = 14;
+    /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
+    /// save (fine artery, 0.125 ms).
+    double coarse_from = 39;
+    ScalarMultigrid::Options pressure;
+    typename RigidMotionMultigrid<n>::Options wall;
+  };
+
+  explicit VelocityPressurePreconditioner(const Matrix& matrix, const Options& options = {})
+      : matrix_(matrix),
+        layout_(matrix.layout()),
+        options_(options),
+        chunks_(matrix.momentum_offsets(), matrix.momentum_columns()) {
+    make_pressure_pattern();
+    inverse_diagonal_.resize(static_cast<std::size_t>(layout_.velocities) * n * lanes);
+    inverse_lumped_.resize(layout_.velocity_size());
+    for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_}) x->resize(matrix.velocity_size());
+    pressure_residual_.resize(layout_.pressures);
+    pressure_.resize(layout_.pressures);
+  }
+
+  Options& options() { return options_; }
+  /// The wall's momentum equations have coarse levels.
+  bool has_wall_levels() const { return coarse_ != nullptr; }
+
+  /// Takes the present values of the matrix, which must have been filled.
+  void set_up() {
+    const double stiffness = fill_diagonals();
+    // Gauss-Seidel solves mass-dominated rows at once, but leaves much of a stiff wall's smooth motions. Decided by the
+    // matrix alone, so that a restart decides the same.
+    const bool stiff = stiffness >= options_.coarse_from && !layout_.velocity_of_wall.empty();
+    if (!stiff) {
+      coarse_.reset();
+    } else {
+      if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<Element>>(matrix_);
+      coarse_->set_up(options_.wall);
+    }
+    sweeps_ = options_.momentum_sweeps > 0                        ? options_.momentum_sweeps
+              : !coarse_ && stiffness >= options_.two_sweeps_from ? 2
+                                                                  : 1;
+    fill_schur_complement();
+    multigrid_.set_up(schur_, options_.pressure);
+  }
+
+  /// z = P^-1 r
+  void apply(const std::vector<float>& r, std::vector<float>& z) {
+    const float* pressure_rows = r.data() + matrix_.velocity_size();
+    for (int p = 0; p < layout_.pressures; ++p)
+      pressure_residual_[p] = static_cast<float>(row_scale(p)) * pressure_rows[p];
+    multigrid_.cycle(pressure_residual_, pressure_);
+#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      Matrix::store(Matrix::load(r.data() + at) - matrix_.gradient_product(v, pressure_.data()),
+                    velocity_residual_.data() + at);
+    }
+    solve_momentum();
+    std::copy(velocity_.begin(), velocity_.end(), z.begin());
+    std::copy(pressure_.begin(), pressure_.end(), z.begin() + static_cast<std::ptrdiff_t>(matrix_.velocity_size()));
+  }
+
+  const ScalarMultigrid& multigrid() const {
+    return multigrid_;
+  }
+  std::size_t bytes() const {
+    return sizeof(float) * (inverse_diagonal_.size() + 4 * velocity_.size()) + 8 * inverse_lumped_.size() +
+           schur_.bytes() + multigrid_.bytes() + (coarse_ ? coarse_->bytes() : 0);
+  }
+
+ private:
+  /// Rows of the wall's volume condition divided by dt, so that S is symmetric where the Jacobian is.
+  double row_scale(int pressure) const {
+    return layout_.wall_pressure[pressure] ? 1 / layout_.wall_factor : 1;
+  }
+
+  /// Pressures that meet in one velocity node, or in a block of C.
+  void make_pressure_pattern() {
+    schur_.columns = layout_.pressures;
+    schur_.offsets.assign(static_cast<std::size_t>(layout_.pressures) + 1, 0);
+    std::vector<std::vector<int>> rows(layout_.pressures);
+#pragma omp parallel
+    {
+      std::vector<int> seen(layout_.pressures, -1);
+#pragma omp for schedule(static)
+      for (int p = 0; p < layout_.pressures; ++p) {
+        auto& row = rows[p];
+        const auto add = [&](int q) {
+          if (seen[q] == p) return;
+          seen[q] = p;
+          row.push_back(q);
+        };
+        matrix_.for_blocks_of_node(
+            layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double*, int v, int q, double) {
+              add(q);
+              if (v < 0) return;
+              for (int at = matrix_.gradient_offsets()[v]; at < matrix_.gradient_offsets()[v + 1]; ++at)
+                add(matrix_.gradient_columns()[at]);
+            });
+        std::sort(row.begin(), row.end());
+      }
+    }
+    for (int p = 0; p < layout_.pressures; ++p)
+      schur_.offsets[p + 1] = schur_.offsets[p] + static_cast<int>(rows[p].size());
+    schur_.indices.reserve(schur_.offsets.back());
+    for (const auto& row : rows) schur_.indices.insert(schur_.indices.end(), row.begin(), row.end());
+    schur_.values.resize(schur_.indices.size());
+  }
+
+  /// A's block diagonal, inverted, and the lumped D. Returns the mean of diagonal over lumped diagonal in the wall: how
+  /// far its stiffness exceeds its mass.
+  double fill_diagonals() {
+    std::vector<double> ratios(layout_.velocities, 0.0);
+#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      Eigen::Matrix<double, n, n> diagonal = Eigen::Matrix<double, n, n>::Zero();
+      double lumped[n] = {};
+      matrix_.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
+        for (int i = 0; i < n; ++i) {
+          lumped[i] += factor * block[i * (n + 1) + i];
+          if (u == v)
+            for (int k = 0; k < n; ++k) diagonal(i, k) += factor * block[i * (n + 1) + k];
+        }
+      });
+      const Eigen::Matrix<double, n, n> inverse = diagonal.inverse();
+      const bool in_fluid = layout_.wall_of_velocity[v] < 0;
+      float* to = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
+      for (int k = 0; k < n; ++k) {
+        for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
+        // Viscosity drops out of the lumped sum: where it dominates, the diagonal is larger.
+        const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
+        inverse_lumped_[static_cast<std::size_t>(v) * n + k] = 1 / d;
+      }
+      if (layout_.fluid_of_velocity[v] < 0)
+        ratios[v] =
+            std::min(largest_stiffness, diagonal(0, 0) / std::max(lumped[0], diagonal(0, 0) / largest_stiffness));
+    }
+    double sum = 0;
+    int count = 0;
+    for (double ratio : ratios) {
+      sum += ratio;
+      count += ratio > 0;
+    }
+    return count > 0 ? sum / count : 1;
+  }
+
+  /// S = C - B D^-1 G
+  void fill_schur_complement() {
+#pragma omp parallel
+    {
+      std::vector<int> position(layout_.pressures, -1);
+#pragma omp for schedule(static)
+      for (int p = 0; p < layout_.pressures; ++p) {
+        for (int at = schur_.offsets[p]; at < schur_.offsets[p + 1]; ++at) {
+          position[schur_.indices[at]] = at;
+          schur_.values[at] = 0;
+        }
+        const double scale = row_scale(p);
+        matrix_.for_blocks_of_node(
+            layout_.wall_pressure[p], layout_.node_of_pressure[p],
+            [&](const double* block, int v, int q, double factor) {
+              schur_.values[position[q]] += scale * block[n * (n + 1) + n];
+              if (v < 0) return;
+              double divergence[n];  // a row of B D^-1
+              for (int k = 0; k < n; ++k)
+                divergence[k] =
+                    scale * factor * block[n * (n + 1) + k] * inverse_lumped_[static_cast<std::size_t>(v) * n + k];
+              for (int at = matrix_.gradient_offsets()[v]; at < matrix_.gradient_offsets()[v + 1]; ++at) {
+                const float* g = matrix_.gradient(at);
+                double sum = 0;
+                for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
+                schur_.values[position[matrix_.gradient_columns()[at]]] -= sum;
+              }
+            });
+      }
+    }
+  }
+
+  /// velocity_ = approximate A^-1 velocity_residual_: sweeps of (D + U)^-1 D (D + L)^-1, and where the wall is stiff
+  /// its coarse correction and sweeps again.
+  void solve_momentum() {
+    symmetric_sweep(velocity_residual_, velocity_);
+    for (int sweep = 1; sweep < sweeps_; ++sweep) sweep_again();
+    if (!coarse_) return;
+    find_sweep_residual();
+    coarse_->add(sweep_residual_, velocity_);
+    for (int sweep = 0; sweep < sweeps_; ++sweep) sweep_again();
+  }
+
+  void sweep_again() {
+    find_sweep_residual();
+    symmetric_sweep(sweep_residual_, sweep_);
+    for (std::size_t i = 0; i < velocity_.size(); ++i) velocity_[i] += sweep_[i];
+  }
+
+  void find_sweep_residual() {
+#pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
+    for (int v = 0; v < layout_.velocities; ++v) {
+      const std::size_t at = static_cast<std::size_t>(v) * lanes;
+      const Nodal product =
+          matrix_.momentum_product(matrix_.momentum_offsets()[v], matrix_.momentum_offsets()[v + 1], velocity_.data());
+      Matrix::store(Matrix::load(velocity_residual_.data() + at) - product, sweep_residual_.data() + at);
+    }
+  }
+
+  void symmetric_sweep(const std::vector<float>& r, std::vector<float>& x) const {
+#pragma omp parallel for schedule(static) if (chunks_.chunks() > 1)
+    for (int c = 0; c < chunks_.chunks(); ++c) {
+      for (int v = chunks_.begin[c]; v < chunks_.begin[c + 1]; ++v) {  // x = (D + L)^-1 r
+        const std::size_t at = static_cast<std::size_t>(v) * lanes;
+        const Nodal before = matrix_.momentum_product(chunks_.first[v], chunks_.diagonal[v], x.data());
+        Matrix::store(solve_diagonal(v, Matrix::load(r.data() + at) - before), x.data() + at);
+      }
+      for (int v = chunks_.begin[c + 1] - 1; v >= chunks_.begin[c]; --v) {  // x -= D^-1 U x
+        const std::size_t at = static_cast<std::size_t>(v) * lanes;
+        const Nodal after = matrix_.momentum_product(chunks_.diagonal[v] + 1, chunks_.last[v], x.data());
+        Matrix::store(Matrix::load(x.data() + at) - solve_diagonal(v, after), x.data() + at);
+      }
+    }
+  }
+  /// D^-1 r of a node.
+  Nodal solve_diagonal(int v, Nodal r) const {
+    const float* inverse = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
+    Nodal sum{};
+    for (int k = 0; k < n; ++k) sum += Matrix::load(inverse + k * lanes) * r[k];
+    return sum;
+  }
+
+  const Matrix& matrix_;
+  const VelocityPressureLayout<Element>& layout_;
+  static constexpr double largest_stiffness = 1e4;
+
+  Options options_;
+  int sweeps_ = 1;
+  std::unique_ptr<WallCoarseCorrection<Element>> coarse_;  ///< null where sweeps do
+  SweepChunks chunks_;
+  std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
+  std::vector<double> inverse_lumped_;   ///< D^-1
+  CsrMatrix<double> schur_;
+  ScalarMultigrid multigrid_;
+  std::vector<float> velocity_residual_, velocity_, sweep_, sweep_residual_, pressure_residual_, pressure_;
+};
+
+}  // namespace fsi

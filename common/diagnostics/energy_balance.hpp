@@ -1,0 +1,91 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnostics/energy_record.hpp"
+#include "scene/scene.hpp"
+#include "time/loads.hpp"
+
+namespace fsi {
+
+/// Follows the energy of a scene from step to step (docs/energy.md). Reads states only: it can change no solution. What
+/// it keeps of the last step it can make again of a restored state, bit for bit.
+template <class Element>
+class EnergyBalance {
+ public:
+  /// \param state  the one that the next step starts from
+  EnergyBalance(const Scene<Element>& scene, const Loads& loads, const State& state)
+      : scene_(scene), loads_(loads), acceleration_(state.wall_acceleration) {
+    energy_ = terms(state).energy();
+    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.scheme.is_static()};
+  }
+
+  const EnergyParts& parts() const { return parts_; }
+
+  /// The balance of the step that led to `state`, the successor of the last one seen.
+  EnergyRecord step_to(const State& state) {
+    EnergyRecord record = terms(state);
+    record.remainder = record.supply() - (record.energy() - energy_) - record.viscous - record.numerical();
+    energy_ = record.energy();
+    acceleration_ = state.wall_acceleration;
+    return record;
+  }
+
+ private:
+  // One function for every use, never inlined: on restart it must give the bits that the run would have had.
+  [[gnu::noinline]] EnergyRecord terms(const State& state) const {
+    const Solution &now = state.before[0], &old = state.before[1];
+    EnergyRecord record;
+    if (scene_.fluid) {
+      const double step = scene_.scheme.step;
+      FluidInput in;
+      in.flow = now.flow.data();
+      in.flow_old = old.flow.data();
+      if (scene_.coupled()) {
+        in.mesh = now.mesh.data();
+        in.mesh_old = old.mesh.data();
+      }
+      const FluidEnergy fluid = scene_.fluid->energy(in);
+      record.fluid_kinetic = fluid.kinetic;
+      record.viscous = fluid.viscous;
+      record.fluid_inertia = fluid.inertia;
+      record.fluid_mesh_motion = fluid.mesh_motion;
+      record.fluid_divergence = fluid.divergence;
+      record.fluid_stabilisation = fluid.stabilisation;
+      record.inlet_kinetic = step * scene_.fluid->inlet_kinetic_flow(now.flow);
+      record.outlet_kinetic = step * scene_.fluid->outlet_kinetic_flow(now.flow);
+      const double pressure = loads_.inlet_pressure(state.step);
+      if (pressure != 0) record.inlet_work = step * pressure * scene_.fluid->inlet_flow(now.flow);  // never -0
+    }
+    if (scene_.wall) {
+      WallStep in;
+      in.wall = now.wall.data();
+      in.wall_old = old.wall.data();
+      if (!scene_.scheme.is_static()) {
+        in.velocity = state.wall_velocity.data();
+        in.acceleration = state.wall_acceleration.data();
+        in.acceleration_old = acceleration_.data();
+        in.step = scene_.scheme.step;
+        in.beta = scene_.scheme.beta;
+        in.gamma = scene_.scheme.gamma;
+      }
+      const WallEnergy wall = scene_.wall->energy(in);
+      record.wall_kinetic = wall.kinetic;
+      record.wall_isochoric = wall.isochoric;
+      record.wall_volumetric = wall.volumetric;
+      record.wall_inertia = wall.inertia;
+      record.wall_stress = wall.stress;
+      record.wall_stabilisation = wall.stabilisation;
+      record.load_work = scene_.wall->pressure_work(loads_.wall_pressure(state.step), old.wall, now.wall);
+    }
+    return record;
+  }
+
+  const Scene<Element>& scene_;
+  const Loads& loads_;
+  EnergyParts parts_;
+  double energy_ = 0;                 ///< at the last step's end
+  std::vector<double> acceleration_;  ///< of the wall at the last step's end
+};
+
+}  // namespace fsi

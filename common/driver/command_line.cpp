@@ -1,0 +1,114 @@
+#include "driver/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+
+#include "base/error.hpp"
+#include "base/names.hpp"
+#include "base/version.hpp"
+#include "case/case_reader.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// Every long option of the parser, for "did you mean".
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+int thread_count(const std::string& text) {
+  int count = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 0)
+    throw InputError("", "--threads", "\"" + text + "\" is no number of threads", "give 0 for one thread per core");
+  return count;
+}
+
+/// CLI11's complaint as one of ours.
+[[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error) {
+  std::string problem = error.what();
+  for (char& c : problem)
+    if (c == '\n') c = ' ';
+  throw InputError("", "", problem, "see " + app.get_name() + " --help");
+}
+
+void refuse_extras(const CLI::App& app) {
+  for (const auto& word : app.remaining()) {
+    if (word.size() > 1 && word[0] == '-')
+      throw InputError("", word, "unknown option",
+                       word[1] == '-' ? "did you mean " + nearest_name(word, option_names(app)) + "?"
+                                      : "see " + app.get_name() + " --help");
+    throw InputError("", word, "one argument too many", "give a single case file");
+  }
+}
+
+}  // namespace
+
+std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
+                                              const char* const* argv, const std::vector<ExtraOption>& extra) {
+  CommandLine line;
+  std::string threads;
+  bool help = false, help_keys = false, show_version = false;
+
+  CLI::App app(description, program);
+  app.set_help_flag();  // help is an ordinary flag here, so that nothing is thrown for it
+  app.allow_extras();
+  app.add_option("case", line.case_file, "Case file (TOML)")->type_name("CASE.toml");
+  auto* output = app.add_option("-o,--output", line.output, "Result folder, made where needed")->type_name("DIR");
+  auto* restart =
+      app.add_option("--restart", line.restart, "Continue the run in this result folder; without -o in place")
+          ->type_name("DIR");
+  app.add_option("--set", line.overrides, "Override an entry of the case file; may be repeated")
+      ->type_name("key=value")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  app.add_option("--threads", threads, "Threads for assembly; 0: one per core (default)")->type_name("N");
+  for (const auto& option : extra) {
+    if (option.text)
+      app.add_option(option.name, *option.text, option.description)->type_name(option.type);
+    else
+      app.add_flag(option.name, *option.flag, option.description);
+  }
+  app.add_flag("-q,--quiet", line.quiet, "No progress, errors only");
+  app.add_flag("-h,--help", help, "Print this help");
+  app.add_flag("--help-keys", help_keys, "List the keys of a case file");
+  app.add_flag("--version", show_version, "Print the version");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    refuse(app, error);
+  }
+  if (help) {
+    std::fputs(app.help().c_str(), stdout);
+    return {};
+  }
+  if (help_keys) {
+    std::fputs(case_keys_help().c_str(), stdout);
+    return {};
+  }
+  if (show_version) {
+    std::printf("%s %s\n", program.c_str(), version);
+    return {};
+  }
+  refuse_extras(app);
+  if (line.case_file.empty())
+    throw InputError("", "", "no case file given", program + " CASE.toml -o DIR, or see " + program + " --help");
+  if (output->count() > 0 && line.output.empty())
+    throw InputError("", "--output", "the folder's name is empty", "give -o DIR");
+  if (restart->count() > 0 && line.restart.empty())
+    throw InputError("", "--restart", "the folder's name is empty", "give --restart DIR");
+  if (line.output.empty() && line.restart.empty())
+    throw InputError("", "--output", "no result folder given", "add -o DIR");
+  if (line.output.empty()) line.output = line.restart;
+  if (!threads.empty()) line.threads = thread_count(threads);
+  return line;
+}
+
+}  // namespace fsi

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "time/state.hpp"
+
+namespace fsi {
+
+/// How fluid and wall came to agree in one step of a partitioned method: a row of coupling.csv.
+struct CouplingReport {
+  int failed_passes = 0;             ///< passes repeated closer to the last good iterate
+  double relaxation = 0;             ///< last factor; 0 when the last correction was none
+  int columns = 0;                   ///< differences that the last quasi-Newton or Krylov correction used
+  double displacement_residual = 0;  ///< |d~ - d| / |d~| on the interface
+  double displacement_gap = 0;       ///< |d~ - d|, mm
+  double force_residual = 0;         ///< what the momentum balance lacks there, relative to the force
+  int fluid_newton_iterations = 0, wall_newton_iterations = 0;
+  int fluid_linear_iterations = 0, wall_linear_iterations = 0;
+  double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0, algebra_seconds = 0;
+};
+
+/// What one step took.
+struct StepReport {
+  int outer_iterations = 1;          ///< coupling iterations; 1 in a monolithic step
+  int newton_iterations = 0;         ///< all of the step
+  int linear_iterations = 0;         ///< Krylov iterations; 0 with direct solvers
+  std::vector<std::string> history;  ///< convergence history, for the log
+  std::optional<CouplingReport> coupling;
+};
+
+/// What a stepper keeps between steps besides the state, by name: numbers that a restart needs to go on bit for bit.
+struct Memory {
+  std::map<std::string, std::vector<double>> arrays;
+  std::map<std::string, double> numbers;
+};
+
+/// One way to advance a scene by a time step. The two drivers differ in this.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Solves the next step and makes it the latest level of the state.
+  /// \throws ConvergenceError; the state's finished levels are then untouched
+  virtual StepReport advance(State& state) = 0;
+  /// Whether the steps' reports have a coupling part.
+  virtual bool reports_coupling() const { return false; }
+  /// Of the last step, also of one that failed.
+  const StepReport& report() const { return report_; }
+  virtual Memory memory() const = 0;
+  virtual void recall(const Memory& memory) = 0;
+
+ protected:
+  StepReport report_;
+};
+
+}  // namespace fsi

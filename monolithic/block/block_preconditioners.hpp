@@ -1,0 +1,154 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "monolithic/block/coupled_matrix.hpp"
+#include "monolithic/block/sub_solver.hpp"
+
+namespace fsi {
+
+/// A linear approximation of K^-1.
+class CoupledPreconditioner {
+ public:
+  virtual ~CoupledPreconditioner() = default;
+  /// x = P~^-1 b
+  virtual void apply(const CoupledVector& b, CoupledVector& x) = 0;
+};
+
+/// Preconditioners from block factorisations of K (paper, section 4.1), with A~m, A~f, A~s for the sub-problems'
+/// matrices.
+template <int n>
+class BlockPreconditioner : public CoupledPreconditioner {
+ public:
+  BlockPreconditioner(const CoupledMatrix<n>& k, SubSolvers inverse) : k_(k), inverse_(inverse) {}
+
+ protected:
+  const CoupledMatrix<n>& k_;
+  SubSolvers inverse_;
+  std::vector<double> r_, t_;
+};
+
+/// P = diag(Am, Af, As): three sub-problems without coupling.
+template <int n>
+class DiagonalPreconditioner : public BlockPreconditioner<n> {
+ public:
+  using BlockPreconditioner<n>::BlockPreconditioner;
+  void apply(const CoupledVector& b, CoupledVector& x) override {
+    this->inverse_.mesh.solve(b.mesh, x.mesh);
+    this->inverse_.flow.solve(b.flow, x.flow);
+    this->inverse_.wall.solve(b.wall, x.wall);
+  }
+};
+
+///     [ Am           ]
+/// P = [ Afm  Af      ]   forward substitution
+///     [ 0    Asf  As ]
+template <int n>
+class LowerPreconditioner : public BlockPreconditioner<n> {
+ public:
+  using BlockPreconditioner<n>::BlockPreconditioner;
+  void apply(const CoupledVector& b, CoupledVector& x) override {
+    const auto& k = this->k_;
+    auto& r = this->r_;
+    this->inverse_.mesh.solve(b.mesh, x.mesh);
+    r = b.flow;
+    k.subtract_flow_mesh(x.mesh, r);
+    this->inverse_.flow.solve(r, x.flow);
+    r = b.wall;
+    k.subtract_wall_flow(x.flow, r);
+    this->inverse_.wall.solve(r, x.wall);
+  }
+};
+
+///     [ Am  0   Ams ]
+/// P = [     Af  Afs ]   backward substitution
+///     [         As  ]
+template <int n>
+class UpperPreconditioner : public BlockPreconditioner<n> {
+ public:
+  using BlockPreconditioner<n>::BlockPreconditioner;
+  void apply(const CoupledVector& b, CoupledVector& x) override {
+    const auto& k = this->k_;
+    auto& r = this->r_;
+    this->inverse_.wall.solve(b.wall, x.wall);
+    r = b.flow;
+    k.subtract_flow_wall(x.wall, r);
+    this->inverse_.flow.solve(r, x.flow);
+    r = b.mesh;
+    k.subtract_mesh_wall(x.wall, r);
+    this->inverse_.mesh.solve(r, x.mesh);
+  }
+};
+
+///     [ Am           ] [ I  0  Am^-1 Ams ]
+/// P = [ Afm  Af      ] [    I  Af^-1 Afs ]   the lower preconditioner, then backward with unit diagonal
+///     [ 0    Asf  As ] [       I         ]
+template <int n>
+class SsorPreconditioner : public LowerPreconditioner<n> {
+ public:
+  using LowerPreconditioner<n>::LowerPreconditioner;
+  void apply(const CoupledVector& b, CoupledVector& x) override {
+    LowerPreconditioner<n>::apply(b, x);
+    const auto& k = this->k_;
+    auto &r = this->r_, &t = this->t_;
+    r.assign(b.flow.size(), 0.0);
+    k.subtract_flow_wall(x.wall, r);
+    this->inverse_.flow.solve(r, t);
+    axpy(1.0, t, x.flow);
+    r.assign(b.mesh.size(), 0.0);
+    k.subtract_mesh_wall(x.wall, r);
+    this->inverse_.mesh.solve(r, t);
+    axpy(1.0, t, x.mesh);
+  }
+};
+
+///     [ I                      ] [ Am  0   Ams                 ]
+/// P = [ Afm Am^-1  I           ] [     Af  Afs - Afm Am^-1 Ams ]
+///     [ 0          Asf Af^-1 I ] [         As                  ]
+/// with the upper factor's inverse as corrected (design, section 2, item 7).
+template <int n>
+class IluPreconditioner : public BlockPreconditioner<n> {
+ public:
+  using BlockPreconditioner<n>::BlockPreconditioner;
+  void apply(const CoupledVector& b, CoupledVector& x) override {
+    const auto& k = this->k_;
+    auto &r = this->r_, &t = this->t_;
+    // Forward: y_m = b_m, y_f = b_f - Afm Am^-1 y_m, y_s = b_s - Asf Af^-1 y_f.
+    this->inverse_.mesh.solve(b.mesh, x.mesh);
+    y_flow_ = b.flow;
+    k.subtract_flow_mesh(x.mesh, y_flow_);
+    this->inverse_.flow.solve(y_flow_, x.flow);
+    r = b.wall;
+    k.subtract_wall_flow(x.flow, r);
+    // Backward: x_s = As^-1 y_s; with z = Am^-1 Ams x_s, x_m = Am^-1 y_m - z and
+    // x_f = Af^-1 (y_f - Afs x_s + Afm z), where Am^-1 y_m and Af^-1 y_f are known from above.
+    this->inverse_.wall.solve(r, x.wall);
+    r.assign(b.mesh.size(), 0.0);
+    k.subtract_mesh_wall(x.wall, r);
+    this->inverse_.mesh.solve(r, t);  // t = -z
+    axpy(1.0, t, x.mesh);
+    r.assign(b.flow.size(), 0.0);
+    k.subtract_flow_wall(x.wall, r);
+    k.subtract_flow_mesh(t, r);
+    this->inverse_.flow.solve(r, t);
+    axpy(1.0, t, x.flow);
+  }
+
+ private:
+  std::vector<double> y_flow_;
+};
+
+/// By name: diagonal, lower, upper, ssor or ilu.
+template <int n>
+std::unique_ptr<CoupledPreconditioner> make_block_preconditioner(const std::string& name, const CoupledMatrix<n>& k,
+                                                                 SubSolvers inverse) {
+  if (name == "diagonal") return std::make_unique<DiagonalPreconditioner<n>>(k, inverse);
+  if (name == "lower") return std::make_unique<LowerPreconditioner<n>>(k, inverse);
+  if (name == "upper") return std::make_unique<UpperPreconditioner<n>>(k, inverse);
+  if (name == "ssor") return std::make_unique<SsorPreconditioner<n>>(k, inverse);
+  return std::make_unique<IluPreconditioner<n>>(k, inverse);
+}
+
+}  // namespace fsi

@@ -1,0 +1,261 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "monolithic/block/coupled_system.hpp"
+#include "monolithic/multigrid/coupled_coarsening.hpp"
+#include "monolithic/multigrid/coupled_cycle.hpp"
+#include "solvers/amg/galerkin.hpp"
+#include "solvers/amg/sub_problem_options.hpp"
+
+namespace fsi {
+
+/// One cycle of a sub-problem's multigrid, started at some level of its hierarchy.
+template <class Amg>
+class AmgSubSolver : public SubSolver {
+ public:
+  AmgSubSolver(Amg& amg, int level) : amg_(amg), level_(level) {}
+
+ private:
+  void apply(const std::vector<double>& b, std::vector<double>& x) override { amg_.cycle(level_, b, x); }
+
+  Amg& amg_;
+  int level_;
+};
+
+/// With one level the sub-solvers are factorisations.
+struct CoupledMultigridOptions {
+  CoupledCoarseningOptions coarsening;
+  EllipticAmgOptions mesh = mesh_amg_options();  ///< of these three: cycle, smoother; the coarsening is the coupled one
+  SaddleAmgOptions flow = fluid_amg_options(), wall = wall_amg_options();
+};
+
+/// Steps of the coupled smoother and their damping.
+struct CoupledSmoothingOptions {
+  int pre_smoothing = 5, post_smoothing = 5;
+  double damping = 0;         ///< omega_f = omega_s; 0: damping_for() the estimated largest eigenvalue, level by level
+  double mesh_damping = 1;    ///< omega_m; mesh motion takes no part in the loop that makes the iteration diverge
+  int power_iterations = 12;  ///< of the estimate
+  double safety = 0.95;       ///< factor on the estimated damping: too large a one does more harm than too small a one
+};
+
+/// Best damping omega = omega_f = omega_s of the block Gauss-Seidel iteration whose undamped form has the eigenvalues
+/// -k, 0 <= k <= k_max. With exact sub-solves and theta = 1 - omega an iteration maps the interface's (u, d_s) by
+///   [ theta         -omega k           ]
+///   [ omega theta   theta - omega^2 k  ],   determinant theta^2, trace 2 theta - omega^2 k:
+/// its eigenvalues have the modulus 1 - omega for all k with omega^2 k <= 4 (1 - omega), and the errors inside fluid
+/// and wall shrink by 1 - omega too. The largest such omega is 2 / (1 + sqrt(1 + k_max)): the rate of the best
+/// second-order iteration, where damping of u or d_s alone would give that of first order.
+inline double damping_for(double largest) {
+  return 2 / (1 + std::sqrt(1 + std::max(largest, 0.0)));
+}
+
+/// The hierarchy of the coupled system (paper, section 4.2.1): Galerkin products K_(l+1) = R K_l P of the whole matrix,
+/// with its coupling blocks, and the multigrid hierarchies of the three sub-problems, which share its diagonal blocks.
+template <class Element>
+class CoupledMultigrid {
+ public:
+  static constexpr int n = Element::components;
+  using Levels = typename CoupledCycle<n>::Levels;
+
+  /// \param system  updated; must outlive this
+  CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
+                   const CoupledMultigridOptions& options)
+      : mesh_(options.mesh), flow_(options.flow), wall_(options.wall) {
+    const auto transfers = coarsen_coupled(finest_nodes(system, blocks), options.coarsening);
+    std::vector<std::shared_ptr<const NodeTransfer>> mesh, flow, wall;
+    for (const auto& t : transfers) {
+      mesh.push_back(t.mesh);
+      flow.push_back(t.flow);
+      wall.push_back(t.wall);
+    }
+    const auto& finest = system.matrix();
+    mesh_.build(*finest.mesh, mesh);
+    flow_.build(*finest.flow, flow);
+    wall_.build(*finest.wall, wall);
+
+    CoupledMatrix<n> k = finest;
+    for (std::size_t l = 0;; ++l) {
+      matrices_.push_back(k);
+      if (l == transfers.size()) break;
+      const auto& t = transfers[l];
+      couplings_.push_back(std::make_unique<Couplings>(k, t));
+      k = couplings_.back()->coarse(mesh_.matrix(static_cast<int>(l) + 1), flow_.matrix(static_cast<int>(l) + 1),
+                                    wall_.matrix(static_cast<int>(l) + 1));
+    }
+    transfers_ = transfers;
+    make_levels();
+    for (auto& c : couplings_) c->update();
+  }
+  CoupledMultigrid(const CoupledMultigrid&) = delete;
+  CoupledMultigrid& operator=(const CoupledMultigrid&) = delete;
+
+  /// The system's matrix has new values.
+  void update() {
+    mesh_.update();
+    flow_.update();
+    wall_.update();
+    for (auto& c : couplings_) c->update();
+  }
+  /// The mesh motion's operator alone was assembled again.
+  void update_mesh_motion() { mesh_.update(); }
+
+  /// Lays down the smoothing steps of all levels for the present values.
+  void set_smoothing(const CoupledSmoothingOptions& options) {
+    radii_.clear();
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+      auto& level = *levels_[l];
+      double omega = options.damping;
+      if (omega <= 0) {
+        radii_.push_back(largest_eigenvalue(level, options.power_iterations));
+        omega = options.safety * damping_for(radii_.back());
+      }
+      const BlockDamping damping{options.mesh_damping, omega, omega};
+      level.pre_smoothing.assign(static_cast<std::size_t>(options.pre_smoothing), damping);
+      level.post_smoothing.assign(static_cast<std::size_t>(options.post_smoothing), damping);
+    }
+  }
+
+  Levels& levels() { return levels_; }
+  SubSolvers finest_sub_solvers() { return {*levels_[0]->mesh, *levels_[0]->flow, *levels_[0]->wall}; }
+
+  long long mesh_cycles() const {
+    return sum([](const auto& level) { return level.mesh->cycles(); });
+  }
+  long long flow_cycles() const {
+    return sum([](const auto& level) { return level.flow->cycles(); });
+  }
+  long long wall_cycles() const {
+    return sum([](const auto& level) { return level.wall->cycles(); });
+  }
+  /// Stored numbers of all levels over those of the finest.
+  double operator_complexity() const {
+    double entries = 0;
+    for (const auto& k : matrices_) entries += static_cast<double>(k.nonzeros());
+    return entries / static_cast<double>(matrices_.front().nonzeros());
+  }
+  double memory_mib() const {
+    std::size_t bytes = mesh_.bytes() + flow_.bytes() + wall_.bytes();
+    for (const auto& c : couplings_) bytes += c->bytes();
+    return static_cast<double>(bytes) / (1 << 20);
+  }
+  /// Largest eigenvalue of the undamped smoother's iteration, by size, as last estimated; level by level.
+  const std::vector<double>& largest_eigenvalues() const { return radii_; }
+
+ private:
+  /// Ams, Afm, Afs and Asf of a coarse level.
+  class Couplings {
+   public:
+    Couplings(const CoupledMatrix<n>& fine, const CoupledTransfer& t)
+        : fine_(fine),
+          mesh_wall_product_(*fine.mesh_wall->graph, t.mesh, t.wall),
+          wall_flow_product_(*fine.wall_flow->graph, t.wall, t.flow),
+          flow_mesh_product_(*fine.flow_mesh->graph, t.flow, t.mesh),
+          flow_wall_product_(*fine.flow_wall->graph, t.flow, t.wall),
+          mesh_wall_(mesh_wall_product_.make_coarse()),
+          wall_flow_(wall_flow_product_.make_coarse()),
+          flow_mesh_(flow_mesh_product_.make_coarse()),
+          flow_wall_(flow_wall_product_.make_coarse()) {}
+    CoupledMatrix<n> coarse(const BlockMatrix<1, n>& mesh, const BlockMatrix<n + 1, n + 1>& flow,
+                            const BlockMatrix<n + 1, n + 1>& wall) const {
+      return {&mesh, &mesh_wall_, &flow_mesh_, &flow, &flow_wall_, &wall_flow_, &wall};
+    }
+    void update() {
+      mesh_wall_product_.compute(*fine_.mesh_wall, mesh_wall_);
+      wall_flow_product_.compute(*fine_.wall_flow, wall_flow_);
+      flow_mesh_product_.compute(*fine_.flow_mesh, flow_mesh_);
+      flow_wall_product_.compute(*fine_.flow_wall, flow_wall_);
+    }
+    std::size_t bytes() const {
+      return 8 * (mesh_wall_.values.size() + wall_flow_.values.size() + flow_mesh_.values.size() +
+                  flow_wall_.values.size());
+    }
+
+   private:
+    CoupledMatrix<n> fine_;
+    GalerkinProduct<1, 1, 1, 1> mesh_wall_product_, wall_flow_product_;
+    GalerkinProduct<n + 1, n, n, n> flow_mesh_product_;
+    GalerkinProduct<n, n + 1, n, n> flow_wall_product_;
+    BlockMatrix<1, 1> mesh_wall_, wall_flow_;
+    BlockMatrix<n + 1, n> flow_mesh_;
+    BlockMatrix<n, n + 1> flow_wall_;
+  };
+
+  static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks) {
+    const auto& k = system.matrix();
+    const auto& scene = blocks.scene;
+    CoupledNodes nodes{k.mesh->graph.get(), k.flow->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
+    nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
+    nodes.wall_marks = NodeMarks(k.wall_nodes());
+    nodes.mesh_marks.prescribed = system.constraints().mesh_fixed;
+    nodes.flow_marks.prescribed = system.constraints().velocity_fixed;
+    nodes.wall_marks.prescribed = system.constraints().wall_fixed;
+    for (const auto& pair : system.interface())  // unknowns, though their rows are conditions
+      nodes.mesh_marks.prescribed[pair.fluid] = nodes.wall_marks.prescribed[pair.wall] = 0;
+    for (const auto& node : scene.interface) {
+      nodes.mesh_interface.push_back(node.fluid);
+      nodes.wall_interface.push_back(node.wall);
+      nodes.mesh_marks.interface[node.fluid] = nodes.flow_marks.interface[node.fluid] = 1;
+      nodes.wall_marks.interface[node.wall] = 1;
+    }
+    nodes.flow_interface = nodes.mesh_interface;
+    return nodes;
+  }
+
+  void make_levels() {
+    for (std::size_t l = 0; l < matrices_.size(); ++l) {
+      const int at = static_cast<int>(l);
+      levels_.push_back(std::make_unique<CoupledLevel<n>>(matrices_[l],
+                                                          std::make_unique<AmgSubSolver<EllipticAmg<n, n>>>(mesh_, at),
+                                                          std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(flow_, at),
+                                                          std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(wall_, at)));
+      if (l < transfers_.size()) levels_.back()->coarser = transfers_[l];
+    }
+  }
+
+  /// By power iterations x <- S(x, 0) from a fixed start, so that a restarted run gets the same number. Three estimates
+  /// on the way, which approach the eigenvalue like a geometric sequence, are extrapolated to its limit (Aitken).
+  double largest_eigenvalue(CoupledLevel<n>& level, int iterations) const {
+    constexpr double largest_extrapolation = 0.25;
+    CoupledVector &x = level.inner_x, &zero = level.inner_b;
+    zero.set_zero();
+    unsigned seed = 1;
+    for (auto* part : {&x.mesh, &x.flow, &x.wall})
+      for (double& value : *part)
+        value = static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24) - 0.5;
+    double estimates[3] = {};
+    const int third = std::max(iterations / 3, 1);
+    for (int i = 0; i < 3 * third; ++i) {
+      // The wall's part alone: in it displacements of the interface dominate, whatever the units of the others.
+      const double before = norm(x.wall);
+      level.smoother.sweep(zero, x, {1, 1, 1});
+      const double after = norm(x.wall);
+      if (!(before > 0 && after > 0)) return 0;
+      if (i % third == third - 1) estimates[i / third] = after / before;
+      for (auto* part : {&x.mesh, &x.flow, &x.wall}) scale(1 / after, *part);
+    }
+    const double first = estimates[1] - estimates[0], second = estimates[2] - estimates[1];
+    const double rest = first > second && second > 0 ? second * second / (first - second) : 0;
+    return estimates[2] + std::min(rest, largest_extrapolation * estimates[2]);
+  }
+
+  template <class Count>
+  long long sum(Count count) const {
+    long long total = 0;
+    for (const auto& level : levels_) total += count(*level);
+    return total;
+  }
+
+  EllipticAmg<n, n> mesh_;
+  SaddleAmg<n + 1> flow_, wall_;
+  std::vector<CoupledTransfer> transfers_;
+  std::vector<std::unique_ptr<Couplings>> couplings_;
+  std::vector<CoupledMatrix<n>> matrices_;
+  Levels levels_;
+  std::vector<double> radii_;
+};
+
+}  // namespace fsi

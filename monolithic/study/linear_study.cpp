@@ -1,0 +1,403 @@
+#include "monolithic/study/linear_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "algebra/vector_operations.hpp"
+#include "base/error.hpp"
+#include "base/names.hpp"
+#include "base/threads.hpp"
+#include "base/version.hpp"
+#include "case/case_hash.hpp"
+#include "driver/load_mesh.hpp"
+#include "io/atomic_file.hpp"
+#include "monolithic/block/coupled_system.hpp"
+#include "monolithic/linear_solvers.hpp"
+#include "monolithic/study/sub_problem_study.hpp"
+#include "scene/build_scene.hpp"
+#include "solvers/amg/sub_problem_options.hpp"
+#include "system/jacobian_product.hpp"
+#include "system/newton_stepper.hpp"
+
+namespace fsi {
+
+namespace {
+
+using Element = P1Tetrahedron;
+using Json = nlohmann::json;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Median of up to `most` timings, fewer once they have taken a second: a single one of a short solve means little.
+double median_seconds(int most, const std::function<void()>& work) {
+  std::vector<double> times;
+  double sum = 0;
+  while (static_cast<int>(times.size()) < most && (times.size() < 2 || sum < 1)) {
+    times.push_back(seconds_of(work));
+    sum += times.back();
+    if (times.size() == 1 && sum > 1) break;
+  }
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+std::vector<std::string> parse_solvers(const std::string& text) {
+  auto names = split(text, ',');
+  if (names.empty())
+    throw InputError("", "--linear-solvers", "no solver named", "give some of " + one_of(linear_solver_names()));
+  for (const auto& name : names)
+    if (std::find(linear_solver_names().begin(), linear_solver_names().end(), name) == linear_solver_names().end())
+      throw InputError("", "--linear-solvers", "\"" + name + "\" is unknown",
+                       "did you mean " + nearest_name(name, linear_solver_names()) + "?");
+  return names;
+}
+
+double parse_tolerance(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1))
+    throw InputError("", "--linear-tolerance", "\"" + text + "\" is no tolerance", "give a number between 0 and 1");
+  return value;
+}
+
+/// Largest over the fields of |a - b| / |b|, each field in the 2-norm: no field hides behind another's units.
+double difference(const Numbering& numbering, const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr int n = Element::components;
+  double largest = 0;
+  const auto compare = [&](const UnknownMap& map, int entries, int from, int to) {
+    double error = 0, size = 0;
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      const int k = static_cast<int>(i % entries);
+      if (map[i].index < 0 || k < from || k >= to) continue;
+      error += std::pow(a[map[i].index] - b[map[i].index], 2);
+      size += std::pow(b[map[i].index], 2);
+    }
+    if (size > 0) largest = std::max(largest, std::sqrt(error / size));
+  };
+  compare(numbering.mesh, n, 0, n);
+  compare(numbering.flow, n + 1, 0, n);
+  compare(numbering.flow, n + 1, n, n + 1);
+  compare(numbering.wall, n + 1, 0, n);
+  compare(numbering.wall, n + 1, n, n + 1);
+  return largest;
+}
+
+/// One run of the study: the scene, marched to the named systems.
+class LinearStudy {
+ public:
+  LinearStudy(const Case& setup, std::vector<NamedSystem> systems, std::vector<std::string> solvers, double tolerance,
+              bool sub_problems, bool quiet)
+      : setup_(setup),
+        systems_(std::move(systems)),
+        solvers_(std::move(solvers)),
+        tolerance_(tolerance),
+        with_sub_problems_(sub_problems),
+        quiet_(quiet),
+        mesh_(load_mesh(setup)),
+        scene_(build_scene(setup, mesh_)),
+        loads_(setup) {
+    if (!scene_->coupled())
+      throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
+                       "give [fluid] and [structure]");
+    if (systems_.back().step > loads_.steps())
+      throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
+                       fmt::format("give steps up to {}", loads_.steps()));
+  }
+
+  /// Everything of the answer; `complete` is false when a solver failed or a named system did not come up.
+  Json run(bool& complete) {
+    Json json;
+    json["program"] = "fsi-monolithic";
+    json["version"] = version;
+    json["title"] = setup_.title;
+    json["case_hash"] = hash_of_case(setup_);
+    json["threads"] = threads();
+    json["tolerance"] = tolerance_;
+    json["mesh"] = {{"name", mesh_name(setup_)},
+                    {"hash", hash_of_mesh(mesh_)},
+                    {"nodes", mesh_.nodes.size()},
+                    {"tetrahedra", mesh_.cells.size()},
+                    {"fluid_nodes", scene_->fluid->node_count()},
+                    {"wall_nodes", scene_->wall->node_count()},
+                    {"interface_nodes", scene_->interface.size()}};
+    json["newton"] = Json::array();
+    json["systems"] = Json::array();
+    const auto make_fast = [&](const JacobianBlocks<Element>& blocks) {
+      return make_linear_solver("fast", setup_, blocks);
+    };
+    NewtonOptions options = newton_options(setup_.monolithic);
+    NewtonStepper<Element> stepper(*scene_, loads_, options, make_fast);
+    System<Element> system("coupled", *scene_, number_scene(*scene_), make_fast);
+    State state = scene_->at_rest();
+    while (state.step < systems_.back().step) {
+      const int step = state.step + 1;
+      const bool named =
+          std::any_of(systems_.begin(), systems_.end(), [&](const NamedSystem& s) { return s.step == step; });
+      if (named)
+        json["newton"].push_back(study_step(system, state, json["systems"]));
+      else
+        stepper.advance(state);
+    }
+    if (with_sub_problems_) json["sub_problems"] = sub_problems_;
+    complete = complete_ && json["systems"].size() == systems_.size();
+    return json;
+  }
+
+ private:
+  /// The next step by Newton's method with a new Jacobian in each iteration; named systems are studied as they come.
+  Json study_step(System<Element>& system, State& state, Json& answers) {
+    const StepData data = loads_.next(state, scene_->scheme);
+    scene_->scheme.predict(state);
+    scene_->impose_interface(state);
+    system.work_on(state, data);
+    Json increments = Json::array(), residuals = Json::array();
+    double residual = system.evaluate(), first = 0;
+    bool converged = false;
+    for (int k = 1; k <= setup_.monolithic.max_iterations && !converged; ++k) {
+      system.linearise();
+      for (const auto& named : systems_)
+        if (named.step == state.step + 1 && named.iteration == k) answers.push_back(study(system, named, data.time));
+      const double increment = system.solve(std::min(1e-9, tolerance_));
+      system.move(1);
+      residual = system.evaluate();
+      if (!std::isfinite(increment) || !std::isfinite(residual)) break;
+      increments.push_back(increment);
+      residuals.push_back(residual);
+      if (k == 1) first = increment;
+      converged = increment <= std::max(setup_.monolithic.newton_tolerance * first, 1e-14 * system.size());
+    }
+    if (!converged)
+      throw ConvergenceError(fmt::format("step {}: Newton's method did not converge", state.step + 1),
+                             "a smaller time.step or load");
+    Json history = {{"step", state.step + 1},
+                    {"time_ms", data.time},
+                    {"increments", increments},
+                    {"residuals", residuals},
+                    {"iterations", increments.size()}};
+    scene_->impose_interface(state);
+    scene_->scheme.accept(state, data);
+    return history;
+  }
+
+  /// The system that `system` holds, solved with every solver.
+  Json study(System<Element>& system, const NamedSystem& named, double time) {
+    const auto blocks = system.blocks();
+    std::vector<double> b = system.residual();
+    for (double& value : b) value = -value;
+    const double norm_b = norm(b);
+
+    CoupledSystem<Element> paper(blocks);
+    paper.update();
+    auto k_x = paper.matrix().zero_vector(), k_y = k_x;
+    paper.expand(b, k_x);
+    const auto zero = paper.matrix().zero_vector();
+    const double product = median_seconds(21, [&] { paper.matrix().residual(zero, k_x, k_y); });
+
+    Json answer = {{"step", named.step},
+                   {"newton_iteration", named.iteration},
+                   {"time_ms", time},
+                   {"unknowns",
+                    {{"mesh", k_x.mesh.size()},
+                     {"flow", k_x.flow.size()},
+                     {"wall", k_x.wall.size()},
+                     {"total", k_x.mesh.size() + k_x.flow.size() + k_x.wall.size()},
+                     {"condensed", b.size()}}},
+                   {"product_seconds", product},
+                   {"right_hand_side", norm_b}};
+    if (with_sub_problems_ && sub_problems_.empty()) study_sub_problems(paper);
+    JacobianProduct<Element> jacobian(blocks);
+    std::vector<double> x, y, reference;
+    // The direct solution first, whatever its place in the list: it is what the others are compared with.
+    std::vector<std::string> order = solvers_;
+    std::stable_partition(order.begin(), order.end(), [](const std::string& name) { return name == "direct"; });
+    std::vector<Json> entries;
+    for (const auto& name : order) {
+      say(fmt::format("system {}:{}  {}", named.step, named.iteration, name));
+      Json entry = {{"name", name}};
+      try {
+        std::unique_ptr<LinearSolver> solver;
+        const double set_up = seconds_of([&] {
+          solver = make_linear_solver(name, setup_, blocks);
+          solver->update();
+        });
+        LinearReport report;
+        LinearStatistics before = solver->statistics(), after;
+        const double first = seconds_of([&] { report = solver->solve(b, tolerance_, x); });
+        after = solver->statistics();
+        const double seconds =
+            first > 0.5 ? first : median_seconds(5, [&] { report = solver->solve(b, tolerance_, x); });
+        jacobian.multiply(x, y);
+        for (std::size_t i = 0; i < b.size(); ++i) y[i] = b[i] - y[i];
+        const double relative = norm(y) / norm_b;
+        // Two ways to sum one residual differ by rounding.
+        const bool converged = report.converged && relative <= 1.01 * tolerance_;
+        complete_ = complete_ && converged;
+        entry.update({{"converged", converged},
+                      {"iterations", report.iterations},
+                      {"relative_residual", relative},
+                      {"set_up_seconds", set_up},
+                      {"solve_seconds", seconds},
+                      {"work_units", seconds / product},
+                      {"cycles",
+                       {{"mesh", after.mesh_cycles - before.mesh_cycles},
+                        {"flow", after.flow_cycles - before.flow_cycles},
+                        {"wall", after.wall_cycles - before.wall_cycles}}},
+                      {"operator_complexity", after.operator_complexity},
+                      {"levels", after.levels},
+                      {"memory_MiB", after.memory_mib},
+                      {"message", report.failure}});
+        if (converged && reference.empty())
+          reference = x;
+        else if (converged)
+          entry["difference"] = difference(system.numbering(), x, reference);
+      } catch (const ConvergenceError& failure) {
+        complete_ = false;
+        entry.update({{"converged", false}, {"message", failure.what()}});
+      }
+      if (!entry.contains("difference")) entry["difference"] = nullptr;
+      say(fmt::format("    {} iterations, {}", entry.value("iterations", 0),
+                      entry["converged"].get<bool>() ? fmt::format("{:.3f} s", entry["solve_seconds"].get<double>())
+                                                     : "not converged: " + entry["message"].get<std::string>()));
+      entries.push_back(std::move(entry));
+    }
+    answer["solvers"] = Json::array();
+    for (const auto& name : solvers_)
+      for (auto& entry : entries)
+        if (entry["name"] == name) answer["solvers"].push_back(entry);
+    return answer;
+  }
+
+  /// The multigrid of each sub-problem of the first named system as a solver of its own. Large meshes get a smaller
+  /// range, for time.
+  void study_sub_problems(const CoupledSystem<Element>& paper) {
+    constexpr int n = Element::components;
+    const auto& k = paper.matrix();
+    NodeMarks fluid(k.fluid_nodes()), wall(k.wall_nodes()), mesh(k.fluid_nodes());
+    fluid.prescribed = paper.constraints().velocity_fixed;
+    mesh.prescribed = paper.constraints().mesh_fixed;
+    wall.prescribed = paper.constraints().wall_fixed;
+    for (const auto& node : paper.interface()) {
+      fluid.interface[node.fluid] = mesh.interface[node.fluid] = wall.interface[node.wall] = 1;
+      mesh.prescribed[node.fluid] = wall.prescribed[node.wall] = 0;  // given, but an unknown of the coupled system
+    }
+    MultigridStudyRange range;
+    range.max_iterations = 40;
+    if (mesh_.nodes.size() > 20000) {
+      range.coarsenings = {"colouring"};
+      range.cycles = {"v"};
+    }
+    const auto add = [&](const char* problem, const std::vector<MultigridStudyRow>& rows) {
+      for (const auto& row : rows)
+        sub_problems_.push_back({{"problem", problem},
+                                 {"coarsening", row.coarsening},
+                                 {"smoother", row.smoother},
+                                 {"cycle", fmt::format("{}({},{})", row.cycle, row.pre_smoothing, row.post_smoothing)},
+                                 {"levels", row.result.levels},
+                                 {"factor", row.result.convergence_factor},
+                                 {"iterations", row.result.iterations},
+                                 {"converged", row.result.converged},
+                                 {"milliseconds_per_cycle", 1e3 * row.result.seconds_per_cycle},
+                                 {"operator_complexity", row.result.operator_complexity}});
+      say(fmt::format("multigrid of the {} alone: {} settings", problem, rows.size()));
+    };
+    add("mesh", study_elliptic_multigrid<n>(*k.mesh, mesh, mesh_amg_options(), range));
+    add("fluid", study_saddle_multigrid(*k.flow, fluid, fluid_amg_options(), range));
+    for (const char* smoother : {"braess-sarazin", "vanka"}) {
+      range.smoothers = {smoother};
+      add("wall", study_saddle_multigrid(*k.wall, wall, wall_amg_options(saddle_smoother_kind(smoother)), range));
+    }
+  }
+
+  void say(const std::string& text) const {
+    if (!quiet_) std::printf("%s\n", text.c_str());
+    if (!quiet_) std::fflush(stdout);
+  }
+
+  const Case& setup_;
+  std::vector<NamedSystem> systems_;
+  std::vector<std::string> solvers_;
+  double tolerance_;
+  bool with_sub_problems_, quiet_;
+  Json sub_problems_ = Json::array();
+  TetrahedralMesh mesh_;
+  std::unique_ptr<Scene<Element>> scene_;
+  Loads loads_;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+std::vector<NamedSystem> parse_systems(const std::string& text) {
+  std::vector<NamedSystem> systems;
+  for (const auto& part : split(text, ',')) {
+    const auto numbers = split(part, ':');
+    NamedSystem system;
+    const auto read = [](const std::string& from, int& to) {
+      const auto [end, error] = std::from_chars(from.data(), from.data() + from.size(), to);
+      return error == std::errc() && end == from.data() + from.size() && to >= 1;
+    };
+    if (numbers.size() != 2 || !read(numbers[0], system.step) || !read(numbers[1], system.iteration))
+      throw InputError("", "--linear-systems", "\"" + part + "\" names no system",
+                       "give STEP:ITERATION, both from 1 on, for example 1:1,12:2");
+    systems.push_back(system);
+  }
+  if (systems.empty()) throw InputError("", "--linear-systems", "no system named", "give for example 1:1,12:2");
+  std::sort(systems.begin(), systems.end(), [](const NamedSystem& a, const NamedSystem& b) {
+    return a.step != b.step ? a.step < b.step : a.iteration < b.iteration;
+  });
+  return systems;
+}
+
+std::vector<ExtraOption> LinearStudyRequest::options() {
+  return {
+      {"--linear-systems", "STEP:ITERATION,...",
+       "In place of a run: solve these Newton systems with the named linear solvers, write linear_solvers.json",
+       &systems_, nullptr},
+      {"--linear-solvers", "NAME,...", "Solvers for --linear-systems; default fast,direct", &solvers_, nullptr},
+      {"--linear-tolerance", "NUMBER", "Relative residual for --linear-systems, default 1e-9", &tolerance_, nullptr},
+      {"--sub-problems", "", "With --linear-systems: the sub-problems' multigrid as solvers of their own", nullptr,
+       &sub_problems_}};
+}
+
+std::optional<int> LinearStudyRequest::run(const CommandLine& line, const Case& setup) const {
+  if (systems_.empty()) {
+    for (const auto& [name, given] :
+         {std::pair("--linear-solvers", !solvers_.empty()), std::pair("--linear-tolerance", !tolerance_.empty()),
+          std::pair("--sub-problems", sub_problems_)})
+      if (given) throw InputError("", name, "says nothing without --linear-systems", "add --linear-systems 1:1");
+    return {};
+  }
+  if (!line.restart.empty())
+    throw InputError("", "--restart", "cannot go with --linear-systems", "leave one of them out");
+  LinearStudy study(setup, parse_systems(systems_), parse_solvers(solvers_.empty() ? "fast,direct" : solvers_),
+                    tolerance_.empty() ? 1e-9 : parse_tolerance(tolerance_), sub_problems_, line.quiet);
+  std::error_code error;
+  std::filesystem::create_directories(line.output, error);
+  if (error) throw InputError(line.output.string(), "--output", "cannot be made: " + error.message(), "");
+  bool complete = true;
+  const Json answer = study.run(complete);
+  write_atomically(line.output / "linear_solvers.json", answer.dump(2) + "\n");
+  return complete ? exit_done : exit_not_converged;
+}
+
+}  // namespace fsi

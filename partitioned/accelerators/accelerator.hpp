@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// What an accelerator is doing, for the log and for coupling.csv.
+struct AcceleratorStatus {
+  double relaxation = 0;  ///< factor last used; 0 when the last correction was not a relaxation
+  int columns = 0;        ///< differences or directions that the last correction used
+};
+
+/// How an iteration for r(x) = 0 on the interface goes on, r(x) = x~ - x being what one pass through the sub-problems
+/// changes. One loop (coupling_stepper.hpp) drives every accelerator:
+///   start(); repeat { r = r(x); correct(x, r); } until r is small; accept(x, r).
+/// The x of a call need not be the one the last call proposed: a pass that fails is repeated closer to the last good x.
+class Accelerator {
+ public:
+  virtual ~Accelerator() = default;
+  /// A time step begins.
+  virtual void start() = 0;
+  /// Moves x, given its residual.
+  virtual void correct(std::vector<double>& x, const std::vector<double>& r) = 0;
+  /// The step ended with this x and its residual.
+  virtual void accept(const std::vector<double>& /*x*/, const std::vector<double>& /*r*/) {}
+  virtual AcceleratorStatus status() const = 0;
+  /// The next residual may come from sub-problems solved in another way than the last: it is not compared with it
+  /// alone.
+  virtual bool allows_change() const { return true; }
+  /// What is kept from one step to the next, for a restart that goes on bit for bit.
+  virtual void remember(Memory& /*memory*/) const {}
+  virtual void recall(const Memory& /*memory*/) {}
+};
+
+}  // namespace fsi

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "partitioned/accelerators/filtered_qr.hpp"
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// What earlier passes tell of a Jacobian: pairs of columns, newest first, those of earlier time steps behind.
+class DifferenceColumns {
+ public:
+  struct Column {
+    std::vector<double> v;  ///< difference of residuals
+    std::vector<double> w;  ///< what it belongs to: the owner's choice
+    int age;                ///< in time steps
+  };
+
+  /// \param most          columns kept
+  /// \param reused_steps  earlier time steps whose columns are kept
+  /// \param filter        a column is dropped when less than this part of its v is new
+  DifferenceColumns(int most, int reused_steps, double filter)
+      : most_(static_cast<std::size_t>(most)), reused_steps_(reused_steps), filter_(filter) {}
+
+  /// A time step begins.
+  void start();
+  void add(std::vector<double> v, std::vector<double> w);
+  /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left.
+  FilteredQr factorise();
+
+  bool empty() const { return columns_.empty(); }
+  std::size_t size() const { return columns_.size(); }
+  const Column& operator[](std::size_t j) const { return columns_[j]; }
+
+  void remember(Memory& memory, const std::string& name) const;
+  void recall(const Memory& memory, const std::string& name);
+
+ private:
+  std::size_t most_;
+  int reused_steps_;
+  double filter_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,66 @@
+#include "partitioned/accelerators/low_rank_map.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "algebra/vector_operations.hpp"
+
+namespace fsi {
+
+namespace {
+
+Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& columns) {
+  Eigen::MatrixXd m(columns.front().size(), columns.size());
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    m.col(static_cast<Eigen::Index>(j)) =
+        Eigen::Map<const Eigen::VectorXd>(columns[j].data(), static_cast<Eigen::Index>(columns[j].size()));
+  return m;
+}
+
+std::vector<std::vector<double>> columns_of(const Eigen::MatrixXd& m) {
+  std::vector<std::vector<double>> columns;
+  for (Eigen::Index j = 0; j < m.cols(); ++j) columns.emplace_back(m.col(j).data(), m.col(j).data() + m.rows());
+  return columns;
+}
+
+/// Q and R of the thin factorisation.
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const Eigen::MatrixXd& m) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
+  const Eigen::Index rank = std::min(m.rows(), m.cols());
+  Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(m.rows(), rank);
+  Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+  return {std::move(q), std::move(r)};
+}
+
+}  // namespace
+
+void LowRankMap::add(std::vector<double> a, std::vector<double> b) {
+  assert(a.size() == b.size());
+  a_.push_back(std::move(a));
+  b_.push_back(std::move(b));
+}
+
+std::vector<double> LowRankMap::times(const std::vector<double>& x) const {
+  std::vector<double> y(x.size(), 0.0);
+  for (std::size_t i = 0; i < a_.size(); ++i) axpy(dot(b_[i], x), a_[i], y);
+  return y;
+}
+
+void LowRankMap::truncate(std::size_t rank, double tolerance) {
+  if (a_.empty()) return;
+  const auto [qa, ra] = thin_qr(matrix_of(a_));
+  const auto [qb, rb] = thin_qr(matrix_of(b_));
+  const Eigen::MatrixXd core = ra * rb.transpose();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(core, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const auto& values = svd.singularValues();
+  Eigen::Index keep = 0;
+  while (keep < values.size() && keep < static_cast<Eigen::Index>(rank) && values[keep] > tolerance * values[0]) ++keep;
+  const Eigen::MatrixXd left = qa * svd.matrixU().leftCols(keep) * values.head(keep).asDiagonal();
+  const Eigen::MatrixXd right = qb * svd.matrixV().leftCols(keep);
+  a_ = columns_of(left);
+  b_ = columns_of(right);
+}
+
+}  // namespace fsi

@@ -1,0 +1,46 @@
+#include "partitioned/accelerators/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/vector_operations.hpp"
+
+namespace fsi {
+
+namespace {
+constexpr double smallest_start = 1e-4;
+}
+
+void ConstantRelaxation::correct(std::vector<double>& x, const std::vector<double>& r) {
+  axpy(factor_, r, x);
+}
+
+void AitkenRelaxation::start() {
+  factor_ = std::clamp(std::abs(factor_), smallest_start, largest_start_);
+  last_x_.clear();
+}
+
+void AitkenRelaxation::correct(std::vector<double>& x, const std::vector<double>& r) {
+  if (!last_x_.empty()) {
+    double numerator = 0, denominator = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      numerator += (x[i] - last_x_[i]) * (r[i] - last_r_[i]);
+      denominator += (r[i] - last_r_[i]) * (r[i] - last_r_[i]);
+    }
+    if (denominator > 0) factor_ = -numerator / denominator;
+  }
+  last_x_ = x;
+  last_r_ = r;
+  axpy(factor_, r, x);
+}
+
+void AitkenRelaxation::remember(Memory& memory) const {
+  memory.numbers["relaxation"] = factor_;
+}
+
+void AitkenRelaxation::recall(const Memory& memory) {
+  const auto factor = memory.numbers.find("relaxation");
+  if (factor != memory.numbers.end()) factor_ = factor->second;
+}
+
+}  // namespace fsi

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "partitioned/accelerators/accelerator.hpp"
+
+namespace fsi {
+
+/// x += omega r. On Dirichlet-Neumann it converges for omega < 2 / (1 + |G|), G the ratio of the fluid's added mass to
+/// the wall's mass and stiffness (Causin, Gerbeau and Nobile 2005): about 0.014 on the coarse artery.
+class ConstantRelaxation : public Accelerator {
+ public:
+  explicit ConstantRelaxation(double factor) : factor_(factor) {}
+  void start() override {}
+  void correct(std::vector<double>& x, const std::vector<double>& r) override;
+  AcceleratorStatus status() const override { return {factor_, 0}; }
+
+ private:
+  double factor_;
+};
+
+/// Aitken's dynamic relaxation (Irons and Tuck 1969; Kuettler and Wall 2008, equation 44):
+///   omega_k = -(x_k - x_(k-1)) . (r_k - r_(k-1)) / |r_k - r_(k-1)|^2.
+/// A step starts with the last factor of the previous one, no larger than `largest_start`: a first guess that
+/// overshoots can invert elements.
+class AitkenRelaxation : public Accelerator {
+ public:
+  /// \param first_factor   of the first correction of all
+  /// \param largest_start  bound on the first factor of each step
+  AitkenRelaxation(double first_factor, double largest_start) : factor_(first_factor), largest_start_(largest_start) {}
+  void start() override;
+  void correct(std::vector<double>& x, const std::vector<double>& r) override;
+  AcceleratorStatus status() const override { return {factor_, 0}; }
+  void remember(Memory& memory) const override;
+  void recall(const Memory& memory) override;
+
+ private:
+  double factor_, largest_start_;
+  std::vector<double> last_x_, last_r_;
+};
+
+}  // namespace fsi

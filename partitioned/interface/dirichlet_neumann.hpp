@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "partitioned/interface/interface_problem.hpp"
+
+namespace fsi {
+
+/// Dirichlet-Neumann (design, section 5), x = d: mesh motion from the interface displacement d; fluid with
+/// u = (d - d^(n-1)) / dt on the interface; the fluid's interface residual as load on the wall; the wall's answer d~;
+/// r = d~ - d.
+template <class Element>
+class DirichletNeumann : public InterfaceProblem<Element> {
+  using Base = InterfaceProblem<Element>;
+  using Base::cost, Base::scene_, Base::state_, Base::data_;
+
+ public:
+  static constexpr int n = Element::components;
+
+  DirichletNeumann(Scene<Element>& scene, const PartitionedData& options)
+      : Base(scene, options), fluid_("fluid", scene, number_fluid(scene), Base::solver_factory(options)) {}
+
+  void start(State& state, StepData& data) override {
+    Base::start(state, data);
+    fluid_.work_on(state, data);
+  }
+
+  std::vector<double> first_guess(int) const override { return Base::wall_displacement(state_->now); }
+
+  Pass pass(const std::vector<double>& d, const PassAccuracy& accuracy) override {
+    d_ = d;
+    Base::move_mesh(d);
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k)
+        // The velocity of the mesh, so that no fluid crosses the interface whatever the last step's tolerance left.
+        state_->now.flow[Base::flow_entry(scene_.interface[i], k)] =
+            (d[i * n + k] - state_->before[0].mesh[Base::mesh_entry(scene_.interface[i], k)]) / scene_.scheme.step;
+    return refine(accuracy);
+  }
+
+  Pass refine(const PassAccuracy& accuracy) override {
+    {
+      const Stopwatch watch(cost.fluid_seconds);
+      solve_sub_problem("fluid", fluid_, accuracy.tolerance, {}, cost.fluid_newton, cost.fluid_linear);
+    }
+    Base::solve_wall(fluid_.fluid_residual(), accuracy);
+    Pass pass;
+    pass.displacement = Base::wall_displacement(state_->now);
+    pass.residual = pass.displacement;
+    axpy(-1, d_, pass.residual);
+    return pass;
+  }
+
+  Memory memory() const override {
+    Memory memory = Base::memory();
+    if (fluid_.linearised()) remember("fluid", fluid_.linearisation_point(), memory);
+    return memory;
+  }
+  void recall(const Memory& memory) override {
+    Base::recall(memory);
+    LinearisationPoint point;
+    if (fsi::recall("fluid", memory, point)) fluid_.linearise_at(point);
+  }
+
+ private:
+  System<Element> fluid_;
+  std::vector<double> d_;
+};
+
+}  // namespace fsi

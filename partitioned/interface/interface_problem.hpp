@@ -1,0 +1,180 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "case/case.hpp"
+#include "condensed_solver/fast_solver.hpp"
+#include "partitioned/interface/mesh_motion_solver.hpp"
+#include "partitioned/interface/sub_problem.hpp"
+#include "scene/scene.hpp"
+#include "system/system.hpp"
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// The result of a pass. Interface vectors hold n numbers per interface node, zero where the rim is clamped.
+struct Pass {
+  std::vector<double> residual;      ///< r(x) = x~ - x in mm: the gap between the wall's and the fluid's displacement
+  std::vector<double> displacement;  ///< d~, the wall's answer, mm
+};
+
+/// How well the sub-problems are solved in a pass.
+struct PassAccuracy {
+  double tolerance;      ///< of their Newton iterations, relative to their iterates
+  bool linearised_wall;  ///< the wall answers by one linearised step from the step's first guess
+};
+
+/// One time step as an equation r(x) = 0 for an interface vector x, evaluated by one pass through the sub-problems. At
+/// its root fluid and wall have one displacement and their forces balance: the monolithic solution.
+template <class Element>
+class InterfaceProblem {
+ public:
+  static constexpr int n = Element::components;
+
+  InterfaceProblem(Scene<Element>& scene, const PartitionedData& options)
+      : scene_(scene), mesh_motion_(scene), wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
+  virtual ~InterfaceProblem() = default;
+
+  /// Starts a step: state.now holds the first guess of all fields.
+  virtual void start(State& state, StepData& data) {
+    state_ = &state;
+    data_ = &data;
+    first_wall_ = state.now.wall;
+    last_was_linearised_ = false;
+    wall_.work_on(state, data);
+  }
+  /// x of the first guess, extrapolated by `order`.
+  virtual std::vector<double> first_guess(int order) const = 0;
+  /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure
+  virtual Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) = 0;
+  /// The same x again, solved tighter from where pass() left the fields.
+  virtual Pass refine(const PassAccuracy& accuracy) = 0;
+  /// The step was accepted with the last pass.
+  virtual void accept() {}
+  /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
+  /// differences of its positions, are then the wall's.
+  void follow_wall() { move_mesh(wall_displacement(state_->now)); }
+
+  /// |d~ - d^{n-1}| of the last pass, mm.
+  double movement() const {
+    const std::vector<double> now = wall_displacement(state_->now), last = wall_displacement(state_->before[0]);
+    double sum = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) sum += (now[i] - last[i]) * (now[i] - last[i]);
+    return std::sqrt(sum);
+  }
+
+  /// What the momentum balance on the interface lacks when the fluid is given the wall's answer there, relative to the
+  /// force between them: the interface rows of the monolithic residual of this iterate, Euclidean norm.
+  double force_residual() {
+    const Stopwatch watch(cost.fluid_seconds);
+    const auto phase = scene_.profile.phase("assembly: interface balance");
+    Solution moved{state_->now.mesh, state_->now.flow, {}};
+    for (const auto& node : scene_.interface)
+      for (int k = 0; k < n; ++k) {
+        const double gap = state_->now.wall[wall_entry(node, k)] - state_->now.mesh[mesh_entry(node, k)];
+        moved.mesh[mesh_entry(node, k)] += gap;
+        moved.flow[flow_entry(node, k)] += gap / scene_.scheme.step;
+      }
+    FluidInput in = scene_.fluid_input(*state_);
+    in.mesh = moved.mesh.data();
+    in.flow = moved.flow.data();
+    std::vector<double> rows;
+    scene_.fluid->assemble(in, data_->inlet_pressure, rows);
+    double gap = 0, force = 0;
+    for (const auto& node : scene_.interface)
+      for (int k = 0; k < n; ++k) {
+        if (wall_.numbering().wall_rows[wall_entry(node, k)].index < 0) continue;
+        const double load = data_->interface_load[wall_entry(node, k)];
+        const double lack = rows[flow_entry(node, k)] - load;
+        gap += lack * lack;
+        force += load * load;
+      }
+    return force > 0 ? std::sqrt(gap / force) : 0.0;
+  }
+
+  virtual Memory memory() const {
+    Memory memory;
+    if (wall_.linearised()) remember("wall", wall_.linearisation_point(), memory);
+    return memory;
+  }
+  virtual void recall(const Memory& memory) {
+    LinearisationPoint point;
+    if (fsi::recall("wall", memory, point)) wall_.linearise_at(point);
+  }
+
+  CouplingCost cost;  ///< of the step; the stepper sets it back
+
+ protected:
+  static std::size_t mesh_entry(const InterfaceNode& node, int k) {
+    return static_cast<std::size_t>(node.fluid) * n + k;
+  }
+  static std::size_t flow_entry(const InterfaceNode& node, int k) {
+    return static_cast<std::size_t>(node.fluid) * (n + 1) + k;
+  }
+  static std::size_t wall_entry(const InterfaceNode& node, int k) {
+    return static_cast<std::size_t>(node.wall) * (n + 1) + k;
+  }
+  std::size_t interface_size() const { return scene_.interface.size() * n; }
+
+  static LinearSolverFactory<Element> solver_factory(const PartitionedData& options) {
+    if (options.linear_solver == "direct") return {};
+    FastOptions fast;
+    fast.direct_below = options.direct_below;
+    return
+        [fast](const JacobianBlocks<Element>& blocks) { return std::make_unique<FastSolver<Element>>(blocks, fast); };
+  }
+
+  /// The wall's displacement on the interface in a solution.
+  std::vector<double> wall_displacement(const Solution& solution) const {
+    std::vector<double> d(interface_size());
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) d[i * n + k] = solution.wall[wall_entry(scene_.interface[i], k)];
+    return d;
+  }
+
+  /// The mesh follows d on the interface.
+  void move_mesh(const std::vector<double>& d) {
+    const Stopwatch watch(cost.mesh_seconds);
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) state_->now.mesh[mesh_entry(scene_.interface[i], k)] = d[i * n + k];
+    mesh_motion_.solve(state_->now.mesh);
+  }
+
+  /// Loads the wall with the fluid's momentum rows and solves it.
+  void solve_wall(const std::vector<double>& fluid_rows, const PassAccuracy& accuracy) {
+    const Stopwatch watch(cost.wall_seconds);
+    data_->interface_load.assign(state_->now.wall.size(), 0.0);
+    for (const auto& node : scene_.interface)
+      for (int k = 0; k < n; ++k) data_->interface_load[wall_entry(node, k)] = fluid_rows[flow_entry(node, k)];
+    if (accuracy.linearised_wall) {
+      state_->now.wall = first_wall_;
+      solve_linearised("wall", wall_, linearised_tolerance, cost.wall_newton, cost.wall_linear);
+      last_was_linearised_ = true;
+      return;
+    }
+    if (last_was_linearised_) state_->now.wall = first_wall_;
+    last_was_linearised_ = false;
+    NewtonOptions options;
+    options.keep_contraction = wall_contraction;
+    solve_sub_problem("wall", wall_, accuracy.tolerance, options, cost.wall_newton, cost.wall_linear);
+  }
+
+  Scene<Element>& scene_;
+  MeshMotionSolver<Element> mesh_motion_;
+  System<Element> wall_;
+  State* state_ = nullptr;
+  StepData* data_ = nullptr;
+
+ private:
+  static constexpr double linearised_tolerance = 1e-4;
+  /// Of Newton's method on the wall, before its Jacobian is renewed. Fibres that switch on and off make the tangent
+  /// jump to and fro while the iterates of a step lie close together: an old Jacobian is worth keeping longer than
+  /// elsewhere (artery: a quarter of the factorisations that 0.4 takes).
+  static constexpr double wall_contraction = 0.6;
+  std::vector<double> first_wall_;    ///< of the step's first guess
+  bool last_was_linearised_ = false;  ///< the wall's fields are no solution to start from
+};
+
+}  // namespace fsi

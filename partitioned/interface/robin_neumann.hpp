@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/membrane.hpp"
+#include "partitioned/interface/robin_fluid.hpp"
+
+namespace fsi {
+
+/// Robin-Neumann (Badia, Nobile and Vergara 2008), the condition on all components: the fluid solves
+///   R_f + c u = g on the interface,   g = lambda + c v,
+/// with load lambda and velocity v of the wall from the last pass; the wall is loaded with lambda~ = R_f. With
+/// c = alpha times the nodal areas, alpha being the wall's own impedance (membrane.hpp), the fluid meets the inertia
+/// and stiffness that will answer it, and the added mass does no harm. The datum g is written as a displacement, x =
+/// d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave the
+/// interface: r = d~ - d_f.
+template <class Element>
+class RobinNeumann : public InterfaceProblem<Element> {
+  using Base = InterfaceProblem<Element>;
+  using Base::cost, Base::scene_, Base::state_, Base::data_;
+
+ public:
+  static constexpr int n = Element::components;
+
+  RobinNeumann(Scene<Element>& scene, const PartitionedData& options, const StructureData& wall)
+      : Base(scene, options),
+        impedance_(impedance_of(scene, membrane_of(scene, wall))),
+        fluid_(scene, Base::mesh_motion_, impedance_, Base::solver_factory(options)) {
+    for (auto& load : loads_) load.assign(Base::interface_size(), 0.0);
+  }
+
+  void start(State& state, StepData& data) override {
+    Base::start(state, data);
+    fluid_.work_on(state, data, cost);
+  }
+
+  /// The extrapolated displacement, and the load extrapolated alike.
+  std::vector<double> first_guess(int order) const override {
+    static constexpr double weights[3][3] = {{1, 0, 0}, {2, -1, 0}, {3, -3, 1}};
+    order = std::min({order, state_->step, 2});
+    std::vector<double> x = Base::wall_displacement(state_->now);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!fluid_.moves(static_cast<int>(i / n))) continue;
+      double load = 0;
+      for (int level = 0; level < 3; ++level) load += weights[order][level] * loads_[level][i];
+      x[i] += scene_.scheme.step * load / impedance_[i / n];
+    }
+    return x;
+  }
+
+  Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
+    std::vector<double> aim = x;
+    axpy(-1, Base::wall_displacement(state_->before[0]), aim);
+    scale(1 / scene_.scheme.step, aim);
+    fluid_.aim_at(std::move(aim));
+    return refine(accuracy);
+  }
+
+  Pass refine(const PassAccuracy& accuracy) override {
+    const double meshing = cost.mesh_seconds;
+    {
+      const Stopwatch watch(cost.fluid_seconds);
+      solve_sub_problem("fluid", fluid_, accuracy.tolerance, {}, cost.fluid_newton, cost.fluid_linear);
+    }
+    cost.fluid_seconds -= cost.mesh_seconds - meshing;
+    Base::solve_wall(fluid_.fluid_residual(), accuracy);
+    Pass pass;
+    pass.displacement = Base::wall_displacement(state_->now);
+    pass.residual = pass.displacement;
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k)
+        pass.residual[i * n + k] -= state_->now.mesh[Base::mesh_entry(scene_.interface[i], k)];
+    return pass;
+  }
+
+  void accept() override {
+    std::swap(loads_[2], loads_[1]);
+    std::swap(loads_[1], loads_[0]);
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k)
+        loads_[0][i * n + k] = fluid_.fluid_residual()[Base::flow_entry(scene_.interface[i], k)];
+  }
+
+  Memory memory() const override {
+    Memory memory = Base::memory();
+    if (fluid_.linearised()) remember("fluid", fluid_.linearisation_point(), memory);
+    for (std::size_t level = 0; level < loads_.size(); ++level)
+      memory.arrays["load" + std::to_string(level)] = loads_[level];
+    return memory;
+  }
+  void recall(const Memory& memory) override {
+    Base::recall(memory);
+    LinearisationPoint point;
+    if (fsi::recall("fluid", memory, point)) fluid_.linearise_at(point);
+    for (std::size_t level = 0; level < loads_.size(); ++level) {
+      const auto load = memory.arrays.find("load" + std::to_string(level));
+      if (load != memory.arrays.end()) loads_[level] = load->second;
+    }
+  }
+
+ private:
+  static std::vector<double> impedance_of(const Scene<Element>& scene, const Membrane& wall) {
+    std::vector<double> impedance = wall.node_areas;
+    scale(wall.impedance(scene.scheme.acceleration_factor(), scene.scheme.step), impedance);
+    return impedance;
+  }
+
+  std::vector<double> impedance_;  ///< c, per interface node, kPa mm^2 / (mm/ms)
+  RobinFluid<Element> fluid_;
+  std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first
+};
+
+}  // namespace fsi

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solvers/newton.hpp"
+#include "system/newton_stepper.hpp"
+
+namespace fsi {
+
+/// A pass through the sub-problems that found no answer: an inverted element, or a Newton iteration that failed. The
+/// coupling may try again closer to its last good iterate.
+class PassFailure : public std::runtime_error {
+ public:
+  PassFailure(const std::string& problem, std::vector<std::string> history)
+      : std::runtime_error(problem), history_(std::move(history)) {}
+  const std::vector<std::string>& history() const { return history_; }
+
+ private:
+  std::vector<std::string> history_;
+};
+
+/// What the sub-problems of one time step took so far.
+struct CouplingCost {
+  int fluid_newton = 0, wall_newton = 0;  ///< Newton iterations
+  int fluid_linear = 0, wall_linear = 0;  ///< Krylov iterations; 0 with direct solvers
+  double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0;
+};
+
+/// Seconds of the enclosing block, added to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// Solves one sub-problem by Newton's method up to increments below `tolerance` times its iterate. Factors or
+/// preconditioners of earlier passes and steps serve while they contract.
+/// \throws PassFailure
+inline void solve_sub_problem(const std::string& name, NewtonProblem& problem, double tolerance, NewtonOptions options,
+                              int& newton_iterations, int& linear_iterations) {
+  options.tolerance = tolerance;
+  options.reference = problem.size();
+  const NewtonReport report = newton(problem, options);
+  newton_iterations += report.count();
+  linear_iterations += report.linear_iterations();
+  if (report.converged) return;
+  std::vector<std::string> history{fmt::format("{} sub-problem, first residual {:.3e}", name, report.first_residual)};
+  append_history(report, history, "  ");
+  throw PassFailure(fmt::format("the {} sub-problem: Newton's method stopped after {} iterations: {}", name,
+                                report.count(), report.failure),
+                    std::move(history));
+}
+
+/// One linearised step with the Jacobian at hand, whatever it does to the residual.
+inline void solve_linearised(const std::string& name, NewtonProblem& problem, double tolerance, int& newton_iterations,
+                             int& linear_iterations) {
+  if (!std::isfinite(problem.evaluate())) throw PassFailure("the " + name + " sub-problem: inverted element", {});
+  if (!problem.linearised()) problem.linearise();
+  if (!std::isfinite(problem.solve(tolerance)))
+    throw PassFailure(fmt::format("the {} sub-problem: {}", name, problem.linear_failure()), {});
+  newton_iterations += 1;
+  linear_iterations += problem.linear_iterations();
+  problem.move(1);
+}
+
+}  // namespace fsi

@@ -1,0 +1,246 @@
+#include "case/case_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "case/case_hash.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Points = std::vector<std::pair<double, double>>;
+
+TEST(CaseReader, ReadsThePapersCases) {
+  const fs::path folder = FSI_CASE_FILES;
+  const auto neo = read_case(folder / "neo-hookean.toml");
+  EXPECT_EQ(neo.element, "p1");
+  EXPECT_EQ(neo.mesh.level, "coarse");
+  ASSERT_TRUE(neo.fluid && neo.structure && neo.inlet && neo.time);
+  EXPECT_EQ(neo.fluid->viscosity, 3.5e-3);
+  EXPECT_EQ(neo.structure->bulk_modulus, 1e5);
+  EXPECT_EQ(neo.structure->layers.at("media").c10, 3.0);
+  EXPECT_EQ(neo.inlet->points, (Points{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}));
+  EXPECT_EQ(neo.time->steps(), 96);
+  EXPECT_FALSE(neo.load || neo.static_load);
+
+  const auto rivlin = read_case(folder / "mooney-rivlin.toml");
+  EXPECT_EQ(rivlin.structure->layers.at("adventitia").c01, 0.2);
+
+  const auto artery = read_case(folder / "artery.toml");
+  EXPECT_EQ(artery.structure->layers.at("media").k1, 2.3632);
+  EXPECT_EQ(artery.structure->layers.at("adventitia").alpha, 62.0);
+  EXPECT_EQ(artery.structure->layers.at("media").fibre_scale, 1.0);
+}
+
+const std::string minimal_fluid = R"(
+[mesh]
+file = "tube.msh"
+[fluid]
+density = 1
+viscosity = 0.01
+[inlet]
+pressure = [[0, 0], [1, 2.5], [1, 0]]
+[time]
+step = 0.1
+end = 0.3
+)";
+
+TEST(CaseReader, FillsInDefaults) {
+  const auto scene = parse_case(minimal_fluid, "folder/case.toml");
+  EXPECT_EQ(scene.path, "folder/case.toml");
+  EXPECT_EQ(scene.mesh.file, "folder/tube.msh");
+  EXPECT_EQ(scene.title, "");
+  EXPECT_FALSE(scene.structure);
+  EXPECT_EQ(scene.inlet->points, (Points{{0, 0}, {1, 2.5}, {1, 0}}));
+  EXPECT_EQ(scene.time->steps(), 3);
+  EXPECT_EQ(scene.time->newmark_beta, 1.0);
+  EXPECT_EQ(scene.monolithic.linear_solver, "fast");
+  EXPECT_EQ(scene.partitioned.max_iterations, 200);
+  EXPECT_EQ(scene.output.fields.size(), 3u);
+  EXPECT_TRUE(scene.output.energy);
+  EXPECT_EQ(scene.economy.constant_operators, "kept");
+}
+
+TEST(CaseReader, ReadsEveryKey) {
+  const auto scene = parse_case(R"(
+title = "all of it"
+element = "p1"
+[mesh]
+level = "fine"
+[structure]
+density = 1.1
+bulk_modulus = 1e7
+stabilisation = 0.05
+axis_origin = [1, 2, 3]
+axis_direction = [0, 1.5, 0]
+[structure.layers.inside]
+material = "artery"
+c10 = 1
+k1 = 2
+k2 = 3
+alpha = 45
+fibre_scale = 0.5
+[load]
+pressure = 4
+[time]
+step = 0.5
+end = 2
+newmark_beta = 0.25
+newmark_gamma = 0.5
+predictor = 2
+[monolithic]
+linear_solver = "direct"
+mode = "full"
+newton_tolerance = 1e-9
+residual_tolerance = 1e-7
+max_iterations = 7
+linear_tolerance = 1e-6
+max_linear_iterations = 70
+krylov_restart = 40
+[monolithic.multigrid]
+cycle = "v"
+pre_smoothing = 8
+post_smoothing = 0
+damping = 0.3
+levels = 4
+coarsest_nodes = 99
+coarsening = "aggregation"
+fluid_smoother = "vanka"
+wall_smoother = "vanka"
+sub_cycle = "v"
+sub_smoothing = 3
+[partitioned]
+scheme = "constant"
+tolerance = 1e-5
+relaxation = 0.2
+max_iterations = 50
+absolute_tolerance = 1e-9
+force_tolerance = 1e-4
+reused_steps = 3
+columns = 30
+filter = 0.1
+linear_solver = "direct"
+direct_below = 77
+[output]
+fields = []
+every = 0
+checkpoint_every = 5
+energy = false
+[economy]
+constant_operators = "rebuilt"
+)",
+                                "case.toml");
+  EXPECT_EQ(scene.title, "all of it");
+  EXPECT_EQ(scene.economy.constant_operators, "rebuilt");
+  EXPECT_EQ(scene.mesh.level, "fine");
+  EXPECT_TRUE(scene.mesh.file.empty());
+  EXPECT_EQ(scene.structure->stabilisation, 0.05);
+  EXPECT_EQ(scene.structure->axis_origin, (Point{1, 2, 3}));
+  EXPECT_EQ(scene.structure->axis_direction, (Point{0, 1.5, 0}));
+  const auto& layer = scene.structure->layers.at("inside");
+  EXPECT_EQ(layer.material, "artery");
+  EXPECT_EQ(layer.k2, 3);
+  EXPECT_EQ(layer.fibre_scale, 0.5);
+  EXPECT_EQ(scene.load->points, (Points{{0, 4}}));
+  EXPECT_EQ(scene.time->newmark_gamma, 0.5);
+  EXPECT_EQ(scene.time->predictor, 2);
+  EXPECT_EQ(scene.monolithic.mode, "full");
+  EXPECT_EQ(scene.monolithic.residual_tolerance, 1e-7);
+  EXPECT_EQ(scene.monolithic.max_iterations, 7);
+  EXPECT_EQ(scene.monolithic.linear_tolerance, 1e-6);
+  EXPECT_EQ(scene.monolithic.max_linear_iterations, 70);
+  EXPECT_EQ(scene.monolithic.krylov_restart, 40);
+  const auto& multigrid = scene.monolithic.multigrid;
+  EXPECT_EQ(multigrid.cycle, "v");
+  EXPECT_EQ(multigrid.pre_smoothing, 8);
+  EXPECT_EQ(multigrid.post_smoothing, 0);
+  EXPECT_EQ(multigrid.damping, 0.3);
+  EXPECT_EQ(multigrid.levels, 4);
+  EXPECT_EQ(multigrid.coarsest_nodes, 99);
+  EXPECT_EQ(multigrid.coarsening, "aggregation");
+  EXPECT_EQ(multigrid.fluid_smoother, "vanka");
+  EXPECT_EQ(multigrid.wall_smoother, "vanka");
+  EXPECT_EQ(multigrid.sub_cycle, "v");
+  EXPECT_EQ(multigrid.sub_smoothing, 3);
+  EXPECT_EQ(scene.partitioned.relaxation, 0.2);
+  EXPECT_EQ(scene.partitioned.absolute_tolerance, 1e-9);
+  EXPECT_EQ(scene.partitioned.force_tolerance, 1e-4);
+  EXPECT_EQ(scene.partitioned.reused_steps, 3);
+  EXPECT_EQ(scene.partitioned.columns, 30);
+  EXPECT_EQ(scene.partitioned.filter, 0.1);
+  EXPECT_EQ(scene.partitioned.linear_solver, "direct");
+  EXPECT_EQ(scene.partitioned.direct_below, 77);
+  EXPECT_TRUE(scene.output.fields.empty());
+  EXPECT_EQ(scene.output.every, 0);
+  EXPECT_EQ(scene.output.checkpoint_every, 5);
+  EXPECT_FALSE(scene.output.energy);
+}
+
+TEST(CaseReader, ReadsAStaticWall) {
+  const auto scene = parse_case(
+      "mesh.level = 'coarse'\nload.pressure = 2.0\nstatic.load_steps = 5\n"
+      "structure = { density = 1, bulk_modulus = 10, layers.w = { material = 'neo-hookean', c10 = 1 } }\n",
+      "case.toml");
+  EXPECT_EQ(scene.static_load->load_steps, 5);
+  EXPECT_EQ(scene.load->at_end(), 2.0);
+  EXPECT_EQ(scene.structure->layers.count("w"), 1u);
+}
+
+TEST(CaseReader, OverridesEntries) {
+  const auto scene =
+      parse_case(minimal_fluid, "case.toml",
+                 {"fluid.density=2", "title=no quotes needed", "output.fields=[\"pressure\"]", "monolithic.mode=full",
+                  "inlet.pressure=3.5", " inlet.until = 0.2 ", "time.end=0.4", "time.end=0.5"});
+  EXPECT_EQ(scene.fluid->density, 2);
+  EXPECT_EQ(scene.title, "no quotes needed");
+  EXPECT_EQ(scene.output.fields, std::vector<std::string>{"pressure"});
+  EXPECT_EQ(scene.monolithic.mode, "full");
+  EXPECT_EQ(scene.inlet->points, (Points{{0, 3.5}, {0.2, 3.5}, {0.2, 0}}));
+  EXPECT_EQ(scene.time->steps(), 5);
+}
+
+TEST(CaseReader, OverriddenEntriesReplaceTheirRivals) {
+  const auto other_level = parse_case(minimal_fluid, "case.toml", {"mesh.level=fine"});
+  EXPECT_EQ(other_level.mesh.level, "fine");
+  EXPECT_TRUE(other_level.mesh.file.empty());
+
+  auto pulse = minimal_fluid;
+  const std::string table = "pressure = [[0, 0], [1, 2.5], [1, 0]]";
+  pulse.replace(pulse.find(table), table.size(), "pressure = 1\nuntil = 2");
+  const auto with_table = parse_case(pulse, "case.toml", {"inlet.pressure=[[0, 0], [1, 1]]"});
+  EXPECT_EQ(with_table.inlet->points, (Points{{0, 0}, {1, 1}}));
+  const auto with_number = parse_case(pulse, "case.toml", {"inlet.pressure=7"});
+  EXPECT_EQ(with_number.inlet->points, (Points{{0, 7}, {2, 7}, {2, 0}}));
+}
+
+TEST_F(FolderTest, CaseReaderLooksForAnOverriddenMeshInTheWorkingDirectoryFirst) {
+  const auto back = fs::current_path();
+  write_text(folder_ / "here.msh", "");
+  fs::create_directories(folder_ / "cases");
+  write_text(folder_ / "cases" / "case.toml", minimal_fluid);
+  fs::current_path(folder_);
+  const auto here = read_case("cases/case.toml", {"mesh.file=here.msh"});
+  const auto there = read_case("cases/case.toml", {"mesh.file=there.msh"});
+  const auto unchanged = read_case("cases/case.toml");
+  fs::current_path(back);
+  EXPECT_EQ(here.mesh.file, "here.msh");
+  EXPECT_EQ(there.mesh.file, "cases/there.msh");
+  EXPECT_EQ(unchanged.mesh.file, "cases/tube.msh");
+}
+
+TEST(CaseReader, HelpNamesTheKeysOfEverySection) {
+  const auto help = case_keys_help();
+  for (const auto* key :
+       {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step", "static.load_steps",
+        "monolithic.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
+    EXPECT_NE(help.find(key), std::string::npos) << key;
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,197 @@
+// `fast` against the sparse factorisation: the coupled system at a deformed state, its sub-problems, statics, and what
+// happens when the iteration cannot converge.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/threads.hpp"
+#include "condensed_solver/fast_solver.hpp"
+#include "fem/p1_axisymmetric_triangle.hpp"
+#include "mesh/artery_generator.hpp"
+#include "support/linear_systems.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+using Tet = P1Tetrahedron;
+
+FastOptions iterative() {
+  FastOptions options;
+  options.direct_below = 0;
+  return options;
+}
+
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double error = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    error += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return std::sqrt(error / size);
+}
+
+/// A short, coarse artery of fibred wall in its third step: every block of the Jacobian is there.
+LinearisedScene<Tet>& artery() {
+  static LinearisedScene<Tet> scene = [] {
+    auto setup = coupled_case("artery");
+    ArteryOptions options;
+    options.length = 6;
+    return LinearisedScene<Tet>(setup, build_scene(setup, generate_artery(options)), 2);
+  }();
+  return scene;
+}
+
+TEST(FastSolver, SolvesTheCoupledSystemAtADeformedState) {
+  FastSolver<Tet> solver(artery().blocks(), iterative());
+  EXPECT_FALSE(solver.ready());
+  solver.update();
+  EXPECT_TRUE(solver.ready());
+  std::vector<double> x;
+  const auto report = solver.solve(artery().b(), 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.relative_residual, 1e-10);
+  EXPECT_LE(report.iterations, 30);
+  EXPECT_LT(relative_difference(x, artery().solution()), 1e-7);
+}
+
+TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
+  FastSolver<Tet> solver(artery().blocks(), iterative());
+  solver.update();
+  std::vector<double> x, product;
+  JacobianProduct<Tet> jacobian(artery().blocks());
+  int last = 0;
+  for (double tolerance : {1e-1, 1e-3, 1e-6}) {
+    const auto report = solver.solve(artery().b(), tolerance, x);
+    jacobian.multiply(x, product);
+    EXPECT_LE(relative_difference(product, artery().b()), tolerance);
+    EXPECT_NEAR(relative_difference(product, artery().b()), report.relative_residual, 1e-12);
+    EXPECT_GT(report.iterations, last);
+    last = report.iterations;
+  }
+}
+
+TEST(FastSolver, ZeroRightHandSide) {
+  FastSolver<Tet> solver(artery().blocks(), iterative());
+  solver.update();
+  std::vector<double> x{1};
+  const std::vector<double> zero(artery().b().size(), 0.0);
+  EXPECT_TRUE(solver.solve(zero, 1e-8, x).converged);
+  EXPECT_EQ(x, zero);
+}
+
+TEST(FastSolver, SmallSystemsAreFactorised) {
+  FastSolver<Tet> solver(artery().blocks());
+  solver.update();
+  EXPECT_TRUE(solver.uses_factorisation());
+  EXPECT_STREQ(solver.preparation(), "factorisation");
+  std::vector<double> x;
+  EXPECT_TRUE(solver.solve(artery().b(), 1e-8, x).converged);
+  EXPECT_LT(relative_difference(x, artery().solution()), 1e-12);
+}
+
+TEST(FastSolver, AFactorisationFollowsWhenTheIterationFails) {
+  FastOptions options = iterative();
+  options.max_iterations = 2;
+  FastSolver<Tet> solver(artery().blocks(), options);
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(artery().b(), 1e-9, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_TRUE(solver.uses_factorisation());
+  EXPECT_LT(relative_difference(x, artery().solution()), 1e-9);
+}
+
+TEST(FastSolver, SameBitsForAnyNumberOfThreads) {
+  const int before = threads();
+  std::vector<double> one, two;
+  for (const auto& [count, x] : {std::pair(1, &one), std::pair(2, &two)}) {
+    set_threads(count);
+    FastSolver<Tet> solver(artery().blocks(), iterative());
+    solver.update();
+    solver.solve(artery().b(), 1e-8, *x);
+  }
+  set_threads(before);
+  EXPECT_EQ(one, two);
+}
+
+/// A sub-problem of the artery under its own numbering, assembled at the coupled state.
+template <class Element>
+void expect_sub_problem_solved(Scene<Element>& scene, Numbering numbering, int most_iterations) {
+  System<Element> system("part", scene, std::move(numbering));
+  State state = scene.at_rest();
+  StepData data;
+  data.inlet_pressure = 1.332;
+  if (scene.wall) data.acceleration_history.assign(scene.at_rest().wall_velocity.size(), 0.0);
+  if (scene.wall) data.interface_load.assign(scene.at_rest().now.wall.size(), 1e-3);
+  if (scene.scheme.is_static()) data.acceleration_history.clear();
+  system.work_on(state, data);
+  system.evaluate();
+  system.linearise();
+  DirectLinearSolver<Element> direct(system.blocks());
+  direct.update();
+  std::vector<double> expected, x;
+  direct.solve(system.residual(), 0, expected);
+  FastSolver<Element> solver(system.blocks(), iterative());
+  solver.update();
+  const auto report = solver.solve(system.residual(), 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.iterations, most_iterations);
+  EXPECT_LT(relative_difference(x, expected), 1e-7);
+}
+
+TEST(FastSolver, SolvesTheFluidAlone) {
+  expect_sub_problem_solved(artery().scene(), number_fluid(artery().scene()), 30);
+}
+
+TEST(FastSolver, SolvesTheWallAlone) {
+  expect_sub_problem_solved(artery().scene(), number_wall(artery().scene()), 40);
+}
+
+TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
+  auto setup = coupled_case("neo-hookean");
+  setup.time->step = 5;
+  setup.time->end = 50;
+  ArteryOptions options;
+  options.length = 6;
+  const auto parts = build_scene(setup, generate_artery(options));
+  LinearisedScene<Tet> scene(setup, *parts, 0, 1);
+  FastSolver<Tet> solver(scene.blocks(), iterative());
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(scene.b(), 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.iterations, 60);
+  EXPECT_LT(relative_difference(x, scene.solution()), 1e-7);
+}
+
+/// A static, pressurised wall: no inertia holds the momentum matrix together, so that sweeps without coarse levels need
+/// hundreds of iterations.
+std::unique_ptr<Scene<Tet>> static_wall(const std::string& level) {
+  auto setup = coupled_case("neo-hookean");
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.time.reset();
+  setup.static_load = StaticData{};
+  setup.load = PressureTable{{{0.0, 0.1}}};
+  ArteryOptions options = artery_level(level);
+  options.length = 6;
+  return build_scene(setup, generate_artery(options));
+}
+
+TEST(FastSolver, SolvesAStaticWallOnACoarseMesh) {
+  const auto scene = static_wall("coarse");
+  expect_sub_problem_solved(*scene, number_wall(*scene), 40);
+}
+
+TEST(FastSolver, SolvesAStaticWallOnAFinerMeshInAboutAsManyIterations) {
+  const auto scene = static_wall("intermediate");
+  expect_sub_problem_solved(*scene, number_wall(*scene), 45);
+}
+
+}  // namespace
+
+}  // namespace fsi::test

@@ -1,0 +1,157 @@
+// Block products beside dense ones; coarse levels for elasticity as a correction around Jacobi steps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/threads.hpp"
+#include "condensed_solver/rigid_motion_multigrid.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+/// A lattice of m x m x m nodes, held at x = 0, with springs along edges and diagonals: k d d^T for a spring of
+/// direction d. Like elasticity it hardly sees rigid motions.
+struct Lattice {
+  BlockMatrix<3, 3> matrix;
+  std::vector<std::array<double, 3>> points;
+
+  explicit Lattice(int m) {
+    auto graph = std::make_shared<NodeGraph>();
+    graph->offsets.push_back(0);
+    const auto for_neighbours = [m](int i, auto visit) {
+      const int at[3] = {i / (m * m), i / m % m, i % m};
+      for (int x = at[0] - 1; x <= at[0] + 1; ++x)
+        for (int y = at[1] - 1; y <= at[1] + 1; ++y)
+          for (int z = at[2] - 1; z <= at[2] + 1; ++z)
+            visit((x * m + y) * m + z, std::array<double, 3>{double(x - at[0]), double(y - at[1]), double(z - at[2])},
+                  x < m && std::min(y, z) >= 0 && std::max(y, z) < m, x < 0);
+    };
+    for (int i = 0; i < m * m * m; ++i) {
+      points.push_back({double(i / (m * m)), double(i / m % m), double(i % m)});
+      for_neighbours(i, [&](int j, const auto&, bool inside, bool wall) {
+        if (inside && !wall) graph->columns.push_back(j);
+      });
+      graph->offsets.push_back(graph->columns.size());
+    }
+    matrix = BlockMatrix<3, 3>(graph);
+    for (int i = 0; i < m * m * m; ++i) {
+      double* diagonal = matrix.block(graph->find(i, i));
+      for_neighbours(i, [&](int j, const auto& d, bool inside, bool wall) {
+        if (!inside || (j == i && !wall)) return;
+        double* block = wall ? nullptr : matrix.block(graph->find(i, j));
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) {
+            diagonal[r * 3 + c] += d[r] * d[c];
+            if (block) block[r * 3 + c] -= d[r] * d[c];
+          }
+      });
+    }
+  }
+};
+
+/// Mean contraction of the residual over the second ten of twenty V-cycles with one damped Jacobi step before and
+/// after.
+double contraction(int m, bool coarse_levels, std::vector<float>* result = nullptr) {
+  const Lattice lattice(m);
+  RigidMotionMultigrid<3> multigrid;
+  multigrid.set_up(lattice.matrix, lattice.points, {});
+  EXPECT_GE(multigrid.levels(), 2);
+  const RegisterBlocks<3, 3> a(lattice.matrix);
+  const std::size_t nodes = lattice.points.size();
+  std::vector<float> b(nodes * 4, 0.0f), x(b), r(b);
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (int k = 0; k < 3; ++k) b[i * 4 + k] = static_cast<float>((i * 3 + k) * 37 % 101) - 50;
+  const auto find_residual = [&] {
+    a.multiply(x, r);
+    double sum = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      r[i] = b[i] - r[i];
+      sum += double(r[i]) * r[i];
+    }
+    return std::sqrt(sum);
+  };
+  const auto jacobi = [&] {
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (int k = 0; k < 3; ++k)
+        x[i * 4 + k] +=
+            0.5f * r[i * 4 + k] / float(lattice.matrix.block(lattice.matrix.graph->find(int(i), int(i)))[k * 4]);
+  };
+  double first = find_residual();
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    if (cycle == 10) first = find_residual();
+    jacobi();
+    find_residual();
+    if (coarse_levels) {
+      multigrid.correct(r, x);
+      find_residual();
+    }
+    jacobi();
+    find_residual();
+  }
+  if (result) *result = x;
+  return std::pow(find_residual() / first, 0.1);
+}
+
+TEST(RigidMotionMultigrid, ContractsAboutIndependentlyOfSize) {
+  const double small = contraction(8, true), large = contraction(14, true);
+  EXPECT_LT(small, 0.85);
+  EXPECT_LT(large, 0.85);
+  EXPECT_GT(contraction(14, false), 0.95);
+}
+
+TEST(RigidMotionMultigrid, SameBitsForAnyNumberOfThreads) {
+  const int before = threads();
+  std::vector<float> one, two;
+  set_threads(1);
+  contraction(16, true, &one);
+  set_threads(2);
+  contraction(16, true, &two);
+  set_threads(before);
+  EXPECT_EQ(one, two);
+}
+
+TEST(RigidMotionMultigrid, NothingCouplesNothingIsCorrected) {
+  auto graph = std::make_shared<NodeGraph>();
+  std::vector<std::array<double, 3>> points(100);
+  for (int i = 0; i <= 100; ++i) graph->offsets.push_back(i);
+  for (int i = 0; i < 100; ++i) graph->columns.push_back(i);
+  BlockMatrix<3, 3> a(graph);
+  for (int i = 0; i < 100; ++i)
+    for (int k = 0; k < 3; ++k) a.block(i)[k * 4] = 1;
+  RigidMotionMultigrid<3> multigrid;
+  multigrid.set_up(a, points, {});
+  EXPECT_EQ(multigrid.levels(), 1);
+  const std::vector<float> r(400, 1.0f);
+  std::vector<float> x(400, 2.0f);
+  multigrid.correct(r, x);
+  EXPECT_EQ(x, std::vector<float>(400, 2.0f));
+}
+
+TEST(BlockProduct, EqualsTheDenseProduct) {
+  // A: 2 x 3 blocks of 1 x 2, B: 3 x 2 blocks of 2 x 3; the middle block row of B is empty but for column 1.
+  auto left = std::make_shared<NodeGraph>(NodeGraph{{0, 2, 4}, {0, 2, 1, 2}});
+  auto right = std::make_shared<NodeGraph>(NodeGraph{{0, 1, 2, 4}, {0, 1, 0, 1}});
+  BlockMatrix<1, 2> a(left);
+  BlockMatrix<2, 3> b(right);
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] = double(i) - 3;
+  for (std::size_t i = 0; i < b.values.size(); ++i) b.values[i] = double(i * i % 13);
+  const auto dense = [](const auto& m, int rows, int columns, int row, int column) {
+    const int at = m.graph->find(row / rows, column / columns);
+    return at < 0 ? 0.0 : m.block(at)[row % rows * columns + column % columns];
+  };
+  const auto c = block_product(a, b, 2);
+  const auto t = transposed(c, 2);
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 6; ++column) {
+      double sum = 0;
+      for (int k = 0; k < 6; ++k) sum += dense(a, 1, 2, row, k) * dense(b, 2, 3, k, column);
+      EXPECT_EQ(dense(c, 1, 3, row, column), sum);
+      EXPECT_EQ(dense(t, 3, 1, column, row), sum);
+    }
+  EXPECT_EQ(c.graph->offsets, (std::vector<int>{0, 2, 4}));
+}
+
+}  // namespace
+
+}  // namespace fsi::test
