@@ -20,13 +20,13 @@ struct Setup {
     set_threads(thread_count);
     scene = build_scene(setup, generate_artery(artery_level("intermediate")));
     state = moved(*scene);
-    data.acceleration_history.assign(state.wall_velocity.size(), 0.0);
+    data.rates = scene->integrator->rates(state, setup.time->step);
   }
   void fluid(FluidDerivatives derivatives) {
-    scene->fluid->assemble(scene->fluid_input(state), 0.0, fluid_residual, derivatives);
+    scene->fluid->assemble(scene->fluid_input(state, data.rates), {}, fluid_residual, derivatives);
   }
   void wall(bool derivatives) {
-    scene->wall->assemble(scene->wall_input(state, data), 0.0, state.now.wall, wall_residual, derivatives);
+    scene->wall->assemble(scene->wall_input(state, data.rates), 0.0, state.now.wall, wall_residual, derivatives);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "system/system.hpp"
 #include "time/loads.hpp"
 
@@ -31,7 +32,7 @@ struct Coupled {
           return direct;
         });
     state = scene->at_rest();
-    data = loads->next(state, scene->scheme);
+    data = loads->next(state, *scene->integrator);
     system->work_on(state, data);
     system->evaluate();
     system->linearise();

@@ -16,6 +16,7 @@
 #include "partitioned/interface/robin_neumann.hpp"
 #include "partitioned/schemes.hpp"
 #include "time/loads.hpp"
+#include "time/predictor.hpp"
 
 namespace fsi {
 
@@ -46,7 +47,7 @@ class CouplingStepper : public Stepper {
   bool reports_coupling() const override { return true; }
 
   StepReport advance(State& state) override {
-    StepData data = loads_.next(state, scene_.scheme);
+    StepData data = loads_.next(state, *scene_.integrator);
     report_ = {};
     coupling_ = {};
     problem_->cost = {};
@@ -142,10 +143,9 @@ class CouplingStepper : public Stepper {
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
   void start(State& state, StepData& data) {
-    TimeScheme scheme = scene_.scheme;
-    scheme.predictor = order_;
-    scheme.predict(state);
-    scene_.impose_interface(state);
+    predict(state, order_, data.time);
+    scene_.impose_conditions(state.now);
+    scene_.impose_interface(state, data.rates);
     problem_->start(state, data);
   }
 
@@ -234,7 +234,7 @@ class CouplingStepper : public Stepper {
     }
     problem_->accept();
     if (scheme_.one_pass) problem_->follow_wall();
-    scene_.scheme.accept(state, data);
+    scene_.integrator->accept(state, data);
     const CouplingCost& cost = problem_->cost;
     report_.newton_iterations = cost.fluid_newton + cost.wall_newton;
     report_.linear_iterations = cost.fluid_linear + cost.wall_linear;

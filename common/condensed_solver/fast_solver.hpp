@@ -139,8 +139,8 @@ class FastSolver : public LinearSolver {
 
   void find_shape_derivatives() {
     iterative_->shape_derivatives = false;
-    if (blocks_.mesh_motion)
-      for (double value : blocks_.mesh_motion->values)
+    if (blocks_.shape_derivatives)
+      for (double value : blocks_.shape_derivatives->values)
         if (value != 0) {
           iterative_->shape_derivatives = true;
           break;
@@ -233,7 +233,7 @@ class FastSolver : public LinearSolver {
     if (!any || !it.shape_derivatives) return;
     set_zero(it.mesh);
     it.extension->solve(it.mesh_right, it.mesh);
-    multiply(*blocks_.mesh_motion, it.mesh, it.flow_rows);
+    multiply(*blocks_.shape_derivatives, it.mesh, it.flow_rows);
     std::vector<double>& all = it.jacobian_times_x;
     all.assign(it.residual.size(), 0.0);
     add_to_system(numbering.flow_rows, it.flow_rows, all);

@@ -29,7 +29,7 @@ class VelocityPressureLayout {
 
   explicit VelocityPressureLayout(const JacobianBlocks<Element>& blocks) {
     const Numbering& numbering = blocks.numbering;
-    if (!blocks.scene.scheme.is_static()) wall_factor = blocks.scene.scheme.step;
+    wall_factor = numbering.interface.period;
     struct Node {
       int place;  ///< in the whole mesh; the fluid first where both are
       bool wall;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
+#include "mesh/group_names.hpp"
 #include "scene/scene.hpp"
 #include "time/loads.hpp"
 
@@ -17,7 +18,7 @@ class EnergyBalance {
   EnergyBalance(const Scene<Element>& scene, const Loads& loads, const State& state)
       : scene_(scene), loads_(loads), acceleration_(state.wall_acceleration) {
     energy_ = terms(state).energy();
-    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.scheme.is_static()};
+    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static()};
   }
 
   const EnergyParts& parts() const { return parts_; }
@@ -36,14 +37,18 @@ class EnergyBalance {
   [[gnu::noinline]] EnergyRecord terms(const State& state) const {
     const Solution &now = state.before[0], &old = state.before[1];
     EnergyRecord record;
+    const double step = state.step > 0 ? loads_.step_length(state.step) : loads_.step_length(1);
     if (scene_.fluid) {
-      const double step = scene_.scheme.step;
+      const double rate = 1.0 / step;
       FluidInput in;
+      in.step = step;
       in.flow = now.flow.data();
-      in.flow_old = old.flow.data();
+      in.flow_reference = old.flow.data();
+      in.flow_factor = rate;
       if (scene_.coupled()) {
         in.mesh = now.mesh.data();
-        in.mesh_old = old.mesh.data();
+        in.mesh_reference = old.mesh.data();
+        in.mesh_factor = rate;
       }
       const FluidEnergy fluid = scene_.fluid->energy(in);
       record.fluid_kinetic = fluid.kinetic;
@@ -52,22 +57,29 @@ class EnergyBalance {
       record.fluid_mesh_motion = fluid.mesh_motion;
       record.fluid_divergence = fluid.divergence;
       record.fluid_stabilisation = fluid.stabilisation;
-      record.inlet_kinetic = step * scene_.fluid->inlet_kinetic_flow(now.flow);
-      record.outlet_kinetic = step * scene_.fluid->outlet_kinetic_flow(now.flow);
-      const double pressure = loads_.inlet_pressure(state.step);
-      if (pressure != 0) record.inlet_work = step * pressure * scene_.fluid->inlet_flow(now.flow);  // never -0
+      const auto pressures = loads_.opening_pressures(state.step);
+      const auto& open = scene_.fluid->open_boundaries();
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        const double kinetic = step * scene_.fluid->kinetic_outflow(open[i], now.flow);
+        if (open[i].name() == group::inlet)
+          record.inlet_kinetic -= kinetic;
+        else
+          record.outlet_kinetic += kinetic;
+        if (i < pressures.size() && pressures[i] != 0)
+          record.inlet_work -= step * pressures[i] * open[i].outflow(now.flow);
+      }
     }
     if (scene_.wall) {
       WallStep in;
       in.wall = now.wall.data();
       in.wall_old = old.wall.data();
-      if (!scene_.scheme.is_static()) {
+      if (!scene_.is_static()) {
         in.velocity = state.wall_velocity.data();
         in.acceleration = state.wall_acceleration.data();
         in.acceleration_old = acceleration_.data();
-        in.step = scene_.scheme.step;
-        in.beta = scene_.scheme.beta;
-        in.gamma = scene_.scheme.gamma;
+        in.step = step;
+        in.beta = scene_.integrator->newmark().beta;
+        in.gamma = scene_.integrator->newmark().gamma;
       }
       const WallEnergy wall = scene_.wall->energy(in);
       record.wall_kinetic = wall.kinetic;

@@ -71,7 +71,8 @@ struct WallAtFailure {
 void add_load(WallAtFailure& wall, const Loads& loads, int last_step, bool at_rest) {
   const int first = at_rest ? last_step : 1;
   for (int step = first; step <= last_step; ++step) {
-    const double load = std::max(loads.inlet_pressure(step), loads.wall_pressure(step));
+    double load = loads.wall_pressure(step);
+    for (double pressure : loads.opening_pressures(step)) load = std::max(load, pressure);
     wall.load = std::max(wall.load, load);
     wall.mean_load += load / (last_step - first + 1);
   }

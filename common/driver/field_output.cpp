@@ -43,7 +43,7 @@ FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, i
     if (!grid.fields.empty()) grids_.push_back(std::move(grid));
   };
   if (scene.fluid) describe(grid_of("fluid", scene.fluid->part()), scene.coupled(), true);
-  if (scene.wall) describe(grid_of("wall", scene.wall->part()), true, !scene.scheme.is_static());
+  if (scene.wall) describe(grid_of("wall", scene.wall->part()), true, !scene.is_static());
   if (grids_.empty()) return;
   const double step_size = setup.time ? setup.time->step : 1.0 / steps;
   const auto planned = planned_field_steps(steps, setup.output.every, step_size);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/boundary.hpp"
+#include "mesh/group_names.hpp"
 
 namespace fsi {
 
@@ -45,16 +46,18 @@ Observables::Observables(const Case& setup, const TetrahedralMesh& mesh, const S
 
 void Observables::write(const State& state, ResultFolder& folder) const {
   constexpr int n = P1Tetrahedron::components;
+  using Mixed = MixedLayout<n>;
   if (!centre_line_.empty()) {
     std::vector<double> pressure(centre_line_.size(), 0.0);
     for (std::size_t i = 0; i < centre_line_.size(); ++i)
       for (int a = 0; a < 4; ++a)
-        pressure[i] += centre_line_[i].weights[a] *
-                       state.now.flow[static_cast<std::size_t>(centre_line_[i].nodes[a]) * (n + 1) + n];
+        pressure[i] += centre_line_[i].weights[a] * state.now.flow[Mixed::scalar(centre_line_[i].nodes[a])];
     folder.write_centerline(state.time, centre_z_, pressure);
-    folder.write_flow(state.time,
-                      {scene_.fluid->inlet_flow(state.now.flow), scene_.fluid->outlet_flow(state.now.flow),
-                       scene_.fluid->inlet_pressure(state.now.flow), scene_.fluid->outlet_pressure(state.now.flow)});
+    const auto &inlet = *scene_.fluid->open_boundary(group::inlet),
+               &outlet = *scene_.fluid->open_boundary(group::outlet);
+    const auto& flow = state.now.flow;
+    folder.write_flow(state.time, {-inlet.outflow(flow), outlet.outflow(flow), inlet.mean_pressure(flow),
+                                   outlet.mean_pressure(flow)});
   }
   if (!wall_line_.empty()) {
     const AxisFrame frame(axis_);
@@ -62,8 +65,7 @@ void Observables::write(const State& state, ResultFolder& folder) const {
     for (std::size_t i = 0; i < wall_line_.size(); ++i)
       for (int a = 0; a < 3; ++a)
         for (int k = 0; k < n; ++k) {
-          const double d = wall_line_[i].weights[a] / angles *
-                           state.now.wall[static_cast<std::size_t>(wall_line_[i].nodes[a]) * (n + 1) + k];
+          const double d = wall_line_[i].weights[a] / angles * state.now.wall[Mixed::vector(wall_line_[i].nodes[a], k)];
           radial[i / angles] += d * wall_line_[i].direction[k];
           axial[i / angles] += d * frame.along[k];
         }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace fsi {
 
 namespace {
@@ -25,6 +27,7 @@ void for_each_array(StateType& state, Visit visit) {
 void store(const State& state, const Memory& memory, Checkpoint& checkpoint) {
   checkpoint.step = state.step;
   checkpoint.time = state.time;
+  checkpoint.arrays["level_times"] = {state.times.begin(), state.times.end()};
   for_each_array(state,
                  [&](const std::string& name, const std::vector<double>& array) { checkpoint.arrays[name] = array; });
   for (const auto& [name, array] : memory.arrays) checkpoint.arrays[memory_prefix + name] = array;
@@ -35,6 +38,8 @@ Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, 
   for_each_array(state, [&](const std::string& name, std::vector<double>& array) {
     array = require_size(file, checkpoint, name, array.size());
   });
+  const auto& times = require_size(file, checkpoint, "level_times", state.times.size());
+  std::copy(times.begin(), times.end(), state.times.begin());
   state.step = static_cast<int>(checkpoint.step);
   state.time = checkpoint.time;
   state.now = state.before[0];

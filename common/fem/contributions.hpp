@@ -17,11 +17,11 @@ struct Integrand {
   Vec3<T> scalar_flux;
 };
 
-/// Residual rows of one pack, [node][component], the scalar test function's row last, with as many derivatives as the
-/// integrand carries.
+/// Residual rows of one pack, [node][component], the scalar test function's row last (zero at nodes without scalars),
+/// with as many derivatives as the integrand carries.
 template <class Element, class T>
 struct ElementRows {
-  static constexpr int rows = Element::components + 1;
+  static constexpr int rows = MixedLayout<Element::components>::entries;
   T at[Element::nodes][rows];
 
   void set_zero() {
@@ -30,27 +30,30 @@ struct ElementRows {
   }
 
   /// Adds the integrand's terms with test gradients.
-  void add_fluxes(const Integrand<T>& f, const PointGeometry<Element::nodes>& g, Pack weight) {
+  void add_fluxes(const Integrand<T>& f, const QuadraturePoint<Element>& g, Pack weight) {
     for (int a = 0; a < Element::nodes; ++a) {
-      const Vec3<Pack> weighted = weight * g.gradient[a];
+      const Vec3<Pack> weighted = weight * g.vectors().gradient[a];
       for (int k = 0; k < Element::components; ++k) {
         const int i = Element::axis[k];
         at[a][k] += f.flux(i, 0) * weighted[0] + f.flux(i, 1) * weighted[1] + f.flux(i, 2) * weighted[2];
       }
-      if constexpr (Element::axisymmetric) at[a][0] += f.flux(1, 1) * (weight * g.hoop[a]);
-      if (a < Element::scalar_nodes)
-        at[a][rows - 1] +=
-            f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
+      if constexpr (Element::axisymmetric) at[a][0] += f.flux(1, 1) * (weight * g.vectors().hoop[a]);
+    }
+    for (int a = 0; a < Element::scalar_nodes; ++a) {
+      const Vec3<Pack> weighted = weight * g.scalars().gradient[a];
+      at[a][rows - 1] +=
+          f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
     }
   }
 
   /// Adds the integrand's terms with test values.
-  void add_sources(const Integrand<T>& f, const PointGeometry<Element::nodes>& g) {
+  void add_sources(const Integrand<T>& f, const QuadraturePoint<Element>& g) {
     for (int a = 0; a < Element::nodes; ++a) {
-      const Pack weighted = g.weight * Pack(g.shape[a]);
+      const Pack weighted = g.weight * Pack(g.vectors().value[a]);
       for (int k = 0; k < Element::components; ++k) at[a][k] += f.source[Element::axis[k]] * weighted;
-      if (a < Element::scalar_nodes) at[a][rows - 1] += f.scalar_source * weighted;
     }
+    for (int a = 0; a < Element::scalar_nodes; ++a)
+      at[a][rows - 1] += f.scalar_source * (g.weight * Pack(g.scalars().value[a]));
   }
 };
 
@@ -85,7 +88,7 @@ inline void integrate(ElementRows<Element, T>& rows, const typename Element::Geo
   }
 }
 
-/// Adds a pack's residual to the global one, (components + 1) entries per node.
+/// Adds a pack's residual to the global one, in the mixed layout.
 template <class Element, class T>
 inline void scatter_residual(const ElementRows<Element, T>& rows,
                              const typename ElementPacks<Element>::ElementPack& pack, double* residual) {
@@ -93,17 +96,17 @@ inline void scatter_residual(const ElementRows<Element, T>& rows,
   for (int a = 0; a < Element::nodes; ++a)
     for (int lane = 0; lane < pack_width; ++lane)
       if (pack.position[a * Element::nodes + a][lane] >= 0) {
-        double* to = residual + static_cast<std::size_t>(pack.node[a][lane]) * n;
+        double* to = residual + MixedLayout<Element::components>::vector(pack.node[a][lane]);
         for (int r = 0; r < n; ++r) to[r] += value_of(rows.at[a][r])[lane];
       }
 }
 
-/// Adds the derivatives with respect to node b's seeds First ... First + Columns - 1 to blocks (a, b) of a matrix with
-/// `components + 1` rows and `Columns` columns a block.
+/// Adds the derivatives with respect to node b's seeds First ... First + Columns - 1 to blocks (a, b) of a matrix whose
+/// blocks have the rows of the mixed layout and `Columns` columns.
 template <class Element, int Seeds, int First, int Columns>
 inline void scatter_blocks(const ElementRows<Element, Dual<Seeds>>& rows,
                            const typename ElementPacks<Element>::ElementPack& pack, int b, double* blocks) {
-  constexpr int n = Element::components + 1;
+  constexpr int n = ElementRows<Element, Dual<Seeds>>::rows;
   for (int a = 0; a < Element::nodes; ++a) {
     const auto& position = pack.position[a * Element::nodes + b];
     for (int lane = 0; lane < pack_width; ++lane)

@@ -1,52 +1,91 @@
 #pragma once
 
+#include <cassert>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "fem/nodal_layout.hpp"
+#include "math/dual.hpp"
 #include "math/tensor.hpp"
 
 namespace fsi {
 
-/// Integrals of N_a n over reference facets, `stride` entries per node (the first `components` used): times a pressure
-/// the load of that pressure, as a dot product with a velocity the flow through the surface.
-template <class Element, class Point, class Facet>
-std::vector<double> normal_weights(const std::vector<Point>& x, const std::vector<Facet>& facets, int stride) {
+/// Reference positions of a facet's nodes.
+template <class Facet, class Point, class Nodes>
+void facet_corners(const std::vector<Point>& x, const Nodes& facet, Vec3<Pack> (&corner)[Facet::nodes]) {
+  for (int a = 0; a < Facet::nodes; ++a)
+    for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
+}
+
+/// Integrals of N_a n over reference facets in a layout's vectors: times a pressure the load of that pressure, as a dot
+/// product with a velocity the flow through the surface.
+template <class Element, class Layout, class Point, class Facet>
+std::vector<double> normal_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   using F = typename Element::Facet;
-  std::vector<double> weights(x.size() * stride, 0.0);
+  std::vector<double> weights(Layout::size(static_cast<int>(x.size())), 0.0);
   for (const auto& facet : facets) {
     Vec3<Pack> corner[F::nodes];
-    for (int a = 0; a < F::nodes; ++a)
-      for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
+    facet_corners<F>(x, facet, corner);
     for (int q = 0; q < F::points; ++q) {
       const auto normal = F::weighted_normal(corner, q);
       for (int a = 0; a < F::nodes; ++a)
         for (int k = 0; k < Element::components; ++k)
-          weights[static_cast<std::size_t>(facet[a]) * stride + k] += F::shape(q, a) * normal[Element::axis[k]][0];
+          weights[Layout::vector(facet[a], k)] += F::shape(q, a) * normal[Element::axis[k]][0];
     }
   }
   return weights;
 }
 
-/// Integrals of N_a over reference facets, one per node, mm^2.
+/// Integrals of the scalar fields' shape functions over reference facets, one number per node, mm^2: as a dot product
+/// with a pressure its integral.
 template <class Element, class Point, class Facet>
-std::vector<double> area_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
+std::vector<double> scalar_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   using F = typename Element::Facet;
   std::vector<double> weights(x.size(), 0.0);
   for (const auto& facet : facets) {
     Vec3<Pack> corner[F::nodes];
-    for (int a = 0; a < F::nodes; ++a)
-      for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
+    facet_corners<F>(x, facet, corner);
     for (int q = 0; q < F::points; ++q) {
       const auto normal = F::weighted_normal(corner, q);
       const double area = sqrt(dot(normal, normal))[0];
-      for (int a = 0; a < F::nodes; ++a) weights[facet[a]] += F::shape(q, a) * area;
+      for (int a = 0; a < F::scalar_nodes; ++a) weights[facet[a]] += F::scalar_shape(q, a) * area;
     }
   }
   return weights;
 }
 
-/// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3. \param velocity  in the first
-/// `components` of `components + 1` numbers per node
+/// The area that belongs to each node, mm^2: positive, and adding up to the surface's. The integral of N_a where the
+/// vectors' shape functions are linear; else each facet's area is shared out in the ratio of the integrals of N_a^2
+/// (Hinton, Rock and Zienkiewicz), since the integral of a quadratic shape function is not positive.
+template <class Element, class Point, class Facet>
+std::vector<double> nodal_areas(const std::vector<Point>& x, const std::vector<Facet>& facets) {
+  using F = typename Element::Facet;
+  std::vector<double> areas(x.size(), 0.0);
+  for (const auto& facet : facets) {
+    Vec3<Pack> corner[F::nodes];
+    facet_corners<F>(x, facet, corner);
+    double total = 0, squares = 0, square[F::nodes] = {};
+    for (int q = 0; q < F::points; ++q) {
+      const auto normal = F::weighted_normal(corner, q);
+      const double area = sqrt(dot(normal, normal))[0];
+      total += area;
+      for (int a = 0; a < F::nodes; ++a) {
+        if constexpr (Element::order == 1) {
+          areas[facet[a]] += F::shape(q, a) * area;
+        } else {
+          square[a] += F::shape(q, a) * F::shape(q, a) * area;
+          squares += F::shape(q, a) * F::shape(q, a) * area;
+        }
+      }
+    }
+    if constexpr (Element::order > 1)
+      for (int a = 0; a < F::nodes; ++a) areas[facet[a]] += total * square[a] / squares;
+  }
+  return areas;
+}
+
+/// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3. \param velocity  the vectors of a mixed
+/// layout
 template <class Element, class Point, class Facet>
 double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facets,
                     const std::vector<double>& velocity) {
@@ -55,15 +94,13 @@ double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facet
   double flux = 0;
   for (const auto& facet : facets) {
     Vec3<Pack> corner[F::nodes];
-    for (int a = 0; a < F::nodes; ++a)
-      for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
+    facet_corners<F>(x, facet, corner);
     for (int q = 0; q < F::cubic_points; ++q) {
       const auto normal = F::cubic_weighted_normal(corner, q);
       double square = 0, through = 0;
       for (int k = 0; k < n; ++k) {
         double u = 0;
-        for (int a = 0; a < F::nodes; ++a)
-          u += F::cubic_shape(q, a) * velocity[static_cast<std::size_t>(facet[a]) * (n + 1) + k];
+        for (int a = 0; a < F::nodes; ++a) u += F::cubic_shape(q, a) * velocity[MixedLayout<n>::vector(facet[a], k)];
         square += u * u;
         through += u * normal[Element::axis[k]][0];
       }
@@ -74,14 +111,16 @@ double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facet
 }
 
 /// Adds the load of a pressure that follows the surface, (p n, v) over the current facets (outward normals), and, if
-/// blocks are passed, its derivative with respect to the nodes' displacement. \param solution  displacement in the
-/// first `components` of `components + 1` numbers per node
+/// blocks are passed, its derivative with respect to the nodes' displacement. \param solution  displacements, the
+/// vectors of a mixed layout
 template <class Element, class Point, class Facet>
-void add_follower_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure,
-                           const std::vector<double>& solution, std::vector<double>& residual,
-                           BlockMatrix<Element::components + 1, Element::components + 1>* jacobian) {
+void add_follower_pressure(
+    const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const std::vector<double>& solution,
+    std::vector<double>& residual,
+    BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>* jacobian) {
   using F = typename Element::Facet;
   constexpr int n = Element::components;
+  using Layout = MixedLayout<n>;
   using T = Dual<n>;
   for (const auto& facet : facets)
     for (int b = 0; b < F::nodes; ++b) {  // derivatives with respect to one node at a time
@@ -89,22 +128,27 @@ void add_follower_pressure(const std::vector<Point>& x, const std::vector<Facet>
       for (int a = 0; a < F::nodes; ++a) {
         for (int i = 0; i < 3; ++i) corner[a][i] = T(x[facet[a]][i]);
         for (int k = 0; k < n; ++k) {
-          corner[a][Element::axis[k]] += Pack(solution[static_cast<std::size_t>(facet[a]) * (n + 1) + k]);
+          corner[a][Element::axis[k]] += Pack(solution[Layout::vector(facet[a], k)]);
           if (a == b) corner[a][Element::axis[k]].slope[k] = Pack(1.0);
         }
       }
       for (int q = 0; q < F::points; ++q) {
         const auto normal = F::weighted_normal(corner, q);
-        for (int a = 0; a < F::nodes; ++a)
+        for (int a = 0; a < F::nodes; ++a) {
+          double* block = nullptr;
+          if (jacobian) {
+            const int position = jacobian->graph->find(facet[a], facet[b]);
+            assert(position >= 0);
+            block = jacobian->block(position);
+          }
           for (int k = 0; k < n; ++k) {
             const T& component = normal[Element::axis[k]];
             const double scale = pressure * F::shape(q, a);
-            if (b == 0) residual[static_cast<std::size_t>(facet[a]) * (n + 1) + k] += scale * component.value[0];
-            if (jacobian)
-              for (int s = 0; s < n; ++s)
-                jacobian->block(jacobian->graph->find(facet[a], facet[b]))[k * (n + 1) + s] +=
-                    scale * component.slope[s][0];
+            if (b == 0) residual[Layout::vector(facet[a], k)] += scale * component.value[0];
+            if (block)
+              for (int s = 0; s < n; ++s) block[k * Layout::entries + s] += scale * component.slope[s][0];
           }
+        }
       }
     }
 }

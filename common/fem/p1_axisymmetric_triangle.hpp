@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "fem/p1_tetrahedron.hpp"
-#include "math/tensor.hpp"
+#include "fem/point_geometry.hpp"
 
 namespace fsi {
 
@@ -11,6 +10,7 @@ namespace fsi {
 /// circumferential strain u_r / r in the (1, 1) entry of gradients and 2 pi r in the integration weight.
 struct P1AxisymmetricTriangle {
   static constexpr int dim = 2;
+  static constexpr int order = 1;
   static constexpr int nodes = 3;
   static constexpr int scalar_nodes = 3;
   static constexpr int points = 3;
@@ -50,15 +50,15 @@ struct P1AxisymmetricTriangle {
 
   static double shape(int point, int node) { return point == node ? 2.0 / 3.0 : 1.0 / 6.0; }
 
-  static PointGeometry<nodes> at(const Geometry& g, int point) {
-    PointGeometry<nodes> p;
+  static PointGeometry<nodes, scalar_nodes> at(const Geometry& g, int point) {
+    PointGeometry<nodes, scalar_nodes> p;
     Pack r(0.0);
     for (int a = 0; a < nodes; ++a) r += shape(point, a) * g.radius[a];
     p.weight = g.measure * Pack(two_pi / 3.0) * r;
     for (int a = 0; a < nodes; ++a) {
-      p.shape[a] = shape(point, a);
-      p.gradient[a] = g.gradient[a];
-      p.hoop[a] = shape(point, a) / r;
+      p.of_all.value[a] = shape(point, a);
+      p.of_all.gradient[a] = g.gradient[a];
+      p.of_all.hoop[a] = shape(point, a) / r;
     }
     return p;
   }
@@ -66,8 +66,10 @@ struct P1AxisymmetricTriangle {
   /// The element's sides: rings.
   struct Facet {
     static constexpr int nodes = 2;
+    static constexpr int scalar_nodes = 2;
     static constexpr int points = 2;
     static double shape(int point, int node) { return point == node ? 0.78867513459481288225 : 0.21132486540518711775; }
+    static double scalar_shape(int point, int node) { return shape(point, node); }
     /// The right-hand side of the direction from node 0 to node 1 in the (r, z) plane, times 2 pi r and the weight,
     /// mm^2: outward for a side run through counter-clockwise about its cell, z upwards and r to the right.
     template <class T>

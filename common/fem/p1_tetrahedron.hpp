@@ -2,24 +2,15 @@
 
 #include <cmath>
 
-#include "math/tensor.hpp"
+#include "fem/point_geometry.hpp"
 
 namespace fsi {
-
-/// What a weak form may know of an element at one quadrature point: shape values, three-dimensional shape gradients and
-/// the integration weight. `hoop` holds N_a / r for axisymmetric elements and is unused otherwise.
-template <int Nodes>
-struct PointGeometry {
-  Pack weight;                 ///< mm^3
-  double shape[Nodes];         ///< N_a
-  Vec3<Pack> gradient[Nodes];  ///< grad N_a on the reference domain, 1/mm
-  Pack hoop[Nodes];            ///< N_a / r, 1/mm
-};
 
 /// The linear tetrahedron, equal order for vectors and scalars, with the four-point rule exact for quadratics: mass and
 /// convection are integrated exactly.
 struct P1Tetrahedron {
   static constexpr int dim = 3;
+  static constexpr int order = 1;         ///< of the vector fields and of the edges
   static constexpr int nodes = 4;         ///< nodes of vector fields
   static constexpr int scalar_nodes = 4;  ///< the first of them carry scalar fields
   static constexpr int points = 4;
@@ -64,12 +55,12 @@ struct P1Tetrahedron {
   static constexpr double near = 0.58541019662496845446, far = 0.13819660112501051518;
   static double shape(int point, int node) { return point == node ? near : far; }
 
-  static PointGeometry<nodes> at(const Geometry& g, int point) {
-    PointGeometry<nodes> p;
+  static PointGeometry<nodes, scalar_nodes> at(const Geometry& g, int point) {
+    PointGeometry<nodes, scalar_nodes> p;
     p.weight = g.measure * Pack(0.25);
     for (int a = 0; a < nodes; ++a) {
-      p.shape[a] = shape(point, a);
-      p.gradient[a] = g.gradient[a];
+      p.of_all.value[a] = shape(point, a);
+      p.of_all.gradient[a] = g.gradient[a];
     }
     return p;
   }
@@ -77,8 +68,10 @@ struct P1Tetrahedron {
   /// The element's faces: linear triangles.
   struct Facet {
     static constexpr int nodes = 3;
+    static constexpr int scalar_nodes = 3;
     static constexpr int points = 3;
     static double shape(int point, int node) { return point == node ? 2.0 / 3.0 : 1.0 / 6.0; }
+    static double scalar_shape(int point, int node) { return shape(point, node); }
     /// Normal times integration weight at a point, mm^2, from the node positions x (reference or current).
     template <class T>
     static Vec3<T> weighted_normal(const Vec3<T> x[nodes], int /*point*/) {

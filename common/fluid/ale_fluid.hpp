@@ -17,8 +17,8 @@ namespace fsi {
 struct AleFluid {
   double density;    ///< mg/mm^3
   double viscosity;  ///< kPa ms
-  double step;       ///< ms
   bool grad_div = false;
+  double step = 0;  ///< dt in tau, ms: that of the step in progress, set where the form is assembled
 
   static constexpr double inverse_estimate = 36.0;  ///< C_I
 

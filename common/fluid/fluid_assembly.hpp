@@ -2,34 +2,13 @@
 
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
 #include "fem/assembly_result.hpp"
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
 #include "fluid/ale_fluid.hpp"
+#include "fluid/fluid_input.hpp"
 
 namespace fsi {
-
-/// Nodal fields the fluid's residual depends on. Flow arrays hold (u, p), components + 1 numbers per node, in mm/ms and
-/// kPa; mesh arrays the displacement d_m, `components` numbers per node, in mm. The latter are null where the domain is
-/// rigid.
-struct FluidInput {
-  const double* mesh = nullptr;
-  const double* mesh_old = nullptr;  ///< of the previous time level
-  const double* flow = nullptr;
-  const double* flow_old = nullptr;
-};
-
-/// Derivatives of the fluid's residual with respect to its own unknowns (u, p) and to the mesh displacement.
-template <class Element>
-struct FluidJacobian {
-  static constexpr int own = Element::components + 1;
-  BlockMatrix<own, own> flow;                         ///< columns (u, p)
-  BlockMatrix<own, Element::components> mesh_motion;  ///< columns d_m: shape derivatives; empty where not asked for
-};
-
-/// Which derivatives an element loop is asked for.
-enum class FluidDerivatives { none, flow, flow_and_domain };
 
 namespace detail {
 
@@ -45,23 +24,24 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
   using T = Seeded<seeds>;
 
   AssemblyResult result;
-  const double per_step = 1.0 / form.step;
-  NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate{}, convection{};
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  NodalVector<Element> d{}, d_reference{}, u{}, u_reference{}, rate{}, convection{};
   NodalScalar<Element> p{};
   ElementRows<Element, T> rows;
   for (const auto& pack : packs) {
-    gather(u, pack, in.flow, n + 1);
-    gather(u_old, pack, in.flow_old, n + 1);
-    gather(p, pack, in.flow + n, n + 1);
+    gather<Mixed>(u, pack, in.flow);
+    gather<Mixed>(u_reference, pack, in.flow_reference);
+    gather<Mixed>(p, pack, in.flow);
     if constexpr (Moving) {
-      gather(d, pack, in.mesh);
-      gather(d_old, pack, in.mesh_old);
+      gather<Vector>(d, pack, in.mesh);
+      gather<Vector>(d_reference, pack, in.mesh_reference);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k) {
-        rate.at[a][k] = Pack(per_step) * (u.at[a][k] - u_old.at[a][k]);
+        rate.at[a][k] = Pack(in.flow_factor) * (u.at[a][k] - u_reference.at[a][k]);
         convection.at[a][k] = u.at[a][k];
-        if constexpr (Moving) convection.at[a][k] -= Pack(per_step) * (d.at[a][k] - d_old.at[a][k]);
+        if constexpr (Moving) convection.at[a][k] -= Pack(in.mesh_factor) * (d.at[a][k] - d_reference.at[a][k]);
       }
 
     constexpr int passes = seeds == 0 ? 1 : Element::nodes;  // derivatives: the unknowns of one node at a time
@@ -79,13 +59,15 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
           [&](const auto& k, const auto& g, int) {
             Vec3<T> c = seed_value<Element, seeds, u0>(value_of(convection, g), g, b);
             if constexpr (domain)
-              for (int i = 0; i < n; ++i) c[Element::axis[i]].slope[i] = Pack(-per_step * g.shape[b]);
-            return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, per_step), c,
+              for (int i = 0; i < n; ++i) c[Element::axis[i]].slope[i] = Pack(-in.mesh_factor * g.vectors().value[b]);
+            return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, in.flow_factor), c,
                                   seed_value<Element, seeds, p0>(value_of(p, g), g, b));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
-      if constexpr (seeds > 0) scatter_blocks<Element, seeds, u0, n + 1>(rows, pack, b, jacobian->flow.values.data());
-      if constexpr (domain) scatter_blocks<Element, seeds, 0, n>(rows, pack, b, jacobian->mesh_motion.values.data());
+      if constexpr (seeds > 0)
+        scatter_blocks<Element, seeds, u0, Mixed::entries>(rows, pack, b, jacobian->flow.values.data());
+      if constexpr (domain)
+        scatter_blocks<Element, seeds, 0, n>(rows, pack, b, jacobian->shape_derivatives.values.data());
     }
   }
   return result;
@@ -93,14 +75,15 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
 
 }  // namespace detail
 
-/// Adds the fluid's residual, components + 1 rows per node (momentum, continuity), without boundary conditions, and
-/// overwrites the derivatives asked for.
+/// Adds the fluid's residual (momentum, continuity) in the mixed layout, without boundary conditions, and overwrites
+/// the derivatives asked for.
 template <class Element>
-AssemblyResult assemble_fluid(const AleFluid& form, const ElementPacks<Element>& packs, const FluidInput& in,
+AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in,
                               std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,
                               FluidJacobian<Element>* jacobian = nullptr) {
+  form.step = in.step;
   if (derivatives != FluidDerivatives::none) jacobian->flow.set_zero();
-  if (derivatives == FluidDerivatives::flow_and_domain) jacobian->mesh_motion.set_zero();
+  if (derivatives == FluidDerivatives::flow_and_domain) jacobian->shape_derivatives.set_zero();
   std::vector<AssemblyResult> results(packs.thread_count());
   const auto serial_below = derivatives == FluidDerivatives::none ? serial_residual_elements : serial_jacobian_elements;
   for_each_thread(packs, serial_below, [&](int t, const auto& mine) {

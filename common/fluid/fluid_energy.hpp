@@ -6,38 +6,27 @@
 
 namespace fsi {
 
-/// Energy of the fluid at the end of a step, and what the step's discrete equations, tested with (u, -p), do besides
-/// changing it (docs/energy.md); all in uJ = mm^3 kPa. With the step's ends 0 and 1, D = cof F_1 : grad(d_1 - d_0):
-///   dt (rho J (du/dt + grad u F^-1 c), u) = kinetic_1 - kinetic_0 + inertia + mesh_motion + divergence + outflow,
-/// exactly where the integration rule is for quadratic functions and the outflow that of rho/2 |u|^2 through the open
-/// faces.
-struct FluidEnergy {
-  double kinetic = 0;        ///< (rho/2 J, |u|^2) at the end
-  double viscous = 0;        ///< dt (mu J (grad u F^-1 + ...^T), grad u F^-1)
-  double stabilisation = 0;  ///< dt times the power of the SUPG, PSPG and grad-div terms
-  double inertia = 0;        ///< (rho/2 J, |u_1 - u_0|^2): backward Euler
-  double mesh_motion = 0;    ///< rho/2 ((D, |u_1|^2) - (J_1 - J_0, |u_0|^2)): the domain's motion is not conserved
-  double divergence = 0;     ///< -dt rho/2 (J div u, |u|^2): convection in convective form
-};
-
+/// \param in  of a step by backward Euler, whose references are the last level
 template <class Element>
-FluidEnergy fluid_energy(const AleFluid& form, const ElementPacks<Element>& packs, const FluidInput& in) {
+FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in) {
   constexpr int n = Element::components;
-  const double per_step = 1.0 / form.step;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  form.step = in.step;
   const auto integrals = [&](const auto& pack, int, std::size_t) {
-    NodalVector<Element> d{}, d_old{}, u, u_old, rate, convection;
-    NodalScalar<Element> p;
-    gather(u, pack, in.flow, n + 1);
-    gather(u_old, pack, in.flow_old, n + 1);
-    gather(p, pack, in.flow + n, n + 1);
+    NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate, convection;
+    NodalScalar<Element> p{};
+    gather<Mixed>(u, pack, in.flow);
+    gather<Mixed>(u_old, pack, in.flow_reference);
+    gather<Mixed>(p, pack, in.flow);
     if (in.mesh) {
-      gather(d, pack, in.mesh);
-      gather(d_old, pack, in.mesh_old);
+      gather<Vector>(d, pack, in.mesh);
+      gather<Vector>(d_old, pack, in.mesh_reference);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k) {
-        rate.at[a][k] = Pack(per_step) * (u.at[a][k] - u_old.at[a][k]);
-        convection.at[a][k] = u.at[a][k] - Pack(per_step) * (d.at[a][k] - d_old.at[a][k]);
+        rate.at[a][k] = Pack(in.flow_factor) * (u.at[a][k] - u_old.at[a][k]);
+        convection.at[a][k] = u.at[a][k] - Pack(in.mesh_factor) * (d.at[a][k] - d_old.at[a][k]);
       }
     struct Prepared {
       AleFluid::Prepared<Pack, Pack> form;

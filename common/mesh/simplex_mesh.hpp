@@ -8,13 +8,18 @@ namespace fsi {
 
 using Point = std::array<double, 3>;  ///< coordinates in mm
 
-/// A linear simplex mesh: tetrahedra (Dim = 3) or triangles (Dim = 2) with named cell regions and facet groups.
-/// Axisymmetric meshes store (r, 0, z), plane ones (x, y, 0).
-template <int Dim>
+/// Nodes of a simplex: its vertices, and with order 2 the middles of its edges behind them.
+constexpr int nodes_of_simplex(int dim, int order) {
+  return order == 1 ? dim + 1 : (dim + 1) * (dim + 2) / 2;
+}
+
+/// A simplex mesh: tetrahedra (Dim = 3) or triangles (Dim = 2) with named cell regions and facet groups, with straight
+/// (Order = 1) or quadratic edges (Order = 2). Axisymmetric meshes store (r, 0, z), plane ones (x, y, 0).
+template <int Dim, int Order = 1>
 struct SimplexMesh {
-  static constexpr int dim = Dim;
-  using Cell = std::array<int, Dim + 1>;
-  using Facet = std::array<int, Dim>;
+  static constexpr int dim = Dim, order = Order;
+  using Cell = std::array<int, nodes_of_simplex(Dim, Order)>;
+  using Facet = std::array<int, nodes_of_simplex(Dim - 1, Order)>;
 
   /// Facets of one named surface. Boundary facets are oriented: their normal, by the right-hand rule, points out of the
   /// cell they bound.
@@ -23,8 +28,8 @@ struct SimplexMesh {
     std::vector<Facet> facets;
   };
 
-  std::vector<Point> nodes;              ///< mm
-  std::vector<Cell> cells;               ///< node indices, positively oriented
+  std::vector<Point> nodes;  ///< mm
+  std::vector<Cell> cells;  ///< node indices, positively oriented; mid-edge nodes as fem/mid_edge_nodes.hpp orders them
   std::vector<int> cell_region;          ///< per cell, index into `regions`
   std::vector<std::string> regions;      ///< names of the volume groups
   std::vector<FacetGroup> facet_groups;  ///< named surface groups

@@ -7,10 +7,10 @@
 namespace fsi {
 
 /// The part of a mesh that one sub-problem lives on, with its own node numbers.
-template <int Dim>
+template <int Dim, int Order = 1>
 struct Submesh {
-  using Cell = typename SimplexMesh<Dim>::Cell;
-  using Facet = typename SimplexMesh<Dim>::Facet;
+  using Cell = typename SimplexMesh<Dim, Order>::Cell;
+  using Facet = typename SimplexMesh<Dim, Order>::Facet;
 
   std::vector<Point> nodes;      ///< mm, per local node
   std::vector<int> mesh_node;    ///< per local node, its number in the whole mesh
@@ -27,9 +27,9 @@ struct Submesh {
 };
 
 /// The cells whose region is listed, in the order of the mesh; local nodes keep the order of the mesh nodes.
-template <int Dim>
-Submesh<Dim> submesh(const SimplexMesh<Dim>& mesh, const std::vector<int>& regions) {
-  Submesh<Dim> part;
+template <int Dim, int Order>
+Submesh<Dim, Order> submesh(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& regions) {
+  Submesh<Dim, Order> part;
   std::vector<char> wanted(mesh.regions.size(), 0);
   for (int region : regions) wanted[region] = 1;
   part.local_node.assign(mesh.nodes.size(), -1);

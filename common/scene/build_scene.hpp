@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "fem/p1_tetrahedron.hpp"
 #include "case/case.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -12,8 +12,5 @@ namespace fsi {
 /// section 1, the interface found from the cells.
 /// \param mesh  as read, regions and surface groups by name
 std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const TetrahedralMesh& mesh);
-
-extern template class FluidProblem<P1Tetrahedron>;
-extern template class WallProblem<P1Tetrahedron>;
 
 }  // namespace fsi

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/profile.hpp"
 #include "fluid/fluid_problem.hpp"
-#include "mesh/simplex_mesh.hpp"
 #include "mesh_motion/mesh_motion.hpp"
+#include "scene/dirichlet_conditions.hpp"
 #include "structure/wall_problem.hpp"
-#include "time/state.hpp"
-#include "time/time_scheme.hpp"
+#include "time/time_integrator.hpp"
 
 namespace fsi {
 
@@ -27,6 +24,9 @@ template <class Element>
 class Scene {
  public:
   static constexpr int n = Element::components;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  using Conditions = DirichletConditions<n>;
 
   std::unique_ptr<FluidProblem<Element>> fluid;
   std::unique_ptr<WallProblem<Element>> wall;
@@ -34,13 +34,15 @@ class Scene {
   int mesh_motion_assemblies = 0;         ///< what is made of the matrix is as old as the count it was made at
   bool keep_constant_operators = true;    ///< false: assembled at each use, to see what keeping them saves
   std::vector<InterfaceNode> interface;   ///< ascending in the fluid's numbers
-  std::vector<char> no_slip;              ///< per fluid node: velocity prescribed zero
-  std::vector<char> mesh_fixed;           ///< per fluid node: mesh displacement prescribed zero
-  std::vector<char> clamped;              ///< per wall node: displacement prescribed zero
-  TimeScheme scheme;
+  Conditions velocity_conditions;         ///< of the fluid's velocity
+  Conditions mesh_conditions;             ///< of the mesh displacement
+  Conditions wall_conditions;             ///< of the wall's displacement
+  std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
+  int predictor = 1;        ///< order of the extrapolated start of each step
   mutable Profile profile;  ///< also of those who only read the scene
 
   bool coupled() const { return fluid && wall; }
+  bool is_static() const { return integrator->is_static(); }
 
   /// Assembles the mesh motion's operator; its storage stays in place.
   void assemble_mesh_motion() {
@@ -54,51 +56,62 @@ class Scene {
     if (!keep_constant_operators) assemble_mesh_motion();
   }
 
-  /// The state at rest.
+  /// The state at rest, but for prescribed values.
   State at_rest() const {
     State state;
     Solution zero;
-    if (fluid) zero.flow.assign(static_cast<std::size_t>(fluid->node_count()) * (n + 1), 0.0);
-    if (coupled()) zero.mesh.assign(static_cast<std::size_t>(fluid->node_count()) * n, 0.0);
+    if (fluid) zero.flow.assign(fluid->space().mixed_size(), 0.0);
+    if (coupled()) zero.mesh.assign(fluid->space().vector_size(), 0.0);
     if (wall) {
-      zero.wall.assign(static_cast<std::size_t>(wall->node_count()) * (n + 1), 0.0);
-      state.wall_velocity.assign(static_cast<std::size_t>(wall->node_count()) * n, 0.0);
+      zero.wall.assign(wall->space().mixed_size(), 0.0);
+      state.wall_velocity.assign(wall->space().vector_size(), 0.0);
       state.wall_acceleration = state.wall_velocity;
     }
     state.now = zero;
-    state.before = {zero, zero, zero};
+    impose_conditions(state.now);
+    state.before = {state.now, state.now, state.now};
     return state;
   }
 
-  /// What the element loops read of a state.
-  FluidInput fluid_input(const State& state) const {
+  /// What the element loops read of a state, in a step with these rates.
+  FluidInput fluid_input(const State& state, const StepRates& rates) const {
     FluidInput in;
     if (coupled()) {
       in.mesh = state.now.mesh.data();
-      in.mesh_old = state.before[0].mesh.data();
+      in.mesh_reference = rates.mesh_reference.data();
+      in.mesh_factor = rates.interface.rate();
     }
     in.flow = state.now.flow.data();
-    in.flow_old = state.before[0].flow.data();
+    in.flow_reference = rates.flow_reference.data();
+    in.flow_factor = rates.flow_factor;
+    in.step = rates.step;
     return in;
   }
-  StructureInput wall_input(const State& state, const StepData& data) const {
+  StructureInput wall_input(const State& state, const StepRates& rates) const {
     StructureInput in;
     in.wall = state.now.wall.data();
-    if (!scheme.is_static()) {
-      in.acceleration_history = data.acceleration_history.data();
-      in.acceleration_factor = scheme.acceleration_factor();
+    if (!rates.is_static()) {
+      in.acceleration_history = rates.acceleration_history.data();
+      in.acceleration_factor = rates.acceleration_factor;
     }
     return in;
   }
 
-  /// Imposes d_m = d_s and u = (d_s - d_s of the last level) / dt on the interface of state.now.
-  void impose_interface(State& state) const {
+  /// Writes the prescribed values.
+  void impose_conditions(Solution& solution) const {
+    if (fluid) velocity_conditions.template impose<Mixed>(solution.flow);
+    if (coupled()) mesh_conditions.template impose<Vector>(solution.mesh);
+    if (wall) wall_conditions.template impose<Mixed>(solution.wall);
+  }
+
+  /// Imposes d_m = d_s and the velocity that belongs to it on the interface of state.now.
+  void impose_interface(State& state, const StepRates& rates) const {
     for (const auto& node : interface)
       for (int k = 0; k < n; ++k) {
-        const std::size_t w = static_cast<std::size_t>(node.wall) * (n + 1) + k;
-        state.now.mesh[static_cast<std::size_t>(node.fluid) * n + k] = state.now.wall[w];
-        state.now.flow[static_cast<std::size_t>(node.fluid) * (n + 1) + k] =
-            (state.now.wall[w] - state.before[0].wall[w]) / scheme.step;
+        const std::size_t w = Mixed::vector(node.wall, k);
+        state.now.mesh[Vector::vector(node.fluid, k)] = state.now.wall[w];
+        state.now.flow[Mixed::vector(node.fluid, k)] =
+            rates.interface.velocity(state.now.wall[w], rates.wall_reference[w]);
       }
   }
 };

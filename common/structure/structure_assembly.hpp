@@ -3,34 +3,13 @@
 #include <variant>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
 #include "fem/assembly_result.hpp"
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
-#include "materials/material.hpp"
 #include "structure/hyperelastic.hpp"
+#include "structure/structure_input.hpp"
 
 namespace fsi {
-
-/// What the wall's residual depends on. The acceleration is acceleration_factor d + acceleration_history, as a Newmark
-/// scheme makes it; the history is null in statics.
-struct StructureInput {
-  const double* wall = nullptr;                  ///< (d_s, p_s), components + 1 numbers per node, mm and kPa
-  const double* acceleration_history = nullptr;  ///< `components` numbers per node, mm/ms^2
-  double acceleration_factor = 0;                ///< 1/ms^2
-};
-
-/// One layer of the wall: its elements and its material, with fibre directions per pack where the material has fibres.
-template <class Element>
-struct WallLayer {
-  ElementPacks<Element> packs;
-  Material material;
-  std::vector<std::vector<Fibres>> fibres;  ///< [thread][pack], empty for materials without
-};
-
-/// Blocks with rows (momentum, volume) and columns (d, p).
-template <class Element>
-using StructureMatrix = BlockMatrix<Element::components + 1, Element::components + 1>;
 
 namespace detail {
 
@@ -40,7 +19,8 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
                            const std::vector<Fibres>* fibres, const StructureInput& in, double* residual,
                            double* blocks) {
   constexpr int n = Element::components;
-  constexpr int seeds = Derivatives ? n + 1 : 0;
+  using Mixed = MixedLayout<n>;
+  constexpr int seeds = Derivatives ? n + 1 : 0;  // displacement, pressure
   using T = Seeded<seeds>;
 
   AssemblyResult result;
@@ -51,10 +31,10 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
     const auto& pack = packs[index];
     typename M::FibreData fibre{};
     if constexpr (std::is_same_v<typename M::FibreData, Fibres>) fibre = (*fibres)[index];
-    gather(d, pack, in.wall, n + 1);
-    gather(p, pack, in.wall + n, n + 1);
+    gather<Mixed>(d, pack, in.wall);
+    gather<Mixed>(p, pack, in.wall);
     if (in.acceleration_history) {
-      gather(acceleration, pack, in.acceleration_history);
+      gather<VectorLayout<n>>(acceleration, pack, in.acceleration_history);
       for (int a = 0; a < Element::nodes; ++a)
         for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
     }
@@ -74,7 +54,7 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
                 seed_value<Element, seeds, n>(value_of(p, g), g, b));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
-      if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, n + 1>(rows, pack, b, blocks);
+      if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, Mixed::entries>(rows, pack, b, blocks);
     }
   }
   return result;
@@ -82,15 +62,8 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
 
 }  // namespace detail
 
-/// What the layers of a wall have in common.
-struct WallConstants {
-  double density;        ///< mg/mm^3
-  double bulk_modulus;   ///< kPa
-  double stabilisation;  ///< alpha
-};
-
-/// Adds the wall's residual, components + 1 rows per node (momentum, volume), without boundary conditions, and
-/// overwrites the Jacobian if one is passed.
+/// Adds the wall's residual (momentum, volume) in the mixed layout, without boundary conditions, and overwrites the
+/// Jacobian if one is passed.
 template <class Element>
 AssemblyResult assemble_structure(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
                                   const StructureInput& in, std::vector<double>& residual,

@@ -6,43 +6,6 @@
 
 namespace fsi {
 
-/// Two ends of a step of the wall. Wall arrays hold (d, p), components + 1 numbers per node, in mm and kPa, the others
-/// `components` numbers per node; those are null in statics.
-struct WallStep {
-  const double* wall = nullptr;
-  const double* wall_old = nullptr;
-  const double* velocity = nullptr;      ///< mm/ms
-  const double* acceleration = nullptr;  ///< mm/ms^2
-  const double* acceleration_old = nullptr;
-  double step = 0, beta = 1, gamma = 1;  ///< of Newmark's scheme; step in ms
-};
-
-/// Energy of the wall at the end of a step, and what the step's discrete equations, momentum tested with the step's
-/// displacement d_1 - d_0, volume at both ends with -p_1, do besides changing it (docs/energy.md); all in uJ = mm^3
-/// kPa. With da = a_1 - a_0, dd = d_1 - d_0 and S(d, p, q) = (tau J F^-T grad p, F^-T grad q):
-///   (rho a_1, dd) = kinetic_1 - kinetic_0 + inertia,
-///   (F S' - p J F^-T, grad dd) = isochoric_1 - isochoric_0 + volumetric_1 - volumetric_0 + stress + stabilisation,
-/// the latter up to the sixth order of grad dd where the stress is smooth: its mean along the step is by Radau's rule.
-struct WallEnergy {
-  double kinetic = 0;        ///< rho/2 (v, v), v Newmark's velocity, at the end
-  double isochoric = 0;      ///< (Psi, 1), the materials' energy, at the end
-  double volumetric = 0;     ///< (p / kappa, p) / 2 at the end
-  double inertia = 0;        ///< rho (da, (1 - gamma) dd + (beta - gamma/2) dt^2 (gamma a_1 + (1 - gamma) a_0))
-  double stress = 0;         ///< (F_1 S'_1 - mean of F S' along the step, grad dd) - (p_1, cof F_1 : grad dd - (J_1 -
-                             ///< J_0)) + (dp / kappa, dp) / 2: stress and pressure at the step's end, not along it
-  double stabilisation = 0;  ///< S(d_1, p_1, p_1) - S(d_0, p_0, p_1)
-
-  WallEnergy& operator+=(const WallEnergy& b) {
-    kinetic += b.kinetic;
-    isochoric += b.isochoric;
-    volumetric += b.volumetric;
-    inertia += b.inertia;
-    stress += b.stress;
-    stabilisation += b.stabilisation;
-    return *this;
-  }
-};
-
 namespace detail {
 
 /// Radau's rule on (0, 1] with its last point at 1, exact for polynomials of degree four.
@@ -52,19 +15,21 @@ inline constexpr double radau_weight[] = {0.37640306270046727506, 0.512485826188
 template <class Element, class M>
 WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& in) {
   constexpr int n = Element::components;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
     typename M::FibreData fibre{};
     if constexpr (std::is_same_v<typename M::FibreData, Fibres>) fibre = layer.fibres[thread][index];
-    NodalVector<Element> d, d_old, v{}, a{}, a_old{};
-    NodalScalar<Element> p, p_old;
-    gather(d, pack, in.wall, n + 1);
-    gather(p, pack, in.wall + n, n + 1);
-    gather(d_old, pack, in.wall_old, n + 1);
-    gather(p_old, pack, in.wall_old + n, n + 1);
+    NodalVector<Element> d{}, d_old{}, v{}, a{}, a_old{};
+    NodalScalar<Element> p{}, p_old{};
+    gather<Mixed>(d, pack, in.wall);
+    gather<Mixed>(p, pack, in.wall);
+    gather<Mixed>(d_old, pack, in.wall_old);
+    gather<Mixed>(p_old, pack, in.wall_old);
     if (in.velocity) {
-      gather(v, pack, in.velocity);
-      gather(a, pack, in.acceleration);
-      gather(a_old, pack, in.acceleration_old);
+      gather<Vector>(v, pack, in.velocity);
+      gather<Vector>(a, pack, in.acceleration);
+      gather<Vector>(a_old, pack, in.acceleration_old);
     }
     struct Prepared {
       Pack energy, stress, stabilisation;  ///< constant parts of the densities

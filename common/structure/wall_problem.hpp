@@ -1,15 +1,14 @@
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "fem/facet_load.hpp"
+#include "fem/assembly_result.hpp"
+#include "fem/function_space.hpp"
 #include "mesh/submesh.hpp"
 #include "structure/fibre_directions.hpp"
-#include "structure/structure_assembly.hpp"
-#include "structure/wall_energy.hpp"
+#include "structure/structure_input.hpp"
 
 namespace fsi {
 
@@ -25,69 +24,38 @@ template <class Element>
 class WallProblem {
  public:
   static constexpr int dim = Element::dim, n = Element::components;
-  using Facets = std::vector<typename SimplexMesh<dim>::Facet>;
+  using Part = Submesh<Element::dim, Element::order>;
+  using Facets = std::vector<typename Part::Facet>;
 
   /// \param layers       region of the mesh and material of each layer
   /// \param pressurised  facets in the part's node numbers, normals outward from the wall; may be empty
-  WallProblem(Submesh<dim> part, const WallConstants& constants,
-              const std::vector<std::pair<int, LayerMaterial>>& layers, const CylinderAxis& axis,
-              Facets pressurised = {})
-      : part_(std::move(part)), constants_(constants), pressurised_(std::move(pressurised)) {
-    std::vector<int> cell_nodes;
-    for (const auto& cell : part_.cells) cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
-    graph_ = std::make_shared<NodeGraph>(graph_of_cells(part_.node_count(), cell_nodes, Element::nodes));
-    for (const auto& [region, layer] : layers) {
-      std::vector<int> cells;
-      for (std::size_t c = 0; c < part_.cells.size(); ++c)
-        if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
-      layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph_), layer.material, {}});
-      if (std::holds_alternative<Artery>(layer.material))
-        layers_.back().fibres =
-            fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, layer.fibre_angle);
-    }
-  }
+  WallProblem(Part part, const WallConstants& constants, const std::vector<std::pair<int, LayerMaterial>>& layers,
+              const CylinderAxis& axis, Facets pressurised = {});
 
-  const Submesh<dim>& part() const { return part_; }
+  const Part& part() const { return part_; }
   const WallConstants& constants() const { return constants_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
-  const std::shared_ptr<const NodeGraph>& graph() const { return graph_; }
+  const FunctionSpace<Element>& space() const { return space_; }
+  const std::shared_ptr<const NodeGraph>& graph() const { return space_.graph(); }
   int node_count() const { return part_.node_count(); }
 
-  /// Overwrites the residual, n + 1 rows per node, and the Jacobian if asked.
+  /// Overwrites the residual, in the mixed layout, and the Jacobian if asked.
   /// \param pressure  kPa on the pressurised facets
   AssemblyResult assemble(const StructureInput& in, double pressure, const std::vector<double>& solution,
-                          std::vector<double>& residual, bool derivatives = false) {
-    residual.assign(static_cast<std::size_t>(node_count()) * (n + 1), 0.0);
-    if (derivatives && jacobian_.values.empty()) jacobian_ = StructureMatrix<Element>(graph_);
-    const auto result = assemble_structure(constants_, layers_, in, residual, derivatives ? &jacobian_ : nullptr);
-    if (pressure != 0)
-      add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual,
-                                     derivatives ? &jacobian_ : nullptr);
-    return result;
-  }
+                          std::vector<double>& residual, bool derivatives = false);
 
-  WallEnergy energy(const WallStep& in) const { return wall_energy(constants_, layers_, in); }
+  WallEnergy energy(const WallStep& in) const;
   /// Work of the pressure on the pressurised facets, as they are at the step's end, in a step from `old` to `now`; uJ.
-  double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const {
-    if (pressure == 0) return 0;
-    std::vector<double> load(now.size(), 0.0);
-    add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now, load, nullptr);
-    double work = 0;
-    for (std::size_t i = 0; i < load.size(); ++i) work -= load[i] * (now[i] - old[i]);
-    return work;
-  }
+  double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const;
 
   /// The Jacobian last assembled; storage appears with the first request.
-  StructureMatrix<Element>& jacobian() {
-    if (jacobian_.values.empty()) jacobian_ = StructureMatrix<Element>(graph_);
-    return jacobian_;
-  }
+  StructureMatrix<Element>& jacobian();
 
  private:
-  Submesh<dim> part_;
+  Part part_;
   WallConstants constants_;
   Facets pressurised_;
-  std::shared_ptr<const NodeGraph> graph_;
+  FunctionSpace<Element> space_;
   std::vector<WallLayer<Element>> layers_;
   StructureMatrix<Element> jacobian_;
 };

@@ -17,7 +17,7 @@ GatheredMatrix gather_jacobian(const JacobianBlocks<Element>& blocks) {
   GatheredMatrix::Builder builder(numbering.size);
   if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
   if (blocks.flow) gather_blocks(builder, *blocks.flow, numbering.flow_rows, numbering.flow);
-  if (blocks.mesh_motion) gather_blocks(builder, *blocks.mesh_motion, numbering.flow_rows, numbering.mesh);
+  if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.flow_rows, numbering.mesh);
   if (blocks.mesh) gather_diagonal_blocks(builder, *blocks.mesh, numbering.mesh_rows, numbering.mesh);
   return GatheredMatrix(std::move(builder));
 }
@@ -28,10 +28,14 @@ template <class Element>
 class DirectLinearSolver : public LinearSolver {
  public:
   explicit DirectLinearSolver(const JacobianBlocks<Element>& blocks, const DirectSolver::Options& options = {})
-      : blocks_(blocks), solver_(options) {}
+      : blocks_(blocks), options_(options), solver_(options) {}
 
   void update() override {
-    if (matrix_.matrix().size() <= 0) matrix_ = gather_jacobian(blocks_);
+    if (matrix_.matrix().size() <= 0 || gathered_ != blocks_.numbering.version) {
+      matrix_ = gather_jacobian(blocks_);
+      gathered_ = blocks_.numbering.version;
+      solver_ = DirectSolver(options_);
+    }
     matrix_.update();
     solver_.factorise(matrix_.matrix());
   }
@@ -56,7 +60,9 @@ class DirectLinearSolver : public LinearSolver {
 
  private:
   JacobianBlocks<Element> blocks_;
+  DirectSolver::Options options_;
   GatheredMatrix matrix_;
+  int gathered_ = 0;  ///< version of the numbering whose factors it holds
   DirectSolver solver_;
 };
 

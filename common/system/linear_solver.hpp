@@ -16,13 +16,14 @@ namespace fsi {
 template <class Element>
 struct JacobianBlocks {
   static constexpr int n = Element::components;
+  static constexpr int mixed = MixedLayout<n>::entries;
 
   const Scene<Element>& scene;
   const Numbering& numbering;
-  const BlockMatrix<n + 1, n + 1>* flow = nullptr;     ///< d(momentum, continuity) / d(u, p_f)
-  const BlockMatrix<n + 1, n>* mesh_motion = nullptr;  ///< d(momentum, continuity) / d(d_m): shape derivatives
-  const MeshMotionMatrix<Element>* mesh = nullptr;     ///< Laplacian of the mesh motion, one number per component
-  const BlockMatrix<n + 1, n + 1>* wall = nullptr;     ///< d(momentum, volume) / d(d_s, p_s)
+  const BlockMatrix<mixed, mixed>* flow = nullptr;           ///< d(momentum, continuity) / d(u, p_f)
+  const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
+  const MeshMotionMatrix<Element>* mesh = nullptr;           ///< Laplacian of the mesh motion, one number per component
+  const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
 };
 
 /// What a linear solve did.

@@ -9,6 +9,7 @@
 #include "case/case.hpp"
 #include "system/system.hpp"
 #include "time/loads.hpp"
+#include "time/predictor.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -40,20 +41,29 @@ inline void remember(const std::string& name, const LinearisationPoint& point, M
   memory.arrays[name + ".mesh"] = point.now.mesh;
   memory.arrays[name + ".flow"] = point.now.flow;
   memory.arrays[name + ".wall"] = point.now.wall;
-  memory.arrays[name + ".old_mesh"] = point.old.mesh;
-  memory.arrays[name + ".old_flow"] = point.old.flow;
+  memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
+  memory.arrays[name + ".flow_reference"] = point.rates.flow_reference;
+  memory.numbers[name + ".step"] = point.rates.step;
+  memory.numbers[name + ".period"] = point.rates.interface.period;
+  memory.numbers[name + ".flow_factor"] = point.rates.flow_factor;
+  memory.numbers[name + ".acceleration_factor"] = point.rates.acceleration_factor;
   memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
 }
 inline bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point) {
-  const auto pressure = memory.numbers.find(name + ".wall_pressure");
-  if (pressure == memory.numbers.end()) return false;
+  if (memory.numbers.count(name + ".step") == 0) return false;
   const auto array = [&](const char* part) {
     const auto found = memory.arrays.find(name + part);
     return found == memory.arrays.end() ? std::vector<double>() : found->second;
   };
+  const auto number = [&](const char* part) { return memory.numbers.at(name + part); };
   point.now = {array(".mesh"), array(".flow"), array(".wall")};
-  point.old = {array(".old_mesh"), array(".old_flow"), {}};
-  point.wall_pressure = pressure->second;
+  point.rates.mesh_reference = array(".mesh_reference");
+  point.rates.flow_reference = array(".flow_reference");
+  point.rates.step = number(".step");
+  point.rates.interface.period = number(".period");
+  point.rates.flow_factor = number(".flow_factor");
+  point.rates.acceleration_factor = number(".acceleration_factor");
+  point.wall_pressure = number(".wall_pressure");
   return true;
 }
 
@@ -62,31 +72,30 @@ inline bool recall(const std::string& name, const Memory& memory, LinearisationP
 template <class Element>
 class NewtonStepper : public Stepper {
  public:
-  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options,
+  /// \param numbering  of the whole scene
+  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
                 const LinearSolverFactory<Element>& make_solver = {})
       : scene_(scene),
         loads_(loads),
         options_(std::move(options)),
-        system_("coupled", scene, number_scene(scene), make_solver) {}
+        system_("coupled", scene, std::move(numbering), make_solver) {}
 
   const System<Element>& system() const { return system_; }
 
   StepReport advance(State& state) override {
-    const StepData data = loads_.next(state, scene_.scheme);
+    const StepData data = loads_.next(state, *scene_.integrator);
     report_ = {};
-    NewtonReport solved = solve(state, data, scene_.scheme);
-    if (!solved.converged && scene_.scheme.predictor > 0 && state.step > 0) {
+    NewtonReport solved = solve(state, data, scene_.predictor);
+    if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
       // The extrapolated start can be the culprit, after a jump of the load for example.
       report_.history.push_back(solved.failure + "; again from the last time level");
-      TimeScheme cautious = scene_.scheme;
-      cautious.predictor = 0;
-      solved = solve(state, data, cautious);
+      solved = solve(state, data, 0);
     }
     if (!solved.converged)
       throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}",
                                          name_of_step(state, data), solved.count(), solved.failure),
                              remedy(solved));
-    scene_.scheme.accept(state, data);
+    scene_.integrator->accept(state, data);
     return report_;
   }
 
@@ -103,24 +112,25 @@ class NewtonStepper : public Stepper {
 
  private:
   std::string name_of_step(const State& state, const StepData& data) const {
-    return scene_.scheme.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
-                                     : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
+    return scene_.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
+                              : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
   }
 
   std::string remedy(const NewtonReport& failed) const {
-    std::string text =
-        scene_.scheme.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
+    std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
     if (options_.keep_jacobian) text += ", or monolithic.mode = \"full\"";
     if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
     return text;
   }
 
-  NewtonReport solve(State& state, const StepData& data, const TimeScheme& scheme) {
-    scheme.predict(state);
-    scene_.impose_interface(state);
+  /// \param predictor  order of the extrapolated start
+  NewtonReport solve(State& state, const StepData& data, int predictor) {
+    predict(state, predictor, data.time);
+    scene_.impose_conditions(state.now);
+    scene_.impose_interface(state, data.rates);
     system_.work_on(state, data);
     const NewtonReport solved = newton(system_, options_);
-    scene_.impose_interface(state);  // exactly, not to the rounding of the increments
+    scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
     report_.newton_iterations += solved.count();
     report_.linear_iterations += solved.linear_iterations();
     report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));

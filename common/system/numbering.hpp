@@ -11,72 +11,74 @@ namespace fsi {
 /// of absent parts are empty.
 struct Numbering {
   std::int64_t size = 0;
-  UnknownMap mesh_rows, mesh;  ///< mesh motion: equations, unknowns d_m
-  UnknownMap flow_rows, flow;  ///< momentum and continuity; (u, p_f)
-  UnknownMap wall_rows, wall;  ///< momentum and volume; (d_s, p_s)
+  UnknownMap mesh_rows, mesh;  ///< mesh motion: equations, unknowns d_m; vector layout
+  UnknownMap flow_rows, flow;  ///< momentum and continuity; (u, p_f); mixed layout
+  UnknownMap wall_rows, wall;  ///< momentum and volume; (d_s, p_s); mixed layout
+
+  /// Entries of `flow` whose unknown is the interface's displacement.
+  std::vector<std::size_t> interface_velocities;
+  /// The step's: du = d(d_s) / period for those entries. Their factors follow it.
+  InterfaceKinematics interface;
+  /// Raised when factors change: what was made of them is then out of date.
+  int version = 0;
+
+  /// Takes over the kinematics of a step. \returns whether factors have changed
+  bool follow(const InterfaceKinematics& of_step) {
+    const bool changed = interface.period != of_step.period;
+    interface = of_step;
+    if (!changed || interface_velocities.empty()) return false;
+    for (std::size_t entry : interface_velocities) flow[entry].factor = interface.rate();
+    ++version;
+    return true;
+  }
 };
 
 namespace detail {
 
-/// Gives an own unknown, and the equation of the same place, to every entry that is not prescribed. Vectors come first
-/// in each node; `fixed(node)` prescribes the vector, scalars are never prescribed.
-template <class Fixed>
-UnknownMap number_nodes(int nodes, int vector_entries, int entries, std::int64_t& next, Fixed fixed) {
-  UnknownMap map(static_cast<std::size_t>(nodes) * entries);
-  for (int a = 0; a < nodes; ++a)
-    for (int k = 0; k < entries; ++k)
-      if (k >= vector_entries || !fixed(a)) map[static_cast<std::size_t>(a) * entries + k] = {next++, 1.0};
+/// Gives an own unknown, and the equation of the same place, to every component of a vector that `fixed(node,
+/// component)` does not prescribe and to every scalar that there is. Vectors come first in each node.
+/// \param scalars  whether a node has one
+template <int Components, class Fixed, class Scalars>
+UnknownMap number_nodes(int nodes, std::int64_t& next, Fixed fixed, Scalars scalars) {
+  using Mixed = MixedLayout<Components>;
+  UnknownMap map(Mixed::size(nodes));
+  for (int a = 0; a < nodes; ++a) {
+    for (int k = 0; k < Components; ++k)
+      if (!fixed(a, k)) map[Mixed::vector(a, k)] = {next++, 1.0};
+    if (scalars(a)) map[Mixed::scalar(a)] = {next++, 1.0};
+  }
   return map;
+}
+template <int Components, class Fixed>
+UnknownMap number_vectors(int nodes, std::int64_t& next, Fixed fixed) {
+  using Vector = VectorLayout<Components>;
+  UnknownMap map(Vector::size(nodes));
+  for (int a = 0; a < nodes; ++a)
+    for (int k = 0; k < Components; ++k)
+      if (!fixed(a, k)) map[Vector::vector(a, k)] = {next++, 1.0};
+  return map;
+}
+
+/// The scene's fluid-wall interface as a flag per fluid node.
+template <class Element>
+std::vector<char> on_interface(const Scene<Element>& scene) {
+  std::vector<char> on(static_cast<std::size_t>(scene.fluid->node_count()), 0);
+  for (const auto& node : scene.interface) on[node.fluid] = 1;
+  return on;
 }
 
 }  // namespace detail
 
-/// The whole scene. On the interface of fluid and wall there is one unknown, the wall's displacement: d_m = d_s, and
-/// u = (d_s - d_s^(n-1)) / dt, so du = d(d_s) / dt; one momentum equation, the sum of the fluid's and the wall's
-/// (traction balance); and no equation of mesh motion. This is the paper's system (its section 3.4) with its two
-/// identity rows eliminated: Newton's iterates are the same, the factorisation is smaller.
+/// The fluid alone, its velocity free on the interface or prescribed there (Dirichlet side of the partitioned split).
 template <class Element>
-Numbering number_scene(const Scene<Element>& scene) {
-  constexpr int n = Element::components;
-  Numbering all;
-  if (scene.wall) {
-    all.wall = detail::number_nodes(scene.wall->node_count(), n, n + 1, all.size,
-                                    [&](int a) { return scene.clamped[a] != 0; });
-    all.wall_rows = all.wall;
-  }
-  if (scene.fluid) {
-    const int nodes = scene.fluid->node_count();
-    std::vector<int> wall_node(nodes, -1);
-    for (const auto& i : scene.interface) wall_node[i.fluid] = i.wall;
-    all.flow =
-        detail::number_nodes(nodes, n, n + 1, all.size, [&](int a) { return scene.no_slip[a] || wall_node[a] >= 0; });
-    all.flow_rows = all.flow;
-    if (scene.coupled()) {
-      all.mesh =
-          detail::number_nodes(nodes, n, n, all.size, [&](int a) { return scene.mesh_fixed[a] || wall_node[a] >= 0; });
-      all.mesh_rows = all.mesh;
-      for (const auto& i : scene.interface)
-        for (int k = 0; k < n; ++k) {
-          const Unknown displacement = all.wall[static_cast<std::size_t>(i.wall) * (n + 1) + k];
-          if (displacement.index < 0) continue;
-          all.mesh[static_cast<std::size_t>(i.fluid) * n + k] = displacement;
-          all.flow[static_cast<std::size_t>(i.fluid) * (n + 1) + k] = {displacement.index, 1.0 / scene.scheme.step};
-          all.flow_rows[static_cast<std::size_t>(i.fluid) * (n + 1) + k] = displacement;
-        }
-    }
-  }
-  return all;
-}
-
-/// The fluid alone, velocity prescribed on the interface (Dirichlet side of the partitioned split).
-template <class Element>
-Numbering number_fluid(const Scene<Element>& scene) {
-  constexpr int n = Element::components;
+Numbering number_fluid(const Scene<Element>& scene, bool free_interface = false) {
   Numbering part;
-  std::vector<char> prescribed = scene.no_slip;
-  for (const auto& i : scene.interface) prescribed[i.fluid] = 1;
-  part.flow =
-      detail::number_nodes(scene.fluid->node_count(), n, n + 1, part.size, [&](int a) { return prescribed[a] != 0; });
+  const auto wet = detail::on_interface(scene);
+  const auto& space = scene.fluid->space();
+  part.flow = detail::number_nodes<Element::components>(
+      scene.fluid->node_count(), part.size,
+      [&](int a, int k) { return scene.velocity_conditions.fixes(a, k) || (wet[a] && !free_interface); },
+      [&](int a) { return space.carries_scalar(a); });
   part.flow_rows = part.flow;
   return part;
 }
@@ -84,10 +86,11 @@ Numbering number_fluid(const Scene<Element>& scene) {
 /// The wall alone, free on the interface (Neumann side of the partitioned split).
 template <class Element>
 Numbering number_wall(const Scene<Element>& scene) {
-  constexpr int n = Element::components;
   Numbering part;
-  part.wall =
-      detail::number_nodes(scene.wall->node_count(), n, n + 1, part.size, [&](int a) { return scene.clamped[a] != 0; });
+  const auto& space = scene.wall->space();
+  part.wall = detail::number_nodes<Element::components>(
+      scene.wall->node_count(), part.size, [&](int a, int k) { return scene.wall_conditions.fixes(a, k); },
+      [&](int a) { return space.carries_scalar(a); });
   part.wall_rows = part.wall;
   return part;
 }
@@ -95,14 +98,19 @@ Numbering number_wall(const Scene<Element>& scene) {
 /// The mesh motion alone, displacement prescribed on the whole boundary.
 template <class Element>
 Numbering number_mesh_motion(const Scene<Element>& scene) {
-  constexpr int n = Element::components;
   Numbering part;
-  std::vector<char> prescribed = scene.mesh_fixed;
-  for (const auto& i : scene.interface) prescribed[i.fluid] = 1;
-  part.mesh =
-      detail::number_nodes(scene.fluid->node_count(), n, n, part.size, [&](int a) { return prescribed[a] != 0; });
+  const auto wet = detail::on_interface(scene);
+  part.mesh = detail::number_vectors<Element::components>(
+      scene.fluid->node_count(), part.size, [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
   part.mesh_rows = part.mesh;
   return part;
+}
+
+/// The one medium of a scene that has only one.
+template <class Element>
+Numbering number_single_medium(const Scene<Element>& scene) {
+  assert(!scene.coupled());
+  return scene.fluid ? number_fluid(scene) : number_wall(scene);
 }
 
 }  // namespace fsi

@@ -17,7 +17,8 @@ namespace fsi {
 
 /// The data a Jacobian was made from: enough to make the same one again after a restart.
 struct LinearisationPoint {
-  Solution now, old;
+  Solution now;
+  StepRates rates;  ///< but for the wall's references and history, which no derivative knows
   double wall_pressure = 0;
 };
 
@@ -27,6 +28,8 @@ template <class Element>
 class System : public NewtonProblem {
  public:
   static constexpr int n = Element::components;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
 
   /// \param name         for the profile: "coupled", "fluid", "wall"
   /// \param make_solver  of the linearised equations; none: the direct one
@@ -55,7 +58,7 @@ class System : public NewtonProblem {
     if (!numbering_.flow_rows.empty()) {
       auto& jacobian = scene_.fluid->jacobian(derivatives_);
       blocks.flow = &jacobian.flow;
-      if (!numbering_.mesh.empty()) blocks.mesh_motion = &jacobian.mesh_motion;
+      if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
     }
     if (!numbering_.mesh_rows.empty()) blocks.mesh = &scene_.mesh_motion;
     return blocks;
@@ -65,9 +68,12 @@ class System : public NewtonProblem {
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
 
   /// The state and step that evaluate(), linearise() and move() refer to from now on.
+  /// A Jacobian made for other factors than this step's is no longer kept.
   void work_on(State& state, const StepData& data) {
     state_ = &state;
     data_ = &data;
+    if (numbering_.follow(data.rates.interface)) weights_ = norm_weights();
+    if (rates_differ(data.rates)) usable_ = false;
   }
 
   double evaluate() override {
@@ -90,20 +96,22 @@ class System : public NewtonProblem {
       solver_->update();
     }
     point_.now = state_->now;
-    point_.old = state_->before[0];
+    point_.rates = data_->rates;
+    point_.rates.wall_reference.clear();
     point_.wall_pressure = data_->wall_pressure;
+    usable_ = true;
   }
-  bool linearised() const override { return solver_->ready(); }
+  bool linearised() const override { return usable_ && solver_->ready(); }
 
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
   void linearise_at(const LinearisationPoint& point) {
     State state;
     state.now = point.now;
-    state.before[0] = point.old;
     StepData data;
+    data.rates = point.rates;
     data.wall_pressure = point.wall_pressure;
-    if (!scene_.scheme.is_static() && scene_.wall)
-      data.acceleration_history.assign(static_cast<std::size_t>(scene_.wall->node_count()) * n, 0.0);
+    if (!point.rates.is_static() && scene_.wall)
+      data.rates.acceleration_history.assign(scene_.wall->space().vector_size(), 0.0);
     work_on(state, data);
     linearise();
     state_ = nullptr;
@@ -133,9 +141,9 @@ class System : public NewtonProblem {
   }
 
   double size() const override {
-    return std::sqrt(weighted(mesh_volumes_, n, state_->now.mesh, !numbering_.mesh.empty()) +
-                     weighted(flow_volumes_, n + 1, state_->now.flow, !numbering_.flow.empty()) +
-                     weighted(wall_volumes_, n + 1, state_->now.wall, !numbering_.wall.empty()));
+    return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
+                     weighted<Mixed>(flow_volumes_, state_->now.flow, !numbering_.flow.empty()) +
+                     weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
   }
 
   /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Wall displacements count as
@@ -149,9 +157,12 @@ class System : public NewtonProblem {
     values(numbering_.mesh, state_->now.mesh);
     values(numbering_.flow, state_->now.flow);
     values(numbering_.wall, state_->now.wall);
-    for (std::size_t i = 0; i < numbering_.wall.size(); ++i)
-      if (numbering_.wall[i].index >= 0 && i % (n + 1) < n)
-        x[numbering_.wall[i].index] += std::cbrt(wall_volumes_[i / (n + 1)]);
+    if (!numbering_.wall.empty())
+      for (int node = 0; node < scene_.wall->node_count(); ++node)
+        for (int k = 0; k < n; ++k) {
+          const Unknown& unknown = numbering_.wall[Mixed::vector(node, k)];
+          if (unknown.index >= 0) x[unknown.index] += std::cbrt(wall_volumes_[node]);
+        }
     add_absolute_products(x, terms);
     double sum = 0;
     for (double t : terms) sum += t * t;
@@ -168,13 +179,13 @@ class System : public NewtonProblem {
       add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
     }
     if (!numbering_.flow_rows.empty()) {
-      result.include(scene_.fluid->assemble(scene_.fluid_input(*state_), data_->inlet_pressure, fluid_residual_,
-                                            derivatives ? derivatives_ : FluidDerivatives::none));
+      result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
+                                            fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
       add_to_system(numbering_.flow_rows, fluid_residual_, residual_);
     }
     if (!numbering_.wall_rows.empty()) {
-      result.include(scene_.wall->assemble(scene_.wall_input(*state_, *data_), data_->wall_pressure, state_->now.wall,
-                                           wall_residual_, derivatives));
+      result.include(scene_.wall->assemble(scene_.wall_input(*state_, data_->rates), data_->wall_pressure,
+                                           state_->now.wall, wall_residual_, derivatives));
       if (!data_->interface_load.empty())
         for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
       add_to_system(numbering_.wall_rows, wall_residual_, residual_);
@@ -205,33 +216,16 @@ class System : public NewtonProblem {
     };
     if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
     if (j.flow) add(*j.flow, numbering_.flow_rows, numbering_.flow, false);
-    if (j.mesh_motion) add(*j.mesh_motion, numbering_.flow_rows, numbering_.mesh, false);
+    if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.flow_rows, numbering_.mesh, false);
     if (j.mesh) add(*j.mesh, numbering_.mesh_rows, numbering_.mesh, true);
   }
 
-  static double weighted(const std::vector<double>& volumes, int entries, const std::vector<double>& field,
-                         bool present) {
+  template <class Layout>
+  static double weighted(const std::vector<double>& volumes, const std::vector<double>& field, bool present) {
     double sum = 0;
     if (present)
-      for (std::size_t i = 0; i < field.size(); ++i) sum += volumes[i / entries] * field[i] * field[i];
+      for (std::size_t i = 0; i < field.size(); ++i) sum += volumes[i / Layout::entries] * field[i] * field[i];
     return sum;
-  }
-
-  /// Volume that belongs to each node: the lumped mass of the L2 norm.
-  template <class Part>
-  static std::vector<double> nodal_volumes(const Part& part) {
-    std::vector<double> volumes(part.nodes.size(), 0.0);
-    for (const auto& cell : part.cells) {
-      Vec3<Pack> x[Element::nodes];
-      for (int a = 0; a < Element::nodes; ++a)
-        for (int i = 0; i < 3; ++i) x[a][i] = Pack(part.nodes[cell[a]][i]);
-      const auto geometry = Element::geometry(x);
-      for (int q = 0; q < Element::points; ++q) {
-        const auto g = Element::at(geometry, q);
-        for (int a = 0; a < Element::nodes; ++a) volumes[cell[a]] += g.weight[0] * g.shape[a];
-      }
-    }
-    return volumes;
   }
 
   /// Weights per unknown of the squared L2 norm of an increment of all fields (paper, algorithm 1), mm, mm/ms and kPa
@@ -242,13 +236,20 @@ class System : public NewtonProblem {
       for (std::size_t i = 0; i < map.size(); ++i)
         if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
     };
-    if (!numbering_.flow.empty() || !numbering_.mesh.empty()) flow_volumes_ = nodal_volumes(scene_.fluid->part());
-    mesh_volumes_ = flow_volumes_;
-    if (!numbering_.wall.empty()) wall_volumes_ = nodal_volumes(scene_.wall->part());
-    add(numbering_.mesh, mesh_volumes_, n);
-    add(numbering_.flow, flow_volumes_, n + 1);
-    add(numbering_.wall, wall_volumes_, n + 1);
+    if ((!numbering_.flow.empty() || !numbering_.mesh.empty()) && flow_volumes_.empty())
+      mesh_volumes_ = flow_volumes_ = nodal_volumes<Element>(scene_.fluid->part());
+    if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = nodal_volumes<Element>(scene_.wall->part());
+    add(numbering_.mesh, mesh_volumes_, Vector::entries);
+    add(numbering_.flow, flow_volumes_, Mixed::entries);
+    add(numbering_.wall, wall_volumes_, Mixed::entries);
     return weights;
+  }
+
+  /// Whether a Jacobian of these rates is another one than that at hand.
+  bool rates_differ(const StepRates& rates) const {
+    const StepRates& of_jacobian = point_.rates;
+    return rates.step != of_jacobian.step || rates.interface.period != of_jacobian.interface.period ||
+           rates.flow_factor != of_jacobian.flow_factor || rates.acceleration_factor != of_jacobian.acceleration_factor;
   }
 
   std::string name_;
@@ -260,6 +261,7 @@ class System : public NewtonProblem {
   State* state_ = nullptr;
   const StepData* data_ = nullptr;
   LinearisationPoint point_;
+  bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
   std::vector<double> mesh_volumes_, flow_volumes_, wall_volumes_;
   std::vector<double> weights_;

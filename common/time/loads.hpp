@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 
-#include "case/case.hpp"
+#include "case/openings.hpp"
 #include "time/state.hpp"
-#include "time/time_scheme.hpp"
+#include "time/time_integrator.hpp"
 
 namespace fsi {
 
@@ -14,7 +15,7 @@ namespace fsi {
 /// depend on the time step; a static load rises in equal steps to the table's last value.
 class Loads {
  public:
-  explicit Loads(const Case& setup) : setup_(setup) {}
+  explicit Loads(const Case& setup) : setup_(setup), openings_(openings_of(setup)) {}
 
   int steps() const { return setup_.time ? setup_.time->steps() : setup_.static_load->load_steps; }
 
@@ -26,28 +27,40 @@ class Loads {
     return std::strtod(fmt::format("{:.12g}", step * setup_.time->step).c_str(), nullptr);
   }
 
-  /// kPa, of a step: at the inlet, and on the inner face of a wall without fluid.
-  double inlet_pressure(int step) const {
-    return setup_.inlet ? setup_.inlet->mean(time_of(step - 1), time_of(step)) : 0.0;
+  /// Length of a step, ms; 0 in statics. The case's own but where the end of the run cuts the last step short.
+  double step_length(int step) const {
+    if (!setup_.time) return 0.0;
+    const double length = time_of(step) - time_of(step - 1), nominal = setup_.time->step;
+    return std::abs(length - nominal) <= 1e-9 * nominal ? nominal : length;
   }
+
+  /// kPa, of a step: at the open boundaries, in the order of openings_of(case).
+  std::vector<double> opening_pressures(int step) const {
+    std::vector<double> pressures;
+    for (const OpeningData& opening : openings_)
+      pressures.push_back(opening.pressure ? opening.pressure->mean(time_of(step - 1), time_of(step)) : 0.0);
+    return pressures;
+  }
+  /// kPa, of a step: on the inner face of a wall without fluid.
   double wall_pressure(int step) const {
     if (!setup_.load) return 0.0;
     return setup_.time ? setup_.load->mean(time_of(step - 1), time_of(step)) : time_of(step) * setup_.load->at_end();
   }
 
   /// Data of the step that follows the state's last one.
-  StepData next(const State& state, const TimeScheme& scheme) const {
+  StepData next(const State& state, const TimeIntegrator& integrator) const {
     StepData data;
     const int step = state.step + 1;
     data.time = time_of(step);
-    data.inlet_pressure = inlet_pressure(step);
+    data.rates = integrator.rates(state, step_length(step));
+    data.opening_pressures = opening_pressures(step);
     data.wall_pressure = wall_pressure(step);
-    data.acceleration_history = scheme.acceleration_history(state);
     return data;
   }
 
  private:
   const Case& setup_;
+  std::vector<OpeningData> openings_;
 };
 
 }  // namespace fsi

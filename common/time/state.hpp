@@ -1,16 +1,17 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace fsi {
 
-/// Nodal values of one time level, the paper's X = (D_m, U_f, U_s). Arrays of absent physics are empty. With n
-/// components of a vector:
+/// Nodal values of one time level, the paper's X = (D_m, U_f, U_s), in the layouts of fem/nodal_layout.hpp. Arrays of
+/// absent physics are empty.
 struct Solution {
-  std::vector<double> mesh;  ///< d_m, n numbers per fluid node, mm
-  std::vector<double> flow;  ///< (u, p_f), n + 1 per fluid node, mm/ms and kPa
-  std::vector<double> wall;  ///< (d_s, p_s), n + 1 per wall node, mm and kPa
+  std::vector<double> mesh;  ///< d_m, vectors per fluid node, mm
+  std::vector<double> flow;  ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
+  std::vector<double> wall;  ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
 };
 
 /// Everything a time step starts from and works on.
@@ -19,17 +20,19 @@ struct State {
   double time = 0;                        ///< ms; load fraction in statics
   Solution now;                           ///< the iterate; between steps equal to before[0]
   std::array<Solution, 3> before;         ///< finished time levels, the latest first
-  std::vector<double> wall_velocity;      ///< n per wall node, mm/ms, at before[0]
+  std::array<double, 3> times{};          ///< of these levels, as `time`
+  std::vector<double> wall_velocity;      ///< vectors per wall node, mm/ms, at before[0]
   std::vector<double> wall_acceleration;  ///< mm/ms^2
-};
 
-/// What is known of the step in progress.
-struct StepData {
-  double time = 0;                           ///< ms, at its end
-  double inlet_pressure = 0;                 ///< kPa, mean over the step
-  double wall_pressure = 0;                  ///< kPa, on the inner face of a wall without fluid
-  std::vector<double> acceleration_history;  ///< n per wall node, mm/ms^2; empty in statics
-  std::vector<double> interface_load;        ///< added to the wall's residual, n + 1 per wall node; empty: none
+  /// state.now becomes the latest finished level.
+  void finish_step(double at_time) {
+    std::swap(before[2], before[1]);
+    std::swap(before[1], before[0]);
+    before[0] = now;
+    times = {at_time, times[0], times[1]};
+    ++step;
+    time = at_time;
+  }
 };
 
 }  // namespace fsi

@@ -33,17 +33,18 @@ class CoupledSystem {
     const auto& scene = blocks.scene;
     mesh_ = BlockMatrix<1, n>(blocks.mesh->graph);
     flow_ = BlockMatrix<n + 1, n + 1>(blocks.flow->graph);
-    flow_mesh_ = BlockMatrix<n + 1, n>(blocks.mesh_motion->graph);
+    flow_mesh_ = BlockMatrix<n + 1, n>(blocks.shape_derivatives->graph);
     wall_ = BlockMatrix<n + 1, n + 1>(blocks.wall->graph);
     k_ = {&mesh_, &mesh_wall_, &flow_mesh_, &flow_, &flow_wall_, &wall_flow_, &wall_};
-    constraints_.mesh_fixed = scene.mesh_fixed;
-    constraints_.velocity_fixed = scene.no_slip;
-    constraints_.wall_fixed = scene.clamped;
+    constraints_.mesh_fixed = fixed_nodes(scene.mesh_conditions);
+    constraints_.velocity_fixed = fixed_nodes(scene.velocity_conditions);
+    constraints_.wall_fixed = fixed_nodes(scene.wall_conditions);
+    clamped_ = constraints_.wall_fixed;
     std::vector<int> wall_of(static_cast<std::size_t>(k_.fluid_nodes()), -1),
         fluid_of(static_cast<std::size_t>(k_.wall_nodes()), -1);
     for (const auto& node : scene.interface) {
       constraints_.mesh_fixed[node.fluid] = constraints_.wall_fixed[node.wall] = 1;
-      if (node.clamped || scene.clamped[node.wall]) {
+      if (node.clamped || clamped_[node.wall]) {
         constraints_.velocity_fixed[node.fluid] = 1;
       } else {
         interface_.push_back({node.fluid, node.wall});
@@ -51,7 +52,6 @@ class CoupledSystem {
         fluid_of[node.wall] = node.fluid;
       }
     }
-    clamped_ = scene.clamped;
     mesh_zero_ = constraints_.mesh_fixed;  // columns of interface nodes stay, they are unknowns
     for (const auto& pair : interface_) mesh_zero_[pair.fluid] = 0;
     mesh_wall_ = tie(wall_of);
@@ -83,11 +83,11 @@ class CoupledSystem {
 
   /// Takes over the values that the block matrices hold now.
   void update() {
-    const double rate = 1.0 / blocks_.scene.scheme.step;
+    const double rate = blocks_.numbering.interface.rate();
     update_mesh_motion();
     copy(*blocks_.flow, flow_);
     impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, [](int) { return 1.0; });
-    copy(*blocks_.mesh_motion, flow_mesh_);
+    copy(*blocks_.shape_derivatives, flow_mesh_);
     impose(flow_mesh_, constraints_.velocity_fixed, mesh_zero_, [](int) { return 0.0; });
     const auto tractions = static_cast<std::ptrdiff_t>(traction_.size());
 #pragma omp parallel for schedule(static) if (tractions > 20000)
@@ -134,6 +134,12 @@ class CoupledSystem {
   }
 
  private:
+  static std::vector<char> fixed_nodes(const DirichletConditions<n>& conditions) {
+    std::vector<char> fixed(static_cast<std::size_t>(conditions.node_count()), 0);
+    for (int a = 0; a < conditions.node_count(); ++a) fixed[a] = conditions.fixes(a);
+    return fixed;
+  }
+
   /// Minus the identity between each node and its partner, if it has one.
   static BlockMatrix<1, 1> tie(const std::vector<int>& partner) {
     auto graph = std::make_shared<NodeGraph>();

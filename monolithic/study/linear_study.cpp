@@ -21,6 +21,7 @@
 #include "driver/load_mesh.hpp"
 #include "io/atomic_file.hpp"
 #include "monolithic/block/coupled_system.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
 #include "scene/build_scene.hpp"
@@ -146,7 +147,7 @@ class LinearStudy {
       return make_linear_solver("fast", setup_, blocks);
     };
     NewtonOptions options = newton_options(setup_.monolithic);
-    NewtonStepper<Element> stepper(*scene_, loads_, options, make_fast);
+    NewtonStepper<Element> stepper(*scene_, loads_, options, number_scene(*scene_), make_fast);
     System<Element> system("coupled", *scene_, number_scene(*scene_), make_fast);
     State state = scene_->at_rest();
     while (state.step < systems_.back().step) {
@@ -166,9 +167,10 @@ class LinearStudy {
  private:
   /// The next step by Newton's method with a new Jacobian in each iteration; named systems are studied as they come.
   Json study_step(System<Element>& system, State& state, Json& answers) {
-    const StepData data = loads_.next(state, scene_->scheme);
-    scene_->scheme.predict(state);
-    scene_->impose_interface(state);
+    const StepData data = loads_.next(state, *scene_->integrator);
+    predict(state, scene_->predictor, data.time);
+    scene_->impose_conditions(state.now);
+    scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
     Json increments = Json::array(), residuals = Json::array();
     double residual = system.evaluate(), first = 0;
@@ -194,8 +196,8 @@ class LinearStudy {
                     {"increments", increments},
                     {"residuals", residuals},
                     {"iterations", increments.size()}};
-    scene_->impose_interface(state);
-    scene_->scheme.accept(state, data);
+    scene_->impose_interface(state, data.rates);
+    scene_->integrator->accept(state, data);
     return history;
   }
 

@@ -75,13 +75,13 @@ class InterfaceProblem {
       for (int k = 0; k < n; ++k) {
         const double gap = state_->now.wall[wall_entry(node, k)] - state_->now.mesh[mesh_entry(node, k)];
         moved.mesh[mesh_entry(node, k)] += gap;
-        moved.flow[flow_entry(node, k)] += gap / scene_.scheme.step;
+        moved.flow[flow_entry(node, k)] += data_->rates.interface.velocity_change(gap);
       }
-    FluidInput in = scene_.fluid_input(*state_);
+    FluidInput in = scene_.fluid_input(*state_, data_->rates);
     in.mesh = moved.mesh.data();
     in.flow = moved.flow.data();
     std::vector<double> rows;
-    scene_.fluid->assemble(in, data_->inlet_pressure, rows);
+    scene_.fluid->assemble(in, data_->opening_pressures, rows);
     double gap = 0, force = 0;
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) {
@@ -107,15 +107,9 @@ class InterfaceProblem {
   CouplingCost cost;  ///< of the step; the stepper sets it back
 
  protected:
-  static std::size_t mesh_entry(const InterfaceNode& node, int k) {
-    return static_cast<std::size_t>(node.fluid) * n + k;
-  }
-  static std::size_t flow_entry(const InterfaceNode& node, int k) {
-    return static_cast<std::size_t>(node.fluid) * (n + 1) + k;
-  }
-  static std::size_t wall_entry(const InterfaceNode& node, int k) {
-    return static_cast<std::size_t>(node.wall) * (n + 1) + k;
-  }
+  static std::size_t mesh_entry(const InterfaceNode& node, int k) { return VectorLayout<n>::vector(node.fluid, k); }
+  static std::size_t flow_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.fluid, k); }
+  static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
   static LinearSolverFactory<Element> solver_factory(const PartitionedData& options) {

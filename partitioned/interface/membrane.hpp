@@ -99,7 +99,7 @@ auto wet_facets(const Scene<Element>& scene) {
 template <class Element>
 Membrane membrane_of(const Scene<Element>& scene, const StructureData& data) {
   Membrane m;
-  const auto areas = area_weights<Element>(scene.fluid->part().nodes, detail::wet_facets(scene));
+  const auto areas = nodal_areas<Element>(scene.fluid->part().nodes, detail::wet_facets(scene));
   for (const auto& node : scene.interface) {
     m.node_areas.push_back(areas[node.fluid]);
     m.area += areas[node.fluid];

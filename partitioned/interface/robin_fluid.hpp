@@ -22,13 +22,9 @@ class RobinFluid : public NewtonProblem {
  public:
   static constexpr int n = Element::components;
 
-  /// \param impedance  c, per interface node
-  RobinFluid(Scene<Element>& scene, MeshMotionSolver<Element>& mesh_motion, std::vector<double> impedance,
+  RobinFluid(Scene<Element>& scene, MeshMotionSolver<Element>& mesh_motion,
              const LinearSolverFactory<Element>& make_solver)
-      : scene_(scene), mesh_motion_(mesh_motion), impedance_(std::move(impedance)) {
-    numbering_.flow = detail::number_nodes(scene.fluid->node_count(), n, n + 1, numbering_.size,
-                                           [&](int a) { return scene.no_slip[a] != 0; });
-    numbering_.flow_rows = numbering_.flow;
+      : scene_(scene), mesh_motion_(mesh_motion), numbering_(number_fluid(scene, /*free_interface=*/true)) {
     const JacobianBlocks<Element> blocks{scene, numbering_, &jacobian()};
     if (make_solver)
       solver_ = make_solver(blocks);
@@ -38,7 +34,10 @@ class RobinFluid : public NewtonProblem {
   RobinFluid(const RobinFluid&) = delete;  // the solver refers to the numbering
   RobinFluid& operator=(const RobinFluid&) = delete;
 
-  void work_on(State& state, const StepData& data, CouplingCost& cost) {
+  /// \param impedance  c of the step, per interface node; a change of it asks for a new Jacobian
+  void work_on(State& state, const StepData& data, const std::vector<double>& impedance, CouplingCost& cost) {
+    if (impedance_ != impedance) usable_ = false;
+    impedance_ = impedance;
     state_ = &state;
     data_ = &data;
     cost_ = &cost;
@@ -69,16 +68,19 @@ class RobinFluid : public NewtonProblem {
       solver_->update();
     }
     point_.now = state_->now;
-    point_.old = state_->before[0];
+    point_.rates = data_->rates;
+    point_.rates.wall_reference.clear();
+    usable_ = true;
   }
-  bool linearised() const override { return solver_->ready(); }
+  bool linearised() const override { return usable_ && solver_->ready(); }
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
-  void linearise_at(const LinearisationPoint& point) {
+  void linearise_at(const LinearisationPoint& point, const std::vector<double>& impedance) {
+    impedance_ = impedance;
     State state;
     state.now = point.now;
-    state.before[0] = point.old;
     StepData data;
+    data.rates = point.rates;
     aim_.assign(scene_.interface.size() * n, 0.0);
     state_ = &state;
     data_ = &data;
@@ -129,15 +131,15 @@ class RobinFluid : public NewtonProblem {
     const Stopwatch watch(cost_->mesh_seconds);
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k)
-        state_->now.mesh[static_cast<std::size_t>(node.fluid) * n + k] =
-            state_->before[0].wall[static_cast<std::size_t>(node.wall) * (n + 1) + k] +
-            scene_.scheme.step * state_->now.flow[static_cast<std::size_t>(node.fluid) * (n + 1) + k];
+        state_->now.mesh[VectorLayout<n>::vector(node.fluid, k)] =
+            data_->rates.interface.displacement(state_->now.flow[MixedLayout<n>::vector(node.fluid, k)],
+                                                data_->rates.wall_reference[MixedLayout<n>::vector(node.wall, k)]);
     mesh_motion_.solve(state_->now.mesh);
   }
 
   AssemblyResult assemble(bool derivatives) {
-    const auto result = scene_.fluid->assemble(scene_.fluid_input(*state_), data_->inlet_pressure, rows_,
-                                               derivatives ? FluidDerivatives::flow : FluidDerivatives::none);
+    const auto result = scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
+                                               rows_, derivatives ? FluidDerivatives::flow : FluidDerivatives::none);
     residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
     add_to_system(numbering_.flow_rows, rows_, residual_);
     for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
@@ -162,6 +164,7 @@ class RobinFluid : public NewtonProblem {
   State* state_ = nullptr;
   const StepData* data_ = nullptr;
   CouplingCost* cost_ = nullptr;
+  bool usable_ = false;  ///< the Jacobian belongs to this impedance
   std::vector<double> rows_, residual_, increment_;
 };
 

@@ -9,6 +9,7 @@
 #include "partitioned/interface/interface_problem.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/robin_fluid.hpp"
+#include "time/predictor.hpp"
 
 namespace fsi {
 
@@ -29,34 +30,38 @@ class RobinNeumann : public InterfaceProblem<Element> {
 
   RobinNeumann(Scene<Element>& scene, const PartitionedData& options, const StructureData& wall)
       : Base(scene, options),
-        impedance_(impedance_of(scene, membrane_of(scene, wall))),
-        fluid_(scene, Base::mesh_motion_, impedance_, Base::solver_factory(options)) {
+        membrane_(membrane_of(scene, wall)),
+        fluid_(scene, Base::mesh_motion_, Base::solver_factory(options)) {
     for (auto& load : loads_) load.assign(Base::interface_size(), 0.0);
   }
 
   void start(State& state, StepData& data) override {
     Base::start(state, data);
-    fluid_.work_on(state, data, cost);
+    if (impedance_.empty() || period_ != data.rates.interface.period) {
+      period_ = data.rates.interface.period;
+      impedance_ = impedance_of(membrane_, data.rates);
+    }
+    fluid_.work_on(state, data, impedance_, cost);
   }
 
   /// The extrapolated displacement, and the load extrapolated alike.
   std::vector<double> first_guess(int order) const override {
-    static constexpr double weights[3][3] = {{1, 0, 0}, {2, -1, 0}, {3, -3, 1}};
-    order = std::min({order, state_->step, 2});
+    const auto weights = extrapolation_weights(*state_, order, data_->time);
     std::vector<double> x = Base::wall_displacement(state_->now);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!fluid_.moves(static_cast<int>(i / n))) continue;
       double load = 0;
-      for (int level = 0; level < 3; ++level) load += weights[order][level] * loads_[level][i];
-      x[i] += scene_.scheme.step * load / impedance_[i / n];
+      for (int level = 0; level < 3; ++level) load += weights[level] * loads_[level][i];
+      x[i] += data_->rates.interface.displacement(load / impedance_[i / n], 0.0);
     }
     return x;
   }
 
   Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
     std::vector<double> aim = x;
-    axpy(-1, Base::wall_displacement(state_->before[0]), aim);
-    scale(1 / scene_.scheme.step, aim);
+    for (std::size_t i = 0; i < aim.size(); ++i)
+      aim[i] = data_->rates.interface.velocity(
+          x[i], data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))]);
     fluid_.aim_at(std::move(aim));
     return refine(accuracy);
   }
@@ -96,7 +101,11 @@ class RobinNeumann : public InterfaceProblem<Element> {
   void recall(const Memory& memory) override {
     Base::recall(memory);
     LinearisationPoint point;
-    if (fsi::recall("fluid", memory, point)) fluid_.linearise_at(point);
+    if (fsi::recall("fluid", memory, point)) {
+      period_ = point.rates.interface.period;
+      impedance_ = impedance_of(membrane_, point.rates);
+      fluid_.linearise_at(point, impedance_);
+    }
     for (std::size_t level = 0; level < loads_.size(); ++level) {
       const auto load = memory.arrays.find("load" + std::to_string(level));
       if (load != memory.arrays.end()) loads_[level] = load->second;
@@ -104,12 +113,14 @@ class RobinNeumann : public InterfaceProblem<Element> {
   }
 
  private:
-  static std::vector<double> impedance_of(const Scene<Element>& scene, const Membrane& wall) {
+  static std::vector<double> impedance_of(const Membrane& wall, const StepRates& rates) {
     std::vector<double> impedance = wall.node_areas;
-    scale(wall.impedance(scene.scheme.acceleration_factor(), scene.scheme.step), impedance);
+    scale(wall.impedance(rates.acceleration_factor, rates.interface.period), impedance);
     return impedance;
   }
 
+  Membrane membrane_;
+  double period_ = 0;              ///< ms, that the impedance was made for
   std::vector<double> impedance_;  ///< c, per interface node, kPa mm^2 / (mm/ms)
   RobinFluid<Element> fluid_;
   std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first

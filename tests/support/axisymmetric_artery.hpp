@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "fem/p1_axisymmetric_triangle.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "system/newton_stepper.hpp"
+#include "time/euler_newmark.hpp"
 
 namespace fsi::testing {
 
 /// The paper's artery as a body of revolution: the same weak forms, assembly, numbering and Newton stepper as in three
-/// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. Serves as independent reference: with the
-/// same element size it has a fiftieth of the unknowns.
+/// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. With the same
+/// element size it has a fiftieth of the unknowns, so that it can be refined until it serves as a reference.
 class AxisymmetricArtery {
  public:
   using Element = P1AxisymmetricTriangle;
@@ -25,13 +27,14 @@ class AxisymmetricArtery {
   AxisymmetricArtery(const std::string& material, int refinement, double step = 0.125, double alpha = 0.5)
       : axial_cells_(36 * refinement), alpha_(alpha) {
     make_grid(refinement);
+    setup_.fluid = FluidData{1.0, 3.5e-3, false};
     setup_.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
     setup_.time = TimeData{};
     setup_.time->step = step;
     setup_.time->end = 12;
     make_scene(material);
     loads_ = std::make_unique<Loads>(setup_);
-    stepper_ = std::make_unique<NewtonStepper<Element>>(*scene_, *loads_, NewtonOptions{});
+    stepper_ = std::make_unique<NewtonStepper<Element>>(*scene_, *loads_, NewtonOptions{}, number_scene(*scene_));
     state_ = scene_->at_rest();
   }
 
@@ -56,10 +59,10 @@ class AxisymmetricArtery {
 
   int node(int i, int k) const { return k * static_cast<int>(radii_.size()) + i; }
   double on_axis(int k) const {
-    return state_.now.flow[static_cast<std::size_t>(scene_->fluid->part().local_node[node(0, k)]) * 3 + 2];
+    return state_.now.flow[MixedLayout<2>::scalar(scene_->fluid->part().local_node[node(0, k)])];
   }
   double radial(int k) const {
-    return state_.now.wall[static_cast<std::size_t>(scene_->wall->part().local_node[node(fluid_cells_, k)]) * 3];
+    return state_.now.wall[MixedLayout<2>::vector(scene_->wall->part().local_node[node(fluid_cells_, k)])];
   }
 
   /// Of nodal values per station, at z = 0, 0.1, ..., 18 mm.
@@ -106,7 +109,7 @@ class AxisymmetricArtery {
 
   void make_scene(const std::string& material) {
     scene_ = std::make_unique<Scene<Element>>();
-    scene_->scheme = {setup_.time->step, 1, 1, 1, Element::components};
+    scene_->integrator = std::make_unique<EulerNewmark<Element::components>>();
     auto fluid = submesh(mesh_, {0}), wall = submesh(mesh_, {1, 2});
     std::vector<TriangleMesh::Facet> inlet, outlet;
     for (int i = 0; i < fluid_cells_; ++i) {
@@ -114,19 +117,22 @@ class AxisymmetricArtery {
       outlet.push_back(fluid.local({node(i + 1, axial_cells_), node(i, axial_cells_)}));
     }
     const auto at_end = [](const Point& x) { return x[2] < 1e-9 || x[2] > length - 1e-9; };
-    for (const auto& x : wall.nodes) scene_->clamped.push_back(at_end(x));
+    scene_->wall_conditions = DirichletConditions<2>(wall.node_count());
+    for (int a = 0; a < wall.node_count(); ++a)
+      if (at_end(wall.nodes[a])) scene_->wall_conditions.fix(a);
+    scene_->velocity_conditions = scene_->mesh_conditions = DirichletConditions<2>(fluid.node_count());
     for (int a = 0; a < fluid.node_count(); ++a) {
       const bool end = at_end(fluid.nodes[a]), wet = fluid.nodes[a][0] > inner - 1e-9;
-      scene_->mesh_fixed.push_back(end);
-      scene_->no_slip.push_back(end && wet);
+      if (end) scene_->mesh_conditions.fix(a);
+      if (end && wet) scene_->velocity_conditions.fix(a);
       if (wet) scene_->interface.push_back({a, wall.local_node[fluid.mesh_node[a]], end});
     }
     scene_->wall = std::make_unique<WallProblem<Element>>(
         std::move(wall), WallConstants{1.2, 1e5, alpha_},
         std::vector<std::pair<int, LayerMaterial>>{{1, layer(material, true)}, {2, layer(material, false)}},
         CylinderAxis{});
-    scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3, setup_.time->step},
-                                                            inlet, outlet);
+    std::vector<OpenBoundary<Element>> open{{"inlet", fluid.nodes, inlet}, {"outlet", fluid.nodes, outlet}};
+    scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3}, std::move(open));
     scene_->mesh_motion = MeshMotionMatrix<Element>(scene_->fluid->graph());
     assemble_mesh_motion(scene_->fluid->packs(), scene_->mesh_motion);
   }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "monolithic/coupled_numbering.hpp"
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
 
@@ -21,12 +22,12 @@ class LinearisedScene {
     if (finished_steps > 0) {
       NewtonOptions newton;
       newton.tolerance = 1e-10;
-      NewtonStepper<Element> stepper(scene_, loads_, newton);
+      NewtonStepper<Element> stepper(scene_, loads_, newton, number_scene(scene_));
       for (int n = 0; n < finished_steps; ++n) stepper.advance(state_);
     }
-    data_ = loads_.next(state_, scene_.scheme);
-    scene_.scheme.predict(state_);
-    scene_.impose_interface(state_);
+    data_ = loads_.next(state_, *scene_.integrator);
+    predict(state_, scene_.predictor, data_.time);
+    scene_.impose_interface(state_, data_.rates);
     system_ = std::make_unique<System<Element>>("coupled", scene_, number_scene(scene_), made_when_asked());
     system_->work_on(state_, data_);
     for (int k = 1; k <= iteration; ++k) {

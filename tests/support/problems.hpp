@@ -103,12 +103,29 @@ class SubProblem : public NewtonProblem {
   DirectSolver solver_;
 };
 
-/// One backward Euler step of the fluid on a given moving mesh.
+/// What the fluid's residual depends on in a backward Euler step; no meshes: a rigid domain.
+/// \param step  ms
+inline FluidInput euler_input(const std::vector<double>* mesh, const std::vector<double>* mesh_old,
+                              const std::vector<double>& flow, const std::vector<double>& flow_old, double step) {
+  FluidInput in;
+  if (mesh) {
+    in.mesh = mesh->data();
+    in.mesh_reference = mesh_old->data();
+    in.mesh_factor = 1 / step;
+  }
+  in.flow = flow.data();
+  in.flow_reference = flow_old.data();
+  in.flow_factor = 1 / step;
+  in.step = step;
+  return in;
+}
+
+/// One backward Euler step, of the length that the fluid's form has, of the fluid on a given moving mesh.
 template <class Element>
 class FluidStep : public SubProblem {
  public:
   std::vector<double> mesh, mesh_old, flow_old;
-  double inlet_pressure = 0;
+  std::vector<double> pressures;  ///< kPa, of the fluid's open boundaries
 
   template <class Prescribed>
   FluidStep(FluidProblem<Element>& fluid, Prescribed prescribed)
@@ -124,7 +141,7 @@ class FluidStep : public SubProblem {
     mesh_old = mesh;
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
-    return fluid_.assemble({mesh.data(), mesh_old.data(), at.data(), flow_old.data()}, inlet_pressure, residual,
+    return fluid_.assemble(euler_input(&mesh, &mesh_old, at, flow_old, fluid_.form().step), pressures, residual,
                            derivatives ? FluidDerivatives::flow : FluidDerivatives::none);
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {

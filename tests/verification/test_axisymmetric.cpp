@@ -22,7 +22,7 @@ using Triangle = P1AxisymmetricTriangle;
 TEST(AxisymmetricJacobian, OfTheFluidInEveryBlock) {
   for (const bool grad_div : {false, true}) {
     const auto mesh = irregular_ring(3);
-    FluidProblem<Triangle> fluid(whole(mesh), strongly_coupled_fluid(grad_div), {}, {});
+    FluidProblem<Triangle> fluid(whole(mesh), strongly_coupled_fluid(grad_div), {});
     check_fluid_blocks(fluid, FluidState<Triangle>(mesh.nodes), "axisymmetric fluid", {1, 2});
   }
 }
@@ -49,7 +49,7 @@ TEST(AxisymmetricJacobian, OfTheWallInEveryBlock) {
 
 TEST(AxisymmetricJacobian, OfTheMeshMotion) {
   const auto mesh = irregular_ring(3);
-  FluidProblem<Triangle> fluid(whole(mesh), strongly_coupled_fluid(false), {}, {});
+  FluidProblem<Triangle> fluid(whole(mesh), strongly_coupled_fluid(false), {});
   MeshMotionMatrix<Triangle> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   const auto state = random_field(mesh.nodes, 2, 0.3, 0.1, 41), direction = random_field(mesh.nodes, 2, 0.3, 0.1, 42);
@@ -64,7 +64,7 @@ TEST(AxisymmetricJacobian, OfTheMeshMotion) {
 TEST(AxisymmetricPatch, MeshMotionReproducesHomogeneousStretch) {
   const auto mesh = irregular_ring(4);
   const auto boundary = boundary_marks(mesh);
-  FluidProblem<Triangle> fluid(whole(mesh), {}, {}, {});
+  FluidProblem<Triangle> fluid(whole(mesh), {}, {});
   MeshMotionMatrix<Triangle> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   MeshMotionEquilibrium<Triangle> problem(matrix, [&](int a, int) { return boundary[a] != 0; });
@@ -115,12 +115,12 @@ TEST(AxisymmetricPatch, HydrostaticPressureFillsAVesselAtRest) {
   std::vector<TriangleMesh::Facet> inlet;
   for (const auto& side : boundary_sides(mesh))
     if (mesh.nodes[side[0]][2] == 0 && mesh.nodes[side[1]][2] == 0) inlet.push_back(side);
-  FluidProblem<Triangle> fluid(whole(mesh), {1.0, 3.5e-3, 0.125, false}, inlet, {});
+  FluidProblem<Triangle> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125}, {{"inlet", mesh.nodes, inlet}});
   FluidStep<Triangle> step(fluid, [&](int a, int k) {
     const auto& x = mesh.nodes[a];
     return k < 2 && boundary[a] && !(x[2] == 0 && x[0] > 1 && x[0] < 2);
   });
-  step.inlet_pressure = 1.332;
+  step.pressures = {1.332};
   step.mesh = random_field(mesh.nodes, 2, 0.3, 0.01, 1);
   for (std::size_t i = 0; i < step.mesh.size(); ++i)
     if (boundary[i / 2]) step.mesh[i] = 0;

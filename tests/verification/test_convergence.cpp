@@ -78,7 +78,7 @@ TEST(MeshMotionConvergence, SecondOrderInL2FirstInH1) {
   for (int n : sides) {
     const auto mesh = irregular_cube(n);
     const auto boundary = boundary_marks(mesh);
-    FluidProblem<Tet> fluid(whole(mesh), {}, {}, {});
+    FluidProblem<Tet> fluid(whole(mesh), {}, {});
     MeshMotionMatrix<Tet> matrix(fluid.graph());
     assemble_mesh_motion(fluid.packs(), matrix);
     MeshMotionEquilibrium<Tet> problem(matrix, [&](int a, int) { return boundary[a] != 0; });
@@ -106,13 +106,13 @@ Point smooth_displacement(const Point& x, double t) {
 }
 
 void check_fluid_convergence(bool grad_div) {
-  const AleFluid form{/*density=*/1.2, /*viscosity=*/0.05, /*step=*/0.5, grad_div};
+  const AleFluid form{/*density=*/1.2, /*viscosity=*/0.05, grad_div, /*step=*/0.5};
   const BeltramiFlow flow{form.density, /*wave_number=*/2.5, /*frequency=*/0};
   ConvergenceTable table(grad_div ? "fluid, grad-div" : "fluid", {"u, L2", "u, H1", "p, L2"});
   for (int n : sides) {
     const auto mesh = irregular_cube(n);
     const auto boundary = boundary_marks(mesh);
-    FluidProblem<Tet> fluid(whole(mesh), form, {}, {});
+    FluidProblem<Tet> fluid(whole(mesh), form, {});
     FluidStep<Tet> step(fluid, [&](int a, int i) { return i < 3 && boundary[a] && !open_face(mesh.nodes[a]); });
     std::vector<Point> now = mesh.nodes;
     std::vector<double> mesh_velocity(3 * now.size());

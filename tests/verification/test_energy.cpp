@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnostics/energy_balance.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
@@ -34,12 +35,12 @@ Case lively_case(const std::string& material) {
 void impose_boundary(const Scene<Tet>& scene, Solution& level) {
   for (int a = 0; a < scene.fluid->node_count(); ++a)
     for (int k = 0; k < 3; ++k) {
-      if (scene.no_slip[a]) level.flow[4 * a + k] = 0;
-      if (scene.mesh_fixed[a]) level.mesh[3 * a + k] = 0;
+      if (scene.velocity_conditions.fixes(a)) level.flow[4 * a + k] = 0;
+      if (scene.mesh_conditions.fixes(a)) level.mesh[3 * a + k] = 0;
     }
   for (int a = 0; a < scene.wall->node_count(); ++a)
     for (int k = 0; k < 3; ++k)
-      if (scene.clamped[a]) level.wall[4 * a + k] = 0;
+      if (scene.wall_conditions.fixes(a)) level.wall[4 * a + k] = 0;
 }
 
 /// A step between two states that solve nothing.
@@ -69,19 +70,19 @@ class ArbitraryStep {
         for (int k = 0; k < 3; ++k) fields->mesh[3 * node.fluid + k] = fields->wall[4 * node.wall + k];
     }
     state_.before[1] = old;
-    scene_->impose_interface(state_);
+    scene_->impose_interface(state_, scene_->integrator->rates(state_, setup.time->step));
     state_.wall_velocity = random_field(y, 3, 0.5, 0.1, 7);
     state_.wall_acceleration = random_field(y, 3, 0.5, 0.1, 8);
   }
 
   /// The step's residual tested with what the balance is made by.
   double tested_residual() {
-    const double step = scene_->scheme.step;
-    const StepData data = loads_.next(state_, scene_->scheme);
+    const StepData data = loads_.next(state_, *scene_->integrator);
+    const double step = data.rates.step;
     std::vector<double> fluid, wall, wall_old;
-    scene_->fluid->assemble(scene_->fluid_input(state_), data.inlet_pressure, fluid);
-    scene_->wall->assemble(scene_->wall_input(state_, data), 0, state_.now.wall, wall);
-    StructureInput old = scene_->wall_input(state_, data);
+    scene_->fluid->assemble(scene_->fluid_input(state_, data.rates), data.opening_pressures, fluid);
+    scene_->wall->assemble(scene_->wall_input(state_, data.rates), 0, state_.now.wall, wall);
+    StructureInput old = scene_->wall_input(state_, data.rates);
     old.wall = state_.before[0].wall.data();
     scene_->wall->assemble(old, 0, state_.before[0].wall, wall_old);
     double sum = 0;
@@ -95,7 +96,7 @@ class ArbitraryStep {
   EnergyRecord balance() {
     EnergyBalance<Tet> energy(*scene_, loads_, state_);
     State next = state_;
-    scene_->scheme.accept(next, loads_.next(state_, scene_->scheme));
+    scene_->integrator->accept(next, loads_.next(state_, *scene_->integrator));
     return energy.step_to(next);
   }
 
@@ -132,7 +133,7 @@ std::vector<EnergyRecord> march(const Case& setup, const TetrahedralMesh& mesh, 
   const Loads loads(setup);
   NewtonOptions options;
   options.tolerance = 1e-11;
-  NewtonStepper<Tet> stepper(*scene, loads, options);
+  NewtonStepper<Tet> stepper(*scene, loads, options, number_scene(*scene));
   State state = scene->at_rest();
   EnergyBalance<Tet> balance(*other, loads, state);
   std::vector<EnergyRecord> records;

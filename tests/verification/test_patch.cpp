@@ -153,8 +153,7 @@ struct ClosedFluid {
   FluidStep<Tet> step;
 
   explicit ClosedFluid(const AleFluid& form)
-      : fluid(whole(mesh), form, {}, {}),
-        step(fluid, [this](int a, int k) { return k < 3 ? boundary[a] != 0 : a == 0; }) {}
+      : fluid(whole(mesh), form, {}), step(fluid, [this](int a, int k) { return k < 3 ? boundary[a] != 0 : a == 0; }) {}
 
   Point position(std::size_t a, const std::vector<double>& displacement) const {
     Point x = mesh.nodes[a];
@@ -186,7 +185,7 @@ using Flow = std::array<double, 4>;
 // Parallel shear u = (g z, 0, 0) with constant pressure: zero acceleration, constant stress, zero residual.
 TEST(FluidPatch, LinearShearFlowIsReproducedOnADeformedMesh) {
   for (const bool grad_div : {false, true}) {
-    ClosedFluid box({1.3, 0.03, 0.5, grad_div});
+    ClosedFluid box({1.3, 0.03, grad_div, 0.5});
     box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, 1);
     box.step.mesh_old = box.step.mesh;
     const auto exact = box.nodal([](const Point& x) { return Flow{2 * x[2] + 0.3, 0.0, 0.0, 1.7}; }, box.step.mesh);
@@ -198,7 +197,7 @@ TEST(FluidPatch, LinearShearFlowIsReproducedOnADeformedMesh) {
 // In creeping flow, here with a density so small that inertia vanishes, any linear solenoidal field with constant
 // pressure is a solution of Stokes' equations.
 TEST(FluidPatch, AnyLinearSolenoidalFieldIsReproducedInCreepingFlow) {
-  ClosedFluid box({1e-13, 0.03, 0.5, false});
+  ClosedFluid box({1e-13, 0.03, false, 0.5});
   box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, 1);
   box.step.mesh_old = box.step.mesh;
   const Matrix a{{{0.8, 1.1, -0.4}, {0.3, -1.3, 0.9}, {-0.7, 0.2, 0.5}}};
@@ -217,7 +216,7 @@ TEST(FluidPatch, AnyLinearSolenoidalFieldIsReproducedInCreepingFlow) {
 // what grad u w takes away, and the mesh velocity of linear elements is linear. Claimed for any motion that inverts no
 // element.
 TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
-  ClosedFluid box({1.0, 3.5e-3, 0.125, false});
+  ClosedFluid box({1.0, 3.5e-3, false, 0.125});
   const auto flows = {std::pair{"uniform",
                                 +[](const Point&) {
                                   return Flow{3.0, -1.0, 2.0, 0.7};
@@ -237,7 +236,7 @@ TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
       // How far the mesh moves: J over the elements.
       for (const auto& pack : box.fluid.packs().of_thread(0)) {
         NodalVector<Tet> d{};
-        gather(d, pack, box.step.mesh.data());
+        gather<VectorLayout<3>>(d, pack, box.step.mesh.data());
         const Pack j = deformation(gradient_of(d, Tet::at(pack.geometry, 0))).volume_ratio;
         for (int lane = 0; lane < pack_width; ++lane)
           smallest = std::min(smallest, j[lane]), greatest = std::max(greatest, j[lane]);
@@ -255,7 +254,7 @@ TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
 // Uniform acceleration b in a closed box: u = b t, p = -rho b . x. Backward Euler is exact for linear growth and the
 // PSPG term sees a zero residual, so also this is reproduced, on a moving mesh.
 TEST(GeometricConservation, UniformlyAcceleratedFlowWithItsLinearPressure) {
-  ClosedFluid box({1.3, 3.5e-3, 0.125, false});
+  ClosedFluid box({1.3, 3.5e-3, false, 0.125});
   const double b[3] = {2.0, -1.0, 0.5};
   const auto flow = [&](double t) {
     return [&b, t](const Point& x) {
@@ -278,13 +277,13 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
   const auto mesh = irregular_cube(4, 0.2);
   const auto boundary = boundary_marks(mesh);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
-  FluidProblem<Tet> fluid(whole(mesh), {1.0, 3.5e-3, 0.125, false}, inlet, {});
+  FluidProblem<Tet> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125}, {{"inlet", mesh.nodes, inlet}});
   FluidStep<Tet> step(fluid, [&](int a, int k) {
     const auto& x = mesh.nodes[a];
     const bool open = x[0] == 0 && x[1] > 0 && x[1] < 1 && x[2] > 0 && x[2] < 1;
     return k < 3 && boundary[a] && !open;
   });
-  step.inlet_pressure = 1.332;
+  step.pressures = {1.332};
   for (unsigned n = 1; n <= 3; ++n) {
     step.mesh_old = step.mesh;
     step.mesh = random_field(mesh.nodes, 3, 0.3, 0.01, n);
@@ -306,7 +305,7 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
 TEST(MeshMotionPatch, AffineDisplacementIsReproduced) {
   const auto mesh = irregular_cube(4, 0.2);
   const auto boundary = boundary_marks(mesh);
-  FluidProblem<Tet> fluid(whole(mesh), {}, {}, {});
+  FluidProblem<Tet> fluid(whole(mesh), {}, {});
   MeshMotionMatrix<Tet> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   MeshMotionEquilibrium<Tet> problem(matrix, [&](int a, int) { return boundary[a] != 0; });

@@ -16,7 +16,7 @@ using Tet = P1Tetrahedron;
 [[maybe_unused]] const int single_thread = set_threads(1);
 
 FluidProblem<Tet> fluid_cube(bool grad_div) {
-  return {whole(irregular_cube(3)), strongly_coupled_fluid(grad_div), {}, {}};
+  return {whole(irregular_cube(3)), strongly_coupled_fluid(grad_div), {}};
 }
 
 TEST(FluidJacobian, IsTheDerivativeOfTheResidualInEveryBlock) {
@@ -35,9 +35,9 @@ TEST(FluidJacobian, OnARigidDomainIsThatOfAnUnmovedOne) {
   std::fill(state.mesh.begin(), state.mesh.end(), 0.0);
   state.mesh_old = state.mesh;
   std::vector<double> unmoved, rigid;
-  fluid.assemble(state.input(), 0, unmoved, FluidDerivatives::flow_and_domain);
+  fluid.assemble(state.input(), {}, unmoved, FluidDerivatives::flow_and_domain);
   const auto unmoved_jacobian = fluid.jacobian(FluidDerivatives::flow).flow.values;
-  fluid.assemble({nullptr, nullptr, state.flow.data(), state.flow_old.data()}, 0, rigid, FluidDerivatives::flow);
+  fluid.assemble(euler_input(nullptr, nullptr, state.flow, state.flow_old, 0.5), {}, rigid, FluidDerivatives::flow);
   const auto& rigid_jacobian = fluid.jacobian(FluidDerivatives::flow).flow.values;
   EXPECT_LT(norm(difference(unmoved, rigid)), 1e-14 * norm(rigid));
   EXPECT_LT(norm(difference(unmoved_jacobian, rigid_jacobian)), 1e-14 * norm(rigid_jacobian));
@@ -51,8 +51,8 @@ TEST(FluidJacobian, StatesMakeEveryTermOfTauMatter) {
   double time = 0, convection = 0, diffusion = 0;
   for (const auto& pack : fluid.packs().of_thread(0)) {
     NodalVector<Tet> d{}, u{};
-    gather(d, pack, state.mesh.data());
-    gather(u, pack, state.flow.data(), 4);
+    gather<VectorLayout<3>>(d, pack, state.mesh.data());
+    gather<MixedLayout<3>>(u, pack, state.flow.data());
     const auto g = Tet::at(pack.geometry, 0);
     const auto k = form.prepare(gradient_of(d, g), gradient_of(u, g), Vec3<Pack>{}, pack.geometry.metric);
     const auto c = value_of(u, g);
@@ -112,7 +112,7 @@ TEST_P(WallJacobian, IsTheDerivativeOfTheResidualInEveryBlock) {
       for (std::size_t p = 0; p < wall.layers()[0].packs.of_thread(t).size(); ++p) {
         const auto& pack = wall.layers()[0].packs.of_thread(t)[p];
         NodalVector<Tet> d{};
-        gather(d, pack, solution.data(), 4);
+        gather<MixedLayout<3>>(d, pack, solution.data());
         const auto strain = strain_of(deformation(gradient_of(d, Tet::at(pack.geometry, 0))));
         for (const auto& a : wall.layers()[0].fibres[t][p].direction)
           for (int lane = 0; lane < pack_width; ++lane)
@@ -167,7 +167,7 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfTheLoad) {
 
 TEST(MeshMotionJacobian, OperatorIsTheDerivativeOfItsWeakForm) {
   const auto mesh = irregular_cube(3);
-  FluidProblem<Tet> fluid(whole(mesh), strongly_coupled_fluid(false), {}, {});
+  FluidProblem<Tet> fluid(whole(mesh), strongly_coupled_fluid(false), {});
   MeshMotionMatrix<Tet> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   const auto state = random_field(mesh.nodes, 3, 0.3, 0.1, 41);

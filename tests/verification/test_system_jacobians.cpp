@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fem/gather_blocks.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
 #include "system/system.hpp"
@@ -52,9 +53,9 @@ struct Scenario {
     const double stretch[3] = {1 / std::sqrt(across), 1 / std::sqrt(across), across}, middle[3] = {0.5, 0.5, 1.2};
     for (std::size_t a = 0; a < y.size(); ++a)
       for (int i = 0; i < 3; ++i) state.now.wall[4 * a + i] += (stretch[i] - 1) * (y[a][i] - middle[i]);
-    scene->impose_interface(state);
-    data.inlet_pressure = 1.332;
-    data.acceleration_history = scene->scheme.acceleration_history(state);
+    data.rates = scene->integrator->rates(state, 0.5);
+    scene->impose_interface(state, data.rates);
+    data.opening_pressures = {1.332};
   }
 };
 
@@ -169,7 +170,7 @@ std::pair<int, int> fibre_count(const Scenario& scenario) {
     for (std::size_t p = 0; !layer.fibres.empty() && p < layer.fibres[0].size(); ++p) {
       const auto& pack = layer.packs.of_thread(0)[p];
       NodalVector<Tet> d{};
-      gather(d, pack, scenario.state.now.wall.data(), 4);
+      gather<MixedLayout<3>>(d, pack, scenario.state.now.wall.data());
       const auto strain = strain_of(deformation(gradient_of(d, Tet::at(pack.geometry, 0))));
       for (const auto& a : layer.fibres[0][p].direction)
         for (int lane = 0; lane < pack_width; ++lane)
@@ -234,6 +235,7 @@ TEST(WallSystemJacobian, WithFollowerPressureAndWithoutFluid) {
 template <class Spoil>
 SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   auto numbering = number_scene(*scenario.scene);
+  numbering.follow(scenario.data.rates.interface);
   System<Tet> system("coupled", *scenario.scene, numbering);
   State state = scenario.state;
   system.work_on(state, scenario.data);
@@ -243,7 +245,7 @@ SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   GatheredMatrix::Builder builder(numbering.size);
   gather_blocks(builder, scenario.scene->wall->jacobian(), numbering.wall_rows, numbering.wall);
   gather_blocks(builder, fluid.flow, numbering.flow_rows, numbering.flow);
-  gather_blocks(builder, fluid.mesh_motion, numbering.flow_rows, numbering.mesh);
+  gather_blocks(builder, fluid.shape_derivatives, numbering.flow_rows, numbering.mesh);
   gather_diagonal_blocks(builder, scenario.scene->mesh_motion, numbering.mesh_rows, numbering.mesh);
   GatheredMatrix gathered(std::move(builder));
   gathered.update();
@@ -261,7 +263,7 @@ TEST(JacobianControl, MissingTermsAreDetected) {
   using Fluid = FluidJacobian<Tet>;
   expect_second_order(check("control, nothing spoiled", [](Numbering&, Fluid&) {}));
   expect_detected(
-      check("control, shape derivatives dropped", [](Numbering&, Fluid& fluid) { fluid.mesh_motion.set_zero(); }),
+      check("control, shape derivatives dropped", [](Numbering&, Fluid& fluid) { fluid.shape_derivatives.set_zero(); }),
       1e-2);
   expect_detected(check("control, interface velocity without 1/dt",
                         [&](Numbering& numbering, Fluid&) {
@@ -271,7 +273,7 @@ TEST(JacobianControl, MissingTermsAreDetected) {
                   1e-3);
   expect_detected(check("control, one shape derivative of one node pair off by 1 %",
                         [](Numbering&, Fluid& fluid) {
-                          auto& values = fluid.mesh_motion.values;
+                          auto& values = fluid.shape_derivatives.values;
                           *std::max_element(values.begin(), values.end()) *= 1.01;
                         }),
                   1e-6);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "beltrami_flow.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "support/errors.hpp"
 #include "support/problems.hpp"
 #include "support/scenes.hpp"
@@ -54,7 +55,7 @@ TEST(TimeConvergence, FlowOnAPulsatingMeshIsOfFirstOrder) {
   for (int halvings = 0; halvings < 4; ++halvings) {
     const int steps = static_cast<int>(std::lround(end / first_step)) << halvings;
     const double dt = end / steps;
-    FluidProblem<Tet> fluid(whole(mesh), {flow.density, nu, dt, false}, {}, {});
+    FluidProblem<Tet> fluid(whole(mesh), {flow.density, nu, false, dt}, {});
     FluidStep<Tet> step(fluid, [&](int a, int i) { return i < 3 && boundary[a] && !open_face(mesh.nodes[a]); });
     for (int s = 0; s <= steps; ++s) {
       step.mesh_old = step.mesh;
@@ -91,7 +92,7 @@ State march(const Case& setup, const TetrahedralMesh& mesh) {
   const Loads loads(setup);
   NewtonOptions options;
   options.tolerance = 1e-10;
-  NewtonStepper<Tet> stepper(*scene, loads, options);
+  NewtonStepper<Tet> stepper(*scene, loads, options, number_scene(*scene));
   State state = scene->at_rest();
   for (int step = 0; step < loads.steps(); ++step) stepper.advance(state);
   EXPECT_DOUBLE_EQ(state.time, setup.time->end);

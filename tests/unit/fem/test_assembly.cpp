@@ -4,8 +4,10 @@
 
 #include "fem/gather_blocks.hpp"
 #include "scene/build_scene.hpp"
+#include "structure/structure_assembly.hpp"
 #include "support/meshes.hpp"
 #include "support/nodal_arrays.hpp"
+#include "support/problems.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {
@@ -24,13 +26,13 @@ Assembled assemble_with(int thread_count) {
   const auto mesh = irregular_cube(3);
   const auto& x = mesh.nodes;
   Assembled all;
-  FluidProblem<Tet> fluid(whole(mesh), {1.3, 0.03, 0.5, true}, {}, {});
+  FluidProblem<Tet> fluid(whole(mesh), {1.3, 0.03, true, 0.5}, {});
   EXPECT_EQ(fluid.packs().thread_count(), thread_count);
   const auto d = random_field(x, 3, 0.1, 0.02, 1), d_old = random_field(x, 3, 0.1, 0.02, 2);
   const auto u = random_field(x, 4, 3, 0.5, 3), u_old = random_field(x, 4, 3, 0.5, 4);
-  fluid.assemble({d.data(), d_old.data(), u.data(), u_old.data()}, 0, all.fluid, FluidDerivatives::flow_and_domain);
+  fluid.assemble(euler_input(&d, &d_old, u, u_old, 0.5), {}, all.fluid, FluidDerivatives::flow_and_domain);
   all.fluid_flow = fluid.jacobian(FluidDerivatives::flow_and_domain).flow.values;
-  all.fluid_mesh = fluid.jacobian(FluidDerivatives::flow_and_domain).mesh_motion.values;
+  all.fluid_mesh = fluid.jacobian(FluidDerivatives::flow_and_domain).shape_derivatives.values;
 
   const CylinderAxis axis{{{-0.7, -0.4, 0}}, {{0, 0, 1}}};
   WallProblem<Tet> wall(whole(mesh), {1.2, 50, 0.5}, {{0, {Artery{3, 2.4, 0.8}, 0.5}}}, axis);
@@ -113,9 +115,9 @@ TEST(ElementPacks, EmptyLanesAddNothing) {
 TEST(AssemblyResult, TellsTheWorstElementAndSeesInversionAndNaN) {
   set_threads(1);
   const auto mesh = irregular_cube(2);
-  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, 0.1, false}, {}, {});
+  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1}, {});
   std::vector<double> d(3 * mesh.nodes.size(), 0.0), u(4 * mesh.nodes.size(), 0.0), r;
-  const auto result_of = [&] { return fluid.assemble({d.data(), d.data(), u.data(), u.data()}, 0, r); };
+  const auto result_of = [&] { return fluid.assemble(euler_input(&d, &d, u, u, 0.1), {}, r); };
   EXPECT_FALSE(result_of().inverted());
   EXPECT_EQ(result_of().smallest_volume_ratio, 1);
 
@@ -139,23 +141,26 @@ TEST(FacetIntegrals, FlowAndMeanPressureOfOpenFaces) {
   const auto mesh = irregular_cube(3);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
   const auto outlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 1; });
-  const FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, 0.1, false}, inlet, outlet);
+  const FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1},
+                                {{"inlet", mesh.nodes, inlet}, {"outlet", mesh.nodes, outlet}});
   std::vector<double> flow;
   for (const auto& x : mesh.nodes)
     for (double value : {2 + x[1] + x[0], 5.0, -3.0, 1 + x[1] + 2 * x[2] + 4 * x[0]}) flow.push_back(value);
-  EXPECT_NEAR(fluid.inlet_flow(flow), 2.5, 1e-14) << "inwards positive; mean of 2 + y over the unit square";
-  EXPECT_NEAR(fluid.outlet_flow(flow), 3.5, 1e-14) << "outwards positive";
-  EXPECT_NEAR(fluid.inlet_pressure(flow), 1 + 0.5 + 1, 1e-14);
-  EXPECT_NEAR(fluid.outlet_pressure(flow), 5 + 0.5 + 1, 1e-14);
+  const auto &in = *fluid.open_boundary("inlet"), &out = *fluid.open_boundary("outlet");
+  EXPECT_NEAR(in.outflow(flow), -2.5, 1e-14) << "outwards positive; mean of 2 + y over the unit square";
+  EXPECT_NEAR(out.outflow(flow), 3.5, 1e-14);
+  EXPECT_NEAR(in.mean_pressure(flow), 1 + 0.5 + 1, 1e-14);
+  EXPECT_NEAR(out.mean_pressure(flow), 5 + 0.5 + 1, 1e-14);
+  EXPECT_EQ(fluid.open_boundary("side"), nullptr);
 }
 
 TEST(FacetIntegrals, InletTractionPushesInwards) {
   const auto mesh = irregular_cube(3);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
-  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, 0.1, false}, inlet, {});
+  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1}, {{"inlet", mesh.nodes, inlet}});
   const std::vector<double> rest(4 * mesh.nodes.size(), 0.0);
   std::vector<double> r;
-  fluid.assemble({nullptr, nullptr, rest.data(), rest.data()}, 3.0, r);
+  fluid.assemble(euler_input(nullptr, nullptr, rest, rest, 0.1), {3.0}, r);
   double force[3] = {};
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
     for (int i = 0; i < 3; ++i) force[i] -= r[4 * a + i];  // force = - residual

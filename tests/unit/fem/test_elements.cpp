@@ -63,13 +63,13 @@ TEST(Tetrahedron, QuadratureIsExactForQuadratics) {
   const double v = volume(irregular);
   for (int a = 0; a < 4; ++a) {
     double linear = 0;
-    for (int q = 0; q < Tet::points; ++q) linear += Tet::at(g, q).weight[0] * Tet::at(g, q).shape[a];
+    for (int q = 0; q < Tet::points; ++q) linear += Tet::at(g, q).weight[0] * Tet::at(g, q).vectors().value[a];
     EXPECT_NEAR(linear, v / 4, 1e-15);
     for (int b = 0; b < 4; ++b) {
       double mass = 0;
       for (int q = 0; q < Tet::points; ++q) {
         const auto p = Tet::at(g, q);
-        mass += p.weight[0] * p.shape[a] * p.shape[b];
+        mass += p.weight[0] * p.vectors().value[a] * p.vectors().value[b];
       }
       EXPECT_NEAR(mass, v / 20 * (a == b ? 2 : 1), 1e-15);
     }
@@ -182,10 +182,10 @@ TEST(AxisymmetricTriangle, GradientsReproduceLinearFunctionsAndTheHoopTermIsUOve
     double gradient[3] = {}, hoop = 0, r = 0, z = 0;
     for (int a = 0; a < 3; ++a) {
       const double nodal = 0.3 * ring_triangle[a][0] + 0.7 * ring_triangle[a][2] + 0.2;
-      for (int i = 0; i < 3; ++i) gradient[i] += p.gradient[a][i][0] * nodal;
-      hoop += p.hoop[a][0] * nodal;
-      r += p.shape[a] * ring_triangle[a][0];
-      z += p.shape[a] * ring_triangle[a][2];
+      for (int i = 0; i < 3; ++i) gradient[i] += p.vectors().gradient[a][i][0] * nodal;
+      hoop += p.vectors().hoop[a][0] * nodal;
+      r += p.vectors().value[a] * ring_triangle[a][0];
+      z += p.vectors().value[a] * ring_triangle[a][2];
     }
     EXPECT_NEAR(gradient[0], 0.3, 1e-15);
     EXPECT_EQ(gradient[1], 0);

@@ -51,7 +51,7 @@ TEST(CoupledMatrix, HasTheSolutionOfTheCondensedSystem) {
     for (int i = 0; i < 3; ++i) {
       const double d = x.wall[4 * pair.wall + i];
       EXPECT_NEAR(x.mesh[3 * pair.fluid + i], d, 1e-14);
-      EXPECT_NEAR(x.flow[4 * pair.fluid + i], d / paper.box.scene().scheme.step, 1e-13);
+      EXPECT_NEAR(x.flow[4 * pair.fluid + i], d / paper.box.setup().time->step, 1e-13);
     }
 }
 
@@ -94,12 +94,12 @@ TEST(CoupledMatrix, PrescribedEntriesHaveIdentityRowsAndZeroColumns) {
   CoupledVector only_prescribed = k.zero_vector(), r = k.zero_vector();
   for (int a = 0; a < k.fluid_nodes(); ++a)
     for (int i = 0; i < 3; ++i) {
-      if (scene.mesh_fixed[a]) only_prescribed.mesh[3 * a + i] = 1;
-      if (scene.no_slip[a]) only_prescribed.flow[4 * a + i] = 1;
+      if (scene.mesh_conditions.fixes(a)) only_prescribed.mesh[3 * a + i] = 1;
+      if (scene.velocity_conditions.fixes(a)) only_prescribed.flow[4 * a + i] = 1;
     }
   for (int a = 0; a < k.wall_nodes(); ++a)
     for (int i = 0; i < 3; ++i)
-      if (scene.clamped[a]) only_prescribed.wall[4 * a + i] = 1;
+      if (scene.wall_conditions.fixes(a)) only_prescribed.wall[4 * a + i] = 1;
   k.residual(k.zero_vector(), only_prescribed, r);
   axpy(1, only_prescribed, r);
   EXPECT_EQ(norm(r), 0) << "K x = x";

@@ -88,7 +88,7 @@ std::vector<int> origins(const CoupledCycle<3>::Levels& levels, std::size_t leve
 TEST_P(CoupledHierarchy, CoarseInterfaceConditionsAreTheFineOnes) {
   Hierarchy hierarchy(GetParam());
   auto& levels = hierarchy.multigrid->levels();
-  const double rate = 1 / linearised_box().scene().scheme.step;
+  const double rate = 1 / linearised_box().setup().time->step;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     const auto& k = levels[l]->k;
     std::vector<int> wall_of(levels[0]->k.fluid_nodes(), -1), coarse_wall(levels[0]->k.wall_nodes(), -1);

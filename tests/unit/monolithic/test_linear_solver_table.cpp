@@ -4,6 +4,7 @@
 
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
+#include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "support/linear_systems.hpp"
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "monolithic/coupled_numbering.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/scenes.hpp"
@@ -51,7 +52,7 @@ TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
     NewtonOptions newton;
     newton.tolerance = 1e-12;
     const auto whole = march(setup, 3, [&](Scene<Tet>& scene, const Loads& loads) {
-      return std::make_unique<NewtonStepper<Tet>>(scene, loads, newton);
+      return std::make_unique<NewtonStepper<Tet>>(scene, loads, newton, number_scene(scene));
     });
     const auto parts = march_partitioned(setup, 3);
     for (std::size_t n = 0; n < 3; ++n) {

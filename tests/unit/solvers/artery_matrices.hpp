@@ -37,10 +37,10 @@ struct ArteryMatrices {
         for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene->wall->part().nodes[a], k);
     }
     Loads loads(setup);
-    const StepData data = loads.next(state, scene->scheme);
+    const StepData data = loads.next(state, *scene->integrator);
     std::vector<double> rows;
-    scene->fluid->assemble(scene->fluid_input(state), data.inlet_pressure, rows, FluidDerivatives::flow);
-    scene->wall->assemble(scene->wall_input(state, data), 0, state.now.wall, rows, true);
+    scene->fluid->assemble(scene->fluid_input(state, data.rates), data.opening_pressures, rows, FluidDerivatives::flow);
+    scene->wall->assemble(scene->wall_input(state, data.rates), 0, state.now.wall, rows, true);
     fluid = scene->fluid->jacobian(FluidDerivatives::flow).flow;
     wall = scene->wall->jacobian();
     mesh = BlockMatrix<1, 1>(scene->mesh_motion.graph);
@@ -49,9 +49,9 @@ struct ArteryMatrices {
     fluid_marks = NodeMarks(fluid.graph->rows());
     mesh_marks = fluid_marks;
     wall_marks = NodeMarks(wall.graph->rows());
-    fluid_marks.prescribed = scene->no_slip;
-    mesh_marks.prescribed = scene->mesh_fixed;
-    wall_marks.prescribed = scene->clamped;
+    fluid_marks.prescribed = fixed_nodes(scene->velocity_conditions);
+    mesh_marks.prescribed = fixed_nodes(scene->mesh_conditions);
+    wall_marks.prescribed = fixed_nodes(scene->wall_conditions);
     for (const auto& node : scene->interface) {
       fluid_marks.interface[node.fluid] = mesh_marks.interface[node.fluid] = 1;
       wall_marks.interface[node.wall] = 1;
@@ -61,10 +61,16 @@ struct ArteryMatrices {
     prescribe(mesh, mesh_marks.prescribed, 1, 1.0, true);
     std::vector<char> given(wall.graph->rows(), 0);
     for (const auto& node : scene->interface) given[node.wall] = !node.clamped;
-    prescribe(wall, given, 3, 1 / scene->scheme.step, false);
+    prescribe(wall, given, 3, data.rates.interface.rate(), false);
     given.assign(mesh.graph->rows(), 0);
-    for (const auto& node : scene->interface) given[node.fluid] = !scene->mesh_fixed[node.fluid];
+    for (const auto& node : scene->interface) given[node.fluid] = !scene->mesh_conditions.fixes(node.fluid);
     prescribe(mesh, given, 1, 1.0, false);
+  }
+
+  static std::vector<char> fixed_nodes(const DirichletConditions<3>& conditions) {
+    std::vector<char> fixed(static_cast<std::size_t>(conditions.node_count()), 0);
+    for (int a = 0; a < conditions.node_count(); ++a) fixed[a] = conditions.fixes(a);
+    return fixed;
   }
 
   /// Replaces vector rows by diagonal ones and clears, if asked, the columns.

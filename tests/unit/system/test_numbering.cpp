@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "monolithic/coupled_numbering.hpp"
 #include "support/scenes.hpp"
-#include "system/numbering.hpp"
 
 namespace fsi::test {
 
@@ -71,7 +71,10 @@ TEST(Numbering, OfTheSceneCountsEveryUnknownOnce) {
 TEST(Numbering, InterfaceHasOneOwner) {
   const double step = 0.25;
   const auto scene = build_scene(coupled_case("neo-hookean", step), fluid_and_wall_box(3));
-  const auto all = number_scene(*scene);
+  auto all = number_scene(*scene);
+  EXPECT_TRUE(all.follow({step})) << "the factors are those of the step";
+  EXPECT_FALSE(all.follow({step})) << "and stay";
+  EXPECT_EQ(all.version, 1);
   int shared = 0;
   for (const auto& node : scene->interface)
     for (int k = 0; k < 3; ++k) {
@@ -147,12 +150,55 @@ TEST(Numbering, ScenesOfOneSubProblemHaveNoUnknownsOfTheOther) {
   EXPECT_EQ(wall.size, Counts(3).wall_displacements() + Counts(3).wall_nodes());
 }
 
+// A symmetry plane: one component of the wall's displacement and of the fluid's velocity is prescribed, two are free.
+TEST(Numbering, LeavesOutSingleComponents) {
+  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto before = number_scene(*scene);
+  const auto& x = scene->fluid->part().nodes;
+  const int inside = static_cast<int>(std::find_if(x.begin(), x.end(),
+                                                   [](const Point& p) {
+                                                     return p[0] > 0.1 && p[0] < 0.9 && p[1] > 0.1 && p[1] < 0.9 &&
+                                                            p[2] > 0.1 && p[2] < 0.9;
+                                                   }) -
+                                      x.begin());
+  scene->velocity_conditions.fix(inside, 1);
+  const auto moving = std::find_if(scene->interface.begin(), scene->interface.end(),
+                                   [](const InterfaceNode& node) { return !node.clamped; });
+  scene->wall_conditions.fix(moving->wall, 2);
+  const auto all = number_scene(*scene);
+  EXPECT_EQ(all.size, before.size - 2);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(all.flow[MixedLayout<3>::vector(inside, k)].index >= 0, k != 1);
+    EXPECT_EQ(all.wall[MixedLayout<3>::vector(moving->wall, k)].index >= 0, k != 2);
+    EXPECT_EQ(all.mesh[VectorLayout<3>::vector(moving->fluid, k)].index >= 0, k != 2);
+    EXPECT_EQ(all.flow[MixedLayout<3>::vector(moving->fluid, k)].index >= 0, k != 2);
+  }
+}
+
+TEST(DirichletConditions, HoldComponentsWithTheirValues) {
+  DirichletConditions<3> conditions(4);
+  conditions.fix(1, 2, 0.5);
+  conditions.fix(3);
+  conditions.fix(3, 0, -2);
+  EXPECT_FALSE(conditions.fixes(1));
+  EXPECT_TRUE(conditions.fixes(1, 2));
+  EXPECT_TRUE(conditions.fixes(3));
+  std::vector<double> field(16, 7.0), expected(field);
+  expected[1 * 4 + 2] = 0.5;
+  expected[3 * 4 + 0] = -2;
+  conditions.impose<MixedLayout<3>>(field);
+  EXPECT_EQ(field, expected) << "values that are zero are left to the fields, which start from zero";
+  conditions.fix(1, 2, 0.25);
+  conditions.impose<MixedLayout<3>>(field);
+  EXPECT_EQ(field[6], 0.25);
+}
+
 TEST(Scene, InterfaceConditionsAreImposedOnEveryComponent) {
   const auto scene = build_scene(coupled_case("neo-hookean", 0.25), fluid_and_wall_box(3));
   State state = scene->at_rest();
   state.now.wall = random_field(scene->wall->part().nodes, 4, 0.1, 0.1, 1);
   state.before[0].wall = random_field(scene->wall->part().nodes, 4, 0.1, 0.1, 2);
-  scene->impose_interface(state);
+  scene->impose_interface(state, scene->integrator->rates(state, 0.25));
   for (const auto& node : scene->interface)
     for (int k = 0; k < 3; ++k) {
       const double d = state.now.wall[4 * node.wall + k], d_old = state.before[0].wall[4 * node.wall + k];

@@ -1,0 +1,37 @@
+#include "mesh_motion/mesh_motion.hpp"
+
+#include "fem/elements.hpp"
+#include "mesh_motion/harmonic.hpp"
+
+namespace fsi {
+
+template <class Element>
+void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element>& matrix) {
+  constexpr int n = Element::components;
+  matrix.set_zero();
+  for_each_thread(packs, serial_jacobian_elements, [&](int, const auto& mine) {
+    const HarmonicMeshMotion form;
+    const NodalVector<Element> zero{};
+    ElementRows<Element, Dual<n>> rows;
+    for (const auto& pack : mine)
+      for (int b = 0; b < Element::nodes; ++b) {
+        integrate(
+            rows, pack.geometry,
+            [&](const auto& g) { return seed_gradient<Element, n, 0>(gradient_of(zero, g), g, b); },
+            [&](const auto& grad_d, const auto&, int) { return form.integrand(grad_d); });
+        for (int a = 0; a < Element::nodes; ++a)
+          for (int lane = 0; lane < pack_width; ++lane) {
+            const int position = pack.position[a * Element::nodes + b][lane];
+            if (position < 0) continue;
+            for (int k = 0; k < n; ++k) matrix.block(position)[k] += rows.at[a][k].slope[k].lanes[lane];
+          }
+      }
+  });
+}
+
+#define FSI_INSTANTIATE(Element) \
+  template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element>&);
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,62 @@
+#include "structure/wall_problem.hpp"
+
+#include "fem/elements.hpp"
+#include "fem/facet_load.hpp"
+#include "structure/structure_assembly.hpp"
+#include "structure/wall_energy.hpp"
+
+namespace fsi {
+
+template <class Element>
+WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
+                                  const std::vector<std::pair<int, LayerMaterial>>& layers, const CylinderAxis& axis,
+                                  Facets pressurised)
+    : part_(std::move(part)), constants_(constants), pressurised_(std::move(pressurised)), space_(part_) {
+  for (const auto& [region, layer] : layers) {
+    std::vector<int> cells;
+    for (std::size_t c = 0; c < part_.cells.size(); ++c)
+      if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
+    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph()), layer.material, {}});
+    if (std::holds_alternative<Artery>(layer.material))
+      layers_.back().fibres = fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, layer.fibre_angle);
+  }
+}
+
+template <class Element>
+AssemblyResult WallProblem<Element>::assemble(const StructureInput& in, double pressure,
+                                              const std::vector<double>& solution, std::vector<double>& residual,
+                                              bool derivatives) {
+  residual.assign(space_.mixed_size(), 0.0);
+  StructureMatrix<Element>* matrix = derivatives ? &jacobian() : nullptr;
+  const auto result = assemble_structure(constants_, layers_, in, residual, matrix);
+  if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
+  return result;
+}
+
+template <class Element>
+WallEnergy WallProblem<Element>::energy(const WallStep& in) const {
+  return wall_energy(constants_, layers_, in);
+}
+
+template <class Element>
+double WallProblem<Element>::pressure_work(double pressure, const std::vector<double>& old,
+                                           const std::vector<double>& now) const {
+  if (pressure == 0) return 0;
+  std::vector<double> load(now.size(), 0.0);
+  add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now, load, nullptr);
+  double work = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) work -= load[i] * (now[i] - old[i]);
+  return work;
+}
+
+template <class Element>
+StructureMatrix<Element>& WallProblem<Element>::jacobian() {
+  if (jacobian_.values.empty()) jacobian_ = StructureMatrix<Element>(graph());
+  return jacobian_;
+}
+
+#define FSI_INSTANTIATE(Element) template class WallProblem<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "time/time_integrator.hpp"
+
+namespace fsi {
+
+/// Backward Euler for the fluid, the mesh and the interface, Newmark's method for the wall:
+///   du/dt = (u^n - u^(n-1)) / dt,   u = (d^n - d^(n-1)) / dt on the interface,
+///   a^n = (d^n - d^(n-1)) / (beta dt^2) - v^(n-1) / (beta dt) - (1/(2 beta) - 1) a^(n-1),
+///   v^n = v^(n-1) + dt (gamma a^n + (1 - gamma) a^(n-1)).
+/// \tparam Components  of a vector
+template <int Components>
+class EulerNewmark : public TimeIntegrator {
+ public:
+  explicit EulerNewmark(const NewmarkParameters& newmark = {}) : newmark_(newmark) {}
+
+  NewmarkParameters newmark() const override { return newmark_; }
+  StepRates rates(const State& state, double step) const override;
+  void accept(State& state, const StepData& data) const override;
+
+ private:
+  NewmarkParameters newmark_;
+};
+
+extern template class EulerNewmark<1>;
+extern template class EulerNewmark<2>;
+extern template class EulerNewmark<3>;
+
+}  // namespace fsi

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "system/numbering.hpp"
+
+namespace fsi {
+
+/// The whole scene as one system of equations: what makes the method monolithic. On the interface of fluid and wall
+/// there is one unknown, the wall's displacement: d_m = d_s, and u = (d_s - reference) / period, so du = d(d_s) /
+/// period; one momentum equation, the sum of the fluid's and the wall's (traction balance); and no equation of mesh
+/// motion. This is the paper's system (its section 3.4) with its two identity rows eliminated: Newton's iterates are
+/// the same, the factorisation is smaller. A scene of one medium has that one's numbering.
+template <class Element>
+Numbering number_scene(const Scene<Element>& scene) {
+  constexpr int n = Element::components;
+  if (!scene.coupled()) return number_single_medium(scene);
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  Numbering all = number_wall(scene);
+  const int nodes = scene.fluid->node_count();
+  const auto wet = detail::on_interface(scene);
+  const auto& space = scene.fluid->space();
+  all.flow = detail::number_nodes<n>(
+      nodes, all.size, [&](int a, int k) { return wet[a] || scene.velocity_conditions.fixes(a, k); },
+      [&](int a) { return space.carries_scalar(a); });
+  all.flow_rows = all.flow;
+  all.mesh = detail::number_vectors<n>(nodes, all.size,
+                                       [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
+  all.mesh_rows = all.mesh;
+  for (const auto& i : scene.interface)
+    for (int k = 0; k < n; ++k) {
+      const Unknown displacement = all.wall[Mixed::vector(i.wall, k)];
+      if (displacement.index < 0) continue;
+      all.mesh[Vector::vector(i.fluid, k)] = displacement;
+      all.flow[Mixed::vector(i.fluid, k)] = {displacement.index, all.interface.rate()};
+      all.flow_rows[Mixed::vector(i.fluid, k)] = displacement;
+      all.interface_velocities.push_back(Mixed::vector(i.fluid, k));
+    }
+  return all;
+}
+
+}  // namespace fsi
