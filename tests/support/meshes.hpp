@@ -224,8 +224,8 @@ std::vector<std::pair<int, int>> split_off_first_region(SimplexMesh<Dim>& mesh) 
 }
 
 /// The whole mesh as one part.
-template <int Dim>
-Submesh<Dim> whole(const SimplexMesh<Dim>& mesh) {
+template <int Dim, int Order>
+Submesh<Dim, Order> whole(const SimplexMesh<Dim, Order>& mesh) {
   std::vector<int> all(mesh.regions.size());
   for (std::size_t r = 0; r < all.size(); ++r) all[r] = static_cast<int>(r);
   return submesh(mesh, all);

@@ -67,11 +67,11 @@ class Line {
 
   std::vector<double> operator()(double t) const {
     State there = from_.state;
+    system_.work_on(there, from_.data);  // the numbering's factors are the step's
     const auto& numbering = system_.numbering();
     if (!numbering.mesh.empty()) add_to_field(numbering.mesh, direction_, t, there.now.mesh);
     if (!numbering.flow.empty()) add_to_field(numbering.flow, direction_, t, there.now.flow);
     if (!numbering.wall.empty()) add_to_field(numbering.wall, direction_, t, there.now.wall);
-    system_.work_on(there, from_.data);
     EXPECT_TRUE(std::isfinite(system_.evaluate()));
     return system_.residual();
   }
