@@ -6,6 +6,7 @@
 
 #include "fem/facet_load.hpp"
 #include "fem/function_space.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_tetrahedron.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh_motion/mesh_motion.hpp"
@@ -91,10 +92,11 @@ TEST(TaylorHoodTetrahedron, RuleIsExactForDegreeFive) {
           integral += TaylorHood::at(geometry, q).weight[0] * std::pow(l[1], i) * std::pow(l[2], j) * std::pow(l[3], k);
         }
         const double exact = std::tgamma(i + 1) * std::tgamma(j + 1) * std::tgamma(k + 1) / std::tgamma(i + j + k + 4);
-        if (i + j + k <= 5)
+        if (i + j + k <= 5) {
           EXPECT_NEAR(integral, exact, 1e-16) << i << j << k;
-        else if (i == 6)
+        } else if (i == 6) {
           EXPECT_GT(std::abs(integral - exact), 1e-6) << "the test sees an error of degree six";
+        }
       }
 }
 
