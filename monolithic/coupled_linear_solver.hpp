@@ -56,7 +56,7 @@ class CoupledLinearSolver : public LinearSolver {
   bool ready() const override { return preconditioner_ != nullptr; }
 
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override {
-    if (set_up_ != blocks_.scene.mesh_motion_assemblies) {
+    if (set_up_ != *blocks_.mesh_laplacian_version) {
       system_.update_mesh_motion();
       multigrid_->update_mesh_motion();
       mesh_motion_is_set_up();
@@ -106,8 +106,8 @@ class CoupledLinearSolver : public LinearSolver {
 
  private:
   void mesh_motion_is_set_up() {
-    set_up_ = blocks_.scene.mesh_motion_assemblies;
-    blocks_.scene.profile.count("mesh motion set-ups");
+    set_up_ = *blocks_.mesh_laplacian_version;
+    if (blocks_.profile) blocks_.profile->count("mesh motion set-ups");
   }
 
   JacobianBlocks<Element> blocks_;

@@ -9,9 +9,9 @@
 
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
-#include "condensed_solver/harmonic_extension.hpp"
-#include "condensed_solver/single_gmres.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
+#include "mesh_motion/harmonic_extension.hpp"
+#include "solvers/krylov/single_gmres.hpp"
 #include "system/direct_linear_solver.hpp"
 #include "system/jacobian_product.hpp"
 
@@ -55,6 +55,7 @@ class FastSolver : public LinearSolver {
       direct_->update();
     } else {
       if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
+      iterative_->layout.update();
       iterative_->matrix.fill();
       set_up_preconditioner(false);
       find_shape_derivatives();
@@ -104,6 +105,10 @@ class FastSolver : public LinearSolver {
   bool uses_factorisation() const { return direct_ != nullptr; }
 
  private:
+  /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
+  /// what it lacks comes back in the next residual.
+  static constexpr double mesh_rows_tolerance = 1e-3;
+
   /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
   void set_up_preconditioner(bool strong) {
     typename VelocityPressurePreconditioner<Element>::Options options;
@@ -119,8 +124,9 @@ class FastSolver : public LinearSolver {
     VelocityPressureMatrix<Element> matrix;
     VelocityPressurePreconditioner<Element> preconditioner;
     JacobianProduct<Element> jacobian;
-    std::unique_ptr<HarmonicExtension<Element>> extension;  ///< null without mesh motion
-    bool shape_derivatives = false;                         ///< they are not all zero (as they are at rest)
+    std::unique_ptr<HarmonicExtension<n>> extension;  ///< null without mesh motion
+    int extension_version = 0;                        ///< of the operator that it was made of
+    bool shape_derivatives = false;                   ///< they are not all zero (as they are at rest)
     SingleGmres gmres;
     std::vector<float> single_right, single_solution;
     std::vector<double> right, solution, residual, jacobian_times_x, correction;
@@ -128,12 +134,19 @@ class FastSolver : public LinearSolver {
 
     explicit Iterative(const JacobianBlocks<Element>& blocks)
         : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
-      if (blocks.mesh) {
-        extension = std::make_unique<HarmonicExtension<Element>>(blocks);
+      if (blocks.mesh_laplacian) {
+        std::vector<char> inner(blocks.numbering.mesh_rows.size());
+        for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = blocks.numbering.mesh_rows[i].index >= 0;
+        extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner));
+        count_extension(blocks);
         mesh.resize(blocks.numbering.mesh.size());
         mesh_right.resize(mesh.size());
         flow_rows.resize(blocks.numbering.flow.size());
       }
+    }
+    void count_extension(const JacobianBlocks<Element>& blocks) {
+      extension_version = *blocks.mesh_laplacian_version;
+      if (blocks.profile) blocks.profile->count("mesh motion factorisations");
     }
   };
 
@@ -195,6 +208,10 @@ class FastSolver : public LinearSolver {
     Iterative& it = *iterative_;
     const Numbering& numbering = blocks_.numbering;
     it.layout.take(it.residual, it.right);
+    if (it.extension && it.extension_version != *blocks_.mesh_laplacian_version) {
+      it.extension->update();
+      it.count_extension(blocks_);
+    }
     if (it.extension) subtract_mesh_rows();
     // Scaled to one, so that small residuals do not leave the range of single precision.
     const double scale = norm(it.right);
@@ -232,7 +249,7 @@ class FastSolver : public LinearSolver {
     }
     if (!any || !it.shape_derivatives) return;
     set_zero(it.mesh);
-    it.extension->solve(it.mesh_right, it.mesh);
+    it.extension->solve(it.mesh_right, it.mesh, mesh_rows_tolerance);
     multiply(*blocks_.shape_derivatives, it.mesh, it.flow_rows);
     std::vector<double>& all = it.jacobian_times_x;
     all.assign(it.residual.size(), 0.0);

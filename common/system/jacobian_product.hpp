@@ -26,15 +26,15 @@ class JacobianProduct {
   void multiply(const std::vector<double>& x, std::vector<double>& y) {
     const Numbering& numbering = blocks_.numbering;
     y.assign(static_cast<std::size_t>(numbering.size), 0.0);
-    if (blocks_.shape_derivatives || blocks_.mesh) values(numbering.mesh, x, mesh_);
+    if (blocks_.shape_derivatives || blocks_.mesh_laplacian) values(numbering.mesh, x, mesh_);
     if (blocks_.flow) {
       values(numbering.flow, x, flow_);
       fsi::multiply(*blocks_.flow, flow_, flow_rows_);
       if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, flow_rows_);
       add_to_system(numbering.flow_rows, flow_rows_, y);
     }
-    if (blocks_.mesh) {
-      multiply_components<n>(*blocks_.mesh, mesh_, mesh_rows_);
+    if (blocks_.mesh_laplacian) {
+      multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);
       add_to_system(numbering.mesh_rows, mesh_rows_, y);
     }
     if (blocks_.wall) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,6 +11,7 @@
 #include "base/error.hpp"
 #include "solvers/newton.hpp"
 #include "system/direct_linear_solver.hpp"
+#include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
 #include "system/numbering.hpp"
 
@@ -20,6 +22,12 @@ struct LinearisationPoint {
   Solution now;
   StepRates rates;  ///< but for the wall's references and history, which no derivative knows
   double wall_pressure = 0;
+};
+
+/// The norm of increments and iterates.
+enum class SystemNorm {
+  volumes,  ///< L2, each entry weighted with the volume that belongs to its node
+  entries   ///< Euclidean
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
@@ -33,14 +41,20 @@ class System : public NewtonProblem {
 
   /// \param name         for the profile: "coupled", "fluid", "wall"
   /// \param make_solver  of the linearised equations; none: the direct one
+  /// \param impedance    adds to the fluid's equations, and must outlive this; null: nothing. Its c may change with
+  ///                     the rates of a step
   System(std::string name, Scene<Element>& scene, Numbering numbering,
-         const LinearSolverFactory<Element>& make_solver = {})
+         const LinearSolverFactory<Element>& make_solver = {}, SystemNorm norm = SystemNorm::volumes,
+         const InterfaceImpedance* impedance = nullptr)
       : name_(std::move(name)),
         scene_(scene),
         numbering_(std::move(numbering)),
         derivatives_(numbering_.flow.empty()   ? FluidDerivatives::none
                      : numbering_.mesh.empty() ? FluidDerivatives::flow
                                                : FluidDerivatives::flow_and_domain),
+        interface_(interface_pairs(scene)),
+        norm_(norm),
+        impedance_(impedance),
         solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<Element>>(blocks())),
         increment_(numbering_.size),
         weights_(norm_weights()) {}
@@ -51,16 +65,23 @@ class System : public NewtonProblem {
   const std::vector<double>& residual() const { return residual_; }
   const LinearSolver& solver() const { return *solver_; }
   const LinearReport& linear_report() const { return linear_report_; }
-  /// The block matrices of the Jacobian, for as long as the system lives.
+  /// The Jacobian, for as long as the system lives; its values are those of the last linearise().
   JacobianBlocks<Element> blocks() {
-    JacobianBlocks<Element> blocks{scene_, numbering_};
-    if (!numbering_.wall_rows.empty()) blocks.wall = &scene_.wall->jacobian();
+    JacobianBlocks<Element> blocks{numbering_};
+    if (!numbering_.wall_rows.empty()) {
+      blocks.wall = &scene_.wall->jacobian();
+      blocks.wall_nodes = {&scene_.wall->part().nodes, &scene_.wall->part().mesh_node};
+    }
     if (!numbering_.flow_rows.empty()) {
       auto& jacobian = scene_.fluid->jacobian(derivatives_);
       blocks.flow = &jacobian.flow;
       if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
+      blocks.fluid_nodes = {&scene_.fluid->part().nodes, &scene_.fluid->part().mesh_node};
     }
-    if (!numbering_.mesh_rows.empty()) blocks.mesh = &scene_.mesh_motion;
+    if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
+    if (blocks.flow && blocks.wall) blocks.interface = &interface_;
+    blocks.mesh_laplacian_version = &scene_.mesh_motion_assemblies;
+    blocks.profile = &scene_.profile;
     return blocks;
   }
   const LinearisationPoint& linearisation_point() const { return point_; }
@@ -78,6 +99,7 @@ class System : public NewtonProblem {
 
   double evaluate() override {
     if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
+    if (impedance_ && impedance_->before_evaluation) impedance_->before_evaluation(*state_);
     const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
     const AssemblyResult result = assemble(false);
     if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();
@@ -170,6 +192,12 @@ class System : public NewtonProblem {
   }
 
  private:
+  static std::vector<InterfacePair> interface_pairs(const Scene<Element>& scene) {
+    std::vector<InterfacePair> pairs;
+    for (const auto& node : scene.interface) pairs.push_back({node.fluid, node.wall});
+    return pairs;
+  }
+
   AssemblyResult assemble(bool derivatives) {
     AssemblyResult result;
     residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
@@ -182,6 +210,7 @@ class System : public NewtonProblem {
       result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                             fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
       add_to_system(numbering_.flow_rows, fluid_residual_, residual_);
+      if (impedance_) add_impedance(derivatives);
     }
     if (!numbering_.wall_rows.empty()) {
       result.include(scene_.wall->assemble(scene_.wall_input(*state_, data_->rates), data_->wall_pressure,
@@ -191,6 +220,23 @@ class System : public NewtonProblem {
       add_to_system(numbering_.wall_rows, wall_residual_, residual_);
     }
     return result;
+  }
+
+  void add_impedance(bool derivatives) {
+    assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
+    for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
+      const int node = impedance_->nodes[i];
+      const double c = impedance_->impedance[i];
+      for (int k = 0; k < n; ++k) {
+        const std::size_t entry = Mixed::vector(node, k);
+        const Unknown& row = numbering_.flow_rows[entry];
+        if (row.index < 0) continue;
+        residual_[row.index] += row.factor * c * (state_->now.flow[entry] - impedance_->velocity[i * n + k]);
+        if (!derivatives) continue;
+        auto& flow = scene_.fluid->jacobian(derivatives_).flow;
+        flow.block(flow.graph->find(node, node))[k * Mixed::entries + k] += c;
+      }
+    }
   }
 
   /// terms += |J| |x| of the Jacobian last assembled.
@@ -217,7 +263,7 @@ class System : public NewtonProblem {
     if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
     if (j.flow) add(*j.flow, numbering_.flow_rows, numbering_.flow, false);
     if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.flow_rows, numbering_.mesh, false);
-    if (j.mesh) add(*j.mesh, numbering_.mesh_rows, numbering_.mesh, true);
+    if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
   }
 
   template <class Layout>
@@ -236,9 +282,12 @@ class System : public NewtonProblem {
       for (std::size_t i = 0; i < map.size(); ++i)
         if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
     };
+    const auto weights_of = [&](const auto& part) {
+      return norm_ == SystemNorm::volumes ? nodal_volumes<Element>(part) : std::vector<double>(part.nodes.size(), 1.0);
+    };
     if ((!numbering_.flow.empty() || !numbering_.mesh.empty()) && flow_volumes_.empty())
-      mesh_volumes_ = flow_volumes_ = nodal_volumes<Element>(scene_.fluid->part());
-    if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = nodal_volumes<Element>(scene_.wall->part());
+      mesh_volumes_ = flow_volumes_ = weights_of(scene_.fluid->part());
+    if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->part());
     add(numbering_.mesh, mesh_volumes_, Vector::entries);
     add(numbering_.flow, flow_volumes_, Mixed::entries);
     add(numbering_.wall, wall_volumes_, Mixed::entries);
@@ -256,6 +305,9 @@ class System : public NewtonProblem {
   Scene<Element>& scene_;
   Numbering numbering_;
   FluidDerivatives derivatives_;
+  std::vector<InterfacePair> interface_;
+  SystemNorm norm_;
+  const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;
   LinearReport linear_report_;
   State* state_ = nullptr;

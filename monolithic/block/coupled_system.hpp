@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -10,17 +12,20 @@
 
 namespace fsi {
 
-/// What is prescribed at the nodes of the coupled system, per node one flag for all components of its vector.
+/// What is prescribed in the coupled system, one flag for each component of each node's vector.
 struct CoupledConstraints {
   std::vector<char> mesh_fixed;      ///< d_m = 0, or equal to d_s
   std::vector<char> velocity_fixed;  ///< u = 0
   std::vector<char> wall_fixed;      ///< d_s = 0, or tied to u
 };
 
-/// A pair of nodes that the interface conditions tie, d_m = d_s and u = d(d_s)/dt.
-struct InterfacePair {
-  int fluid, wall;
-};
+/// Nodes of which all n components are flagged.
+template <int n>
+std::vector<char> whole_nodes(const std::vector<char>& components) {
+  std::vector<char> nodes(components.size() / n, 1);
+  for (std::size_t i = 0; i < components.size(); ++i) nodes[i / n] = nodes[i / n] && components[i];
+  return nodes;
+}
 
 /// The paper's K x = b made from the Jacobian of a scene, which numbers one unknown on the interface: matrix, and the
 /// ways of right-hand sides and solutions to and fro. Fluid and wall must both be there.
@@ -30,30 +35,30 @@ class CoupledSystem {
   static constexpr int n = Element::components;
 
   explicit CoupledSystem(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
-    const auto& scene = blocks.scene;
-    mesh_ = BlockMatrix<1, n>(blocks.mesh->graph);
+    assert(blocks.coupled());
+    const Numbering& numbering = blocks.numbering;
+    mesh_ = BlockMatrix<1, n>(blocks.mesh_laplacian->graph);
     flow_ = BlockMatrix<n + 1, n + 1>(blocks.flow->graph);
     flow_mesh_ = BlockMatrix<n + 1, n>(blocks.shape_derivatives->graph);
     wall_ = BlockMatrix<n + 1, n + 1>(blocks.wall->graph);
     k_ = {&mesh_, &mesh_wall_, &flow_mesh_, &flow_, &flow_wall_, &wall_flow_, &wall_};
-    constraints_.mesh_fixed = fixed_nodes(scene.mesh_conditions);
-    constraints_.velocity_fixed = fixed_nodes(scene.velocity_conditions);
-    constraints_.wall_fixed = fixed_nodes(scene.wall_conditions);
-    clamped_ = constraints_.wall_fixed;
+    constraints_.mesh_fixed = without_unknown(numbering.mesh_rows, n);
+    constraints_.velocity_fixed = without_unknown(numbering.flow, n + 1);
+    wall_zero_ = without_unknown(numbering.wall, n + 1);
+    mesh_zero_ = without_unknown(numbering.mesh, n);  // columns of interface nodes stay, they are unknowns
+    constraints_.wall_fixed = wall_zero_;
     std::vector<int> wall_of(static_cast<std::size_t>(k_.fluid_nodes()), -1),
         fluid_of(static_cast<std::size_t>(k_.wall_nodes()), -1);
-    for (const auto& node : scene.interface) {
-      constraints_.mesh_fixed[node.fluid] = constraints_.wall_fixed[node.wall] = 1;
-      if (node.clamped || clamped_[node.wall]) {
-        constraints_.velocity_fixed[node.fluid] = 1;
-      } else {
-        interface_.push_back({node.fluid, node.wall});
-        wall_of[node.fluid] = node.wall;
-        fluid_of[node.wall] = node.fluid;
-      }
+    for (const InterfacePair& pair : *blocks.interface) {
+      const auto first = wall_zero_.begin() + static_cast<std::ptrdiff_t>(pair.wall) * n;
+      if (std::find(first, first + n, 0) == first + n) continue;  // clamped
+      interface_.push_back(pair);
+      wall_of[pair.fluid] = pair.wall;
+      fluid_of[pair.wall] = pair.fluid;
+      std::fill_n(constraints_.wall_fixed.begin() + static_cast<std::ptrdiff_t>(pair.wall) * n, n, 1);
     }
-    mesh_zero_ = constraints_.mesh_fixed;  // columns of interface nodes stay, they are unknowns
-    for (const auto& pair : interface_) mesh_zero_[pair.fluid] = 0;
+    no_pressure_ = without_scalar(numbering.flow);
+    no_wall_pressure_ = without_scalar(numbering.wall);
     mesh_wall_ = tie(wall_of);
     wall_flow_ = tie(fluid_of);
 
@@ -71,6 +76,11 @@ class CoupledSystem {
       graph->offsets.push_back(static_cast<int>(graph->columns.size()));
     }
     flow_wall_ = BlockMatrix<n, n + 1>(std::move(graph));
+    fixed_tractions_.assign(constraints_.velocity_fixed.size(), 0);
+    for (const InterfacePair& pair : interface_)  // no equations, where the wall is held
+      for (int k = 0; k < n; ++k)
+        fixed_tractions_[static_cast<std::size_t>(pair.fluid) * n + k] =
+            wall_zero_[static_cast<std::size_t>(pair.wall) * n + k];
   }
 
   CoupledSystem(const CoupledSystem&) = delete;  // the matrix refers to its blocks
@@ -84,25 +94,31 @@ class CoupledSystem {
   /// Takes over the values that the block matrices hold now.
   void update() {
     const double rate = blocks_.numbering.interface.rate();
+    const auto one = [](std::size_t) { return 1.0; };
     update_mesh_motion();
     copy(*blocks_.flow, flow_);
-    impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, [](int) { return 1.0; });
+    impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, one);
+    impose_scalars(flow_, no_pressure_);
     copy(*blocks_.shape_derivatives, flow_mesh_);
-    impose(flow_mesh_, constraints_.velocity_fixed, mesh_zero_, [](int) { return 0.0; });
+    impose(flow_mesh_, constraints_.velocity_fixed, mesh_zero_, [](std::size_t) { return 0.0; });
+    for (int a : no_pressure_)
+      for (int at = flow_mesh_.graph->offsets[a]; at < flow_mesh_.graph->offsets[a + 1]; ++at)
+        std::fill_n(flow_mesh_.block(at) + n * n, n, 0.0);
     const auto tractions = static_cast<std::ptrdiff_t>(traction_.size());
 #pragma omp parallel for schedule(static) if (tractions > 20000)
     for (std::ptrdiff_t i = 0; i < tractions; ++i) {
       const double* from = blocks_.wall->block(traction_[i]);
       std::copy(from, from + n * (n + 1), flow_wall_.block(static_cast<int>(i)));
     }
-    impose(flow_wall_, {}, clamped_, [](int) { return 0.0; });
+    impose(flow_wall_, fixed_tractions_, wall_zero_, [](std::size_t) { return 0.0; });
     copy(*blocks_.wall, wall_);
-    impose(wall_, constraints_.wall_fixed, clamped_, [&](int node) { return clamped_[node] ? 1.0 : rate; });
+    impose(wall_, constraints_.wall_fixed, wall_zero_, [&](std::size_t i) { return wall_zero_[i] ? 1.0 : rate; });
+    impose_scalars(wall_, no_wall_pressure_);
   }
 
   /// Takes over the mesh motion's operator alone.
   void update_mesh_motion() {
-    copy(*blocks_.mesh, mesh_);
+    copy(*blocks_.mesh_laplacian, mesh_);
     impose_diagonal();
   }
 
@@ -134,12 +150,6 @@ class CoupledSystem {
   }
 
  private:
-  static std::vector<char> fixed_nodes(const DirichletConditions<n>& conditions) {
-    std::vector<char> fixed(static_cast<std::size_t>(conditions.node_count()), 0);
-    for (int a = 0; a < conditions.node_count(); ++a) fixed[a] = conditions.fixes(a);
-    return fixed;
-  }
-
   /// Minus the identity between each node and its partner, if it has one.
   static BlockMatrix<1, 1> tie(const std::vector<int>& partner) {
     auto graph = std::make_shared<NodeGraph>();
@@ -160,25 +170,58 @@ class CoupledSystem {
     for (std::ptrdiff_t i = 0; i < size; ++i) to.values[i] = from.values[i];
   }
 
-  /// Vector rows of `fixed_rows` become diagonal, vector columns of `zero_columns` vanish elsewhere; no flags: none.
+  /// Flags of the vector entries that have no unknown, n for each node of a map with `entries` numbers a node.
+  static std::vector<char> without_unknown(const UnknownMap& map, int entries) {
+    std::vector<char> flags(map.size() / entries * n);
+    for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = map[i / n * entries + i % n].index < 0;
+    return flags;
+  }
+  /// Nodes whose scalar has no unknown.
+  static std::vector<int> without_scalar(const UnknownMap& map) {
+    std::vector<int> nodes;
+    for (std::size_t a = 0; a < map.size() / (n + 1); ++a)
+      if (map[a * (n + 1) + n].index < 0) nodes.push_back(static_cast<int>(a));
+    return nodes;
+  }
+
+  /// Vector rows of `fixed_rows` become diagonal, vector columns of `zero_columns` vanish elsewhere: n flags a node.
+  /// The diagonal is asked for by the flag's place.
   template <int Rows, int Columns, class Diagonal>
   static void impose(BlockMatrix<Rows, Columns>& matrix, const std::vector<char>& fixed_rows,
                      const std::vector<char>& zero_columns, Diagonal diagonal) {
     const auto& graph = *matrix.graph;
 #pragma omp parallel for schedule(static) if (graph.blocks() > 50000)
-    for (int a = 0; a < graph.rows(); ++a) {
-      const bool fixed = !fixed_rows.empty() && fixed_rows[a];
+    for (int a = 0; a < graph.rows(); ++a)
       for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
         double* block = matrix.block(at);
-        if (zero_columns[graph.columns[at]])
-          for (int r = 0; r < Rows; ++r)
-            for (int c = 0; c < n; ++c) block[r * Columns + c] = 0;
-        if (!fixed) continue;
-        const double value = graph.columns[at] == a ? diagonal(a) : 0.0;
-        for (int r = 0; r < n; ++r)
-          for (int c = 0; c < Columns; ++c) block[r * Columns + c] = r == c ? value : 0.0;
+        const std::size_t row = static_cast<std::size_t>(a) * n,
+                          column = static_cast<std::size_t>(graph.columns[at]) * n;
+        for (int c = 0; c < n; ++c)
+          if (zero_columns[column + c])
+            for (int r = 0; r < Rows; ++r) block[r * Columns + c] = 0;
+        for (int r = 0; r < n; ++r) {
+          if (!fixed_rows[row + r]) continue;
+          for (int c = 0; c < Columns; ++c) block[r * Columns + c] = 0;
+          if (graph.columns[at] == a) block[r * Columns + r] = diagonal(row + r);
+        }
       }
-    }
+  }
+
+  /// Identity rows and zero columns for scalars without unknown.
+  static void impose_scalars(BlockMatrix<n + 1, n + 1>& matrix, const std::vector<int>& nodes) {
+    const auto& graph = *matrix.graph;
+    for (int a : nodes)
+      for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
+        double* block = matrix.block(at);
+        for (int c = 0; c <= n; ++c) block[n * (n + 1) + c] = 0;
+        if (graph.columns[at] == a) {
+          for (int r = 0; r < n; ++r) block[r * (n + 1) + n] = 0;
+          block[n * (n + 1) + n] = 1;
+          continue;
+        }
+        double* other = matrix.block(graph.find(graph.columns[at], a));
+        for (int r = 0; r <= n; ++r) other[r * (n + 1) + n] = 0;
+      }
   }
 
   void impose_diagonal() {
@@ -186,8 +229,10 @@ class CoupledSystem {
 #pragma omp parallel for schedule(static) if (graph.blocks() > 50000)
     for (int a = 0; a < graph.rows(); ++a)
       for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
-        if (constraints_.mesh_fixed[a] || mesh_zero_[graph.columns[at]])
-          for (int k = 0; k < n; ++k) mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
+        for (int k = 0; k < n; ++k)
+          if (constraints_.mesh_fixed[static_cast<std::size_t>(a) * n + k] ||
+              mesh_zero_[static_cast<std::size_t>(graph.columns[at]) * n + k])
+            mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
   }
 
   JacobianBlocks<Element> blocks_;
@@ -199,8 +244,9 @@ class CoupledSystem {
   CoupledMatrix<n> k_;
   CoupledConstraints constraints_;
   std::vector<InterfacePair> interface_;
-  std::vector<char> clamped_, mesh_zero_;
-  std::vector<int> traction_;  ///< position in the wall's matrix of each block of Afs
+  std::vector<char> wall_zero_, mesh_zero_, fixed_tractions_;  ///< n flags a node
+  std::vector<int> no_pressure_, no_wall_pressure_;            ///< nodes without
+  std::vector<int> traction_;                                  ///< position in the wall's matrix of each block of Afs
 };
 
 }  // namespace fsi

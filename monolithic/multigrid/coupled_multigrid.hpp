@@ -10,6 +10,7 @@
 #include "monolithic/multigrid/coupled_cycle.hpp"
 #include "solvers/amg/galerkin.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
+#include "solvers/power_iteration.hpp"
 
 namespace fsi {
 
@@ -186,16 +187,15 @@ class CoupledMultigrid {
 
   static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks) {
     const auto& k = system.matrix();
-    const auto& scene = blocks.scene;
     CoupledNodes nodes{k.mesh->graph.get(), k.flow->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
     nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
     nodes.wall_marks = NodeMarks(k.wall_nodes());
-    nodes.mesh_marks.prescribed = system.constraints().mesh_fixed;
-    nodes.flow_marks.prescribed = system.constraints().velocity_fixed;
-    nodes.wall_marks.prescribed = system.constraints().wall_fixed;
+    nodes.mesh_marks.prescribed = whole_nodes<n>(system.constraints().mesh_fixed);
+    nodes.flow_marks.prescribed = whole_nodes<n>(system.constraints().velocity_fixed);
+    nodes.wall_marks.prescribed = whole_nodes<n>(system.constraints().wall_fixed);
     for (const auto& pair : system.interface())  // unknowns, though their rows are conditions
       nodes.mesh_marks.prescribed[pair.fluid] = nodes.wall_marks.prescribed[pair.wall] = 0;
-    for (const auto& node : scene.interface) {
+    for (const InterfacePair& node : *blocks.interface) {
       nodes.mesh_interface.push_back(node.fluid);
       nodes.wall_interface.push_back(node.wall);
       nodes.mesh_marks.interface[node.fluid] = nodes.flow_marks.interface[node.fluid] = 1;
@@ -222,24 +222,21 @@ class CoupledMultigrid {
     constexpr double largest_extrapolation = 0.25;
     CoupledVector &x = level.inner_x, &zero = level.inner_b;
     zero.set_zero();
-    unsigned seed = 1;
+    RoughSequence rough;
     for (auto* part : {&x.mesh, &x.flow, &x.wall})
-      for (double& value : *part)
-        value = static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24) - 0.5;
-    double estimates[3] = {};
+      for (double& value : *part) value = rough();
     const int third = std::max(iterations / 3, 1);
-    for (int i = 0; i < 3 * third; ++i) {
+    const auto growth = power_iteration(3 * third, [&] {
       // The wall's part alone: in it displacements of the interface dominate, whatever the units of the others.
       const double before = norm(x.wall);
       level.smoother.sweep(zero, x, {1, 1, 1});
       const double after = norm(x.wall);
-      if (!(before > 0 && after > 0)) return 0;
-      if (i % third == third - 1) estimates[i / third] = after / before;
+      if (!(before > 0 && after > 0)) return 0.0;
       for (auto* part : {&x.mesh, &x.flow, &x.wall}) scale(1 / after, *part);
-    }
-    const double first = estimates[1] - estimates[0], second = estimates[2] - estimates[1];
-    const double rest = first > second && second > 0 ? second * second / (first - second) : 0;
-    return estimates[2] + std::min(rest, largest_extrapolation * estimates[2]);
+      return after / before;
+    });
+    if (!(growth.back() > 0)) return 0;
+    return extrapolated_limit(growth[third - 1], growth[2 * third - 1], growth.back(), largest_extrapolation);
   }
 
   template <class Count>

@@ -295,9 +295,9 @@ class LinearStudy {
     constexpr int n = Element::components;
     const auto& k = paper.matrix();
     NodeMarks fluid(k.fluid_nodes()), wall(k.wall_nodes()), mesh(k.fluid_nodes());
-    fluid.prescribed = paper.constraints().velocity_fixed;
-    mesh.prescribed = paper.constraints().mesh_fixed;
-    wall.prescribed = paper.constraints().wall_fixed;
+    fluid.prescribed = whole_nodes<n>(paper.constraints().velocity_fixed);
+    mesh.prescribed = whole_nodes<n>(paper.constraints().mesh_fixed);
+    wall.prescribed = whole_nodes<n>(paper.constraints().wall_fixed);
     for (const auto& node : paper.interface()) {
       fluid.interface[node.fluid] = mesh.interface[node.fluid] = wall.interface[node.wall] = 1;
       mesh.prescribed[node.fluid] = wall.prescribed[node.wall] = 0;  // given, but an unknown of the coupled system

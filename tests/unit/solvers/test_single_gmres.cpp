@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "condensed_solver/single_gmres.hpp"
 #include "grid_laplacian.hpp"
+#include "solvers/krylov/single_gmres.hpp"
 
 namespace fsi::test {
 

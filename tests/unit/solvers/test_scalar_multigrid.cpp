@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/threads.hpp"
-#include "condensed_solver/scalar_multigrid.hpp"
 #include "grid_laplacian.hpp"
+#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi::test {
 
