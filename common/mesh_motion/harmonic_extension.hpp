@@ -11,9 +11,9 @@ namespace fsi {
 
 /// How a harmonic extension is computed. Defaults by measurement (docs/performance.md).
 struct HarmonicExtensionOptions {
-  int iterative_from = 1 << 30;  ///< inner nodes from which the iteration is quicker than triangular solves
-  double tolerance = 1e-12;      ///< of the iteration: its residual over that of zero inner values
-  int max_iterations = 100;      ///< of conjugate gradients; a solve that needs more is done by factorisation
+  int iterative_from = 12000;  ///< inner nodes from which the iteration is quicker than triangular solves
+  double tolerance = 1e-12;    ///< of the iteration: its residual over that of zero inner values
+  int max_iterations = 100;    ///< of conjugate gradients; a solve that needs more is done by factorisation
 };
 
 /// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/vector_operations.hpp"
 #include "partitioned/interface/interface_problem.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "time/predictor.hpp"

@@ -10,6 +10,7 @@
 #include "mesh/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
+#include "system/jacobian_product.hpp"
 
 namespace fsi::test {
 

@@ -90,7 +90,9 @@ void expect_both_ways_agree(const Problem& problem) {
   EXPECT_LT(problem.residual(second), 1e-10);
   EXPECT_LT(largest_difference(first, second), 1e-10);
   for (std::size_t i = 0; i < first.size(); ++i)
-    if (!problem.inner[i]) EXPECT_EQ(second[i], problem.field[i]);
+    if (!problem.inner[i]) {
+      EXPECT_EQ(second[i], problem.field[i]);
+    }
 }
 
 TEST(HarmonicExtension, IterationAndFactorisationAgree) {
