@@ -40,8 +40,7 @@ double contraction(const CsrMatrix<double>& matrix, ScalarMultigrid& multigrid, 
 
 TEST(ScalarMultigrid, ContractsIndependentlyOfSize) {
   ScalarMultigrid small, large;
-  const double coarse = contraction(csr_laplacian(12), small, true),
-               fine = contraction(csr_laplacian(28), large, true);
+  const double coarse = contraction(csr_laplacian(12), small, true), fine = contraction(csr_laplacian(28), large, true);
   EXPECT_LT(coarse, 0.25);
   EXPECT_LT(fine, 0.3);
   EXPECT_GT(large.levels(), small.levels());
