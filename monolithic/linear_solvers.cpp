@@ -82,7 +82,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
                                                  const JacobianBlocks<Element>& blocks) {
   for (const auto& method : coupled_methods()) {
     if (method.name != name) continue;
-    if (!blocks.scene.coupled()) break;  // not for one medium: the message comes below
+    if (!blocks.coupled()) break;  // not for one medium: the message comes below
     return std::make_unique<CoupledLinearSolver<Element>>(blocks, options_for(method, setup.monolithic));
   }
   return make_fast_or_direct(name, setup, blocks);

@@ -1,125 +1,39 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "base/error.hpp"
 #include "case/case.hpp"
 #include "partitioned/divergence.hpp"
-#include "partitioned/interface/dirichlet_neumann.hpp"
-#include "partitioned/interface/robin_neumann.hpp"
 #include "partitioned/schemes.hpp"
+#include "scene/scene.hpp"
 #include "time/loads.hpp"
-#include "time/predictor.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
+
+template <class Element>
+class InterfaceProblem;
+struct Pass;
+class PassFailure;
 
 /// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated by the
 /// case's scheme, until they agree on the interface.
 template <class Element>
 class CouplingStepper : public Stepper {
  public:
-  CouplingStepper(Scene<Element>& scene, const Loads& loads, const Case& setup)
-      : scene_(scene),
-        loads_(loads),
-        options_(setup.partitioned),
-        predictor_(setup.time ? setup.time->predictor : std::nullopt),
-        scheme_(coupling_scheme(options_.scheme)),
-        accelerator_(scheme_.make_accelerator(options_)),
-        velocity_gap_(options_.velocity_gap) {
-    if (scheme_.one_pass && first_order() == 0)
-      throw InputError(
-          "", "time.predictor",
-          fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
-          "use 1 or 2");
-    if (scheme_.robin)
-      problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_, *setup.structure);
-    else
-      problem_ = std::make_unique<DirichletNeumann<Element>>(scene, options_);
-  }
+  CouplingStepper(Scene<Element>& scene, const Loads& loads, const Case& setup);
+
+  ~CouplingStepper() override;
 
   bool reports_coupling() const override { return true; }
 
-  StepReport advance(State& state) override {
-    StepData data = loads_.next(state, *scene_.integrator);
-    report_ = {};
-    coupling_ = {};
-    problem_->cost = {};
-    order_ = first_order();
-    start(state, data);
-    accelerator_->start();
-    monitor_.start();
-    std::vector<double> x = problem_->first_guess(order_), good_x;
-    Solution good;  // fields of the last pass that succeeded
-    PassAccuracy accuracy{first_tolerance(), starts_far_};
-    if (scheme_.one_pass) accuracy = {final_tolerance(), false};
-    bool first = true;
-    for (report_.outer_iterations = 1; report_.outer_iterations <= options_.max_iterations;
-         ++report_.outer_iterations) {
-      Pass pass;
-      try {
-        pass = problem_->pass(x, accuracy);
-        measure(pass);
-        if (!scheme_.one_pass && agrees() && (accuracy.tolerance > 0.1 * demand() || accuracy.linearised_wall)) {
-          // Agreement cannot be better than the sub-problems' own accuracy.
-          pass = problem_->refine({final_tolerance(), false});
-          measure(pass);
-        }
-      } catch (const PassFailure& failure) {
-        retreat(failure, state, data, x, good_x, good);
-        continue;
-      }
-      log_pass();
-      if (first) starts_far_ = coupling_.displacement_residual > far;
-      first = false;
-      if (scheme_.one_pass) check_march(state, data);
-      if (agrees() || scheme_.one_pass) {
-        accept(state, data, x, pass);
-        return report_;
-      }
-      if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
-      good_x = x;
-      good = state.now;
-      accuracy.tolerance =
-          std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
-      const Stopwatch watch(coupling_.algebra_seconds);
-      accelerator_->correct(x, pass.residual);
-      if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
-    }
-    --report_.outer_iterations;
-    give_up(state, data, "did not converge");
-  }
+  StepReport advance(State& state) override;
 
-  Memory memory() const override {
-    Memory memory = problem_->memory();
-    accelerator_->remember(memory);
-    memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
-    if (scheme_.one_pass) {
-      memory.numbers["alternating_steps"] = march_.steps();
-      memory.numbers["last_gap"] = march_.last_gap();
-      memory.numbers["steps_apart"] = velocity_gap_.steps();
-      memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
-    }
-    return memory;
-  }
-  void recall(const Memory& memory) override {
-    problem_->recall(memory);
-    accelerator_->recall(memory);
-    const auto number =
-        [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
-          const auto found = memory.numbers.find(name);
-          return found == memory.numbers.end() ? 0.0 : found->second;
-        };
-    if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
-    march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
-    velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
-  }
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
 
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step
@@ -134,122 +48,31 @@ class CouplingStepper : public Stepper {
   int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
 
   /// The tighter of the demands on the interface.
-  double demand() const {
-    return options_.force_tolerance > 0 ? std::min(options_.tolerance, options_.force_tolerance) : options_.tolerance;
-  }
+  double demand() const;
   /// Sub-problems are solved a hundred times tighter than the interface; early passes as loosely as their residual
   /// allows.
   double final_tolerance() const { return sub_problem_share * demand(); }
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
-  void start(State& state, StepData& data) {
-    predict(state, order_, data.time);
-    scene_.impose_conditions(state.now);
-    scene_.impose_interface(state, data.rates);
-    problem_->start(state, data);
-  }
+  void start(State& state, StepData& data);
 
-  void measure(const Pass& pass) {
-    coupling_.displacement_gap = norm(pass.residual);
-    coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
-    coupling_.force_residual = problem_->force_residual();
-  }
-  bool agrees() const {
-    return (coupling_.displacement_residual <= options_.tolerance ||
-            coupling_.displacement_gap <= options_.absolute_tolerance) &&
-           (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
-  }
+  void measure(const Pass& pass);
+  bool agrees() const;
 
-  void log_pass() {
-    const AcceleratorStatus status = accelerator_->status();
-    const CouplingCost& cost = problem_->cost;
-    report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
-                                          report_.outer_iterations, coupling_.displacement_residual,
-                                          coupling_.force_residual,
-                                          status.columns > 0 ? fmt::format("columns {}", status.columns)
-                                                             : fmt::format("relaxation {:.5f}", status.relaxation),
-                                          cost.fluid_newton, cost.wall_newton));
-  }
+  void log_pass();
 
-  [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const {
-    throw ConvergenceError(
-        fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
-                    "{:.2e}, wanted {:g}; force {:.2e}{}",
-                    state.step + 1, data.time, scheme_.name, what, report_.outer_iterations,
-                    coupling_.displacement_residual, options_.tolerance, coupling_.force_residual,
-                    options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
-        scheme_.advice);
-  }
+  [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const;
 
   /// One pass a step, and no claim that fluid and wall agree: a march that has become unstable ends here, long before
   /// an element is inverted, and so does one that lingers at its stability limit with a pressure that means nothing.
-  void check_march(const State& state, const StepData& data) {
-    const auto give_up = [&](const std::string& what) {
-      throw ConvergenceError(
-          fmt::format("step {} (to t = {:g} ms): the {} coupling {}", state.step + 1, data.time, scheme_.name, what),
-          scheme_.advice);
-    };
-    if (march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual))
-      give_up(
-          fmt::format("is unstable: {} steps running the wall has missed the extrapolated displacement by more than "
-                      "its own, and further each time (now {:.2e} times)",
-                      march_.steps(), coupling_.displacement_residual));
-    if (velocity_gap_.comes_apart(coupling_.displacement_gap, problem_->movement()))
-      give_up(
-          fmt::format("does not hold fluid and wall together, and its pressure is wrong: {} steps running their "
-                      "velocities on the interface differ by more than {:g} times the largest so far (now {:.2f} "
-                      "times)",
-                      velocity_gap_.steps(), options_.velocity_gap, velocity_gap_.last()));
-  }
+  void check_march(const State& state, const StepData& data);
 
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
   /// the last time level. \throws ConvergenceError when that has been tried often enough
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
-               const std::vector<double>& good_x, const Solution& good) {
-    const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
-    ++coupling_.failed_passes;
-    report_.history.push_back(
-        fmt::format("coupling {:3d}  no answer from {}", report_.outer_iterations, failure.what()));
-    if (scheme_.one_pass || coupling_.failed_passes > most_retreats || (good_x.empty() && !extrapolated)) {
-      for (const auto& line : failure.history()) report_.history.push_back(line);
-      throw ConvergenceError(
-          fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
-                      data.time, scheme_.name, report_.outer_iterations, failure.what()),
-          scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
-    }
-    if (extrapolated) {  // the extrapolated start can be the culprit, after a jump of the load for example
-      order_ = 0;
-      start(state, data);
-      x = problem_->first_guess(order_);
-      return;
-    }
-    state.now = good;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = good_x[i] + retreat_factor * (x[i] - good_x[i]);
-  }
+               const std::vector<double>& good_x, const Solution& good);
 
-  void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass) {
-    {
-      const Stopwatch watch(coupling_.algebra_seconds);
-      accelerator_->accept(x, pass.residual);
-    }
-    problem_->accept();
-    if (scheme_.one_pass) problem_->follow_wall();
-    scene_.integrator->accept(state, data);
-    const CouplingCost& cost = problem_->cost;
-    report_.newton_iterations = cost.fluid_newton + cost.wall_newton;
-    report_.linear_iterations = cost.fluid_linear + cost.wall_linear;
-    const AcceleratorStatus status = accelerator_->status();
-    coupling_.relaxation = status.relaxation;
-    coupling_.columns = status.columns;
-    coupling_.fluid_newton_iterations = cost.fluid_newton;
-    coupling_.wall_newton_iterations = cost.wall_newton;
-    coupling_.fluid_linear_iterations = cost.fluid_linear;
-    coupling_.wall_linear_iterations = cost.wall_linear;
-    coupling_.fluid_seconds = cost.fluid_seconds;
-    coupling_.wall_seconds = cost.wall_seconds;
-    coupling_.mesh_seconds = cost.mesh_seconds;
-    report_.coupling = coupling_;
-  }
+  void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass);
 
   Scene<Element>& scene_;
   const Loads& loads_;

@@ -1,6 +1,7 @@
 #include "condensed_solver/fast_or_direct.hpp"
 #include "driver/driver.hpp"
 #include "partitioned/coupling_stepper.hpp"
+#include "system/newton_stepper.hpp"
 
 int main(int argc, char** argv) {
   using namespace fsi;

@@ -1,8 +1,19 @@
 #include "algebra/gathered_matrix.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "base/error.hpp"
 
 namespace fsi {
+
+GatheredMatrix::Builder::Builder(std::int64_t size) : size_(size) {
+  if (size > largest_size)
+    throw InputError("", "linear_solver",
+                     "a gathered matrix of " + std::to_string(size) + " unknowns, where the largest has " +
+                         std::to_string(largest_size),
+                     "give fast, or a coarser mesh");
+}
 
 GatheredMatrix::GatheredMatrix(Builder&& builder) {
   auto& terms = builder.terms_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "algebra/sparse_matrix.hpp"
@@ -15,9 +17,13 @@ class GatheredMatrix {
   /// Collects the terms; all arrays must keep their size and place for the life of the matrix.
   class Builder {
    public:
-    explicit Builder(std::int64_t size) : size_(size) {}
-    /// Entry (row, column) gets factor * (*source)[index] in every update.
+    static constexpr std::int64_t largest_size = std::numeric_limits<std::int32_t>::max();
+
+    /// \throws InputError when `size` exceeds largest_size
+    explicit Builder(std::int64_t size);
+    /// Entry (row, column) gets factor * (*number) in every update.
     void add(std::int64_t row, std::int64_t column, const double* number, double factor) {
+      assert(row >= 0 && row < size_ && column >= 0 && column < size_);
       terms_.push_back({static_cast<std::int32_t>(row), static_cast<std::int32_t>(column), number, factor});
     }
     void reserve(std::size_t count) { terms_.reserve(count); }

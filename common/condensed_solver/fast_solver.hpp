@@ -1,19 +1,11 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "algebra/vector_operations.hpp"
-#include "base/error.hpp"
-#include "condensed_solver/harmonic_extension.hpp"
-#include "condensed_solver/single_gmres.hpp"
-#include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "system/direct_linear_solver.hpp"
-#include "system/jacobian_product.hpp"
+#include "system/linear_solver.hpp"
 
 namespace fsi {
 
@@ -37,209 +29,49 @@ class FastSolver : public LinearSolver {
  public:
   static constexpr int n = Element::components;
 
-  explicit FastSolver(const JacobianBlocks<Element>& blocks, const FastOptions& options = {})
-      : blocks_(blocks), options_(options) {
-    if (blocks.numbering.size < options.direct_below) direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks);
-  }
+  explicit FastSolver(const JacobianBlocks<Element>& blocks, const FastOptions& options = {});
 
-  const char* preparation() const override {
-    return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
-  }
+  ~FastSolver() override;
+
+  const char* preparation() const override;
   bool ready() const override { return ready_; }
 
   /// What a failure led to is forgotten here: solutions depend on the Jacobian of the last update() alone, not on what
   /// was solved before it, as a restart needs.
-  void update() override {
-    if (iterative_) direct_.reset();
-    if (direct_) {
-      direct_->update();
-    } else {
-      if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
-      iterative_->matrix.fill();
-      set_up_preconditioner(false);
-      find_shape_derivatives();
-    }
-    ready_ = true;
-  }
+  void update() override;
 
-  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override {
-    if (direct_) return direct_->solve(b, tolerance, x);
-    LinearReport report = iterate(b, tolerance, x);
-    if (report.converged) return report;
-    if (!strengthened_) {
-      set_up_preconditioner(true);
-      LinearReport second = iterate(b, tolerance, x);
-      second.iterations += report.iterations;
-      if (second.converged) return second;
-      report = second;
-    }
-    // From here on a factorisation, however long it takes: better than no answer.
-    direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks_);
-    direct_->update();
-    const LinearReport third = direct_->solve(b, tolerance, x);
-    report.converged = third.converged;
-    report.relative_residual = third.relative_residual;
-    return report;
-  }
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
 
-  double keep_contraction() const override {
-    return direct_ ? direct_->keep_contraction() : LinearSolver::keep_contraction();
-  }
+  double keep_contraction() const override;
 
-  LinearStatistics statistics() const override {
-    LinearStatistics s;
-    if (direct_) s = direct_->statistics();
-    if (iterative_) {
-      s.memory_mib += static_cast<double>(iterative_->matrix.bytes() + iterative_->preconditioner.bytes() +
-                                          iterative_->gmres.bytes()) /
-                      (1 << 20);
-      if (iterative_->extension) s.memory_mib += iterative_->extension->memory_mib();
-      s.operator_complexity = iterative_->preconditioner.multigrid().operator_complexity();
-      s.levels = iterative_->preconditioner.multigrid().levels();
-    }
-    return s;
-  }
+  LinearStatistics statistics() const override;
 
   /// The Jacobian is factorised: the system is small, or the iteration failed on it.
   bool uses_factorisation() const { return direct_ != nullptr; }
 
  private:
+  /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
+  /// what it lacks comes back in the next residual.
+  static constexpr double mesh_rows_tolerance = 1e-3;
+  static constexpr double loosest_extension = 1e-3;  ///< tolerance of a late correction's mesh motion
+
   /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
-  void set_up_preconditioner(bool strong) {
-    typename VelocityPressurePreconditioner<Element>::Options options;
-    options.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
-    if (strong) options.coarse_from = 0;
-    iterative_->preconditioner.options() = options;
-    iterative_->preconditioner.set_up();
-    strengthened_ = strong;
-  }
+  void set_up_preconditioner(bool strong);
 
-  struct Iterative {
-    VelocityPressureLayout<Element> layout;
-    VelocityPressureMatrix<Element> matrix;
-    VelocityPressurePreconditioner<Element> preconditioner;
-    JacobianProduct<Element> jacobian;
-    std::unique_ptr<HarmonicExtension<Element>> extension;  ///< null without mesh motion
-    bool shape_derivatives = false;                         ///< they are not all zero (as they are at rest)
-    SingleGmres gmres;
-    std::vector<float> single_right, single_solution;
-    std::vector<double> right, solution, residual, jacobian_times_x, correction;
-    std::vector<double> mesh, mesh_right, flow_rows;
+  struct Iterative;
 
-    explicit Iterative(const JacobianBlocks<Element>& blocks)
-        : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
-      if (blocks.mesh) {
-        extension = std::make_unique<HarmonicExtension<Element>>(blocks);
-        mesh.resize(blocks.numbering.mesh.size());
-        mesh_right.resize(mesh.size());
-        flow_rows.resize(blocks.numbering.flow.size());
-      }
-    }
-  };
+  void find_shape_derivatives();
 
-  void find_shape_derivatives() {
-    iterative_->shape_derivatives = false;
-    if (blocks_.shape_derivatives)
-      for (double value : blocks_.shape_derivatives->values)
-        if (value != 0) {
-          iterative_->shape_derivatives = true;
-          break;
-        }
-  }
+  LinearReport iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x);
 
-  LinearReport iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-    Iterative& it = *iterative_;
-    LinearReport report;
-    report.converged = false;
-    x.assign(b.size(), 0.0);
-    const double norm_b = norm(b);
-    if (norm_b == 0) {
-      report.converged = true;
-      return report;
-    }
-    it.residual = b;
-    double relative = 1;
-    double shape_contraction = 0.05;  // what an outer iteration leaves of the residual for want of shape derivatives
-    while (report.iterations < options_.max_iterations) {
-      const double wanted = 0.8 * tolerance / relative;
-      const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * shape_contraction) : wanted;
-      correct(inner, report);
-      axpy(1, it.correction, x);
-      it.jacobian.multiply(x, it.jacobian_times_x);
-      for (std::size_t i = 0; i < b.size(); ++i) it.residual[i] = b[i] - it.jacobian_times_x[i];
-      const double now = norm(it.residual) / norm_b;
-      const double contraction = now / relative;
-      relative = now;
-      report.relative_residual = relative;
-      if (!std::isfinite(relative)) {
-        report.failure = "the residual of the linear solver is not finite";
-        return report;
-      }
-      if (relative <= tolerance) {
-        report.converged = true;
-        return report;
-      }
-      // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
-      shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
-      if (contraction > 0.9) {
-        report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
-        return report;
-      }
-    }
-    report.failure = fmt::format("the linear solver reached a relative residual of {:.1e} only", relative);
-    return report;
-  }
+  /// correction = approximate solution for `residual`: velocities and pressures by GMRES, mesh motion as exact as the
+  /// whole solution wants it.
+  /// \param relative  the residual over the right-hand side: how much this correction weighs
+  void correct(double tolerance, double relative, LinearReport& report);
 
-  /// correction = approximate solution for `residual`: velocities and pressures by GMRES, mesh motion exactly.
-  void correct(double tolerance, LinearReport& report) {
-    Iterative& it = *iterative_;
-    const Numbering& numbering = blocks_.numbering;
-    it.layout.take(it.residual, it.right);
-    if (it.extension) subtract_mesh_rows();
-    // Scaled to one, so that small residuals do not leave the range of single precision.
-    const double scale = norm(it.right);
-    it.solution.assign(it.right.size(), 0.0);
-    if (scale > 0) {
-      it.matrix.take(it.right, 1 / scale, it.single_right);
-      const auto solved = it.gmres.solve([&](const auto& in, auto& out) { it.matrix.multiply(in, out); },
-                                         [&](const auto& in, auto& out) { it.preconditioner.apply(in, out); },
-                                         it.single_right, it.single_solution, tolerance, options_.restart);
-      report.iterations += solved.iterations;
-      it.matrix.give(it.single_solution, scale, it.solution);
-    }
-    it.correction.assign(it.residual.size(), 0.0);
-    it.layout.give(it.solution, it.correction);
-    if (it.extension) {
-      for (std::size_t i = 0; i < it.mesh.size(); ++i) {
-        const Unknown& unknown = numbering.mesh[i];
-        it.mesh[i] = unknown.index < 0 ? 0 : unknown.factor * it.correction[unknown.index];
-      }
-      it.extension->solve(it.mesh_right, it.mesh);
-      for (std::size_t i = 0; i < it.mesh.size(); ++i)
-        if (numbering.mesh_rows[i].index >= 0) it.correction[numbering.mesh_rows[i].index] = it.mesh[i];
-    }
-  }
-
-  /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m = 0.
-  void subtract_mesh_rows() {
-    Iterative& it = *iterative_;
-    const Numbering& numbering = blocks_.numbering;
-    bool any = false;
-    for (std::size_t i = 0; i < it.mesh_right.size(); ++i) {
-      const auto row = numbering.mesh_rows[i].index;
-      it.mesh_right[i] = row < 0 ? 0 : it.residual[row];
-      any = any || it.mesh_right[i] != 0;
-    }
-    if (!any || !it.shape_derivatives) return;
-    set_zero(it.mesh);
-    it.extension->solve(it.mesh_right, it.mesh);
-    multiply(*blocks_.shape_derivatives, it.mesh, it.flow_rows);
-    std::vector<double>& all = it.jacobian_times_x;
-    all.assign(it.residual.size(), 0.0);
-    add_to_system(numbering.flow_rows, it.flow_rows, all);
-    it.layout.take(all, it.solution);
-    axpy(-1, it.solution, it.right);
-  }
+  /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
+  /// rounding, or what an iterative extension left.
+  void subtract_mesh_rows(double tolerance);
 
   JacobianBlocks<Element> blocks_;
   FastOptions options_;

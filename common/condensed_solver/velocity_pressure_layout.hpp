@@ -10,9 +10,10 @@
 namespace fsi {
 
 /// The unknowns of a scene without mesh motion as one velocity over fluid and wall, and the pressures: the wall's
-/// displacement is d = dt v, on the interface both media have the same node (Failer and Richter's condensed
+/// displacement is d = wall_factor v, on the interface both media have the same node (Failer and Richter's condensed
 /// displacement; here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the
-/// whole mesh, so that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure.
+/// whole mesh, so that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A
+/// node of which only some components are unknowns has a place for all n; the others stay zero.
 template <class Element>
 class VelocityPressureLayout {
  public:
@@ -21,79 +22,118 @@ class VelocityPressureLayout {
   int velocities = 0;  ///< nodes that can move
   int pressures = 0;
   std::vector<int> velocity_of_fluid, velocity_of_wall;  ///< per node of the part; -1 where it is prescribed
-  std::vector<int> pressure_of_fluid, pressure_of_wall;  ///< per node of the part
+  std::vector<int> pressure_of_fluid, pressure_of_wall;  ///< per node of the part; -1 where it has none
   std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node; -1 outside the part
   std::vector<int> node_of_pressure;                     ///< per pressure, node of its part
   std::vector<char> wall_pressure;                       ///< per pressure: it is the wall's
-  double wall_factor = 1;                                ///< d = wall_factor v
+  double wall_factor = 1;                                ///< d = wall_factor v, as of the last update()
 
-  explicit VelocityPressureLayout(const JacobianBlocks<Element>& blocks) {
-    const Numbering& numbering = blocks.numbering;
-    wall_factor = numbering.interface.period;
+  explicit VelocityPressureLayout(const JacobianBlocks<Element>& blocks) : numbering_(blocks.numbering) {
     struct Node {
       int place;  ///< in the whole mesh; the fluid first where both are
       bool wall;
       int part;
     };
     std::vector<Node> nodes;
-    if (blocks.flow)
-      for (int a = 0; a < blocks.scene.fluid->node_count(); ++a)
-        nodes.push_back({blocks.scene.fluid->part().mesh_node[a], false, a});
-    if (blocks.wall)
-      for (int a = 0; a < blocks.scene.wall->node_count(); ++a)
-        nodes.push_back({blocks.scene.wall->part().mesh_node[a], true, a});
+    const int fluid_nodes = blocks.flow ? blocks.flow->graph->rows() : 0;
+    const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
+    for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({(*blocks.fluid_nodes.places)[a], false, a});
+    for (int a = 0; a < wall_nodes; ++a) nodes.push_back({(*blocks.wall_nodes.places)[a], true, a});
     std::sort(nodes.begin(), nodes.end(),
               [](const Node& a, const Node& b) { return std::pair(a.place, a.wall) < std::pair(b.place, b.wall); });
-    velocity_of_fluid.assign(blocks.flow ? blocks.scene.fluid->node_count() : 0, -1);
+    velocity_of_fluid.assign(fluid_nodes, -1);
     pressure_of_fluid = velocity_of_fluid;
-    velocity_of_wall.assign(blocks.wall ? blocks.scene.wall->node_count() : 0, -1);
+    velocity_of_wall.assign(wall_nodes, -1);
     pressure_of_wall = velocity_of_wall;
-    std::vector<int> velocity_of_unknown(static_cast<std::size_t>(numbering.size), -1);
+    std::vector<int> velocity_of_unknown(static_cast<std::size_t>(numbering_.size), -1);
     for (const Node& node : nodes) {
-      const UnknownMap& map = node.wall ? numbering.wall : numbering.flow;
-      const Unknown& first = map[static_cast<std::size_t>(node.part) * (n + 1)];
-      auto& velocity_of = node.wall ? velocity_of_wall : velocity_of_fluid;
-      if (first.index >= 0) {
-        int& velocity = velocity_of_unknown[first.index];
+      const UnknownMap& map = node.wall ? numbering_.wall : numbering_.flow;
+      const std::size_t first = static_cast<std::size_t>(node.part) * (n + 1);
+      int velocity = -1;  // that of the node's partner on the interface, if it came before
+      bool moves = false;
+      for (int k = 0; k < n; ++k) {
+        const auto unknown = map[first + k].index;
+        moves = moves || unknown >= 0;
+        if (unknown >= 0 && velocity < 0) velocity = velocity_of_unknown[unknown];
+      }
+      if (moves) {
         if (velocity < 0) {
           velocity = velocities++;
           fluid_of_velocity.push_back(-1);
           wall_of_velocity.push_back(-1);
-          for (int k = 0; k < n; ++k) {
-            const Unknown& unknown = map[static_cast<std::size_t>(node.part) * (n + 1) + k];
-            velocity_unknown_.push_back(unknown.index);
-            // The system's unknown x gives v = unknown.factor x in the fluid and d = x = wall_factor v in the wall.
-            velocity_scale_.push_back(node.wall ? wall_factor : 1 / unknown.factor);
+          entries_.resize(entries_.size() + n);
+        }
+        for (int k = 0; k < n; ++k) {
+          const auto unknown = map[first + k].index;
+          Entry& entry = entries_[static_cast<std::size_t>(velocity) * n + k];
+          if (unknown < 0) {
+            partly_fixed_ = true;
+          } else if (entry.unknown < 0) {
+            entry = {unknown, node.wall, first + k};
+            velocity_of_unknown[unknown] = velocity;
           }
         }
-        velocity_of[node.part] = velocity;
+        (node.wall ? velocity_of_wall : velocity_of_fluid)[node.part] = velocity;
         (node.wall ? wall_of_velocity : fluid_of_velocity)[velocity] = node.part;
       }
+      if (map[first + n].index < 0) continue;
       (node.wall ? pressure_of_wall : pressure_of_fluid)[node.part] = pressures++;
-      pressure_unknown_.push_back(map[static_cast<std::size_t>(node.part) * (n + 1) + n].index);
+      pressure_unknown_.push_back(map[first + n].index);
       node_of_pressure.push_back(node.part);
       wall_pressure.push_back(node.wall);
     }
+    velocity_scale_.resize(entries_.size());
+    update();
   }
+
+  /// Reads the factors that hold now between velocities and the system's unknowns.
+  void update() {
+    wall_factor = numbering_.interface.period;
+    // The system's unknown x gives v = unknown.factor x in the fluid and d = x = wall_factor v in the wall.
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      if (entries_[i].unknown >= 0)
+        velocity_scale_[i] = entries_[i].wall ? wall_factor : 1 / numbering_.flow[entries_[i].place].factor;
+  }
+
+  /// Some velocity node has a component that is no unknown of one of its media.
+  bool partly_fixed() const { return partly_fixed_; }
+  /// Component k of a node of the part is an unknown.
+  bool is_free(bool wall, int node, int k) const {
+    return (wall ? numbering_.wall : numbering_.flow)[static_cast<std::size_t>(node) * (n + 1) + k].index >= 0;
+  }
+  /// Component k of a velocity node is an unknown, in one medium at least.
+  bool is_free(int velocity, int k) const { return entries_[static_cast<std::size_t>(velocity) * n + k].unknown >= 0; }
 
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
   std::size_t size() const { return velocity_size() + pressures; }
 
-  /// Equations of the system that belong to these unknowns, in this order.
+  /// Equations of the system that belong to these unknowns, in this order; zero where there is none.
   void take(const std::vector<double>& system, std::vector<double>& mine) const {
     mine.resize(size());
-    for (std::size_t i = 0; i < velocity_size(); ++i) mine[i] = system[velocity_unknown_[i]];
+    for (std::size_t i = 0; i < velocity_size(); ++i)
+      mine[i] = entries_[i].unknown < 0 ? 0 : system[entries_[i].unknown];
     for (int p = 0; p < pressures; ++p) mine[velocity_size() + p] = system[pressure_unknown_[p]];
   }
   /// Writes velocities and pressures as the system's unknowns.
   void give(const std::vector<double>& mine, std::vector<double>& system) const {
-    for (std::size_t i = 0; i < velocity_size(); ++i) system[velocity_unknown_[i]] = velocity_scale_[i] * mine[i];
+    for (std::size_t i = 0; i < velocity_size(); ++i)
+      if (entries_[i].unknown >= 0) system[entries_[i].unknown] = velocity_scale_[i] * mine[i];
     for (int p = 0; p < pressures; ++p) system[pressure_unknown_[p]] = mine[velocity_size() + p];
   }
 
  private:
-  std::vector<std::int64_t> velocity_unknown_, pressure_unknown_;
+  /// Where a component of a velocity stands in the system.
+  struct Entry {
+    std::int64_t unknown = -1;  ///< none
+    bool wall = false;          ///< the medium whose map names it: the fluid's where both do
+    std::size_t place = 0;      ///< in that map
+  };
+
+  const Numbering& numbering_;
+  std::vector<Entry> entries_;  ///< n for each velocity node
+  std::vector<std::int64_t> pressure_unknown_;
   std::vector<double> velocity_scale_;  ///< system's unknown over v
+  bool partly_fixed_ = false;
 };
 
 }  // namespace fsi

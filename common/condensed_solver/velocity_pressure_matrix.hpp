@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
-#include "condensed_solver/register_blocks.hpp"
+#include "algebra/register_blocks.hpp"
 #include "condensed_solver/velocity_pressure_layout.hpp"
 
 namespace fsi {
@@ -32,8 +34,8 @@ class VelocityPressureMatrix {
   }
 
   const VelocityPressureLayout<Element>& layout() const { return layout_; }
-  /// The wall's part of the mesh; there must be a wall.
-  const auto& wall_part() const { return blocks_.scene.wall->part(); }
+  /// Places at rest of the wall's nodes, mm; there must be a wall.
+  const std::vector<std::array<double, 3>>& wall_points() const { return *blocks_.wall_nodes.points; }
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
@@ -126,8 +128,10 @@ class VelocityPressureMatrix {
     return gradient_.data() + static_cast<std::size_t>(at) * lanes;
   }
 
-  /// Calls visit(block, velocity or -1, pressure, factor of the velocity) for the assembled blocks of a velocity node's
-  /// rows, the fluid's first; `factor` turns derivatives by displacement into those by velocity.
+  /// Calls visit(block, velocity or -1, pressure or -1, factor of the velocity) for the assembled blocks of a velocity
+  /// node's rows, the fluid's first; `factor` turns derivatives by displacement into those by velocity. Rows and
+  /// columns of components that are no unknowns are zero in `block`, but for a number on the diagonal of a component
+  /// that is none in either medium.
   template <class Visit>
   void for_blocks_of(int velocity, Visit visit) const {
     const int f = layout_.fluid_of_velocity[velocity], w = layout_.wall_of_velocity[velocity];
@@ -141,9 +145,16 @@ class VelocityPressureMatrix {
     const auto& pressure_of = wall ? layout_.pressure_of_wall : layout_.pressure_of_fluid;
     const double factor = wall ? layout_.wall_factor : 1;
     const auto& graph = *matrix.graph;
+    const bool partly_fixed = layout_.partly_fixed();
+    double constrained[(n + 1) * (n + 1)];
     for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
       const int b = graph.columns[at];
-      visit(matrix.block(at), velocity_of[b], pressure_of[b], factor);
+      const double* block = matrix.block(at);
+      if (partly_fixed) {
+        constrain(wall, node, b, block, constrained);
+        block = constrained;
+      }
+      visit(block, velocity_of[b], pressure_of[b], factor);
     }
   }
 
@@ -153,6 +164,24 @@ class VelocityPressureMatrix {
   }
 
  private:
+  /// `to` = the block that couples two nodes of a part, without the components that are no unknowns. A component that
+  /// is none in any medium gets a diagonal as large as the others', once.
+  void constrain(bool wall, int row, int column, const double* block, double* to) const {
+    std::copy(block, block + (n + 1) * (n + 1), to);
+    for (int k = 0; k < n; ++k) {
+      if (!layout_.is_free(wall, row, k)) std::fill(to + k * (n + 1), to + (k + 1) * (n + 1), 0.0);
+      if (!layout_.is_free(wall, column, k))
+        for (int i = 0; i <= n; ++i) to[i * (n + 1) + k] = 0;
+    }
+    if (row != column) return;
+    const int v = (wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid)[row];
+    if (v < 0 || (wall && layout_.fluid_of_velocity[v] >= 0)) return;
+    double largest = 0;
+    for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(block[k * (n + 1) + k]));
+    for (int k = 0; k < n; ++k)
+      if (!layout_.is_free(v, k)) to[k * (n + 1) + k] = largest > 0 ? largest : 1;
+  }
+
   void make_momentum_pattern() {
     momentum_.offsets = {0};
     gradient_offsets_ = {0};
@@ -161,7 +190,7 @@ class VelocityPressureMatrix {
       row.clear();
       for_blocks_of(v, [&](const double*, int u, int p, double) {
         if (u >= 0) row.push_back(u);
-        gradient_columns_.push_back(p);
+        if (p >= 0) gradient_columns_.push_back(p);
       });
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
@@ -176,8 +205,9 @@ class VelocityPressureMatrix {
     for (int p = 0; p < layout_.pressures; ++p) {
       for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
                          [&](const double*, int v, int q, double) {
+                           // A number is stored all the same: zero.
                            continuity_velocities_.push_back(std::max(v, 0));
-                           continuity_pressures_.push_back(q);
+                           continuity_pressures_.push_back(std::max(q, 0));
                          });
       continuity_offsets_.push_back(static_cast<int>(continuity_pressures_.size()));
     }
@@ -190,9 +220,11 @@ class VelocityPressureMatrix {
       std::fill(momentum_.values.begin() + static_cast<std::size_t>(begin) * n * lanes,
                 momentum_.values.begin() + static_cast<std::size_t>(end) * n * lanes, 0.0f);
       int gradient_at = gradient_offsets_[v];
-      for_blocks_of(v, [&](const double* block, int u, int, double factor) {
-        float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
-        for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[i * (n + 1) + n]);
+      for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
+        if (p >= 0) {
+          float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
+          for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[i * (n + 1) + n]);
+        }
         if (u < 0) return;
         const auto column = std::lower_bound(momentum_.columns.begin() + begin, momentum_.columns.begin() + end, u);
         float* a = momentum_.values.data() + static_cast<std::size_t>(column - momentum_.columns.begin()) * n * lanes;
@@ -207,11 +239,11 @@ class VelocityPressureMatrix {
     for (int p = 0; p < layout_.pressures; ++p) {
       int at = continuity_offsets_[p];
       for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
-                         [&](const double* block, int v, int, double factor) {
+                         [&](const double* block, int v, int q, double factor) {
                            float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
                            for (int k = 0; k < n; ++k)
                              b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[n * (n + 1) + k]);
-                           compressibility_[at++] = static_cast<float>(block[n * (n + 1) + n]);
+                           compressibility_[at++] = q < 0 ? 0.0f : static_cast<float>(block[n * (n + 1) + n]);
                          });
     }
   }

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "condensed_solver/scalar_multigrid.hpp"
-#include "condensed_solver/sweep_chunks.hpp"
 #include "condensed_solver/velocity_pressure_matrix.hpp"
 #include "condensed_solver/wall_coarse_correction.hpp"
+#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
+#include "solvers/smoothed_aggregation/sweep_chunks.hpp"
 
 namespace fsi {
 
@@ -125,7 +125,7 @@ class VelocityPressurePreconditioner {
         };
         matrix_.for_blocks_of_node(
             layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double*, int v, int q, double) {
-              add(q);
+              if (q >= 0) add(q);
               if (v < 0) return;
               for (int at = matrix_.gradient_offsets()[v]; at < matrix_.gradient_offsets()[v + 1]; ++at)
                 add(matrix_.gradient_columns()[at]);
@@ -164,9 +164,12 @@ class VelocityPressurePreconditioner {
         const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
         inverse_lumped_[static_cast<std::size_t>(v) * n + k] = 1 / d;
       }
-      if (layout_.fluid_of_velocity[v] < 0)
+      if (layout_.fluid_of_velocity[v] < 0) {
+        int k = 0;  // a component that can move
+        while (k < n - 1 && !layout_.is_free(v, k)) ++k;
         ratios[v] =
-            std::min(largest_stiffness, diagonal(0, 0) / std::max(lumped[0], diagonal(0, 0) / largest_stiffness));
+            std::min(largest_stiffness, diagonal(k, k) / std::max(lumped[k], diagonal(k, k) / largest_stiffness));
+      }
     }
     double sum = 0;
     int count = 0;
@@ -192,7 +195,7 @@ class VelocityPressurePreconditioner {
         matrix_.for_blocks_of_node(
             layout_.wall_pressure[p], layout_.node_of_pressure[p],
             [&](const double* block, int v, int q, double factor) {
-              schur_.values[position[q]] += scale * block[n * (n + 1) + n];
+              if (q >= 0) schur_.values[position[q]] += scale * block[n * (n + 1) + n];
               if (v < 0) return;
               double divergence[n];  // a row of B D^-1
               for (int k = 0; k < n; ++k)

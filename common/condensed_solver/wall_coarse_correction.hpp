@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "condensed_solver/rigid_motion_multigrid.hpp"
 #include "condensed_solver/velocity_pressure_matrix.hpp"
+#include "solvers/smoothed_aggregation/rigid_motion_multigrid.hpp"
 
 namespace fsi {
 
@@ -24,7 +24,8 @@ class WallCoarseCorrection {
       if (layout.wall_of_velocity[v] >= 0) {
         number[v] = static_cast<int>(nodes_.size());
         nodes_.push_back(v);
-        points_.push_back(matrix.wall_part().nodes[layout.wall_of_velocity[v]]);
+        points_.push_back(matrix.wall_points()[layout.wall_of_velocity[v]]);
+        for (int k = 0; k < n && layout.partly_fixed(); ++k) fixed_.push_back(!layout.is_free(v, k));
       }
     auto graph = std::make_shared<NodeGraph>();
     graph->offsets.push_back(0);
@@ -50,7 +51,7 @@ class WallCoarseCorrection {
       for (int i = 0; i < n; ++i)
         for (int k = 0; k < n; ++k) to[i * n + k] = from[k * lanes + i];
     }
-    multigrid_.set_up(stiffness_, points_, options);
+    multigrid_.set_up(stiffness_, points_, options, fixed_);
   }
 
   /// velocity += correction for `residual`.
@@ -74,6 +75,7 @@ class WallCoarseCorrection {
   const Matrix& matrix_;
   std::vector<int> nodes_;                     ///< velocity nodes of the wall
   std::vector<std::array<double, 3>> points_;  ///< their places at rest
+  std::vector<char> fixed_;                    ///< per node and component: no unknown; empty: none
   std::vector<int> positions_;                 ///< of the blocks among the matrix's own
   BlockMatrix<n, n> stiffness_;
   RigidMotionMultigrid<n> multigrid_;

@@ -66,6 +66,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     NewtonIteration iteration;
     iteration.linearised = renew;
     if (renew) problem.linearise();
+    if (renew && options.observe_system) options.observe_system(report.count() + 1);
     if (renew || report.count() == 0) rounding = rounding_margin * problem.rounding();
     forcing = forcing_term(options, renew, ratio, forcing);
     const double increment = problem.solve(forcing);

@@ -13,42 +13,13 @@ class JacobianProduct {
  public:
   static constexpr int n = Element::components;
 
-  explicit JacobianProduct(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
-    flow_.resize(blocks.numbering.flow.size());
-    mesh_.resize(blocks.numbering.mesh.size());
-    wall_.resize(blocks.numbering.wall.size());
-    flow_rows_ = flow_;
-    mesh_rows_ = mesh_;
-    wall_rows_ = wall_;
-  }
+  explicit JacobianProduct(const JacobianBlocks<Element>& blocks);
 
   /// y = J x, y resized.
-  void multiply(const std::vector<double>& x, std::vector<double>& y) {
-    const Numbering& numbering = blocks_.numbering;
-    y.assign(static_cast<std::size_t>(numbering.size), 0.0);
-    if (blocks_.shape_derivatives || blocks_.mesh) values(numbering.mesh, x, mesh_);
-    if (blocks_.flow) {
-      values(numbering.flow, x, flow_);
-      fsi::multiply(*blocks_.flow, flow_, flow_rows_);
-      if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, flow_rows_);
-      add_to_system(numbering.flow_rows, flow_rows_, y);
-    }
-    if (blocks_.mesh) {
-      multiply_components<n>(*blocks_.mesh, mesh_, mesh_rows_);
-      add_to_system(numbering.mesh_rows, mesh_rows_, y);
-    }
-    if (blocks_.wall) {
-      values(numbering.wall, x, wall_);
-      fsi::multiply(*blocks_.wall, wall_, wall_rows_);
-      add_to_system(numbering.wall_rows, wall_rows_, y);
-    }
-  }
+  void multiply(const std::vector<double>& x, std::vector<double>& y);
 
  private:
-  static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field) {
-#pragma omp parallel for schedule(static) if (map.size() > 16384)
-    for (std::size_t i = 0; i < map.size(); ++i) field[i] = map[i].index < 0 ? 0 : map[i].factor * x[map[i].index];
-  }
+  static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field);
 
   JacobianBlocks<Element> blocks_;
   std::vector<double> flow_, mesh_, wall_, flow_rows_, mesh_rows_, wall_rows_;

@@ -1,29 +1,53 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
-#include "system/numbering.hpp"
+#include "base/profile.hpp"
+#include "fem/nodal_layout.hpp"
+#include "system/field_numbering.hpp"
 
 namespace fsi {
 
+/// The nodes of one part of the mesh, as far as solvers look at them. Null where there is no such part.
+struct PartNodes {
+  const std::vector<std::array<double, 3>>* points = nullptr;  ///< where they are at rest, mm
+  const std::vector<int>* places = nullptr;                    ///< their numbers in the whole mesh, ascending
+};
+
+/// A node of the interface in the numbers of both parts.
+struct InterfacePair {
+  int fluid, wall;
+};
+
 /// The Jacobian of a scene, or of one of its sub-problems, as its block matrices (boundary and interface conditions not
-/// imposed) and the numbering that imposes them. A linear solver is made for one of these; the arrays keep their place,
-/// their values change with each linearisation. Absent parts are null, and so are parts without unknowns.
+/// imposed) and the numbering that imposes them: all that a linear solver sees of a scene. A solver is made for one of
+/// these; the arrays keep their place, their values change with each linearisation. Absent parts are null, and so are
+/// parts without unknowns.
 template <class Element>
 struct JacobianBlocks {
   static constexpr int n = Element::components;
   static constexpr int mixed = MixedLayout<n>::entries;
 
-  const Scene<Element>& scene;
+  /// Its factors and its interface's kinematics hold for the values that update() finds, and may differ at the next.
   const Numbering& numbering;
   const BlockMatrix<mixed, mixed>* flow = nullptr;           ///< d(momentum, continuity) / d(u, p_f)
   const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
-  const MeshMotionMatrix<Element>* mesh = nullptr;           ///< Laplacian of the mesh motion, one number per component
+  const BlockMatrix<1, n>* mesh_laplacian = nullptr;         ///< of the mesh motion, one number per component
   const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
+  PartNodes fluid_nodes = {}, wall_nodes = {};
+  const std::vector<InterfacePair>* interface = nullptr;  ///< all of it, clamped nodes too; null for one part alone
+  /// How often the mesh motion's operator was assembled: what is made of it is as old as the count it was made at.
+  const int* mesh_laplacian_version = nullptr;
+  Profile* profile = nullptr;  ///< of the run; null: nothing is counted
+
+  /// d = wall_factor v ties changes of the wall's displacement and of its velocity; 1 in statics.
+  double wall_factor() const { return numbering.interface.period; }
+  bool coupled() const { return flow && wall && mesh_laplacian && interface; }
 };
 
 /// What a linear solve did.

@@ -1,37 +1,12 @@
 #pragma once
 
+#include <cassert>
 #include <vector>
 
-#include "fem/unknowns.hpp"
 #include "scene/scene.hpp"
+#include "system/field_numbering.hpp"
 
 namespace fsi {
-
-/// Which entries of a Solution are unknowns of a system of equations, and which residual rows are its equations. Maps
-/// of absent parts are empty.
-struct Numbering {
-  std::int64_t size = 0;
-  UnknownMap mesh_rows, mesh;  ///< mesh motion: equations, unknowns d_m; vector layout
-  UnknownMap flow_rows, flow;  ///< momentum and continuity; (u, p_f); mixed layout
-  UnknownMap wall_rows, wall;  ///< momentum and volume; (d_s, p_s); mixed layout
-
-  /// Entries of `flow` whose unknown is the interface's displacement.
-  std::vector<std::size_t> interface_velocities;
-  /// The step's: du = d(d_s) / period for those entries. Their factors follow it.
-  InterfaceKinematics interface;
-  /// Raised when factors change: what was made of them is then out of date.
-  int version = 0;
-
-  /// Takes over the kinematics of a step. \returns whether factors have changed
-  bool follow(const InterfaceKinematics& of_step) {
-    const bool changed = interface.period != of_step.period;
-    interface = of_step;
-    if (!changed || interface_velocities.empty()) return false;
-    for (std::size_t entry : interface_velocities) flow[entry].factor = interface.rate();
-    ++version;
-    return true;
-  }
-};
 
 namespace detail {
 

@@ -10,6 +10,7 @@
 #include "monolithic/multigrid/coupled_cycle.hpp"
 #include "solvers/amg/galerkin.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
+#include "solvers/power_iteration.hpp"
 
 namespace fsi {
 
@@ -63,85 +64,27 @@ class CoupledMultigrid {
 
   /// \param system  updated; must outlive this
   CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
-                   const CoupledMultigridOptions& options)
-      : mesh_(options.mesh), flow_(options.flow), wall_(options.wall) {
-    const auto transfers = coarsen_coupled(finest_nodes(system, blocks), options.coarsening);
-    std::vector<std::shared_ptr<const NodeTransfer>> mesh, flow, wall;
-    for (const auto& t : transfers) {
-      mesh.push_back(t.mesh);
-      flow.push_back(t.flow);
-      wall.push_back(t.wall);
-    }
-    const auto& finest = system.matrix();
-    mesh_.build(*finest.mesh, mesh);
-    flow_.build(*finest.flow, flow);
-    wall_.build(*finest.wall, wall);
-
-    CoupledMatrix<n> k = finest;
-    for (std::size_t l = 0;; ++l) {
-      matrices_.push_back(k);
-      if (l == transfers.size()) break;
-      const auto& t = transfers[l];
-      couplings_.push_back(std::make_unique<Couplings>(k, t));
-      k = couplings_.back()->coarse(mesh_.matrix(static_cast<int>(l) + 1), flow_.matrix(static_cast<int>(l) + 1),
-                                    wall_.matrix(static_cast<int>(l) + 1));
-    }
-    transfers_ = transfers;
-    make_levels();
-    for (auto& c : couplings_) c->update();
-  }
+                   const CoupledMultigridOptions& options);
   CoupledMultigrid(const CoupledMultigrid&) = delete;
   CoupledMultigrid& operator=(const CoupledMultigrid&) = delete;
 
   /// The system's matrix has new values.
-  void update() {
-    mesh_.update();
-    flow_.update();
-    wall_.update();
-    for (auto& c : couplings_) c->update();
-  }
+  void update();
   /// The mesh motion's operator alone was assembled again.
   void update_mesh_motion() { mesh_.update(); }
 
   /// Lays down the smoothing steps of all levels for the present values.
-  void set_smoothing(const CoupledSmoothingOptions& options) {
-    radii_.clear();
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-      auto& level = *levels_[l];
-      double omega = options.damping;
-      if (omega <= 0) {
-        radii_.push_back(largest_eigenvalue(level, options.power_iterations));
-        omega = options.safety * damping_for(radii_.back());
-      }
-      const BlockDamping damping{options.mesh_damping, omega, omega};
-      level.pre_smoothing.assign(static_cast<std::size_t>(options.pre_smoothing), damping);
-      level.post_smoothing.assign(static_cast<std::size_t>(options.post_smoothing), damping);
-    }
-  }
+  void set_smoothing(const CoupledSmoothingOptions& options);
 
   Levels& levels() { return levels_; }
   SubSolvers finest_sub_solvers() { return {*levels_[0]->mesh, *levels_[0]->flow, *levels_[0]->wall}; }
 
-  long long mesh_cycles() const {
-    return sum([](const auto& level) { return level.mesh->cycles(); });
-  }
-  long long flow_cycles() const {
-    return sum([](const auto& level) { return level.flow->cycles(); });
-  }
-  long long wall_cycles() const {
-    return sum([](const auto& level) { return level.wall->cycles(); });
-  }
+  long long mesh_cycles() const;
+  long long flow_cycles() const;
+  long long wall_cycles() const;
   /// Stored numbers of all levels over those of the finest.
-  double operator_complexity() const {
-    double entries = 0;
-    for (const auto& k : matrices_) entries += static_cast<double>(k.nonzeros());
-    return entries / static_cast<double>(matrices_.front().nonzeros());
-  }
-  double memory_mib() const {
-    std::size_t bytes = mesh_.bytes() + flow_.bytes() + wall_.bytes();
-    for (const auto& c : couplings_) bytes += c->bytes();
-    return static_cast<double>(bytes) / (1 << 20);
-  }
+  double operator_complexity() const;
+  double memory_mib() const;
   /// Largest eigenvalue of the undamped smoother's iteration, by size, as last estimated; level by level.
   const std::vector<double>& largest_eigenvalues() const { return radii_; }
 
@@ -184,63 +127,13 @@ class CoupledMultigrid {
     BlockMatrix<n, n + 1> flow_wall_;
   };
 
-  static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks) {
-    const auto& k = system.matrix();
-    const auto& scene = blocks.scene;
-    CoupledNodes nodes{k.mesh->graph.get(), k.flow->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
-    nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
-    nodes.wall_marks = NodeMarks(k.wall_nodes());
-    nodes.mesh_marks.prescribed = system.constraints().mesh_fixed;
-    nodes.flow_marks.prescribed = system.constraints().velocity_fixed;
-    nodes.wall_marks.prescribed = system.constraints().wall_fixed;
-    for (const auto& pair : system.interface())  // unknowns, though their rows are conditions
-      nodes.mesh_marks.prescribed[pair.fluid] = nodes.wall_marks.prescribed[pair.wall] = 0;
-    for (const auto& node : scene.interface) {
-      nodes.mesh_interface.push_back(node.fluid);
-      nodes.wall_interface.push_back(node.wall);
-      nodes.mesh_marks.interface[node.fluid] = nodes.flow_marks.interface[node.fluid] = 1;
-      nodes.wall_marks.interface[node.wall] = 1;
-    }
-    nodes.flow_interface = nodes.mesh_interface;
-    return nodes;
-  }
+  static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks);
 
-  void make_levels() {
-    for (std::size_t l = 0; l < matrices_.size(); ++l) {
-      const int at = static_cast<int>(l);
-      levels_.push_back(std::make_unique<CoupledLevel<n>>(matrices_[l],
-                                                          std::make_unique<AmgSubSolver<EllipticAmg<n, n>>>(mesh_, at),
-                                                          std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(flow_, at),
-                                                          std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(wall_, at)));
-      if (l < transfers_.size()) levels_.back()->coarser = transfers_[l];
-    }
-  }
+  void make_levels();
 
   /// By power iterations x <- S(x, 0) from a fixed start, so that a restarted run gets the same number. Three estimates
   /// on the way, which approach the eigenvalue like a geometric sequence, are extrapolated to its limit (Aitken).
-  double largest_eigenvalue(CoupledLevel<n>& level, int iterations) const {
-    constexpr double largest_extrapolation = 0.25;
-    CoupledVector &x = level.inner_x, &zero = level.inner_b;
-    zero.set_zero();
-    unsigned seed = 1;
-    for (auto* part : {&x.mesh, &x.flow, &x.wall})
-      for (double& value : *part)
-        value = static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24) - 0.5;
-    double estimates[3] = {};
-    const int third = std::max(iterations / 3, 1);
-    for (int i = 0; i < 3 * third; ++i) {
-      // The wall's part alone: in it displacements of the interface dominate, whatever the units of the others.
-      const double before = norm(x.wall);
-      level.smoother.sweep(zero, x, {1, 1, 1});
-      const double after = norm(x.wall);
-      if (!(before > 0 && after > 0)) return 0;
-      if (i % third == third - 1) estimates[i / third] = after / before;
-      for (auto* part : {&x.mesh, &x.flow, &x.wall}) scale(1 / after, *part);
-    }
-    const double first = estimates[1] - estimates[0], second = estimates[2] - estimates[1];
-    const double rest = first > second && second > 0 ? second * second / (first - second) : 0;
-    return estimates[2] + std::min(rest, largest_extrapolation * estimates[2]);
-  }
+  double largest_eigenvalue(CoupledLevel<n>& level, int iterations) const;
 
   template <class Count>
   long long sum(Count count) const {

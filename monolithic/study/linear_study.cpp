@@ -172,25 +172,24 @@ class LinearStudy {
     scene_->impose_conditions(state.now);
     scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
-    Json increments = Json::array(), residuals = Json::array();
-    double residual = system.evaluate(), first = 0;
-    bool converged = false;
-    for (int k = 1; k <= setup_.monolithic.max_iterations && !converged; ++k) {
-      system.linearise();
+    NewtonOptions options = newton_options(setup_.monolithic);
+    options.keep_jacobian = false;
+    options.linear_tolerance = std::min(1e-9, tolerance_);
+    options.observe_system = [&](int iteration) {
       for (const auto& named : systems_)
-        if (named.step == state.step + 1 && named.iteration == k) answers.push_back(study(system, named, data.time));
-      const double increment = system.solve(std::min(1e-9, tolerance_));
-      system.move(1);
-      residual = system.evaluate();
-      if (!std::isfinite(increment) || !std::isfinite(residual)) break;
-      increments.push_back(increment);
-      residuals.push_back(residual);
-      if (k == 1) first = increment;
-      converged = increment <= std::max(setup_.monolithic.newton_tolerance * first, 1e-14 * system.size());
+        if (named.step == state.step + 1 && named.iteration == iteration)
+          answers.push_back(study(system, named, data.time));
+    };
+    const NewtonReport solved = newton(system, options);
+    if (!solved.converged)
+      throw ConvergenceError(
+          fmt::format("step {}: Newton's method did not converge: {}", state.step + 1, solved.failure),
+          "a smaller time.step or load");
+    Json increments = Json::array(), residuals = Json::array();
+    for (const auto& iteration : solved.iterations) {
+      increments.push_back(iteration.increment);
+      residuals.push_back(iteration.residual);
     }
-    if (!converged)
-      throw ConvergenceError(fmt::format("step {}: Newton's method did not converge", state.step + 1),
-                             "a smaller time.step or load");
     Json history = {{"step", state.step + 1},
                     {"time_ms", data.time},
                     {"increments", increments},
@@ -295,9 +294,9 @@ class LinearStudy {
     constexpr int n = Element::components;
     const auto& k = paper.matrix();
     NodeMarks fluid(k.fluid_nodes()), wall(k.wall_nodes()), mesh(k.fluid_nodes());
-    fluid.prescribed = paper.constraints().velocity_fixed;
-    mesh.prescribed = paper.constraints().mesh_fixed;
-    wall.prescribed = paper.constraints().wall_fixed;
+    fluid.prescribed = whole_nodes<n>(paper.constraints().velocity_fixed);
+    mesh.prescribed = whole_nodes<n>(paper.constraints().mesh_fixed);
+    wall.prescribed = whole_nodes<n>(paper.constraints().wall_fixed);
     for (const auto& node : paper.interface()) {
       fluid.interface[node.fluid] = mesh.interface[node.fluid] = wall.interface[node.wall] = 1;
       mesh.prescribed[node.fluid] = wall.prescribed[node.wall] = 0;  // given, but an unknown of the coupled system

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "algebra/vector_operations.hpp"
 #include "partitioned/interface/interface_problem.hpp"
 
 namespace fsi {

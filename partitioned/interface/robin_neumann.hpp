@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/vector_operations.hpp"
 #include "partitioned/interface/interface_problem.hpp"
 #include "partitioned/interface/membrane.hpp"
-#include "partitioned/interface/robin_fluid.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
@@ -31,17 +31,18 @@ class RobinNeumann : public InterfaceProblem<Element> {
   RobinNeumann(Scene<Element>& scene, const PartitionedData& options, const StructureData& wall)
       : Base(scene, options),
         membrane_(membrane_of(scene, wall)),
-        fluid_(scene, Base::mesh_motion_, Base::solver_factory(options)) {
+        fluid_("fluid", scene, number_fluid(scene, /*free_interface=*/true), Base::solver_factory(options),
+               SystemNorm::entries, &robin_) {
+    for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);
+    robin_.velocity.assign(Base::interface_size(), 0.0);
+    robin_.before_evaluation = [this](State& now) { follow(now); };
     for (auto& load : loads_) load.assign(Base::interface_size(), 0.0);
   }
 
   void start(State& state, StepData& data) override {
     Base::start(state, data);
-    if (impedance_.empty() || period_ != data.rates.interface.period) {
-      period_ = data.rates.interface.period;
-      impedance_ = impedance_of(membrane_, data.rates);
-    }
-    fluid_.work_on(state, data, impedance_, cost);
+    robin_.impedance = impedance_of(membrane_, data.rates);
+    fluid_.work_on(state, data);
   }
 
   /// The extrapolated displacement, and the load extrapolated alike.
@@ -49,20 +50,19 @@ class RobinNeumann : public InterfaceProblem<Element> {
     const auto weights = extrapolation_weights(*state_, order, data_->time);
     std::vector<double> x = Base::wall_displacement(state_->now);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!fluid_.moves(static_cast<int>(i / n))) continue;
+      const auto entry = Base::flow_entry(scene_.interface[i / n], static_cast<int>(i % n));
+      if (fluid_.numbering().flow[entry].index < 0 || robin_.impedance[i / n] == 0) continue;
       double load = 0;
       for (int level = 0; level < 3; ++level) load += weights[level] * loads_[level][i];
-      x[i] += data_->rates.interface.displacement(load / impedance_[i / n], 0.0);
+      x[i] += data_->rates.interface.displacement(load / robin_.impedance[i / n], 0.0);
     }
     return x;
   }
 
   Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
-    std::vector<double> aim = x;
-    for (std::size_t i = 0; i < aim.size(); ++i)
-      aim[i] = data_->rates.interface.velocity(
+    for (std::size_t i = 0; i < x.size(); ++i)
+      robin_.velocity[i] = data_->rates.interface.velocity(
           x[i], data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))]);
-    fluid_.aim_at(std::move(aim));
     return refine(accuracy);
   }
 
@@ -102,9 +102,8 @@ class RobinNeumann : public InterfaceProblem<Element> {
     Base::recall(memory);
     LinearisationPoint point;
     if (fsi::recall("fluid", memory, point)) {
-      period_ = point.rates.interface.period;
-      impedance_ = impedance_of(membrane_, point.rates);
-      fluid_.linearise_at(point, impedance_);
+      robin_.impedance = impedance_of(membrane_, point.rates);
+      fluid_.linearise_at(point);
     }
     for (std::size_t level = 0; level < loads_.size(); ++level) {
       const auto load = memory.arrays.find("load" + std::to_string(level));
@@ -119,10 +118,20 @@ class RobinNeumann : public InterfaceProblem<Element> {
     return impedance;
   }
 
+  /// The fluid's domain follows its own interface velocity, so that the answer is a function of the datum alone.
+  /// Newton's method leaves the shape derivatives out: they are small against the rest.
+  void follow(State& state) {
+    const Stopwatch watch(cost.mesh_seconds);
+    for (const auto& node : scene_.interface)
+      for (int k = 0; k < n; ++k)
+        state.now.mesh[Base::mesh_entry(node, k)] = data_->rates.interface.displacement(
+            state.now.flow[Base::flow_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
+    Base::mesh_motion_.solve(state.now.mesh);
+  }
+
   Membrane membrane_;
-  double period_ = 0;              ///< ms, that the impedance was made for
-  std::vector<double> impedance_;  ///< c, per interface node, kPa mm^2 / (mm/ms)
-  RobinFluid<Element> fluid_;
+  InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
+  System<Element> fluid_;
   std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first
 };
 

@@ -13,6 +13,7 @@
 #include "solvers/amg/cycle.hpp"
 #include "solvers/amg/galerkin.hpp"
 #include "solvers/amg/gauss_seidel.hpp"
+#include "solvers/power_iteration.hpp"
 
 namespace fsi {
 
@@ -50,7 +51,7 @@ class EllipticAmg : public MultigridCycle {
       const Matrix& a = *matrices_.back();
       Coarsening next = coarsen(*a.graph, here, rules);
       if (options_.smoothing > 0) {
-        next.transfer = smoothed(a, here, next.transfer, rules, options_.smoothing / largest_eigenvalue(a));
+        next.transfer = smoothed(a, here, next.transfer, rules, options_.smoothing / largest_eigenvalue_of(a));
         next.marks.prescribed = next.transfer.coarse_prescribed;
       }
       if (next.transfer.coarse_nodes == 0 || next.transfer.coarse_nodes > 0.8 * a.graph->rows()) break;
@@ -158,26 +159,19 @@ class EllipticAmg : public MultigridCycle {
     update();
   }
 
-  /// Of D^-1 A by power iterations from a fixed start; an estimate from below.
-  static double largest_eigenvalue(const Matrix& a) {
-    const int nodes = a.graph->rows();
-    std::vector<double> x(nodes), y(nodes);
-    unsigned seed = 1;
-    for (double& v : x) v = static_cast<double>((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24) - 0.5;
-    double lambda = 1;
-    for (int step = 0; step < 15; ++step) {
-      double square = 0;
-      for (int i = 0; i < nodes; ++i) {
+  /// Largest eigenvalue of D^-1 A, first component.
+  static double largest_eigenvalue_of(const Matrix& a) {
+    std::vector<double> start(a.graph->rows());
+    RoughSequence rough;
+    for (double& v : start) v = rough();
+    return largest_eigenvalue(std::move(start), 15, [&](const auto& x, auto& y) {
+      for (int i = 0; i < a.graph->rows(); ++i) {
         double sum = 0;
         for (int at = a.graph->offsets[i]; at < a.graph->offsets[i + 1]; ++at)
           sum += a.block(at)[0] * x[a.graph->columns[at]];
         y[i] = sum / a.block(a.graph->find(i, i))[0];
-        square += y[i] * y[i];
       }
-      lambda = std::sqrt(square);
-      for (int i = 0; i < nodes; ++i) x[i] = y[i] / lambda;
-    }
-    return lambda;
+    });
   }
 
   EllipticAmgOptions options_;

@@ -82,6 +82,11 @@ TEST(GatheredMatrix, AddsUpWeightedNumbersAndFollowsThem) {
   EXPECT_EQ(dense(gathered.matrix())(1, 2), -3);
 }
 
+TEST(GatheredMatrix, RefusesMoreUnknownsThanItsNumbersHold) {
+  EXPECT_NO_THROW(GatheredMatrix::Builder(GatheredMatrix::Builder::largest_size));
+  EXPECT_THROW(GatheredMatrix::Builder(GatheredMatrix::Builder::largest_size + 1), InputError);
+}
+
 TEST(SparseMatrix, ProductAgreesWithTheDenseOne) {
   const SparseMatrix a{{0, 2, 3, 5}, {0, 2, 1, 0, 1}, {1, 2, 3, 4, 5}};
   const auto y = product(a, {1, 10, 100});

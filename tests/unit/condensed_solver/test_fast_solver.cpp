@@ -9,6 +9,8 @@
 #include "fem/p1_axisymmetric_triangle.hpp"
 #include "mesh/artery_generator.hpp"
 #include "support/linear_systems.hpp"
+#include "support/partly_fixed.hpp"
+#include "system/jacobian_product.hpp"
 
 namespace fsi::test {
 
@@ -189,6 +191,45 @@ TEST(FastSolver, SolvesAStaticWallOnACoarseMesh) {
 TEST(FastSolver, SolvesAStaticWallOnAFinerMeshInAboutAsManyIterations) {
   const auto scene = static_wall("intermediate");
   expect_sub_problem_solved(*scene, number_wall(*scene), 45);
+}
+
+/// Nodes that are held in some components only, and nodes without pressure.
+void expect_partly_fixed_solved(Numbering numbering, bool vectors, bool scalars, int most_iterations) {
+  PartlyFixedSystem<Tet> system(artery().scene(), std::move(numbering), vectors, scalars);
+  FastSolver<Tet> solver(system.blocks(), iterative());
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(system.b, 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.iterations, most_iterations);
+  EXPECT_LT(relative_difference(x, system.solution), 1e-6);
+}
+
+TEST(FastSolver, NodesHeldInOneComponent) {
+  expect_partly_fixed_solved(number_scene(artery().scene()), true, false, 60);
+}
+
+TEST(FastSolver, NodesWithoutPressure) {
+  expect_partly_fixed_solved(number_scene(artery().scene()), false, true, 60);
+}
+
+TEST(FastSolver, NodesOfThePartsHeldInOneComponentAndWithoutPressure) {
+  expect_partly_fixed_solved(number_fluid(artery().scene()), true, true, 60);
+  expect_partly_fixed_solved(number_wall(artery().scene()), true, true, 60);
+}
+
+TEST(FastSolver, TheCoarseLevelsOfAStaticWallKnowHeldComponents) {
+  const auto scene = static_wall("coarse");
+  PartlyFixedSystem<Tet> system(*scene, number_wall(*scene), true, false, 0.05);
+  FastSolver<Tet> solver(system.blocks(), iterative());
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(system.b, 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.iterations, 80);
+  EXPECT_LT(relative_difference(x, system.solution), 1e-6);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/threads.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "support/nodal_arrays.hpp"

@@ -233,6 +233,23 @@ TEST(Newton, ResidualToleranceIsAFurtherDemand) {
   EXPECT_LE(by_both.iterations.back().residual, 2e-9);
 }
 
+TEST(Newton, AnObserverSeesEachNewSystem) {
+  NewtonOptions options = full_newton();
+  auto problem = square_root_of_two();
+  std::vector<int> seen;
+  std::vector<double> iterates;
+  options.observe_system = [&](int iteration) {
+    seen.push_back(iteration);
+    iterates.push_back(problem.x);
+  };
+  const auto report = newton(problem, options);
+  ASSERT_TRUE(report.converged);
+  ASSERT_EQ(static_cast<int>(seen.size()), report.count());
+  for (int k = 0; k < report.count(); ++k) EXPECT_EQ(seen[k], k + 1);
+  EXPECT_EQ(iterates[0], 2);
+  EXPECT_EQ(iterates[1], 1.5);  // before the second step is taken
+}
+
 TEST(Newton, ReferenceReplacesTheFirstIncrement) {
   NewtonOptions options = full_newton();
   options.tolerance = 1e-3;

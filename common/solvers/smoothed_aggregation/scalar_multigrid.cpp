@@ -1,33 +1,59 @@
-#include "condensed_solver/scalar_multigrid.hpp"
+#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "algebra/dense_inverse.hpp"
+#include "algebra/register_blocks.hpp"
 #include "base/error.hpp"
-#include "condensed_solver/aggregation.hpp"
-#include "condensed_solver/dense_inverse.hpp"
+#include "solvers/power_iteration.hpp"
+#include "solvers/smoothed_aggregation/aggregation.hpp"
 
 namespace fsi {
 
 namespace {
 
-/// Largest eigenvalue of D^-1 A, to a few percent, by power iteration from a fixed rough vector.
-double largest_eigenvalue(const CsrMatrix<double>& a, const std::vector<double>& diagonal) {
-  std::vector<double> x(a.rows()), y(a.rows());
-  for (int i = 0; i < a.rows(); ++i) x[i] = rough_number(i);
-  double eigenvalue = 1;
-  for (int k = 0; k < 12; ++k) {
+constexpr int eigenvalue_iterations = 12;  // a few percent will do
+
+/// Largest eigenvalue of D^-1 A.
+double largest_eigenvalue_of(const CsrMatrix<double>& a, const std::vector<double>& diagonal) {
+  return largest_eigenvalue(rough_vector(a.rows()), eigenvalue_iterations, [&](const auto& x, auto& y) {
     multiply(a, x, y);
-    double sum = 0;
-    for (int i = 0; i < a.rows(); ++i) {
-      y[i] /= diagonal[i];
-      sum += y[i] * y[i];
-    }
-    eigenvalue = std::sqrt(sum);
-    for (int i = 0; i < a.rows(); ++i) x[i] = y[i] / eigenvalue;
-  }
-  return eigenvalue;
+    for (int i = 0; i < a.rows(); ++i) y[i] /= diagonal[i];
+  });
 }
+
+constexpr std::size_t parallel_entries = 50000;  // of a matrix, from which a product wakes threads
+
+/// A row of m vectors: its arithmetic, one number or a register.
+template <int m>
+struct RowOf {
+  static constexpr int lanes = padded<m>;
+  using Value = Register<m>;
+  static Value load(const std::vector<float>& from, int row) {
+    return fsi::load<m>(from.data() + static_cast<std::size_t>(row) * lanes);
+  }
+  static void store(Value value, std::vector<float>& to, int row) {
+    fsi::store<m>(value, to.data() + static_cast<std::size_t>(row) * lanes);
+  }
+  /// Entries begin ... end - 1 of a matrix times x.
+  static Value product(const CsrMatrix<float>& a, int begin, int end, const std::vector<float>& x) {
+    Value sum{};
+    for (int at = begin; at < end; ++at) sum += a.values[at] * load(x, a.indices[at]);
+    return sum;
+  }
+};
+template <>
+struct RowOf<1> {
+  static constexpr int lanes = 1;
+  using Value = float;
+  static Value load(const std::vector<float>& from, int row) { return from[row]; }
+  static void store(Value value, std::vector<float>& to, int row) { to[row] = value; }
+  static Value product(const CsrMatrix<float>& a, int begin, int end, const std::vector<float>& x) {
+    return row_product(a, begin, end, x.data());
+  }
+};
 
 /// P = (I - omega / lambda D^-1 A_F) T; A_F is A with weak couplings added to its diagonal, T the aggregates'
 /// indicator.
@@ -55,7 +81,7 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::v
   for (int row = 0; row < a.rows(); ++row)
     // Weak couplings of the diagonal's own sign and size would leave nothing to divide by.
     if (diagonal[row] * original[row] < 0.1 * original[row] * original[row]) diagonal[row] = original[row];
-  const double scale = omega / largest_eigenvalue(filtered, diagonal);
+  const double scale = omega / largest_eigenvalue_of(filtered, diagonal);
 
   CsrMatrix<double> tentative;
   tentative.columns = count;
@@ -123,49 +149,78 @@ void ScalarMultigrid::invert_coarsest(const CsrMatrix<double>& matrix) {
     for (int at = matrix.offsets[row]; at < matrix.offsets[row + 1]; ++at)
       dense[matrix.indices[at] * size + row] = matrix.values[at];
   const auto inverse = dense_inverse(dense, coarsest_size_);
-  if (inverse.empty()) throw ConvergenceError("the pressure matrix is singular on the coarsest level", "");
+  if (inverse.empty()) throw ConvergenceError("the matrix of a multigrid is singular on the coarsest level", "");
   coarsest_inverse_.assign(inverse.begin(), inverse.end());
 }
 
-void ScalarMultigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x) {
+template <int m>
+void ScalarMultigrid::cycle_each(const std::vector<float>& b, std::vector<float>& x) {
+  assert(b.size() == x.size());
+  cycle_from<m>(0, b, x);
+}
+
+template <int m>
+void ScalarMultigrid::cycle_from(std::size_t depth, const std::vector<float>& b, std::vector<float>& x) {
+  using Row = RowOf<m>;
   if (depth == levels_.size()) {
     std::fill(x.begin(), x.end(), 0.0f);
     for (int j = 0; j < coarsest_size_; ++j) {
       const float* column = coarsest_inverse_.data() + static_cast<std::size_t>(j) * coarsest_size_;
-      for (int i = 0; i < coarsest_size_; ++i) x[i] += column[i] * b[j];
+      const auto value = Row::load(b, j);
+      for (int i = 0; i < coarsest_size_; ++i) Row::store(Row::load(x, i) + column[i] * value, x, i);
     }
     return;
   }
   Level& level = levels_[depth];
   const auto& a = level.matrix;
   const auto& chunks = level.chunks;
+  level.residual.resize(static_cast<std::size_t>(a.rows()) * Row::lanes);
+  level.coarse_residual.resize(static_cast<std::size_t>(level.restriction.rows()) * Row::lanes);
+  level.coarse_correction.resize(level.coarse_residual.size());
+  auto& r = level.residual;
   // (D + L) x = b
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int c = 0; c < chunks.chunks(); ++c)
     for (int row = chunks.begin[c]; row < chunks.begin[c + 1]; ++row)
-      x[row] =
-          (b[row] - row_product(a, chunks.first[row], chunks.diagonal[row], x.data())) * level.inverse_diagonal[row];
-  // b - A x = -(U x) - (couplings between chunks) x: half a product
-  const float* values = x.data();
+      Row::store((Row::load(b, row) - Row::product(a, chunks.first[row], chunks.diagonal[row], x)) *
+                     level.inverse_diagonal[row],
+                 x, row);
+      // b - A x = -(U x) - (couplings between chunks) x: half a product
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int row = 0; row < a.rows(); ++row)
-    level.residual[row] = -row_product(a, a.offsets[row], chunks.first[row], values) -
-                          row_product(a, chunks.diagonal[row] + 1, a.offsets[row + 1], values);
-  multiply(level.restriction, level.residual, level.coarse_residual);
-  cycle(depth + 1, level.coarse_residual, level.coarse_correction);
-  multiply_add(level.prolongation, level.coarse_correction, x);
+    Row::store(-Row::product(a, a.offsets[row], chunks.first[row], x) -
+                   Row::product(a, chunks.diagonal[row] + 1, a.offsets[row + 1], x),
+               r, row);
+  const auto& restriction = level.restriction;
+#pragma omp parallel for schedule(static) if (restriction.nonzeros() > parallel_entries)
+  for (int row = 0; row < restriction.rows(); ++row)
+    Row::store(Row::product(restriction, restriction.offsets[row], restriction.offsets[row + 1], r),
+               level.coarse_residual, row);
+  cycle_from<m>(depth + 1, level.coarse_residual, level.coarse_correction);
+  const auto& prolongation = level.prolongation;
+#pragma omp parallel for schedule(static) if (prolongation.nonzeros() > parallel_entries)
+  for (int row = 0; row < prolongation.rows(); ++row)
+    Row::store(Row::load(x, row) + Row::product(prolongation, prolongation.offsets[row], prolongation.offsets[row + 1],
+                                                level.coarse_correction),
+               x, row);
   if (!post_smoothing_) return;
-  // (D + U) e = b - A x, x += e; e takes the residual's place
-  residual(a, b, x, level.residual);
-  auto& e = level.residual;
+    // (D + U) e = b - A x, x += e; e takes the residual's place
+#pragma omp parallel for schedule(static) if (a.nonzeros() > parallel_entries)
+  for (int row = 0; row < a.rows(); ++row)
+    Row::store(Row::load(b, row) - Row::product(a, a.offsets[row], a.offsets[row + 1], x), r, row);
 #pragma omp parallel for schedule(static) if (chunks.chunks() > 1)
   for (int c = 0; c < chunks.chunks(); ++c)
     for (int row = chunks.begin[c + 1] - 1; row >= chunks.begin[c]; --row) {
-      e[row] =
-          (e[row] - row_product(a, chunks.diagonal[row] + 1, chunks.last[row], e.data())) * level.inverse_diagonal[row];
-      x[row] += e[row];
+      const auto e = (Row::load(r, row) - Row::product(a, chunks.diagonal[row] + 1, chunks.last[row], r)) *
+                     level.inverse_diagonal[row];
+      Row::store(e, r, row);
+      Row::store(Row::load(x, row) + e, x, row);
     }
 }
+
+template void ScalarMultigrid::cycle_each<1>(const std::vector<float>&, std::vector<float>&);
+template void ScalarMultigrid::cycle_each<2>(const std::vector<float>&, std::vector<float>&);
+template void ScalarMultigrid::cycle_each<3>(const std::vector<float>&, std::vector<float>&);
 
 std::size_t ScalarMultigrid::bytes() const {
   std::size_t sum = coarsest_inverse_.size() * sizeof(float);

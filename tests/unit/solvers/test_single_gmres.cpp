@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "condensed_solver/single_gmres.hpp"
-#include "grid_laplacian.hpp"
+#include "csr_laplacian.hpp"
+#include "solvers/krylov/single_gmres.hpp"
 
 namespace fsi::test {
 
@@ -13,7 +13,7 @@ namespace {
 const SingleGmres::Operator identity = [](const std::vector<float>& x, std::vector<float>& y) { y = x; };
 
 TEST(SingleGmres, ReachesTheToleranceItReports) {
-  const auto a = converted<float>(grid_laplacian(10));
+  const auto a = converted<float>(csr_laplacian(10));
   std::vector<float> b(a.rows(), 1.0f), x, r(b);
   SingleGmres gmres;
   const auto report = gmres.solve([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-3, 100);
@@ -26,7 +26,7 @@ TEST(SingleGmres, ReachesTheToleranceItReports) {
 }
 
 TEST(SingleGmres, StopsAtTheLimitWithoutCallingItConvergence) {
-  const auto a = converted<float>(grid_laplacian(10));
+  const auto a = converted<float>(csr_laplacian(10));
   std::vector<float> b(a.rows(), 1.0f), x;
   SingleGmres gmres;
   const auto report = gmres.solve([&](const auto& in, auto& out) { multiply(a, in, out); }, identity, b, x, 1e-4, 3);

@@ -1,4 +1,4 @@
-#include "condensed_solver/single_gmres.hpp"
+#include "solvers/krylov/single_gmres.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "condensed_solver/aggregation.hpp"
+#include "solvers/smoothed_aggregation/aggregation.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "algebra/csr_matrix.hpp"
-#include "condensed_solver/sweep_chunks.hpp"
+#include "solvers/smoothed_aggregation/sweep_chunks.hpp"
 
 namespace fsi {
 
@@ -26,7 +26,11 @@ class ScalarMultigrid {
   void set_up(const CsrMatrix<double>& matrix, const Options& options);
   void set_up(const CsrMatrix<double>& matrix) { set_up(matrix, Options()); }
   /// x = M b, overwritten.
-  void cycle(const std::vector<float>& b, std::vector<float>& x) { cycle(0, b, x); }
+  void cycle(const std::vector<float>& b, std::vector<float>& x) { cycle_each<1>(b, x); }
+  /// The same for m vectors at once, m = 1, 2 or 3: a row holds padded<m> floats (algebra/register_blocks.hpp), one for
+  /// m = 1.
+  template <int m>
+  void cycle_each(const std::vector<float>& b, std::vector<float>& x);
 
   int levels() const { return static_cast<int>(levels_.size()) + 1; }
   double operator_complexity() const { return complexity_; }
@@ -40,7 +44,8 @@ class ScalarMultigrid {
     std::vector<float> residual, coarse_residual, coarse_correction;
   };
 
-  void cycle(std::size_t level, const std::vector<float>& b, std::vector<float>& x);
+  template <int m>
+  void cycle_from(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
   void invert_coarsest(const CsrMatrix<double>& matrix);
 
   std::vector<Level> levels_;

@@ -1,4 +1,4 @@
-#include "condensed_solver/dense_inverse.hpp"
+#include "algebra/dense_inverse.hpp"
 
 #include <Eigen/Dense>
 

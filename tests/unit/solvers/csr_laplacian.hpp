@@ -5,7 +5,7 @@
 namespace fsi::test {
 
 /// Seven-point Laplacian on an m x m x m grid, values given on the boundary, plus `mass` on the diagonal.
-inline CsrMatrix<double> grid_laplacian(int m, double mass = 0) {
+inline CsrMatrix<double> csr_laplacian(int m, double mass = 0) {
   CsrMatrix<double> a;
   a.columns = m * m * m;
   for (int i = 0; i < a.columns; ++i) {

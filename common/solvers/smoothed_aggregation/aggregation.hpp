@@ -16,9 +16,4 @@ std::vector<int> aggregates(const CsrMatrix<double>& a, const std::vector<char>&
 /// A's diagonal.
 std::vector<double> diagonal_of(const CsrMatrix<double>& a);
 
-/// What a power iteration starts from: rough, and the same each time.
-inline double rough_number(int i) {
-  return (i * 2654435761u % 1024) / 512.0 - 1;
-}
-
 }  // namespace fsi

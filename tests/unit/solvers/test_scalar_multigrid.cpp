@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/threads.hpp"
-#include "condensed_solver/scalar_multigrid.hpp"
-#include "grid_laplacian.hpp"
+#include "csr_laplacian.hpp"
+#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi::test {
 
@@ -40,24 +40,23 @@ double contraction(const CsrMatrix<double>& matrix, ScalarMultigrid& multigrid, 
 
 TEST(ScalarMultigrid, ContractsIndependentlyOfSize) {
   ScalarMultigrid small, large;
-  const double coarse = contraction(grid_laplacian(12), small, true),
-               fine = contraction(grid_laplacian(28), large, true);
+  const double coarse = contraction(csr_laplacian(12), small, true), fine = contraction(csr_laplacian(28), large, true);
   EXPECT_LT(coarse, 0.25);
   EXPECT_LT(fine, 0.3);
   EXPECT_GT(large.levels(), small.levels());
   EXPECT_LT(large.operator_complexity(), 2.5);
-  EXPECT_LT(contraction(grid_laplacian(28), large, false), 0.6);
+  EXPECT_LT(contraction(csr_laplacian(28), large, false), 0.6);
 }
 
 TEST(ScalarMultigrid, SmallMatricesAreInverted) {
   ScalarMultigrid multigrid;
-  EXPECT_LT(contraction(grid_laplacian(5), multigrid, true), 1e-5);
+  EXPECT_LT(contraction(csr_laplacian(5), multigrid, true), 1e-5);
   EXPECT_EQ(multigrid.levels(), 1);
 }
 
 TEST(ScalarMultigrid, MatricesThatHardlyCoupleAreSmoothedOnly) {
   ScalarMultigrid multigrid;
-  EXPECT_LT(contraction(grid_laplacian(12, 1e9), multigrid, false), 1e-5);
+  EXPECT_LT(contraction(csr_laplacian(12, 1e9), multigrid, false), 1e-5);
   CsrMatrix<double> diagonal;
   diagonal.columns = 1000;
   for (int i = 0; i < 1000; ++i) {
@@ -69,7 +68,7 @@ TEST(ScalarMultigrid, MatricesThatHardlyCoupleAreSmoothedOnly) {
 }
 
 TEST(ScalarMultigrid, SameBitsForAnyNumberOfThreads) {
-  const auto a = grid_laplacian(20);
+  const auto a = csr_laplacian(20);
   std::vector<float> b(a.rows()), one(b), two(b);
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = static_cast<float>(i % 17) - 8;
   const int before = threads();

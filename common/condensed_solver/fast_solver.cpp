@@ -1,0 +1,245 @@
+#include "condensed_solver/fast_solver.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algebra/vector_operations.hpp"
+#include "condensed_solver/velocity_pressure_preconditioner.hpp"
+#include "fem/elements.hpp"
+#include "mesh_motion/harmonic_extension.hpp"
+#include "solvers/krylov/single_gmres.hpp"
+#include "system/jacobian_product.hpp"
+
+namespace fsi {
+
+template <class Element>
+struct FastSolver<Element>::Iterative {
+  VelocityPressureLayout<Element> layout;
+  VelocityPressureMatrix<Element> matrix;
+  VelocityPressurePreconditioner<Element> preconditioner;
+  JacobianProduct<Element> jacobian;
+  std::unique_ptr<HarmonicExtension<n>> extension;  ///< null without mesh motion
+  int extension_version = 0;                        ///< of the operator that it was made of
+  bool shape_derivatives = false;                   ///< they are not all zero (as they are at rest)
+  SingleGmres gmres;
+  std::vector<float> single_right, single_solution;
+  std::vector<double> right, solution, residual, jacobian_times_x, correction;
+  std::vector<double> mesh, mesh_right, flow_rows;
+
+  explicit Iterative(const JacobianBlocks<Element>& blocks)
+      : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
+    if (blocks.mesh_laplacian) {
+      std::vector<char> inner(blocks.numbering.mesh_rows.size());
+      for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = blocks.numbering.mesh_rows[i].index >= 0;
+      extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner));
+      count_extension(blocks);
+      mesh.resize(blocks.numbering.mesh.size());
+      mesh_right.resize(mesh.size());
+      flow_rows.resize(blocks.numbering.flow.size());
+    }
+  }
+  void count_extension(const JacobianBlocks<Element>& blocks) {
+    extension_version = *blocks.mesh_laplacian_version;
+    if (blocks.profile) blocks.profile->count("mesh motion factorisations");
+  }
+};
+
+template <class Element>
+FastSolver<Element>::FastSolver(const JacobianBlocks<Element>& blocks, const FastOptions& options)
+    : blocks_(blocks), options_(options) {
+  if (blocks.numbering.size < options.direct_below) direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks);
+}
+
+template <class Element>
+const char* FastSolver<Element>::preparation() const {
+  return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
+}
+
+template <class Element>
+void FastSolver<Element>::update() {
+  if (iterative_) direct_.reset();
+  if (direct_) {
+    direct_->update();
+  } else {
+    if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
+    iterative_->layout.update();
+    iterative_->matrix.fill();
+    set_up_preconditioner(false);
+    find_shape_derivatives();
+  }
+  ready_ = true;
+}
+
+template <class Element>
+LinearReport FastSolver<Element>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  if (direct_) return direct_->solve(b, tolerance, x);
+  LinearReport report = iterate(b, tolerance, x);
+  if (report.converged) return report;
+  if (!strengthened_) {
+    set_up_preconditioner(true);
+    LinearReport second = iterate(b, tolerance, x);
+    second.iterations += report.iterations;
+    if (second.converged) return second;
+    report = second;
+  }
+  // From here on a factorisation, however long it takes: better than no answer.
+  direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks_);
+  direct_->update();
+  const LinearReport third = direct_->solve(b, tolerance, x);
+  report.converged = third.converged;
+  report.relative_residual = third.relative_residual;
+  return report;
+}
+
+template <class Element>
+double FastSolver<Element>::keep_contraction() const {
+  return direct_ ? direct_->keep_contraction() : LinearSolver::keep_contraction();
+}
+
+template <class Element>
+LinearStatistics FastSolver<Element>::statistics() const {
+  LinearStatistics s;
+  if (direct_) s = direct_->statistics();
+  if (iterative_) {
+    s.memory_mib += static_cast<double>(iterative_->matrix.bytes() + iterative_->preconditioner.bytes() +
+                                        iterative_->gmres.bytes()) /
+                    (1 << 20);
+    if (iterative_->extension) s.memory_mib += iterative_->extension->memory_mib();
+    s.operator_complexity = iterative_->preconditioner.multigrid().operator_complexity();
+    s.levels = iterative_->preconditioner.multigrid().levels();
+  }
+  return s;
+}
+
+template <class Element>
+void FastSolver<Element>::set_up_preconditioner(bool strong) {
+  typename VelocityPressurePreconditioner<Element>::Options options;
+  options.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
+  if (strong) options.coarse_from = 0;
+  iterative_->preconditioner.options() = options;
+  iterative_->preconditioner.set_up();
+  strengthened_ = strong;
+}
+
+template <class Element>
+void FastSolver<Element>::find_shape_derivatives() {
+  iterative_->shape_derivatives = false;
+  if (blocks_.shape_derivatives)
+    for (double value : blocks_.shape_derivatives->values)
+      if (value != 0) {
+        iterative_->shape_derivatives = true;
+        break;
+      }
+}
+
+template <class Element>
+LinearReport FastSolver<Element>::iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  Iterative& it = *iterative_;
+  LinearReport report;
+  report.converged = false;
+  x.assign(b.size(), 0.0);
+  const double norm_b = norm(b);
+  if (norm_b == 0) {
+    report.converged = true;
+    return report;
+  }
+  it.residual = b;
+  double relative = 1;
+  double shape_contraction = 0.05;  // what an outer iteration leaves of the residual for want of shape derivatives
+  while (report.iterations < options_.max_iterations) {
+    const double wanted = 0.8 * tolerance / relative;
+    const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * shape_contraction) : wanted;
+    correct(inner, relative, report);
+    axpy(1, it.correction, x);
+    it.jacobian.multiply(x, it.jacobian_times_x);
+    for (std::size_t i = 0; i < b.size(); ++i) it.residual[i] = b[i] - it.jacobian_times_x[i];
+    const double now = norm(it.residual) / norm_b;
+    const double contraction = now / relative;
+    relative = now;
+    report.relative_residual = relative;
+    if (!std::isfinite(relative)) {
+      report.failure = "the residual of the linear solver is not finite";
+      return report;
+    }
+    if (relative <= tolerance) {
+      report.converged = true;
+      return report;
+    }
+    // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
+    shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
+    if (contraction > 0.9) {
+      report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
+      return report;
+    }
+  }
+  report.failure = fmt::format("the linear solver reached a relative residual of {:.1e} only", relative);
+  return report;
+}
+
+template <class Element>
+void FastSolver<Element>::correct(double tolerance, double relative, LinearReport& report) {
+  Iterative& it = *iterative_;
+  const Numbering& numbering = blocks_.numbering;
+  it.layout.take(it.residual, it.right);
+  if (it.extension && it.extension_version != *blocks_.mesh_laplacian_version) {
+    it.extension->update();
+    it.count_extension(blocks_);
+  }
+  if (it.extension) subtract_mesh_rows(tolerance);
+  // Scaled to one, so that small residuals do not leave the range of single precision.
+  const double scale = norm(it.right);
+  it.solution.assign(it.right.size(), 0.0);
+  if (scale > 0) {
+    it.matrix.take(it.right, 1 / scale, it.single_right);
+    const auto solved = it.gmres.solve([&](const auto& in, auto& out) { it.matrix.multiply(in, out); },
+                                       [&](const auto& in, auto& out) { it.preconditioner.apply(in, out); },
+                                       it.single_right, it.single_solution, tolerance, options_.restart);
+    report.iterations += solved.iterations;
+    it.matrix.give(it.single_solution, scale, it.solution);
+  }
+  it.correction.assign(it.residual.size(), 0.0);
+  it.layout.give(it.solution, it.correction);
+  if (it.extension) {
+    for (std::size_t i = 0; i < it.mesh.size(); ++i) {
+      const Unknown& unknown = numbering.mesh[i];
+      it.mesh[i] = unknown.index < 0 ? 0 : unknown.factor * it.correction[unknown.index];
+    }
+    it.extension->solve(it.mesh_right, it.mesh,
+                        std::min(loosest_extension, HarmonicExtensionOptions().tolerance / relative));
+    for (std::size_t i = 0; i < it.mesh.size(); ++i)
+      if (numbering.mesh_rows[i].index >= 0) it.correction[numbering.mesh_rows[i].index] = it.mesh[i];
+  }
+}
+
+template <class Element>
+void FastSolver<Element>::subtract_mesh_rows(double tolerance) {
+  Iterative& it = *iterative_;
+  const Numbering& numbering = blocks_.numbering;
+  bool any = false;
+  for (std::size_t i = 0; i < it.mesh_right.size(); ++i) {
+    const auto row = numbering.mesh_rows[i].index;
+    it.mesh_right[i] = row < 0 ? 0 : it.residual[row];
+    any = any || it.mesh_right[i] != 0;
+  }
+  if (!any || !it.shape_derivatives) return;
+  // An iteration costs too much for what the flow would not notice.
+  if (it.extension->iterates() && norm(it.mesh_right) <= 0.01 * tolerance * norm(it.right)) return;
+  set_zero(it.mesh);
+  it.extension->solve(it.mesh_right, it.mesh, mesh_rows_tolerance);
+  multiply(*blocks_.shape_derivatives, it.mesh, it.flow_rows);
+  std::vector<double>& all = it.jacobian_times_x;
+  all.assign(it.residual.size(), 0.0);
+  add_to_system(numbering.flow_rows, it.flow_rows, all);
+  it.layout.take(all, it.solution);
+  axpy(-1, it.solution, it.right);
+}
+
+template <class Element>
+FastSolver<Element>::~FastSolver() = default;
+
+#define FSI_INSTANTIATE(Element) template class FastSolver<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,265 @@
+#include "mesh_motion/harmonic_extension.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "algebra/block_products.hpp"
+#include "algebra/register_blocks.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr int chunk_rows = 2048;  // of a partial sum: fixed, so that sums do not depend on the number of threads
+
+/// m scalar products of vectors that hold m numbers a row.
+template <int m>
+std::array<double, m> dots(const std::vector<double>& x, const std::vector<double>& y) {
+  const int rows = static_cast<int>(x.size()) / m, chunks = (rows + chunk_rows - 1) / chunk_rows;
+  std::vector<std::array<double, m>> partial(chunks);
+#pragma omp parallel for schedule(static) if (chunks > 4)
+  for (int c = 0; c < chunks; ++c) {
+    std::array<double, m> sum{};
+    for (int row = c * chunk_rows; row < std::min(rows, (c + 1) * chunk_rows); ++row)
+      for (int k = 0; k < m; ++k)
+        sum[k] += x[static_cast<std::size_t>(row) * m + k] * y[static_cast<std::size_t>(row) * m + k];
+    partial[c] = sum;
+  }
+  std::array<double, m> total{};
+  for (const auto& sum : partial)
+    for (int k = 0; k < m; ++k) total[k] += sum[k];
+  return total;
+}
+
+/// y = A x for m vectors at once, m numbers a row.
+template <int m>
+void multiply_each(const CsrMatrix<double>& a, const std::vector<double>& x, std::vector<double>& y) {
+#pragma omp parallel for schedule(static) if (a.nonzeros() > 50000)
+  for (int row = 0; row < a.rows(); ++row) {
+    double sum[m] = {};
+    for (int at = a.offsets[row]; at < a.offsets[row + 1]; ++at)
+      for (int k = 0; k < m; ++k) sum[k] += a.values[at] * x[static_cast<std::size_t>(a.indices[at]) * m + k];
+    for (int k = 0; k < m; ++k) y[static_cast<std::size_t>(row) * m + k] = sum[k];
+  }
+}
+
+}  // namespace
+
+template <int n>
+HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                                        const HarmonicExtensionOptions& options)
+    : laplacian_(laplacian), inner_(std::move(inner)), options_(options) {
+  assert(inner_.size() == static_cast<std::size_t>(laplacian.graph->rows()) * n);
+  values_.resize(inner_.size());
+  rows_ = values_;
+  update();
+}
+
+template <int n>
+void HarmonicExtension<n>::update() {
+  groups_.clear();
+  for (int k = 0; k < n; ++k) {
+    const auto group =
+        std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return same(g.components.front(), k); });
+    if (group != groups_.end()) {
+      group->components.push_back(k);
+    } else {
+      groups_.emplace_back();
+      groups_.back().components = {k};
+    }
+  }
+  for (Group& group : groups_) set_up(group);
+}
+
+/// Two components have the same equations.
+template <int n>
+bool HarmonicExtension<n>::same(int i, int k) const {
+  for (std::size_t a = 0; a < inner_.size(); a += n)
+    if (inner_[a + i] != inner_[a + k]) return false;
+  for (int at = 0; at < laplacian_.graph->blocks(); ++at)
+    if (laplacian_.block(at)[i] != laplacian_.block(at)[k]) return false;
+  return true;
+}
+
+template <int n>
+void HarmonicExtension<n>::set_up(Group& group) {
+  const auto& graph = *laplacian_.graph;
+  const int component = group.components.front();
+  group.row.assign(graph.rows(), -1);
+  for (int a = 0; a < graph.rows(); ++a)
+    if (inner_[static_cast<std::size_t>(a) * n + component]) {
+      group.row[a] = static_cast<int>(group.node.size());
+      group.node.push_back(a);
+    }
+  const int rows = static_cast<int>(group.node.size());
+  group.iterative = rows >= options_.iterative_from;
+  if (!group.iterative) {
+    if (rows > 0) factorise(group);
+    return;
+  }
+  CsrMatrix<double>& a = group.matrix;
+  a.columns = rows;
+  for (int node : group.node) {
+    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
+      if (group.row[graph.columns[at]] >= 0) {
+        a.indices.push_back(group.row[graph.columns[at]]);
+        a.values.push_back(laplacian_.block(at)[component]);
+      }
+    a.offsets.push_back(static_cast<int>(a.indices.size()));
+  }
+  ScalarMultigrid::Options options;
+  options.post_smoothing = true;  // conjugate gradients want a symmetric cycle
+  group.multigrid.set_up(a, options);
+}
+
+template <int n>
+void HarmonicExtension<n>::factorise(Group& group) {
+  // The matrix is symmetric: its rows serve as columns.
+  const auto& graph = *laplacian_.graph;
+  SparseMatrix& a = group.columns;
+  a = {};
+  a.offsets = {0};
+  for (int node : group.node) {
+    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
+      if (group.row[graph.columns[at]] >= 0) {
+        a.rows.push_back(group.row[graph.columns[at]]);
+        a.values.push_back(laplacian_.block(at)[group.components.front()]);
+      }
+    a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
+  }
+  group.solver = DirectSolver();
+  group.solver.factorise(a);
+}
+
+template <int n>
+void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
+  assert(right.size() == inner_.size() && field.size() == inner_.size());
+  iterations_ = 0;
+#pragma omp parallel for schedule(static) if (inner_.size() > 50000)
+  for (std::size_t i = 0; i < inner_.size(); ++i) values_[i] = inner_[i] ? 0 : field[i];
+  multiply_components<n>(laplacian_, values_, rows_);
+  for (Group& group : groups_) {
+    if (group.node.empty()) continue;
+    if (group.iterative) {
+      const std::size_t count = group.components.size();
+      const bool converged = count == 1   ? iterate<1>(group, right, field, tolerance)
+                             : count == 2 ? iterate<2>(group, right, field, tolerance)
+                                          : iterate<3>(group, right, field, tolerance);
+      if (converged) continue;
+      if (!group.solver.factorised()) factorise(group);
+    }
+    solve_directly(group, right, field);
+  }
+}
+
+template <int n>
+void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<double>& right,
+                                          std::vector<double>& field) {
+  const std::size_t rows = group.node.size();
+  right_.assign(group.components.size(), std::vector<double>(rows));
+  for (std::size_t c = 0; c < group.components.size(); ++c)
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::size_t entry = static_cast<std::size_t>(group.node[i]) * n + group.components[c];
+      right_[c][i] = right[entry] - rows_[entry];
+    }
+  group.solver.solve_each(group.columns, right_, solution_);
+  for (std::size_t c = 0; c < group.components.size(); ++c)
+    for (std::size_t i = 0; i < rows; ++i)
+      field[static_cast<std::size_t>(group.node[i]) * n + group.components[c]] = solution_[c][i];
+}
+
+/// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old
+/// allows for a preconditioner that is linear but for the rounding of single precision.
+template <int n>
+template <int m>
+bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& right, std::vector<double>& field,
+                                   double tolerance) {
+  constexpr int lanes = m == 1 ? 1 : padded<m>;
+  const int rows = static_cast<int>(group.node.size());
+  const std::size_t size = static_cast<std::size_t>(rows) * m;
+  std::vector<double> x(size), r(size), z(size), p(size, 0.0), q(size);
+  std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < m; ++k) {
+      const std::size_t entry = static_cast<std::size_t>(group.node[i]) * n + group.components[k];
+      x[static_cast<std::size_t>(i) * m + k] = field[entry];
+      r[static_cast<std::size_t>(i) * m + k] = right[entry] - rows_[entry];
+    }
+  const auto reference = dots<m>(r, r);
+  multiply_each<m>(group.matrix, x, q);
+  for (std::size_t i = 0; i < size; ++i) r[i] -= q[i];
+  auto square = dots<m>(r, r);
+  const auto done = [&] {
+    for (int k = 0; k < m; ++k)
+      if (!(square[k] <= tolerance * tolerance * reference[k])) return false;
+    return true;
+  };
+  std::array<double, m> rho{}, alpha{}, beta{};
+  int iteration = 0;
+  for (; !done() && iteration < options_.max_iterations; ++iteration) {
+    // Scaled to one, so that small residuals do not leave the range of single precision.
+    double length[m];
+    for (int k = 0; k < m; ++k) length[k] = std::sqrt(square[k]);
+#pragma omp parallel for schedule(static) if (rows > 8000)
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < m; ++k)
+        single_r[static_cast<std::size_t>(i) * lanes + k] =
+            length[k] > 0 ? static_cast<float>(r[static_cast<std::size_t>(i) * m + k] / length[k]) : 0.0f;
+    group.multigrid.template cycle_each<m>(single_r, single_z);
+#pragma omp parallel for schedule(static) if (rows > 8000)
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < m; ++k)
+        z[static_cast<std::size_t>(i) * m + k] = length[k] * single_z[static_cast<std::size_t>(i) * lanes + k];
+    const auto overlap = dots<m>(z, q), next = dots<m>(z, r);
+    for (int k = 0; k < m; ++k) {
+      beta[k] = iteration > 0 && rho[k] > 0 ? -alpha[k] * overlap[k] / rho[k] : 0;  // r - r_old = -alpha q
+      rho[k] = next[k];
+    }
+#pragma omp parallel for schedule(static) if (rows > 8000)
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < m; ++k) {
+        const std::size_t at = static_cast<std::size_t>(i) * m + k;
+        p[at] = z[at] + beta[k] * p[at];
+      }
+    multiply_each<m>(group.matrix, p, q);
+    const auto curvature = dots<m>(p, q);
+    for (int k = 0; k < m; ++k) alpha[k] = curvature[k] > 0 ? rho[k] / curvature[k] : 0;
+#pragma omp parallel for schedule(static) if (rows > 8000)
+    for (int i = 0; i < rows; ++i)
+      for (int k = 0; k < m; ++k) {
+        const std::size_t at = static_cast<std::size_t>(i) * m + k;
+        x[at] += alpha[k] * p[at];
+        r[at] -= alpha[k] * q[at];
+      }
+    square = dots<m>(r, r);
+  }
+  iterations_ = std::max(iterations_, iteration);
+  if (!done()) return false;
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < m; ++k)
+      field[static_cast<std::size_t>(group.node[i]) * n + group.components[k]] = x[static_cast<std::size_t>(i) * m + k];
+  return true;
+}
+
+template <int n>
+bool HarmonicExtension<n>::iterates() const {
+  return std::all_of(groups_.begin(), groups_.end(),
+                     [](const Group& g) { return g.iterative && !g.solver.factorised(); });
+}
+
+template <int n>
+double HarmonicExtension<n>::memory_mib() const {
+  double bytes = 0;
+  for (const Group& group : groups_)
+    bytes += 16.0 * static_cast<double>(group.solver.factor_nonzeros()) +
+             static_cast<double>(group.matrix.bytes() + group.multigrid.bytes());
+  return bytes / (1 << 20);
+}
+
+template class HarmonicExtension<2>;
+template class HarmonicExtension<3>;
+
+}  // namespace fsi

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "algebra/csr_matrix.hpp"
+#include "algebra/direct_solver.hpp"
+#include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
+
+namespace fsi {
+
+/// How a harmonic extension is computed. Defaults by measurement (docs/performance.md).
+struct HarmonicExtensionOptions {
+  int iterative_from = 12000;  ///< inner nodes from which the iteration is quicker than triangular solves
+  double tolerance = 1e-12;    ///< of the iteration: its residual over that of zero inner values
+  int max_iterations = 100;    ///< of conjugate gradients; a solve that needs more is done by factorisation
+};
+
+/// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are
+/// solved at once, by a factorisation or, where that is large, by conjugate gradients in double precision around a
+/// V-cycle of smoothed aggregation in single precision. Results do not depend on the number of threads.
+/// \tparam n  components of a node
+template <int n>
+class HarmonicExtension {
+ public:
+  /// \param laplacian  symmetric, one number per node pair and component, conditions not imposed; must outlive this
+  /// \param inner      per node and component: its value is sought, its row an equation
+  HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                    const HarmonicExtensionOptions& options = {});
+
+  /// The operator has new values.
+  /// \throws ConvergenceError when it is singular
+  void update();
+
+  /// Sets the inner values of `field`, n numbers a node, so that the rows of A field at inner entries equal `right`
+  /// there; the other values are given. The iteration starts from the inner values as they are.
+  /// \param tolerance  in place of the options' one; the factorisation solves to rounding
+  void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance);
+  void solve(const std::vector<double>& right, std::vector<double>& field) { solve(right, field, options_.tolerance); }
+
+  /// All components are solved by iteration.
+  bool iterates() const;
+  double memory_mib() const;
+  /// Conjugate gradient iterations of the last solve, the most of all components.
+  int iterations() const { return iterations_; }
+
+ private:
+  /// Components of one matrix.
+  struct Group {
+    std::vector<int> components;
+    std::vector<int> row;       ///< per node; -1 where the value is given
+    std::vector<int> node;      ///< per row
+    CsrMatrix<double> matrix;   ///< of the iteration
+    ScalarMultigrid multigrid;  ///< its preconditioner
+    SparseMatrix columns;       ///< of the factorisation
+    DirectSolver solver;
+    bool iterative = false;
+  };
+
+  bool same(int i, int k) const;
+  void set_up(Group& group);
+  void factorise(Group& group);
+  void solve_directly(const Group& group, const std::vector<double>& right, std::vector<double>& field);
+  template <int m>
+  bool iterate(Group& group, const std::vector<double>& right, std::vector<double>& field, double tolerance);
+
+  const BlockMatrix<1, n>& laplacian_;
+  std::vector<char> inner_;
+  HarmonicExtensionOptions options_;
+  std::vector<Group> groups_;
+  int iterations_ = 0;
+  std::vector<std::vector<double>> right_, solution_;  ///< by component
+  std::vector<double> values_, rows_;
+};
+
+}  // namespace fsi

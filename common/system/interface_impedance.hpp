@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "time/state.hpp"
+
+namespace fsi {
+
+/// An operator on chosen nodes of the fluid, beside the equations of the scene: c (u - v) joins their momentum rows in
+/// the residual of a System, and c its Jacobian's diagonal. The fluid's own rows do not hold it.
+struct InterfaceImpedance {
+  std::vector<int> nodes;         ///< of the fluid
+  std::vector<double> impedance;  ///< c per node, kPa mm^2 / (mm/ms): any numbers, zero and negative ones too
+  std::vector<double> velocity;   ///< v, n numbers per node, mm/ms
+  /// Called before each evaluation of the residual: for what follows the iterate, as the domain may.
+  std::function<void(State&)> before_evaluation;
+};
+
+}  // namespace fsi

@@ -1,0 +1,49 @@
+#include "system/jacobian_product.hpp"
+
+#include "algebra/block_products.hpp"
+#include "fem/elements.hpp"
+
+namespace fsi {
+
+template <class Element>
+JacobianProduct<Element>::JacobianProduct(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
+  flow_.resize(blocks.numbering.flow.size());
+  mesh_.resize(blocks.numbering.mesh.size());
+  wall_.resize(blocks.numbering.wall.size());
+  flow_rows_ = flow_;
+  mesh_rows_ = mesh_;
+  wall_rows_ = wall_;
+}
+
+template <class Element>
+void JacobianProduct<Element>::multiply(const std::vector<double>& x, std::vector<double>& y) {
+  const Numbering& numbering = blocks_.numbering;
+  y.assign(static_cast<std::size_t>(numbering.size), 0.0);
+  if (blocks_.shape_derivatives || blocks_.mesh_laplacian) values(numbering.mesh, x, mesh_);
+  if (blocks_.flow) {
+    values(numbering.flow, x, flow_);
+    fsi::multiply(*blocks_.flow, flow_, flow_rows_);
+    if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, flow_rows_);
+    add_to_system(numbering.flow_rows, flow_rows_, y);
+  }
+  if (blocks_.mesh_laplacian) {
+    multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);
+    add_to_system(numbering.mesh_rows, mesh_rows_, y);
+  }
+  if (blocks_.wall) {
+    values(numbering.wall, x, wall_);
+    fsi::multiply(*blocks_.wall, wall_, wall_rows_);
+    add_to_system(numbering.wall_rows, wall_rows_, y);
+  }
+}
+
+template <class Element>
+void JacobianProduct<Element>::values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field) {
+#pragma omp parallel for schedule(static) if (map.size() > 16384)
+  for (std::size_t i = 0; i < map.size(); ++i) field[i] = map[i].index < 0 ? 0 : map[i].factor * x[map[i].index];
+}
+
+#define FSI_INSTANTIATE(Element) template class JacobianProduct<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

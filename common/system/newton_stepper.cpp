@@ -1,0 +1,132 @@
+#include "system/newton_stepper.hpp"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "base/error.hpp"
+#include "fem/elements.hpp"
+#include "time/predictor.hpp"
+
+namespace fsi {
+
+NewtonOptions newton_options(const MonolithicData& data) {
+  NewtonOptions options;
+  options.tolerance = data.newton_tolerance;
+  options.residual_tolerance = data.residual_tolerance;
+  options.max_iterations = data.max_iterations;
+  options.linear_tolerance = data.linear_tolerance;
+  options.keep_jacobian = data.mode == "kept";
+  return options;
+}
+
+void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent) {
+  int k = 0;
+  for (const auto& it : report.iterations)
+    lines.push_back(
+        fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}{}", indent, ++k, it.increment, it.residual,
+                    it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
+                    it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
+}
+
+void remember(const std::string& name, const LinearisationPoint& point, Memory& memory) {
+  memory.arrays[name + ".mesh"] = point.now.mesh;
+  memory.arrays[name + ".flow"] = point.now.flow;
+  memory.arrays[name + ".wall"] = point.now.wall;
+  memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
+  memory.arrays[name + ".flow_reference"] = point.rates.flow_reference;
+  memory.numbers[name + ".step"] = point.rates.step;
+  memory.numbers[name + ".period"] = point.rates.interface.period;
+  memory.numbers[name + ".flow_factor"] = point.rates.flow_factor;
+  memory.numbers[name + ".acceleration_factor"] = point.rates.acceleration_factor;
+  memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
+}
+bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point) {
+  if (memory.numbers.count(name + ".step") == 0) return false;
+  const auto array = [&](const char* part) {
+    const auto found = memory.arrays.find(name + part);
+    return found == memory.arrays.end() ? std::vector<double>() : found->second;
+  };
+  const auto number = [&](const char* part) { return memory.numbers.at(name + part); };
+  point.now = {array(".mesh"), array(".flow"), array(".wall")};
+  point.rates.mesh_reference = array(".mesh_reference");
+  point.rates.flow_reference = array(".flow_reference");
+  point.rates.step = number(".step");
+  point.rates.interface.period = number(".period");
+  point.rates.flow_factor = number(".flow_factor");
+  point.rates.acceleration_factor = number(".acceleration_factor");
+  point.wall_pressure = number(".wall_pressure");
+  return true;
+}
+
+template <class Element>
+NewtonStepper<Element>::NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options,
+                                      Numbering numbering, const LinearSolverFactory<Element>& make_solver)
+    : scene_(scene),
+      loads_(loads),
+      options_(std::move(options)),
+      system_("coupled", scene, std::move(numbering), make_solver) {}
+
+template <class Element>
+StepReport NewtonStepper<Element>::advance(State& state) {
+  const StepData data = loads_.next(state, *scene_.integrator);
+  report_ = {};
+  NewtonReport solved = solve(state, data, scene_.predictor);
+  if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
+    // The extrapolated start can be the culprit, after a jump of the load for example.
+    report_.history.push_back(solved.failure + "; again from the last time level");
+    solved = solve(state, data, 0);
+  }
+  if (!solved.converged)
+    throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
+                                       solved.count(), solved.failure),
+                           remedy(solved));
+  scene_.integrator->accept(state, data);
+  return report_;
+}
+
+template <class Element>
+Memory NewtonStepper<Element>::memory() const {
+  Memory memory;
+  if (options_.keep_jacobian && system_.linearised()) remember("kept", system_.linearisation_point(), memory);
+  return memory;
+}
+
+template <class Element>
+void NewtonStepper<Element>::recall(const Memory& memory) {
+  LinearisationPoint point;
+  if (fsi::recall("kept", memory, point)) system_.linearise_at(point);
+}
+
+template <class Element>
+std::string NewtonStepper<Element>::name_of_step(const State& state, const StepData& data) const {
+  return scene_.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
+                            : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
+}
+
+template <class Element>
+std::string NewtonStepper<Element>::remedy(const NewtonReport& failed) const {
+  std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
+  if (options_.keep_jacobian) text += ", or monolithic.mode = \"full\"";
+  if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
+  return text;
+}
+
+template <class Element>
+NewtonReport NewtonStepper<Element>::solve(State& state, const StepData& data, int predictor) {
+  predict(state, predictor, data.time);
+  scene_.impose_conditions(state.now);
+  scene_.impose_interface(state, data.rates);
+  system_.work_on(state, data);
+  const NewtonReport solved = newton(system_, options_);
+  scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
+  report_.newton_iterations += solved.count();
+  report_.linear_iterations += solved.linear_iterations();
+  report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
+  append_history(solved, report_.history);
+  return solved;
+}
+
+#define FSI_INSTANTIATE(Element) template class NewtonStepper<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

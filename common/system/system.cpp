@@ -1,0 +1,261 @@
+#include "system/system.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "fem/elements.hpp"
+#include "fem/function_space.hpp"
+#include "system/direct_linear_solver.hpp"
+
+namespace fsi {
+
+template <class Element>
+System<Element>::System(std::string name, Scene<Element>& scene, Numbering numbering,
+                        const LinearSolverFactory<Element>& make_solver, SystemNorm norm,
+                        const InterfaceImpedance* impedance)
+    : name_(std::move(name)),
+      scene_(scene),
+      numbering_(std::move(numbering)),
+      derivatives_(numbering_.flow.empty()   ? FluidDerivatives::none
+                   : numbering_.mesh.empty() ? FluidDerivatives::flow
+                                             : FluidDerivatives::flow_and_domain),
+      interface_(interface_pairs(scene)),
+      norm_(norm),
+      impedance_(impedance),
+      solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<Element>>(blocks())),
+      increment_(numbering_.size),
+      weights_(norm_weights()) {}
+
+template <class Element>
+JacobianBlocks<Element> System<Element>::blocks() {
+  JacobianBlocks<Element> blocks{numbering_};
+  if (!numbering_.wall_rows.empty()) {
+    blocks.wall = &scene_.wall->jacobian();
+    blocks.wall_nodes = {&scene_.wall->part().nodes, &scene_.wall->part().mesh_node};
+  }
+  if (!numbering_.flow_rows.empty()) {
+    auto& jacobian = scene_.fluid->jacobian(derivatives_);
+    blocks.flow = &jacobian.flow;
+    if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
+    blocks.fluid_nodes = {&scene_.fluid->part().nodes, &scene_.fluid->part().mesh_node};
+  }
+  if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
+  if (blocks.flow && blocks.wall) blocks.interface = &interface_;
+  blocks.mesh_laplacian_version = &scene_.mesh_motion_assemblies;
+  blocks.profile = &scene_.profile;
+  return blocks;
+}
+
+template <class Element>
+void System<Element>::work_on(State& state, const StepData& data) {
+  state_ = &state;
+  data_ = &data;
+  if (numbering_.follow(data.rates.interface)) weights_ = norm_weights();
+  if (rates_differ(data.rates)) usable_ = false;
+}
+
+template <class Element>
+double System<Element>::evaluate() {
+  if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
+  if (impedance_ && impedance_->before_evaluation) impedance_->before_evaluation(*state_);
+  const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
+  const AssemblyResult result = assemble(false);
+  if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (double r : residual_) sum += r * r;
+  return std::sqrt(sum);
+}
+
+template <class Element>
+void System<Element>::linearise() {
+  {
+    const auto phase = scene_.profile.phase("assembly: " + name_ + " jacobian");
+    assemble(true);
+  }
+  {
+    const auto phase = scene_.profile.phase(std::string(solver_->preparation()) + ": " + name_);
+    solver_->update();
+  }
+  point_.now = state_->now;
+  point_.rates = data_->rates;
+  point_.rates.wall_reference.clear();
+  point_.wall_pressure = data_->wall_pressure;
+  usable_ = true;
+}
+
+template <class Element>
+void System<Element>::linearise_at(const LinearisationPoint& point) {
+  State state;
+  state.now = point.now;
+  StepData data;
+  data.rates = point.rates;
+  data.wall_pressure = point.wall_pressure;
+  if (!point.rates.is_static() && scene_.wall)
+    data.rates.acceleration_history.assign(scene_.wall->space().vector_size(), 0.0);
+  work_on(state, data);
+  linearise();
+  state_ = nullptr;
+  data_ = nullptr;
+}
+
+template <class Element>
+double System<Element>::solve(double tolerance) {
+  const auto phase = scene_.profile.phase("solve: " + name_);
+  linear_report_ = solver_->solve(residual_, tolerance, increment_);
+  if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (std::size_t i = 0; i < increment_.size(); ++i) {
+    increment_[i] = -increment_[i];
+    sum += weights_[i] * increment_[i] * increment_[i];
+  }
+  return std::sqrt(sum);
+}
+
+template <class Element>
+void System<Element>::move(double step) {
+  if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
+  if (!numbering_.flow.empty()) add_to_field(numbering_.flow, increment_, step, state_->now.flow);
+  if (!numbering_.wall.empty()) add_to_field(numbering_.wall, increment_, step, state_->now.wall);
+}
+
+template <class Element>
+double System<Element>::size() const {
+  return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
+                   weighted<Mixed>(flow_volumes_, state_->now.flow, !numbering_.flow.empty()) +
+                   weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
+}
+
+template <class Element>
+double System<Element>::rounding() {
+  std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
+  const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
+    for (std::size_t i = 0; i < map.size(); ++i)
+      if (map[i].index >= 0) x[map[i].index] = std::max(x[map[i].index], std::abs(field[i] / map[i].factor));
+  };
+  values(numbering_.mesh, state_->now.mesh);
+  values(numbering_.flow, state_->now.flow);
+  values(numbering_.wall, state_->now.wall);
+  if (!numbering_.wall.empty())
+    for (int node = 0; node < scene_.wall->node_count(); ++node)
+      for (int k = 0; k < n; ++k) {
+        const Unknown& unknown = numbering_.wall[Mixed::vector(node, k)];
+        if (unknown.index >= 0) x[unknown.index] += std::cbrt(wall_volumes_[node]);
+      }
+  add_absolute_products(x, terms);
+  double sum = 0;
+  for (double t : terms) sum += t * t;
+  return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+}
+
+template <class Element>
+std::vector<InterfacePair> System<Element>::interface_pairs(const Scene<Element>& scene) {
+  std::vector<InterfacePair> pairs;
+  for (const auto& node : scene.interface) pairs.push_back({node.fluid, node.wall});
+  return pairs;
+}
+
+template <class Element>
+AssemblyResult System<Element>::assemble(bool derivatives) {
+  AssemblyResult result;
+  residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
+  if (!numbering_.mesh_rows.empty()) {
+    mesh_residual_.resize(state_->now.mesh.size());
+    multiply_mesh_motion<Element>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
+    add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
+  }
+  if (!numbering_.flow_rows.empty()) {
+    result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
+                                          fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
+    add_to_system(numbering_.flow_rows, fluid_residual_, residual_);
+    if (impedance_) add_impedance(derivatives);
+  }
+  if (!numbering_.wall_rows.empty()) {
+    result.include(scene_.wall->assemble(scene_.wall_input(*state_, data_->rates), data_->wall_pressure,
+                                         state_->now.wall, wall_residual_, derivatives));
+    if (!data_->interface_load.empty())
+      for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
+    add_to_system(numbering_.wall_rows, wall_residual_, residual_);
+  }
+  return result;
+}
+
+template <class Element>
+void System<Element>::add_impedance(bool derivatives) {
+  assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
+  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
+    const int node = impedance_->nodes[i];
+    const double c = impedance_->impedance[i];
+    for (int k = 0; k < n; ++k) {
+      const std::size_t entry = Mixed::vector(node, k);
+      const Unknown& row = numbering_.flow_rows[entry];
+      if (row.index < 0) continue;
+      residual_[row.index] += row.factor * c * (state_->now.flow[entry] - impedance_->velocity[i * n + k]);
+      if (!derivatives) continue;
+      auto& flow = scene_.fluid->jacobian(derivatives_).flow;
+      flow.block(flow.graph->find(node, node))[k * Mixed::entries + k] += c;
+    }
+  }
+}
+
+template <class Element>
+void System<Element>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
+  const JacobianBlocks<Element> j = blocks();
+  const auto add = [&](const auto& matrix, const UnknownMap& rows, const UnknownMap& columns, bool by_component) {
+    constexpr int r = std::decay_t<decltype(matrix)>::rows, c = std::decay_t<decltype(matrix)>::columns;
+    const auto& graph = *matrix.graph;
+    const int rows_per_node = by_component ? c : r;
+    for (int a = 0; a < graph.rows(); ++a)
+      for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
+        for (int i = 0; i < rows_per_node; ++i) {
+          const Unknown& row = rows[static_cast<std::size_t>(a) * rows_per_node + i];
+          if (row.index < 0) continue;
+          double sum = 0;
+          for (int k = by_component ? i : 0; k < (by_component ? i + 1 : c); ++k) {
+            const Unknown& column = columns[static_cast<std::size_t>(graph.columns[at]) * c + k];
+            const double value = matrix.block(at)[by_component ? k : i * c + k];
+            if (column.index >= 0) sum += std::abs(value * column.factor) * x[column.index];
+          }
+          terms[row.index] += std::abs(row.factor) * sum;
+        }
+  };
+  if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
+  if (j.flow) add(*j.flow, numbering_.flow_rows, numbering_.flow, false);
+  if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.flow_rows, numbering_.mesh, false);
+  if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
+}
+
+template <class Element>
+std::vector<double> System<Element>::norm_weights() {
+  std::vector<double> weights(static_cast<std::size_t>(numbering_.size), 0.0);
+  const auto add = [&](const UnknownMap& map, const std::vector<double>& volumes, int entries) {
+    for (std::size_t i = 0; i < map.size(); ++i)
+      if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
+  };
+  const auto weights_of = [&](const auto& part) {
+    return norm_ == SystemNorm::volumes ? nodal_volumes<Element>(part) : std::vector<double>(part.nodes.size(), 1.0);
+  };
+  if ((!numbering_.flow.empty() || !numbering_.mesh.empty()) && flow_volumes_.empty())
+    mesh_volumes_ = flow_volumes_ = weights_of(scene_.fluid->part());
+  if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->part());
+  add(numbering_.mesh, mesh_volumes_, Vector::entries);
+  add(numbering_.flow, flow_volumes_, Mixed::entries);
+  add(numbering_.wall, wall_volumes_, Mixed::entries);
+  return weights;
+}
+
+template <class Element>
+bool System<Element>::rates_differ(const StepRates& rates) const {
+  const StepRates& of_jacobian = point_.rates;
+  return rates.step != of_jacobian.step || rates.interface.period != of_jacobian.interface.period ||
+         rates.flow_factor != of_jacobian.flow_factor || rates.acceleration_factor != of_jacobian.acceleration_factor;
+}
+
+#define FSI_INSTANTIATE(Element) template class System<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

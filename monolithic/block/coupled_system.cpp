@@ -1,0 +1,179 @@
+#include "monolithic/block/coupled_system.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "fem/elements.hpp"
+
+namespace fsi {
+
+template <class Element>
+CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
+  assert(blocks.coupled());
+  const Numbering& numbering = blocks.numbering;
+  mesh_ = BlockMatrix<1, n>(blocks.mesh_laplacian->graph);
+  flow_ = BlockMatrix<n + 1, n + 1>(blocks.flow->graph);
+  flow_mesh_ = BlockMatrix<n + 1, n>(blocks.shape_derivatives->graph);
+  wall_ = BlockMatrix<n + 1, n + 1>(blocks.wall->graph);
+  k_ = {&mesh_, &mesh_wall_, &flow_mesh_, &flow_, &flow_wall_, &wall_flow_, &wall_};
+  constraints_.mesh_fixed = without_unknown(numbering.mesh_rows, n);
+  constraints_.velocity_fixed = without_unknown(numbering.flow, n + 1);
+  wall_zero_ = without_unknown(numbering.wall, n + 1);
+  mesh_zero_ = without_unknown(numbering.mesh, n);  // columns of interface nodes stay, they are unknowns
+  constraints_.wall_fixed = wall_zero_;
+  std::vector<int> wall_of(static_cast<std::size_t>(k_.fluid_nodes()), -1),
+      fluid_of(static_cast<std::size_t>(k_.wall_nodes()), -1);
+  for (const InterfacePair& pair : *blocks.interface) {
+    const auto first = wall_zero_.begin() + static_cast<std::ptrdiff_t>(pair.wall) * n;
+    if (std::find(first, first + n, 0) == first + n) continue;  // clamped
+    interface_.push_back(pair);
+    wall_of[pair.fluid] = pair.wall;
+    fluid_of[pair.wall] = pair.fluid;
+    std::fill_n(constraints_.wall_fixed.begin() + static_cast<std::ptrdiff_t>(pair.wall) * n, n, 1);
+  }
+  no_pressure_ = without_scalar(numbering.flow);
+  no_wall_pressure_ = without_scalar(numbering.wall);
+  mesh_wall_ = tie(wall_of);
+  wall_flow_ = tie(fluid_of);
+
+  // Afs: the wall's momentum rows of the interface nodes.
+  auto graph = std::make_shared<NodeGraph>();
+  graph->offsets.assign(1, 0);
+  for (int wall_node : wall_of) {
+    if (wall_node >= 0) {
+      const auto& wall = *blocks.wall->graph;
+      for (int at = wall.offsets[wall_node]; at < wall.offsets[wall_node + 1]; ++at) {
+        graph->columns.push_back(wall.columns[at]);
+        traction_.push_back(at);
+      }
+    }
+    graph->offsets.push_back(static_cast<int>(graph->columns.size()));
+  }
+  flow_wall_ = BlockMatrix<n, n + 1>(std::move(graph));
+  fixed_tractions_.assign(constraints_.velocity_fixed.size(), 0);
+  for (const InterfacePair& pair : interface_)  // no equations, where the wall is held
+    for (int k = 0; k < n; ++k)
+      fixed_tractions_[static_cast<std::size_t>(pair.fluid) * n + k] =
+          wall_zero_[static_cast<std::size_t>(pair.wall) * n + k];
+}
+
+template <class Element>
+void CoupledSystem<Element>::update() {
+  const double rate = blocks_.numbering.interface.rate();
+  const auto one = [](std::size_t) { return 1.0; };
+  update_mesh_motion();
+  copy(*blocks_.flow, flow_);
+  impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, one);
+  impose_scalars(flow_, no_pressure_);
+  copy(*blocks_.shape_derivatives, flow_mesh_);
+  impose(flow_mesh_, constraints_.velocity_fixed, mesh_zero_, [](std::size_t) { return 0.0; });
+  for (int a : no_pressure_)
+    for (int at = flow_mesh_.graph->offsets[a]; at < flow_mesh_.graph->offsets[a + 1]; ++at)
+      std::fill_n(flow_mesh_.block(at) + n * n, n, 0.0);
+  const auto tractions = static_cast<std::ptrdiff_t>(traction_.size());
+#pragma omp parallel for schedule(static) if (tractions > 20000)
+  for (std::ptrdiff_t i = 0; i < tractions; ++i) {
+    const double* from = blocks_.wall->block(traction_[i]);
+    std::copy(from, from + n * (n + 1), flow_wall_.block(static_cast<int>(i)));
+  }
+  impose(flow_wall_, fixed_tractions_, wall_zero_, [](std::size_t) { return 0.0; });
+  copy(*blocks_.wall, wall_);
+  impose(wall_, constraints_.wall_fixed, wall_zero_, [&](std::size_t i) { return wall_zero_[i] ? 1.0 : rate; });
+  impose_scalars(wall_, no_wall_pressure_);
+}
+
+template <class Element>
+void CoupledSystem<Element>::update_mesh_motion() {
+  copy(*blocks_.mesh_laplacian, mesh_);
+  impose_diagonal();
+}
+
+template <class Element>
+void CoupledSystem<Element>::expand(const std::vector<double>& condensed, CoupledVector& b) const {
+  const auto& numbering = blocks_.numbering;
+  const auto take = [&](const UnknownMap& rows, std::vector<double>& part) {
+    part.resize(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) part[i] = rows[i].index >= 0 ? condensed[rows[i].index] : 0.0;
+  };
+  take(numbering.mesh_rows, b.mesh);
+  take(numbering.flow_rows, b.flow);
+  take(numbering.wall_rows, b.wall);
+  for (const auto& pair : interface_)  // their equation is the flow's
+    for (int k = 0; k < n; ++k) b.wall[static_cast<std::size_t>(pair.wall) * (n + 1) + k] = 0;
+}
+
+template <class Element>
+void CoupledSystem<Element>::compress(const CoupledVector& x, std::vector<double>& condensed) const {
+  const auto& numbering = blocks_.numbering;
+  condensed.assign(static_cast<std::size_t>(numbering.size), 0.0);
+  const auto give = [&](const UnknownMap& unknowns, const std::vector<double>& part) {
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      if (unknowns[i].index >= 0) condensed[unknowns[i].index] = part[i] / unknowns[i].factor;
+  };
+  give(numbering.mesh, x.mesh);
+  give(numbering.flow, x.flow);
+  give(numbering.wall, x.wall);  // last: it owns the interface
+}
+
+template <class Element>
+BlockMatrix<1, 1> CoupledSystem<Element>::tie(const std::vector<int>& partner) {
+  auto graph = std::make_shared<NodeGraph>();
+  graph->offsets.assign(1, 0);
+  for (int other : partner) {
+    if (other >= 0) graph->columns.push_back(other);
+    graph->offsets.push_back(static_cast<int>(graph->columns.size()));
+  }
+  BlockMatrix<1, 1> matrix(std::move(graph));
+  std::fill(matrix.values.begin(), matrix.values.end(), -1.0);
+  return matrix;
+}
+
+template <class Element>
+std::vector<char> CoupledSystem<Element>::without_unknown(const UnknownMap& map, int entries) {
+  std::vector<char> flags(map.size() / entries * n);
+  for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = map[i / n * entries + i % n].index < 0;
+  return flags;
+}
+
+template <class Element>
+std::vector<int> CoupledSystem<Element>::without_scalar(const UnknownMap& map) {
+  std::vector<int> nodes;
+  for (std::size_t a = 0; a < map.size() / (n + 1); ++a)
+    if (map[a * (n + 1) + n].index < 0) nodes.push_back(static_cast<int>(a));
+  return nodes;
+}
+
+template <class Element>
+void CoupledSystem<Element>::impose_scalars(BlockMatrix<n + 1, n + 1>& matrix, const std::vector<int>& nodes) {
+  const auto& graph = *matrix.graph;
+  for (int a : nodes)
+    for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
+      double* block = matrix.block(at);
+      for (int c = 0; c <= n; ++c) block[n * (n + 1) + c] = 0;
+      if (graph.columns[at] == a) {
+        for (int r = 0; r < n; ++r) block[r * (n + 1) + n] = 0;
+        block[n * (n + 1) + n] = 1;
+        continue;
+      }
+      double* other = matrix.block(graph.find(graph.columns[at], a));
+      for (int r = 0; r <= n; ++r) other[r * (n + 1) + n] = 0;
+    }
+}
+
+template <class Element>
+void CoupledSystem<Element>::impose_diagonal() {
+  const auto& graph = *mesh_.graph;
+#pragma omp parallel for schedule(static) if (graph.blocks() > 50000)
+  for (int a = 0; a < graph.rows(); ++a)
+    for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
+      for (int k = 0; k < n; ++k)
+        if (constraints_.mesh_fixed[static_cast<std::size_t>(a) * n + k] ||
+            mesh_zero_[static_cast<std::size_t>(graph.columns[at]) * n + k])
+          mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
+}
+
+#define FSI_INSTANTIATE(Element) template class CoupledSystem<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

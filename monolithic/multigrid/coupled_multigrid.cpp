@@ -1,0 +1,153 @@
+#include "monolithic/multigrid/coupled_multigrid.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fem/elements.hpp"
+#include "solvers/power_iteration.hpp"
+
+namespace fsi {
+
+template <class Element>
+CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
+                                            const CoupledMultigridOptions& options)
+    : mesh_(options.mesh), flow_(options.flow), wall_(options.wall) {
+  const auto transfers = coarsen_coupled(finest_nodes(system, blocks), options.coarsening);
+  std::vector<std::shared_ptr<const NodeTransfer>> mesh, flow, wall;
+  for (const auto& t : transfers) {
+    mesh.push_back(t.mesh);
+    flow.push_back(t.flow);
+    wall.push_back(t.wall);
+  }
+  const auto& finest = system.matrix();
+  mesh_.build(*finest.mesh, mesh);
+  flow_.build(*finest.flow, flow);
+  wall_.build(*finest.wall, wall);
+
+  CoupledMatrix<n> k = finest;
+  for (std::size_t l = 0;; ++l) {
+    matrices_.push_back(k);
+    if (l == transfers.size()) break;
+    const auto& t = transfers[l];
+    couplings_.push_back(std::make_unique<Couplings>(k, t));
+    k = couplings_.back()->coarse(mesh_.matrix(static_cast<int>(l) + 1), flow_.matrix(static_cast<int>(l) + 1),
+                                  wall_.matrix(static_cast<int>(l) + 1));
+  }
+  transfers_ = transfers;
+  make_levels();
+  for (auto& c : couplings_) c->update();
+}
+
+template <class Element>
+void CoupledMultigrid<Element>::update() {
+  mesh_.update();
+  flow_.update();
+  wall_.update();
+  for (auto& c : couplings_) c->update();
+}
+
+template <class Element>
+void CoupledMultigrid<Element>::set_smoothing(const CoupledSmoothingOptions& options) {
+  radii_.clear();
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    auto& level = *levels_[l];
+    double omega = options.damping;
+    if (omega <= 0) {
+      radii_.push_back(largest_eigenvalue(level, options.power_iterations));
+      omega = options.safety * damping_for(radii_.back());
+    }
+    const BlockDamping damping{options.mesh_damping, omega, omega};
+    level.pre_smoothing.assign(static_cast<std::size_t>(options.pre_smoothing), damping);
+    level.post_smoothing.assign(static_cast<std::size_t>(options.post_smoothing), damping);
+  }
+}
+
+template <class Element>
+long long CoupledMultigrid<Element>::mesh_cycles() const {
+  return sum([](const auto& level) { return level.mesh->cycles(); });
+}
+
+template <class Element>
+long long CoupledMultigrid<Element>::flow_cycles() const {
+  return sum([](const auto& level) { return level.flow->cycles(); });
+}
+
+template <class Element>
+long long CoupledMultigrid<Element>::wall_cycles() const {
+  return sum([](const auto& level) { return level.wall->cycles(); });
+}
+
+template <class Element>
+double CoupledMultigrid<Element>::operator_complexity() const {
+  double entries = 0;
+  for (const auto& k : matrices_) entries += static_cast<double>(k.nonzeros());
+  return entries / static_cast<double>(matrices_.front().nonzeros());
+}
+
+template <class Element>
+double CoupledMultigrid<Element>::memory_mib() const {
+  std::size_t bytes = mesh_.bytes() + flow_.bytes() + wall_.bytes();
+  for (const auto& c : couplings_) bytes += c->bytes();
+  return static_cast<double>(bytes) / (1 << 20);
+}
+
+template <class Element>
+CoupledNodes CoupledMultigrid<Element>::finest_nodes(const CoupledSystem<Element>& system,
+                                                     const JacobianBlocks<Element>& blocks) {
+  const auto& k = system.matrix();
+  CoupledNodes nodes{k.mesh->graph.get(), k.flow->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
+  nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
+  nodes.wall_marks = NodeMarks(k.wall_nodes());
+  nodes.mesh_marks.prescribed = whole_nodes<n>(system.constraints().mesh_fixed);
+  nodes.flow_marks.prescribed = whole_nodes<n>(system.constraints().velocity_fixed);
+  nodes.wall_marks.prescribed = whole_nodes<n>(system.constraints().wall_fixed);
+  for (const auto& pair : system.interface())  // unknowns, though their rows are conditions
+    nodes.mesh_marks.prescribed[pair.fluid] = nodes.wall_marks.prescribed[pair.wall] = 0;
+  for (const InterfacePair& node : *blocks.interface) {
+    nodes.mesh_interface.push_back(node.fluid);
+    nodes.wall_interface.push_back(node.wall);
+    nodes.mesh_marks.interface[node.fluid] = nodes.flow_marks.interface[node.fluid] = 1;
+    nodes.wall_marks.interface[node.wall] = 1;
+  }
+  nodes.flow_interface = nodes.mesh_interface;
+  return nodes;
+}
+
+template <class Element>
+void CoupledMultigrid<Element>::make_levels() {
+  for (std::size_t l = 0; l < matrices_.size(); ++l) {
+    const int at = static_cast<int>(l);
+    levels_.push_back(std::make_unique<CoupledLevel<n>>(matrices_[l],
+                                                        std::make_unique<AmgSubSolver<EllipticAmg<n, n>>>(mesh_, at),
+                                                        std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(flow_, at),
+                                                        std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(wall_, at)));
+    if (l < transfers_.size()) levels_.back()->coarser = transfers_[l];
+  }
+}
+
+template <class Element>
+double CoupledMultigrid<Element>::largest_eigenvalue(CoupledLevel<n>& level, int iterations) const {
+  constexpr double largest_extrapolation = 0.25;
+  CoupledVector &x = level.inner_x, &zero = level.inner_b;
+  zero.set_zero();
+  RoughSequence rough;
+  for (auto* part : {&x.mesh, &x.flow, &x.wall})
+    for (double& value : *part) value = rough();
+  const int third = std::max(iterations / 3, 1);
+  const auto growth = power_iteration(3 * third, [&] {
+    // The wall's part alone: in it displacements of the interface dominate, whatever the units of the others.
+    const double before = norm(x.wall);
+    level.smoother.sweep(zero, x, {1, 1, 1});
+    const double after = norm(x.wall);
+    if (!(before > 0 && after > 0)) return 0.0;
+    for (auto* part : {&x.mesh, &x.flow, &x.wall}) scale(1 / after, *part);
+    return after / before;
+  });
+  if (!(growth.back() > 0)) return 0;
+  return extrapolated_limit(growth[third - 1], growth[2 * third - 1], growth.back(), largest_extrapolation);
+}
+
+#define FSI_INSTANTIATE(Element) template class CoupledMultigrid<Element>;
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+
+}  // namespace fsi

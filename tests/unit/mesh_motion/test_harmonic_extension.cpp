@@ -1,0 +1,185 @@
+// The harmonic extension by factorisation and by iteration: residuals, agreement, components with conditions of their
+// own, the number of threads, and what happens when the iteration is cut short.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "algebra/block_products.hpp"
+#include "base/threads.hpp"
+#include "mesh_motion/harmonic_extension.hpp"
+#include "support/random.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+/// Seven-point Laplacian on m x m x m nodes, the last component scaled on demand; random values given on the boundary.
+struct Problem {
+  BlockMatrix<1, 3> laplacian;
+  std::vector<char> inner;
+  std::vector<double> right, field;
+
+  explicit Problem(int m, double last = 1) {
+    auto graph = std::make_shared<NodeGraph>();
+    graph->offsets.push_back(0);
+    const int stride[3] = {m * m, m, 1};
+    for (int i = 0; i < m * m * m; ++i) {
+      const int place[3] = {i / (m * m), i / m % m, i % m};
+      for (int k = 0; k < 3; ++k)
+        if (place[k] > 0) graph->columns.push_back(i - stride[k]);
+      graph->columns.push_back(i);
+      for (int k = 2; k >= 0; --k)
+        if (place[k] < m - 1) graph->columns.push_back(i + stride[k]);
+      graph->offsets.push_back(static_cast<int>(graph->columns.size()));
+      const bool boundary = *std::min_element(place, place + 3) == 0 || *std::max_element(place, place + 3) == m - 1;
+      inner.insert(inner.end(), 3, !boundary);
+    }
+    laplacian = BlockMatrix<1, 3>(graph);
+    for (int row = 0; row < graph->rows(); ++row)
+      for (int at = graph->offsets[row]; at < graph->offsets[row + 1]; ++at)
+        for (int k = 0; k < 3; ++k)
+          laplacian.block(at)[k] = (graph->columns[at] == row ? 6.0 : -1.0) * (k == 2 ? last : 1.0);
+    Random random(7);
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+      right.push_back(0.1 * random());
+      field.push_back(random());
+    }
+  }
+
+  /// Largest |right - A field| of the inner entries.
+  double residual(const std::vector<double>& solution) const {
+    std::vector<double> r(solution.size());
+    residual_components<3>(laplacian, right, solution, r);
+    double largest = 0;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (inner[i]) largest = std::max(largest, std::abs(r[i]));
+    return largest;
+  }
+};
+
+HarmonicExtensionOptions iterative() {
+  HarmonicExtensionOptions options;
+  options.iterative_from = 1;
+  return options;
+}
+HarmonicExtensionOptions direct() {
+  HarmonicExtensionOptions options;
+  options.iterative_from = 1 << 30;
+  return options;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+void expect_both_ways_agree(const Problem& problem) {
+  HarmonicExtension<3> by_factors(problem.laplacian, problem.inner, direct()),
+      by_iteration(problem.laplacian, problem.inner, iterative());
+  auto first = problem.field, second = problem.field;
+  by_factors.solve(problem.right, first);
+  by_iteration.solve(problem.right, second);
+  EXPECT_FALSE(by_factors.iterates());
+  EXPECT_TRUE(by_iteration.iterates());
+  EXPECT_GT(by_iteration.iterations(), 3);
+  EXPECT_LT(by_iteration.iterations(), 30);
+  EXPECT_LT(problem.residual(first), 1e-13);
+  EXPECT_LT(problem.residual(second), 1e-10);
+  EXPECT_LT(largest_difference(first, second), 1e-10);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (!problem.inner[i]) {
+      EXPECT_EQ(second[i], problem.field[i]);
+    }
+}
+
+TEST(HarmonicExtension, IterationAndFactorisationAgree) {
+  expect_both_ways_agree(Problem(20));
+}
+
+TEST(HarmonicExtension, AComponentWithAMatrixOfItsOwn) {
+  expect_both_ways_agree(Problem(14, 2.5));
+}
+
+TEST(HarmonicExtension, ComponentsMayBeGivenOneByOne) {
+  Problem problem(14);
+  Random random(3);
+  for (char& inner : problem.inner)
+    if (random() > 0.8) inner = 0;
+  expect_both_ways_agree(problem);
+}
+
+TEST(HarmonicExtension, TheIterationStartsFromTheGivenField) {
+  const Problem problem(14);
+  HarmonicExtension<3> extension(problem.laplacian, problem.inner, iterative());
+  auto field = problem.field;
+  extension.solve(problem.right, field);
+  const auto solution = field;
+  extension.solve(problem.right, field);
+  EXPECT_EQ(extension.iterations(), 0);
+  EXPECT_EQ(field, solution);
+}
+
+TEST(HarmonicExtension, ALooseToleranceTakesFewerIterations) {
+  const Problem problem(14);
+  HarmonicExtension<3> extension(problem.laplacian, problem.inner, iterative());
+  auto tight = problem.field, loose = problem.field;
+  extension.solve(problem.right, tight);
+  const int most = extension.iterations();
+  extension.solve(problem.right, loose, 1e-3);
+  EXPECT_LT(2 * extension.iterations(), most);
+  EXPECT_GT(problem.residual(loose), problem.residual(tight));
+}
+
+TEST(HarmonicExtension, SameBitsForAnyNumberOfThreads) {
+  const Problem problem(24);
+  const int before = threads();
+  std::vector<double> one = problem.field, two = problem.field;
+  for (const auto& [count, field] : {std::pair(1, &one), std::pair(2, &two)}) {
+    set_threads(count);
+    HarmonicExtension<3> extension(problem.laplacian, problem.inner, iterative());
+    extension.solve(problem.right, *field);
+  }
+  set_threads(before);
+  EXPECT_EQ(one, two);
+}
+
+TEST(HarmonicExtension, AFactorisationFollowsWhenTheIterationIsCutShort) {
+  const Problem problem(14);
+  auto options = iterative();
+  options.max_iterations = 2;
+  HarmonicExtension<3> extension(problem.laplacian, problem.inner, options);
+  auto field = problem.field;
+  extension.solve(problem.right, field);
+  EXPECT_FALSE(extension.iterates());
+  EXPECT_LT(problem.residual(field), 1e-13);
+}
+
+TEST(HarmonicExtension, NewValuesOfTheOperatorAreTakenOver) {
+  for (const auto& options : {direct(), iterative()}) {
+    Problem problem(14);
+    HarmonicExtension<3> extension(problem.laplacian, problem.inner, options);
+    for (double& value : problem.laplacian.values) value *= 3;
+    extension.update();
+    auto field = problem.field;
+    extension.solve(problem.right, field);
+    EXPECT_LT(problem.residual(field), 1e-10);
+  }
+}
+
+TEST(HarmonicExtension, NothingInside) {
+  Problem problem(4);
+  problem.inner.assign(problem.inner.size(), 0);
+  for (const auto& options : {direct(), iterative()}) {
+    HarmonicExtension<3> extension(problem.laplacian, problem.inner, options);
+    auto field = problem.field;
+    extension.solve(problem.right, field);
+    EXPECT_EQ(field, problem.field);
+  }
+}
+
+}  // namespace
+
+}  // namespace fsi::test
