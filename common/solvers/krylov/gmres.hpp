@@ -8,8 +8,8 @@ namespace fsi {
 
 namespace detail {
 
-/// Restarted GMRES, right-preconditioned, plain or flexible; Saad, Iterative Methods for Sparse Linear Systems, 2nd
-/// ed., algorithms 9.5 and 9.6. Arnoldi by modified Gram-Schmidt, repeated where cancellation spoils orthogonality.
+/// Restarted GMRES, right-preconditioned, plain or flexible; [Saad2003],
+/// algorithms 9.5 and 9.6. Arnoldi by modified Gram-Schmidt, repeated where cancellation spoils orthogonality.
 /// Vectors are kept between calls.
 class RestartedGmres {
  public:
