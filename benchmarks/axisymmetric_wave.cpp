@@ -1,6 +1,7 @@
 // axisymmetric_wave MATERIAL REFINEMENT FILE.csv [STEP ALPHA WALL.csv]: the artery as a body of revolution, centre-line
 // pressure as the drivers write it; with a time step in ms and a stabilisation factor of the wall, its displacement
-// too. The independent reference of docs/results.md and, by scripts/reference_waves.py, of the accuracy-cost study.
+// too. The reference of docs/results.md for the error of the mesh and, by scripts/reference_waves.py, of the
+// accuracy-cost study. It shares the weak forms.
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -23,8 +23,8 @@ struct CoupledSolverOptions {
   CoupledCycleOptions cycle;
 };
 
-/// Solves the linearised coupled equations in the paper's form K x = b by a preconditioned iteration (paper, section
-/// 4): the tolerance is on its true residual |b - K x| / |b|, rows of all units as assembled.
+/// Solves the linearised coupled equations in the paper's form K x = b by a preconditioned iteration ([Langer2018],
+/// section 4): the tolerance is on its true residual |b - K x| / |b|, rows of all units as assembled.
 template <class Element>
 class CoupledLinearSolver : public LinearSolver {
  public:

@@ -5,10 +5,11 @@
 namespace fsi {
 
 /// The whole scene as one system of equations: what makes the method monolithic. On the interface of fluid and wall
-/// there is one unknown, the wall's displacement: d_m = d_s, and u = (d_s - reference) / period, so du = d(d_s) /
-/// period; one momentum equation, the sum of the fluid's and the wall's (traction balance); and no equation of mesh
-/// motion. This is the paper's system (its section 3.4) with its two identity rows eliminated: Newton's iterates are
-/// the same, the factorisation is smaller. A scene of one medium has that one's numbering.
+/// there is one unknown, the wall's displacement: d_m = d_s, and u = (d_s - reference) / period, so that
+/// du = d(d_s) / period; one momentum equation, the sum of the fluid's and the wall's (traction balance); and no
+/// equation of mesh motion. This is the system of [Langer2018], section 3.4, with its two identity rows eliminated:
+/// Newton's iterates are the same, the factorisation is smaller (docs/theory.md, section 9.1). A scene of one medium
+/// has that one's numbering.
 template <class Element>
 Numbering number_scene(const Scene<Element>& scene) {
   constexpr int n = Element::components;

@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// Makes the linear solver `name`, one of linear_solver_names() (paper, section 4; docs/solvers.md), with the settings
-/// of the case's [monolithic]:
+/// Makes the linear solver `name`, one of linear_solver_names() ([Langer2018], section 4; docs/solvers.md), with the
+/// settings of the case's [monolithic]:
 ///   fast                            what a user should run, see FastSolver
 ///   direct                          sparse factorisation
 ///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem's

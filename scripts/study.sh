@@ -50,7 +50,8 @@ for level in coarse intermediate; do
     "$results/$level-artery-monolithic" --labels neo-Hookean,Mooney-Rivlin,artery
 done
 
-# Independent reference: the axisymmetric wave. Python as fsi-compare's, found when the programs were configured.
+# Reference for the mesh error: the axisymmetric wave, by the same weak forms. Python as fsi-compare's, found when the
+# programs were configured.
 python=$(sed -n 's/^exec "\([^"]*\)".*/\1/p' "$programs/fsi-compare")
 run coarse-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05
 run intermediate-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05 \

@@ -43,7 +43,7 @@ CsrMatrix<Real> transposed(const CsrMatrix<Real>& a) {
   return t;
 }
 
-/// A B (F. G. Gustavson 1978), rows in parallel; each entry is summed in a fixed order.
+/// A B [Gustavson1978], rows in parallel; each entry is summed in a fixed order.
 CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b);
 
 /// Sum of a stretch of a row times x. Lanes are added up in an order that the instruction set fixes.

@@ -30,7 +30,7 @@ struct MeshData {
 struct FluidData {
   double density = 0;     ///< mg/mm^3
   double viscosity = 0;   ///< kPa ms
-  bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (design, section 3)
+  bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
 };
 
 /// [structure.layers.NAME]
@@ -41,7 +41,7 @@ struct MaterialData {
   double k1 = 0;           ///< kPa, artery
   double k2 = 0;           ///< -, artery
   double alpha = 0;        ///< degrees between fibre and circumference, artery
-  double fibre_scale = 1;  ///< 0.5 gives the paper's printed fibre stress (design, section 2, item 3)
+  double fibre_scale = 1;  ///< 0.5 gives the paper's printed fibre stress (docs/theory.md, section 12)
 };
 
 /// [structure]

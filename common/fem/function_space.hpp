@@ -56,7 +56,7 @@ class FunctionSpace {
 
 /// The volume that belongs to each node, mm^3: positive, and adding up to the part's; weights of lumped L2 norms. The
 /// integral of N_a for linear shape functions; else each cell's volume is shared out in the ratio of the integrals of
-/// N_a^2 (Hinton, Rock and Zienkiewicz), since those of quadratic shape functions are not positive at vertices.
+/// N_a^2 [Hinton1976], since those of quadratic shape functions are not positive at vertices.
 template <class Element>
 std::vector<double> nodal_volumes(const Submesh<Element::dim, Element::order>& part) {
   std::vector<double> volumes(part.nodes.size(), 0.0);

@@ -40,8 +40,8 @@ struct P1Tetrahedron {
     g.gradient[3] = inverse * c3;
     for (int i = 0; i < 3; ++i) g.gradient[0][i] = -(g.gradient[1][i] + g.gradient[2][i] + g.gradient[3][i]);
     // Regular tetrahedron: xi = sum_a N_a xi_a with |xi_a - xi_b| = 1, so that
-    // (dxi/dX)^T (dxi/dX) = sum_ab grad N_a (xi_a . xi_b) grad N_b^T = 1/2 sum_a grad N_a grad N_a^T, as sum_a grad N_a
-    // = 0.
+    //   (dxi/dX)^T (dxi/dX) = sum_ab grad N_a (xi_a . xi_b) grad N_b^T = 1/2 sum_a grad N_a grad N_a^T,
+    // as sum_a grad N_a = 0.
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) {
         g.metric(i, j) = Pack(0.0);

@@ -6,8 +6,8 @@
 namespace fsi {
 
 /// Incompressible Navier-Stokes equations in arbitrary Lagrangian-Eulerian form, pulled back to the reference domain,
-/// with equal-order SUPG and PSPG stabilisation (design, section 3). With F = I + grad d_m, J = det F, w the mesh
-/// velocity and c = u - w the residual is, for test functions v and q,
+/// with equal-order SUPG and PSPG stabilisation (docs/theory.md, section 3). With F = I + grad d_m, J = det F, w the
+/// mesh velocity and c = u - w the residual is, for test functions v and q,
 ///   (rho J (du/dt + grad u F^-1 c), v) + (J sigma F^-T, grad v) - (J F^-T : grad u, q)
 ///   + sum over elements (J tau r, grad v F^-1 c) - (J tau r / rho, F^-T grad q),
 ///   sigma = mu (grad u F^-1 + (grad u F^-1)^T) - p I,   r = rho (du/dt + grad u F^-1 c) + F^-T grad p,

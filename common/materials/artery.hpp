@@ -4,9 +4,10 @@
 
 namespace fsi {
 
-/// Arterial layer with two families of collagen fibres, active in extension only (Holzapfel, Gasser and Ogden 2000):
+/// Arterial layer with two families of collagen fibres, active in extension only ([Holzapfel2000]; docs/theory.md,
+/// section 5.4):
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
-/// The paper misprints energy and stress; this is design, section 2, item 3. The tangent jumps at J_i = 1.
+/// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
 struct Artery {
   using FibreData = Fibres;
   double c10;              ///< kPa

@@ -14,7 +14,7 @@ struct Deformation {
 };
 
 /// J - 1 from H = grad d as tr H + (sum of principal 2x2 minors) + det H. Not det(I + H) - 1, whose cancellation shows
-/// at large bulk moduli (design, section 3).
+/// at large bulk moduli (docs/theory.md, section 2.2).
 template <class T>
 inline T volume_change(const Mat3<T>& h) {
   const T m0 = h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);

@@ -155,8 +155,8 @@ class Stack {
 
   /// Whether the diagonal of the face over edge ab starts from a below (and ends at b above): the shorter one, that
   /// leans against the turn. Adjacent prisms agree, as it depends on the edge only; within a triangle it is an order,
-  /// so that the three diagonals of a prism never chase each other and three tetrahedra fill it (J. Dompierre et al.,
-  /// 8th Int. Meshing Roundtable, 1999). Where lengths are equal, inner nodes come first.
+  /// so that the three diagonals of a prism never chase each other and three tetrahedra fill it [Dompierre1999].
+  /// Where lengths are equal, inner nodes come first.
   bool starts_below(int a, int b, int slab) const {
     const auto &from = section_.nodes[a], &to = section_.nodes[b];
     if (from.steps == 0 || to.steps == 0) return from.steps == 0;

@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Dimensions of a straight two-layer artery along the z axis from (0,0,0), and how finely to mesh it. All in mm.
-/// Defaults: rabbit carotid artery (Holzapfel 2000), coarse level.
+/// Defaults: rabbit carotid artery [Holzapfel2000], coarse level.
 struct ArteryOptions {
   double inner_radius = 1.43;
   double media = 0.26;       ///< thickness of the inner wall layer

@@ -10,8 +10,8 @@ struct Axis {
   Point direction{0, 0, 1};  ///< need not be normalised
 };
 
-/// Right-handed orthonormal frame of an axis. Angles count from `first` towards `second`; for the z axis from x towards
-/// y.
+/// Right-handed orthonormal frame of an axis. Angles count from `first` towards `second`; for the z axis from x
+/// towards y.
 struct AxisFrame {
   Point origin, first, second, along;
 

@@ -4,8 +4,8 @@
 
 namespace fsi {
 
-/// Names of physical groups with a meaning of their own (design, section 6). Every other volume is a wall layer named
-/// in the case file; every other surface is ignored by the programs.
+/// Names of physical groups with a meaning of their own (docs/theory.md, section 1.4). Every other volume is a wall
+/// layer named in the case file; every other surface is ignored by the programs.
 namespace group {
 inline constexpr const char* fluid = "fluid";  ///< volume
 inline constexpr const char* inlet = "inlet";  ///< surfaces from here on

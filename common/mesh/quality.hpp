@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Mean ratio of a tetrahedron, eta = 12 (3 V)^(2/3) / sum of squared edge lengths: 1 when regular, 0 when flat,
-/// negative when inverted (A. Liu, B. Joe: Relationship between tetrahedron shape measures, BIT 34, 1994).
+/// negative when inverted [Liu1994].
 double mean_ratio(const std::array<Point, 4>& corners);
 
 /// Smallest of the six angles between the facets of a tetrahedron, in degrees; 70.53 when regular.

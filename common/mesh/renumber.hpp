@@ -12,8 +12,8 @@ struct Renumbering {
   std::vector<int> cell_new_to_old;
 };
 
-/// Reverse Cuthill-McKee order of the nodes (E. Cuthill, J. McKee 1969; A. George 1971), each connected part started
-/// from a node at the end of a long path (George and Liu's pseudo-peripheral node); cells by their smallest new node.
+/// Reverse Cuthill-McKee order of the nodes [Cuthill1969], each connected part started from a node at the end of a long
+/// path (the pseudo-peripheral node of [George1979]); cells by their smallest new node.
 /// Keeps matrix rows of neighbours close in memory. Depends on nothing but the mesh: ties go by old index.
 Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh);
 

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// Harmonic mesh motion: (grad d_m, grad v) = 0 with d_m given on the boundary; paper, section 2.5.
+/// Harmonic mesh motion: (grad d_m, grad v) = 0 with d_m given on the boundary; docs/theory.md, section 6.
 struct HarmonicMeshMotion {
   template <class T>
   Integrand<T> integrand(const Mat3<T>& grad_d) const {

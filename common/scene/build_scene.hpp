@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// Builds the sub-problems that the case has on a checked mesh (check_scene_mesh): boundary conditions of the design,
-/// section 1, the interface found from the cells.
+/// Builds the sub-problems that the case has on a checked mesh (check_scene_mesh): boundary conditions of
+/// docs/theory.md, section 2.4, the interface found from the cells.
 /// \param mesh  as read, regions and surface groups by name
 std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const TetrahedralMesh& mesh);
 

@@ -29,8 +29,8 @@ double backtrack(NewtonProblem& problem, double bound, int max_halvings, double&
   return 0;
 }
 
-/// Tolerance of the next linear solve. With a new Jacobian the second choice of Eisenstat and Walker (SIAM J. Sci.
-/// Comput. 17, 1996), eta = 0.9 (|R_k| / |R_(k-1)|)^2, with their safeguard. With a kept one the residual falls by the
+/// Tolerance of the next linear solve. With a new Jacobian the second choice of [Eisenstat1996],
+/// eta = 0.9 (|R_k| / |R_(k-1)|)^2, with their safeguard. With a kept one the residual falls by the
 /// Jacobian's own error, a factor of each iteration, and solving much tighter than that is wasted.
 double forcing_term(const NewtonOptions& options, bool renewed, double ratio, double last_forcing) {
   if (options.linear_tolerance > 0) return options.linear_tolerance;

@@ -35,12 +35,12 @@ class NewtonProblem {
 
 struct NewtonOptions {
   double tolerance = 1e-8;        ///< converged when the increment's norm is below this times `reference`
-  double reference = 0;           ///< 0: the norm of the first increment (paper, algorithm 1)
+  double reference = 0;           ///< 0: the norm of the first increment ([Langer2018], algorithm 1)
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
   int max_iterations = 30;
   bool keep_jacobian = true;     ///< use a Jacobian, of earlier calls too, while the residual keeps falling
-  double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less; 0: as
-                                 ///< the problem advises;
+  double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less (0: as
+                                 ///< the problem advises),
   int keep_iterations = 12;      ///< or after so many iterations of one call
   int max_halvings = 8;          ///< of the step in backtracking
   double linear_tolerance = 0;   ///< of every linear solve; 0: inexact Newton, forcing terms as below

@@ -15,7 +15,7 @@ struct CylinderAxis {
 };
 
 /// Fibre directions a = cos(alpha) e_theta +- sin(alpha) e_z in the local cylindrical frame at the centre of each
-/// element (design, section 2, item 4), [thread][pack]. \param angle  alpha in radians, from the circumference
+/// element (docs/theory.md, section 5.6), [thread][pack]. \param angle  alpha in radians, from the circumference
 template <class Element, class Point, class Cell>
 std::vector<std::vector<Fibres>> fibre_directions(const ElementPacks<Element>& packs, const std::vector<Point>& x,
                                                   const std::vector<Cell>& cells, const CylinderAxis& axis,

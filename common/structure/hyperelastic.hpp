@@ -5,10 +5,13 @@
 
 namespace fsi {
 
-/// Nearly incompressible hyperelastic wall in mixed displacement-pressure form, PSPG-stabilised (design, section 3).
-/// With F = I + grad d, J = det F, acceleration a and test functions v and q the residual is
-///   (rho a, v) + (F S' - p J F^-T, grad v) - (J - 1, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T
-///   grad q), tau = alpha h^2 / (2 mu); no inertia in the stabilisation's residual (it would destabilise small steps).
+/// Nearly incompressible hyperelastic wall in mixed displacement-pressure form, PSPG-stabilised
+/// (docs/theory.md, section 4). With F = I + grad d, J = det F, acceleration a and test functions v and q the residual
+/// is
+///   (rho a, v) + (F S' - p J F^-T, grad v)
+///   - (J - 1, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T grad q),
+///   tau = alpha h^2 / (2 mu).
+/// No inertia in the stabilisation's residual: it would destabilise small steps.
 template <class Material>
 struct Hyperelastic {
   double density;        ///< mg/mm^3; 0 in statics

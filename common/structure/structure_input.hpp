@@ -55,12 +55,13 @@ struct WallStep {
 ///   (F S' - p J F^-T, grad dd) = isochoric_1 - isochoric_0 + volumetric_1 - volumetric_0 + stress + stabilisation,
 /// the latter up to the sixth order of grad dd where the stress is smooth: its mean along the step is by Radau's rule.
 struct WallEnergy {
-  double kinetic = 0;        ///< rho/2 (v, v), v Newmark's velocity, at the end
-  double isochoric = 0;      ///< (Psi, 1), the materials' energy, at the end
-  double volumetric = 0;     ///< (p / kappa, p) / 2 at the end
-  double inertia = 0;        ///< rho (da, (1 - gamma) dd + (beta - gamma/2) dt^2 (gamma a_1 + (1 - gamma) a_0))
-  double stress = 0;         ///< (F_1 S'_1 - mean of F S' along the step, grad dd) - (p_1, cof F_1 : grad dd - (J_1 -
-                             ///< J_0)) + (dp / kappa, dp) / 2: stress and pressure at the step's end, not along it
+  double kinetic = 0;     ///< rho/2 (v, v), v Newmark's velocity, at the end
+  double isochoric = 0;   ///< (Psi, 1), the materials' energy, at the end
+  double volumetric = 0;  ///< (p / kappa, p) / 2 at the end
+  double inertia = 0;     ///< rho (da, (1 - gamma) dd + (beta - gamma/2) dt^2 (gamma a_1 + (1 - gamma) a_0))
+  /// (F_1 S'_1 - mean of F S' along the step, grad dd) - (p_1, cof F_1 : grad dd - (J_1 - J_0)) + (dp / kappa, dp) / 2:
+  /// stress and pressure at the step's end, not along it
+  double stress = 0;
   double stabilisation = 0;  ///< S(d_1, p_1, p_1) - S(d_0, p_0, p_1)
 
   WallEnergy& operator+=(const WallEnergy& b) {

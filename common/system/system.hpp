@@ -103,8 +103,8 @@ class System : public NewtonProblem {
     return sum;
   }
 
-  /// Weights per unknown of the squared L2 norm of an increment of all fields (paper, algorithm 1), mm, mm/ms and kPa
-  /// added up as they are.
+  /// Weights per unknown of the squared L2 norm of an increment of all fields ([Langer2018], algorithm 1), mm,
+  /// mm/ms and kPa added up as they are (docs/theory.md, section 9.3).
   std::vector<double> norm_weights();
 
   /// Whether a Jacobian of these rates is another one than that at hand.

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// Backward Euler for the fluid, the mesh and the interface, Newmark's method for the wall:
+/// Backward Euler for the fluid, the mesh and the interface, Newmark's method for the wall (docs/theory.md, section 8):
 ///   du/dt = (u^n - u^(n-1)) / dt,   u = (d^n - d^(n-1)) / dt on the interface,
 ///   a^n = (d^n - d^(n-1)) / (beta dt^2) - v^(n-1) / (beta dt) - (1/(2 beta) - 1) a^(n-1),
 ///   v^n = v^(n-1) + dt (gamma a^n + (1 - gamma) a^(n-1)).

@@ -2,8 +2,8 @@
 
 namespace fsi {
 
-/// Velocity and displacement of the fluid-wall interface in one step: the one owner of u = a d + history, for every
-/// scheme written as
+/// Velocity and displacement of the fluid-wall interface in one step (docs/theory.md, section 8.3): the one owner of
+/// u = a d + history, for every scheme written as
 ///   u = (d - r) / period,
 /// with a reference r made of finished levels (backward Euler: period = dt, r = d^(n-1)). The displacements meant are
 /// those of the wall and of the fluid's mesh, which move with one velocity.

@@ -12,7 +12,7 @@ struct BlockDamping {
   double mesh = 1, flow = 1, wall = 1;
 };
 
-/// Damped block Gauss-Seidel iteration, the smoother of the coupled system (paper, algorithm 2):
+/// Damped block Gauss-Seidel iteration, the smoother of the coupled system ([Langer2018], algorithm 2):
 ///   d_m += omega_m A~m^-1 (r_m - Am d_m - Ams u_s)
 ///   u_f += omega_f A~f^-1 (r_f - Afm d_m - Af u_f - Afs u_s)
 ///   u_s += omega_s A~s^-1 (r_s - Asf u_f - As u_s), each with the newest values.

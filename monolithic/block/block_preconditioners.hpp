@@ -17,8 +17,8 @@ class CoupledPreconditioner {
   virtual void apply(const CoupledVector& b, CoupledVector& x) = 0;
 };
 
-/// Preconditioners from block factorisations of K (paper, section 4.1), with A~m, A~f, A~s for the sub-problems'
-/// matrices.
+/// Preconditioners from block factorisations of K ([Langer2018], section 4.1; docs/theory.md, section 9.4), with A~m,
+/// A~f, A~s for the sub-problems' matrices.
 template <int n>
 class BlockPreconditioner : public CoupledPreconditioner {
  public:
@@ -107,7 +107,7 @@ class SsorPreconditioner : public LowerPreconditioner<n> {
 ///     [ I                      ] [ Am  0   Ams                 ]
 /// P = [ Afm Am^-1  I           ] [     Af  Afs - Afm Am^-1 Ams ]
 ///     [ 0          Asf Af^-1 I ] [         As                  ]
-/// with the upper factor's inverse as corrected (design, section 2, item 7).
+/// with the upper factor's inverse as corrected (docs/theory.md, section 12, item 7).
 template <int n>
 class IluPreconditioner : public BlockPreconditioner<n> {
  public:

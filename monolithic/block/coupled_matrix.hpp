@@ -11,7 +11,8 @@
 
 namespace fsi {
 
-/// The paper's coupled matrix (its section 3.4; design, section 4) of one level, n components of a vector,
+/// The paper's coupled matrix ([Langer2018], section 3.4; docs/theory.md, section 9.2) of one level, n components of a
+/// vector,
 ///
 ///       [ Am   0    Ams ]   mesh motion:  d_m per fluid node; boundary: identity rows; interface: d_m - d_s = 0
 ///   K = [ Afm  Af   Afs ]   flow:         (u, p_f) per fluid node; momentum rows of the interface sum fluid and wall

@@ -13,7 +13,7 @@
 
 namespace fsi {
 
-/// P = diag(P_m, P_f, P_s) between two levels (paper, section 4.2.1); restriction is the transpose.
+/// P = diag(P_m, P_f, P_s) between two levels ([Langer2018], section 4.2.1); restriction is the transpose.
 struct CoupledTransfer {
   std::shared_ptr<const NodeTransfer> mesh, flow, wall;
 };
@@ -60,8 +60,8 @@ struct CoupledCycleOptions {
       0.25;  ///< the K-cycle's second iteration is skipped when the first reduced the residual more
 };
 
-/// One iteration of the algebraic multigrid (paper, algorithm 3) or algebraic multilevel method (algorithm 4) for the
-/// coupled system, sparse factorisation on the coarsest level. With kinds k and amli the map is not linear.
+/// One iteration of the algebraic multigrid ([Langer2018], algorithm 3) or algebraic multilevel method (algorithm 4)
+/// for the coupled system, sparse factorisation on the coarsest level. With kinds k and amli the map is not linear.
 template <int n>
 class CoupledCycle : public CoupledPreconditioner {
  public:

@@ -54,8 +54,9 @@ inline double damping_for(double largest) {
   return 2 / (1 + std::sqrt(1 + std::max(largest, 0.0)));
 }
 
-/// The hierarchy of the coupled system (paper, section 4.2.1): Galerkin products K_(l+1) = R K_l P of the whole matrix,
-/// with its coupling blocks, and the multigrid hierarchies of the three sub-problems, which share its diagonal blocks.
+/// The hierarchy of the coupled system ([Langer2018], section 4.2.1): Galerkin products K_(l+1) = R K_l P of the whole
+/// matrix, with its coupling blocks, and the multigrid hierarchies of the three sub-problems, which share its
+/// diagonal blocks.
 template <class Element>
 class CoupledMultigrid {
  public:

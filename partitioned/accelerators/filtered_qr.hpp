@@ -7,7 +7,7 @@ namespace fsi {
 
 /// QR factorisation V = Q R of difference columns that drops those which add nothing new: by modified Gram-Schmidt,
 /// repeated once, column by column in the order given, a column whose part orthogonal to the earlier ones is not longer
-/// than `filter` times the column itself is left out (Haelterman et al. 2016, filter QR2, which preCICE's QR3 applies).
+/// than `filter` times the column itself is left out ([Haelterman2016], filter QR2, which preCICE's QR3 applies).
 /// Zero, repeated and not finite columns never get in.
 class FilteredQr {
  public:

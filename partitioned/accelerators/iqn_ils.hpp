@@ -16,8 +16,8 @@ struct QuasiNewtonOptions {
   double filter = 1e-2;      ///< a column is dropped when less than this part of it is new
 };
 
-/// Interface quasi-Newton with an approximation of the inverse Jacobian by least squares, IQN-ILS (Degroote, Bathe and
-/// Vierendeels 2009). With differences of successive passes as columns, V = [dr ...] and W = [dx~ ...], newest first
+/// Interface quasi-Newton with an approximation of the inverse Jacobian by least squares, IQN-ILS
+/// [Degroote2009]. With differences of successive passes as columns, V = [dr ...] and W = [dx~ ...], newest first
 /// and those of earlier time steps behind,
 ///   c = argmin |V c + r|,   x <- x~ + W c.
 /// This takes the part of r that V does not explain, r + V c, as it is. It may be relaxed by a factor m instead,

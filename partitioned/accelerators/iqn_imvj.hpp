@@ -8,8 +8,8 @@
 
 namespace fsi {
 
-/// Interface quasi-Newton with an inverse multi-vector Jacobian, IQN-IMVJ (Bogaers, Kok, Reddy and Franz 2014; Lindner,
-/// Mehl, Scheufele and Uekermann 2015): the differences V, W of a time step correct the Jacobian of the last one,
+/// Interface quasi-Newton with an inverse multi-vector Jacobian, IQN-IMVJ ([Bogaers2014], [Lindner2015]): the
+/// differences V, W of a time step correct the Jacobian of the last one,
 ///   J = J_old + (W - J_old V) V^+,   x <- x~ - J r,
 /// beginning with J_old = (1 - m) I, which relaxes by m what no difference has explained yet.
 /// J is kept as a sum of rank-one terms, a chunk per time step. When there are too many, the best approximation by few

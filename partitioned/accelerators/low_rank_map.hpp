@@ -13,7 +13,7 @@ class LowRankMap {
   /// J x
   std::vector<double> times(const std::vector<double>& x) const;
   /// Replaces J by its best approximation of a rank of at most `rank`, singular values below `tolerance` times the
-  /// largest left out (the restart RS-SVD of Scheufele and Mehl 2017).
+  /// largest left out (the restart RS-SVD of [Scheufele2017]).
   void truncate(std::size_t rank, double tolerance);
 
   const std::vector<std::vector<double>>& left() const { return a_; }

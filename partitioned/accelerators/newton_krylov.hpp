@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Inexact Newton's method on the interface residual, its linear systems by matrix-free GMRES (interface GMRES:
-/// Michler, van Brummelen and de Borst 2005; forcing terms: Eisenstat and Walker 1996). At a base point x_0 with
+/// [Michler2005]; forcing terms: [Eisenstat1996]). At a base point x_0 with
 /// residual r_0 and beta = |r_0|, GMRES is preconditioned from the right by what earlier products, v_i = J w_i, tell of
 /// the Jacobian J,
 ///   P q = W c - m (q - V c),   c = V^+ q:

@@ -7,7 +7,7 @@
 namespace fsi {
 
 /// x += omega r. On Dirichlet-Neumann it converges for omega < 2 / (1 + |G|), G the ratio of the fluid's added mass to
-/// the wall's mass and stiffness (Causin, Gerbeau and Nobile 2005): about 0.014 on the coarse artery.
+/// the wall's mass and stiffness [Causin2005]: about 0.014 on the coarse artery.
 class ConstantRelaxation : public Accelerator {
  public:
   explicit ConstantRelaxation(double factor) : factor_(factor) {}
@@ -19,7 +19,7 @@ class ConstantRelaxation : public Accelerator {
   double factor_;
 };
 
-/// Aitken's dynamic relaxation (Irons and Tuck 1969; Kuettler and Wall 2008, equation 44):
+/// Aitken's dynamic relaxation ([Irons1969]; [Kuettler2008], equation 44):
 ///   omega_k = -(x_k - x_(k-1)) . (r_k - r_(k-1)) / |r_k - r_(k-1)|^2.
 /// A step starts with the last factor of the previous one, no larger than `largest_start`: a first guess that
 /// overshoots can invert elements.

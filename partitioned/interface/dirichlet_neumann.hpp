@@ -7,7 +7,7 @@
 
 namespace fsi {
 
-/// Dirichlet-Neumann (design, section 5), x = d: mesh motion from the interface displacement d; fluid with
+/// Dirichlet-Neumann (docs/theory.md, section 10.1), x = d: mesh motion from the interface displacement d; fluid with
 /// u = (d - d^(n-1)) / dt on the interface; the fluid's interface residual as load on the wall; the wall's answer d~;
 /// r = d~ - d.
 template <class Element>

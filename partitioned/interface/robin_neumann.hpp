@@ -13,13 +13,13 @@
 
 namespace fsi {
 
-/// Robin-Neumann (Badia, Nobile and Vergara 2008), the condition on all components: the fluid solves
+/// Robin-Neumann ([Badia2008]; docs/theory.md, section 10.2), the condition on all components: the fluid solves
 ///   R_f + c u = g on the interface,   g = lambda + c v,
 /// with load lambda and velocity v of the wall from the last pass; the wall is loaded with lambda~ = R_f. With
 /// c = alpha times the nodal areas, alpha being the wall's own impedance (membrane.hpp), the fluid meets the inertia
-/// and stiffness that will answer it, and the added mass does no harm. The datum g is written as a displacement, x =
-/// d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave the
-/// interface: r = d~ - d_f.
+/// and stiffness that will answer it, and the added mass does no harm. The datum g is written as a displacement,
+/// x = d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave
+/// the interface: r = d~ - d_f.
 template <class Element>
 class RobinNeumann : public InterfaceProblem<Element> {
   using Base = InterfaceProblem<Element>;

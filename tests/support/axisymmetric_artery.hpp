@@ -14,8 +14,9 @@
 namespace fsi::testing {
 
 /// The paper's artery as a body of revolution: the same weak forms, assembly, numbering and Newton stepper as in three
-/// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. With the same
-/// element size it has a fiftieth of the unknowns, so that it can be refined until it serves as a reference.
+/// dimensions, instantiated for P1AxisymmetricTriangle on a structured grid. With the same element
+/// size it has a fiftieth of the unknowns, so that it can be refined until it serves as a reference for the error of
+/// the mesh, not of the weak forms.
 class AxisymmetricArtery {
  public:
   using Element = P1AxisymmetricTriangle;

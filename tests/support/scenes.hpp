@@ -7,8 +7,8 @@
 
 namespace fsi::test {
 
-/// A case of the design's fluid and wall data, layers `media` and `adventitia` of one kind of material (design, section
-/// 1).
+/// A case of the reference case's fluid and wall data, layers `media` and `adventitia` of one kind of material
+/// (docs/theory.md, section 1.3).
 inline Case coupled_case(const std::string& material, double step = 0.125) {
   Case setup;
   setup.fluid = FluidData{1.0, 3.5e-3, false};

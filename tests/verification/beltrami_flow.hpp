@@ -72,7 +72,7 @@ struct BeltramiFlow {
   }
 
  private:
-  /// tau of design, section 3, on the current element, from 2 G = sum_a grad N_a grad N_a^T.
+  /// tau of docs/theory.md, section 3.2, on the current element, from 2 G = sum_a grad N_a grad N_a^T.
   static double stabilisation_time(const AleFluid& form, const std::array<Point, 4>& gradient, const Point& c) {
     const double nu = form.viscosity / form.density;
     double sum = 4 / (form.step * form.step);

@@ -10,7 +10,7 @@
 
 namespace fsi::test {
 
-/// One layer of the closed tube of reference.md, section 2: rabbit carotid of design, section 1.
+/// One layer of the closed tube of docs/theory.md, section 13.1: rabbit carotid of section 1.3.
 struct TubeLayer {
   const char* name;
   double inner, outer;  ///< reference radii, mm
@@ -47,7 +47,7 @@ inline std::array<Tube, 3> tubes() {
 }
 
 /// sigma_theta - sigma_r of an incompressible layer at circumferential stretch s and axial stretch 1, from the energies
-/// of design, section 2: I_1 = I_2 = s^2 + 1/s^2 + 1 and J_4 = J_6 = s^2 cos^2 alpha + sin^2 alpha.
+/// of docs/theory.md, section 5: I_1 = I_2 = s^2 + 1/s^2 + 1 and J_4 = J_6 = s^2 cos^2 alpha + sin^2 alpha.
 inline double hoop_stress_difference(const LayerMaterial& layer, double s) {
   double difference = 0;
   std::visit([&](const auto& m) { difference = m.shear_modulus() * (s * s - 1 / (s * s)); }, layer.material);
@@ -76,7 +76,7 @@ inline double inflation_pressure(const Tube& tube, double a) {
   return p;
 }
 
-/// neo-Hookean closed form of reference.md, section 2.
+/// neo-Hookean closed form of docs/theory.md, section 13.1.
 inline double neo_hookean_inflation_pressure(const Tube& tube, double a) {
   const double k = a * a - inner_radius * inner_radius;
   double p = 0;

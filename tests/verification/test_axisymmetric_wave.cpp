@@ -1,6 +1,6 @@
 // The whole coupled problem on another element: the artery as a body of revolution. The speed of the pressure crest
-// between 4.5 and 9 ms is held against the mesh-converged figures of the project's reference (axisymmetric, dt 0.125
-// ms).
+// between 4.5 and 9 ms is held against mesh-converged figures computed outside this
+// repository (axisymmetric, dt 0.125 ms).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -59,8 +59,7 @@ double pressure_error(const std::vector<Point>& nodes, const Cells& cells, const
   return std::sqrt(l2);
 }
 
-// --- mesh motion
-// -----------------------------------------------------------------------------------------------------------
+// --- mesh motion -----------------------------------------------------------------------------------------------------
 
 // Components of d are harmonic: x^2 - y^2 + ..., e^x sin y ..., so no load is needed.
 VectorAt harmonic(const Point& x) {
@@ -94,8 +93,7 @@ TEST(MeshMotionConvergence, SecondOrderInL2FirstInH1) {
   EXPECT_NEAR(table.last_order(1), 1, 0.1);
 }
 
-// --- fluid
-// -----------------------------------------------------------------------------------------------------------------
+// --- fluid -----------------------------------------------------------------------------------------------------------
 
 // The flow is steady, so that the strong residual of the stabilisation, rho (grad u) u + grad p without a viscous term,
 // vanishes for the exact solution: the load is the Galerkin one alone.
@@ -156,11 +154,10 @@ TEST(FluidConvergence, OnADeformedMovingMeshWithGradDivStabilisation) {
   check_fluid_convergence(true);
 }
 
-// --- wall
-// ------------------------------------------------------------------------------------------------------------------
+// --- wall ------------------------------------------------------------------------------------------------------------
 
-/// An isochoric deformation with strains up to a half: shears one after the other, x += f(y, z), y += g(x, z), z +=
-/// h(x, y), each with determinant 1.
+/// An isochoric deformation with strains up to a half: shears one after the other, x += f(y, z), y += g(x, z),
+/// z += h(x, y), each with determinant 1.
 template <class T>
 void shears(T x[3]) {
   x[0] += Pack(0.25) * x[1] * x[1] + Pack(0.2) * x[1] * x[2] * x[2];

@@ -53,8 +53,7 @@ Matrix rotation(double a, double b) {
                  {{{1, 0, 0}, {0, std::cos(b), -std::sin(b)}, {0, std::sin(b), std::cos(b)}}});
 }
 
-// --- wall
-// --------------------------------------------------------------------------------------------------------------
+// --- wall ------------------------------------------------------------------------------------------------------------
 
 class WallPatch : public testing::TestWithParam<NamedMaterial> {};
 INSTANTIATE_TEST_SUITE_P(Materials, WallPatch, testing::ValuesIn(materials),
@@ -142,8 +141,7 @@ TEST_P(WallPatch, FreeBodyUnderUniformPressureChangesItsVolumeAlone) {
   }
 }
 
-// --- fluid
-// -------------------------------------------------------------------------------------------------------------
+// --- fluid -----------------------------------------------------------------------------------------------------------
 
 /// The fluid in a cube whose boundary velocity is prescribed; the pressure is fixed at node 0.
 struct ClosedFluid {
@@ -299,8 +297,7 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
   }
 }
 
-// --- mesh motion
-// -----------------------------------------------------------------------------------------------------------
+// --- mesh motion -----------------------------------------------------------------------------------------------------
 
 TEST(MeshMotionPatch, AffineDisplacementIsReproduced) {
   const auto mesh = irregular_cube(4, 0.2);

@@ -73,7 +73,8 @@ TEST(FluidJacobian, StatesMakeEveryTermOfTauMatter) {
 
 // --- wall ----------------------------------------------------------------------------------------------------------
 
-/// Material constants of the artery's media (design, section 1), a softer volume so that no term drowns in another.
+/// Material constants of the artery's media (docs/theory.md, section 1.3), a softer volume so that no term drowns in
+/// another.
 const WallConstants constants{1.2, 50.0, 0.5};
 
 struct WallCase {

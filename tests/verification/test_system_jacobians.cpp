@@ -27,9 +27,8 @@ struct Scenario {
   State state;
   StepData data;
 
-  /// \param across  stretch of the wall across its layers, about their middle: fibres of an artery are stretched below
-  /// 1
-  ///                and slack above; all of them, because the tangent jumps where a fibre tightens
+  /// \param across  stretch of the wall across its layers, about their middle: fibres of an artery are stretched
+  ///                below 1 and slack above; all of them, because the tangent jumps where a fibre tightens
   explicit Scenario(const std::string& material, double across = 1, bool grad_div = false) {
     Case setup = coupled_case(material, 0.5);
     setup.fluid = FluidData{1.3, 0.03, grad_div};

@@ -1,5 +1,5 @@
-// Static inflation of the closed two-layer tube against the table of reference.md, section 2, with tetrahedra and with
-// triangles of a body of revolution: the same weak forms, assembly, numbering and follower load on two kinds of
+// Static inflation of the closed two-layer tube against the table of docs/theory.md, section 13.1, with tetrahedra and
+// with triangles of a body of revolution: the same weak forms, assembly, numbering and follower load on two kinds of
 // element.
 
 #include <gtest/gtest.h>

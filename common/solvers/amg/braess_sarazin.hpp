@@ -34,7 +34,7 @@ struct BraessSarazinOptions {
   double damping = 1.0;  ///< of the pressure step
 };
 
-/// Braess-Sarazin smoother (Braess & Sarazin 1997; inexact: Zulehner 2000). One step:
+/// Braess-Sarazin smoother ([Braess1997]; inexact: [Zulehner2000]). One step:
 ///   u* = predictor(u; f - G p),   S q = g - D u* - E p  with  S = E - D Ahat^-1 G,
 ///   p += omega q,   u = u* - omega Ahat^-1 G q.
 /// S is assembled; its few symmetric Gauss-Seidel sweeps are the inexactness. With Gauss-Seidel as predictor the step

@@ -10,9 +10,8 @@ namespace fsi {
 
 /// How coarse nodes and weights are chosen.
 enum class CoarseningKind {
-  colouring,   ///< red-black colouring of the graph, each fine node averages its coarse neighbours; Kickinger 1998,
-               ///< paper
-  aggregation  ///< disjoint aggregates, weight one; Vanek, Mandel, Brezina 1996 before smoothing
+  colouring,   ///< red-black colouring of the graph, each fine node averages its coarse neighbours; [Kickinger1998]
+  aggregation  ///< disjoint aggregates, weight one; [Vanek1996] before smoothing
 };
 
 /// "colouring" or "aggregation".
@@ -62,7 +61,7 @@ template <int Size>
 NodeGraph strong_graph(const BlockMatrix<Size, Size>& a, int vector, double threshold);
 
 /// Prolongation smoothing by one damped Jacobi step, P <- (I - omega D^-1 A_F) P, A_F being A without the couplings
-/// that `marks` forbids, its row sums kept; Vanek, Mandel, Brezina 1996. The weights of all Numbers share one average.
+/// that `marks` forbids, its row sums kept; [Vanek1996]. The weights of all Numbers share one average.
 template <int Numbers>
 NodeTransfer smoothed(const BlockMatrix<1, Numbers>& a, const NodeMarks& marks, const NodeTransfer& tentative,
                       const CoarseningOptions& options, double omega);

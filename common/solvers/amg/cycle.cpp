@@ -73,7 +73,7 @@ void MultigridCycle::run(int level, const std::vector<double>& b, std::vector<do
 }
 
 /// At most two iterations of FGMRES(A_l, b_l) with a cycle as preconditioner, written as generalised conjugate
-/// residuals, which gives the same iterates; Notay & Vassilevski 2008.
+/// residuals, which gives the same iterates; [Notay2008].
 void MultigridCycle::accelerate(int level) {
   Work& w = work_[level];
   const double before = dot(w.b, w.b);

@@ -15,7 +15,7 @@ namespace fsi {
 enum class CycleKind {
   v,  ///< one visit of the coarser level
   w,  ///< two
-  k   ///< one or two flexible GMRES iterations on the coarser level, each preconditioned by a cycle (paper: AMLI)
+  k   ///< one or two flexible GMRES iterations on the coarser level, each preconditioned by a cycle (AMLI)
 };
 
 /// "v", "w" or "k".
@@ -31,7 +31,7 @@ struct CycleOptions {
   double k_threshold = 0.25;  ///< the second inner iteration of a K-cycle is skipped below this residual reduction
 };
 
-/// The multigrid iteration over levels of nodes; paper, algorithms "Basic AMG iteration" and "Basic AMLI iteration".
+/// The multigrid iteration over levels of nodes; [Langer2018], algorithms 3 and 4.
 /// Knows transfers and vectors; matrices and smoothers are the hierarchy's. Level 0 is the finest.
 class MultigridCycle {
  public:

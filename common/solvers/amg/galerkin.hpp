@@ -108,7 +108,7 @@ void set_prescribed_numbers(BlockMatrix<1, Numbers>& a, const std::vector<char>&
 
 /// Multiplies the scalar-scalar entry (last row, last column) of every block: the stabilisation -C of [A B^T; B -C]. A
 /// Galerkin coarse matrix has C ~ h^2 (grad p, grad q) of the finest mesh where its own mesh size H asks for H^2:
-/// Wabro 2004 scales it up from level to level.
+/// [Wabro2004] scales it up from level to level.
 template <int Size>
 void scale_scalar_entries(BlockMatrix<Size, Size>& a, double factor) {
   if (factor == 1) return;

@@ -50,8 +50,9 @@ std::unique_ptr<SaddleSmoother<Size>> make_saddle_smoother(const BlockMatrix<Siz
   return std::make_unique<BraessSarazin<Size>>(a, options.braess_sarazin);
 }
 
-/// Multigrid for saddle-point problems with blocks (vector, scalar) of `Size` entries a node: fluid and wall. Wabro
-/// 2004: vector and scalar are coarsened alike and never mixed; Galerkin matrices; the stabilisation is rescaled.
+/// Multigrid for saddle-point problems with blocks (vector, scalar) of `Size` entries a node: fluid and wall.
+/// [Wabro2004]: vector and scalar are coarsened alike and never mixed; Galerkin matrices; the stabilisation is
+/// rescaled.
 template <int Size>
 class SaddleAmg : public MultigridCycle {
  public:

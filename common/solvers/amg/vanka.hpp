@@ -18,7 +18,7 @@ struct VankaOptions {
   double damping = 1.0;  ///< of a patch correction
 };
 
-/// Multiplicative Vanka smoother (Vanka 1986): for each node the scalar unknown and the vectors of all nodes it couples
+/// Multiplicative Vanka smoother [Vanka1986]: for each node the scalar unknown and the vectors of all nodes it couples
 /// with are corrected together, with the residual at that moment. The residual is kept up to date, so that a patch
 /// costs its own neighbourhood. Serial: patches overlap too much to be coloured.
 template <int Size>

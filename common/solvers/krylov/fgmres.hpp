@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// Flexible GMRES (Saad 1993): the preconditioner may differ from one iteration to the next (an inner iteration, a
+/// Flexible GMRES [Saad1993]: the preconditioner may differ from one iteration to the next (an inner iteration, a
 /// K-cycle). Keeps the preconditioned directions too, twice the vectors of Gmres.
 class Fgmres {
  public:

@@ -8,8 +8,8 @@ namespace fsi {
 
 namespace detail {
 
-/// Restarted GMRES, right-preconditioned, plain or flexible; Saad, Iterative Methods for Sparse Linear Systems, 2nd
-/// ed., algorithms 9.5 and 9.6. Arnoldi by modified Gram-Schmidt, repeated where cancellation spoils orthogonality.
+/// Restarted GMRES, right-preconditioned, plain or flexible; [Saad2003],
+/// algorithms 9.5 and 9.6. Arnoldi by modified Gram-Schmidt, repeated where cancellation spoils orthogonality.
 /// Vectors are kept between calls.
 class RestartedGmres {
  public:
@@ -34,7 +34,7 @@ class RestartedGmres {
 
 }  // namespace detail
 
-/// Right-preconditioned restarted GMRES (Saad & Schultz 1986): minimises |b - A x| over x0 + M^-1 K_m(A M^-1, r0). The
+/// Right-preconditioned restarted GMRES [Saad1986]: minimises |b - A x| over x0 + M^-1 K_m(A M^-1, r0). The
 /// preconditioner should be one fixed linear map. If it is not, the update M^-1 (V y) differs from what was minimised;
 /// the residual is then recomputed, and the method goes on from the true one.
 class Gmres {

@@ -9,7 +9,7 @@ namespace fsi {
 /// Which entries couple strongly, |a_ij| > threshold sqrt(|a_ii a_jj|); the diagonal always does.
 std::vector<char> strong_entries(const CsrMatrix<double>& a, const std::vector<double>& diagonal, double threshold);
 
-/// The aggregate of each row (Vanek, Mandel, Brezina 1996): first whole neighbourhoods of strong couplings, then
+/// The aggregate of each row [Vanek1996]: first whole neighbourhoods of strong couplings, then
 /// leftovers join a neighbour's, then form their own.
 std::vector<int> aggregates(const CsrMatrix<double>& a, const std::vector<char>& strong, int& count);
 

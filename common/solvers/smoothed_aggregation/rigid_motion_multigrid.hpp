@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// Coarse levels for elasticity: smoothed aggregation with the rigid motions (Vanek, Mandel, Brezina 1996), in single
+/// Coarse levels for elasticity: smoothed aggregation with the rigid motions [Vanek1996], in single
 /// precision. The finest level is smoothed by its owner; on coarse ones block Gauss-Seidel runs forward before the
 /// coarse correction and, if wanted, backward after it; dense inverse on the coarsest level.
 /// \tparam n  components of a node. In three dimensions coarse nodes hold three translations and three rotations,

@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// One V-cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) for a scalar matrix like a Laplacian, in single
+/// One V-cycle of smoothed aggregation [Vanek1996] for a scalar matrix like a Laplacian, in single
 /// precision: a preconditioner. Gauss-Seidel forward before the coarse correction and, if wanted, backward after it;
 /// dense inverse on the coarsest level.
 class ScalarMultigrid {

@@ -25,7 +25,7 @@ from fsi_compare.studies.study_run import DONE, NOT_CONVERGED, StudyRun
 
 class AddedMassTheory(unittest.TestCase):
     def test_bessel_functions(self):
-        # Abramowitz and Stegun, table 9.8
+        # [Abramowitz1964], table 9.8
         self.assertAlmostEqual(bessel_i(0, 1.0), 1.2660658777520084, 14)
         self.assertAlmostEqual(bessel_i(1, 1.0), 0.5651591039924850, 14)
         self.assertAlmostEqual(bessel_i(1, 5.0), 24.335642142450524, 11)

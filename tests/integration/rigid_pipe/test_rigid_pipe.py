@@ -17,7 +17,7 @@ POISEUILLE = np.pi * RADIUS**4 * PRESSURE / (8 * VISCOSITY * LENGTH)  # mm^3/ms
 
 def startup_flow(steps):
     """Flow over Poiseuille's after 1, 2, ... steps of backward Euler from rest: each Bessel mode of the exact start-up
-    flow (Szymanski 1932), exp(-lambda^2 nu t / R^2), becomes a power of 1 / (1 + lambda^2 nu dt / R^2)."""
+    flow [Szymanski1932], exp(-lambda^2 nu t / R^2), becomes a power of 1 / (1 + lambda^2 nu dt / R^2)."""
     zeros = np.array([2.404825557695773, 5.520078110286311, 8.653727912911013, 11.791534439014281])  # of J_0
     damping = 1 / (1 + zeros**2 * VISCOSITY / DENSITY * STEP / RADIUS**2)
     return [1 - (32 / zeros**4 * damping**n).sum() for n in range(1, steps + 1)]

@@ -151,8 +151,7 @@ TEST(TetrahedronFacet, WeightsAddUpToTheOutwardAreaAndTheRuleIsExactForQuadratic
     for (int b = 0; b < 3; ++b) EXPECT_NEAR(mass[a][b], 3.0 / 12 * (a == b ? 2 : 1), 1e-15);  // A/12 (1 + delta)
 }
 
-// --- bodies of revolution
-// ----------------------------------------------------------------------------------------------
+// --- bodies of revolution --------------------------------------------------------------------------------------------
 
 const Corners ring_triangle{{{1.0, 0, 0.0}, {3.0, 0, 0.5}, {1.5, 0, 2.0}, {}}};
 

@@ -10,7 +10,7 @@ namespace fsi::test {
 
 namespace {
 
-// Material constants of design, section 1 (media).
+// Material constants of docs/theory.md, section 1.3 (media).
 const NeoHookean neo_hookean{3.0};
 const MooneyRivlin mooney_rivlin{3.0, 0.3};
 const Artery artery{3.0, 2.3632, 0.8393};
@@ -287,8 +287,8 @@ TEST(NeoHookean, UniaxialStretchByHand) {
   EXPECT_NEAR(s[0] * l * l - s[1] / l, 3 * (l * l - 1 / l), 1e-13);
 }
 
-// The same for Mooney-Rivlin: W = c10/2 (l^2 + 2/l - 3) + c01/2 (2 l + 1/l^2 - 3), difference c10 (l^2 - 1/l) +
-// c01 (l - 1/l^2), by hand.
+// The same for Mooney-Rivlin: W = c10/2 (l^2 + 2/l - 3) + c01/2 (2 l + 1/l^2 - 3), difference
+// c10 (l^2 - 1/l) + c01 (l - 1/l^2), by hand.
 TEST(MooneyRivlin, UniaxialStretchByHand) {
   const double l = 1.3;
   const auto strain = strain_from(sym3<Pack>({l * l, 1 / l, 1 / l, 0, 0, 0}));

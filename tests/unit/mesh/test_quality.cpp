@@ -22,8 +22,8 @@ TEST(Quality, RegularTetrahedron) {
 }
 
 TEST(Quality, CornerTetrahedron) {
-  // V = 1/6, edges 3 x 1 and 3 x sqrt(2): eta = 12 (1/2)^(2/3) / 9; between a leg face and the slanted one acos(1/sqrt
-  // 3)
+  // V = 1/6, edges 3 x 1 and 3 x sqrt(2): eta = 12 (1/2)^(2/3) / 9; between a leg face and the slanted one
+  // acos(1/sqrt 3)
   EXPECT_NEAR(mean_ratio(corner), 12 * std::pow(0.5, 2.0 / 3) / 9, 1e-14);
   EXPECT_NEAR(smallest_dihedral(corner), std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
 }

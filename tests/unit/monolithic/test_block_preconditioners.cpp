@@ -109,8 +109,8 @@ TEST_F(BlockPreconditioner, SsorHasThePapersRemainder) {
   });
 }
 
-// Paper, section 4.1.5: R has Asf Af^-1 (Afs - Afm Am^-1 Ams) in the corner. The inverse as printed would fail here
-// (design, section 2, item 7).
+// [Langer2018], section 4.1.5: R has Asf Af^-1 (Afs - Afm Am^-1 Ams) in the corner. The inverse as printed would fail
+// here (docs/theory.md, section 12, item 7).
 TEST_F(BlockPreconditioner, IluHasThePapersRemainder) {
   expect_inverse("ilu", [&](const CoupledVector& x, CoupledVector& r) {
     const auto inverse = problem.inverse();

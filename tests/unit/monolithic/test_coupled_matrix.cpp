@@ -33,7 +33,7 @@ CoupledVector waves(const CoupledMatrix<3>& k) {
   return x;
 }
 
-// The paper's system is the condensed one with its two identity rows put back (design, section 4).
+// The paper's system is the condensed one with its two identity rows put back (docs/theory.md, section 9).
 TEST(CoupledMatrix, HasTheSolutionOfTheCondensedSystem) {
   PaperForm paper;
   const SparseMatrix k = sparse_matrix(paper.system.matrix());

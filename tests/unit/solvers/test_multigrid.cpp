@@ -258,7 +258,7 @@ TEST(SaddleMultigrid, PreconditionsFgmresOnAMovingState) {
   }
 }
 
-/// The stability that the rescaled stabilisation is for (Wabro 2004): the smallest eigenvalue of the pressure Schur
+/// The stability that the rescaled stabilisation is for [Wabro2004]: the smallest eigenvalue of the pressure Schur
 /// complement against the lumped pressure mass, level by level. It stays with the factor and is lost without.
 TEST(SaddleMultigrid, RescaledStabilisationKeepsCoarseLevelsStable) {
   const auto& artery = coarse_artery();

@@ -61,7 +61,8 @@ TEST(EulerNewmark, TrapezoidalRuleKeepsTheEnergyWhateverTheSteps) {
   }
 }
 
-// Newmark's formulas with numbers put in by hand: dt = 0.5, beta = 0.4, gamma = 0.6, d = 2 after 1, v = 3, a = 4:
+// Newmark's formulas (docs/theory.md, section 8.2) with numbers put in by hand:
+// dt = 0.5, beta = 0.4, gamma = 0.6, d = 2 after 1, v = 3, a = 4:
 // a^n = 1/(0.4 0.25) - 3/(0.4 0.5) - (1.25 - 1) 4 = 10 - 15 - 1 = -6; v^n = 3 + 0.5 (0.6 (-6) + 0.4 4) = 2.
 TEST(EulerNewmark, FormulasByHand) {
   const EulerNewmark<1> scheme({0.4, 0.6});

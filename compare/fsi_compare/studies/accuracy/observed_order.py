@@ -26,8 +26,8 @@ def slope(sizes: Sequence[float], errors: Sequence[float]) -> Optional[float]:
 
 def self_convergence(sizes: Sequence[float], distances: Sequence[float]) -> SelfConvergence:
     """`sizes` h1 > h2 > h3, `distances` |u1 - u2|, |u2 - u3|. With an error C h^p the distances are C (h1^p - h2^p) and
-    C (h2^p - h3^p), which gives p for any ratio of the sizes (the grid convergence index's way, I. Celik et al., ASME
-    J. Fluids Eng. 130, 2008), and what is left, C h3^p. It holds in norms as long as the error keeps its shape."""
+    C (h2^p - h3^p), which gives p for any ratio of the sizes (the grid convergence index's way,
+    [Celik2008]), and what is left, C h3^p. It holds in norms as long as the error keeps its shape."""
     h1, h2, h3 = sizes
     first, second = distances
     if not (h1 > h2 > h3 > 0 and first > 0 and second > 0):

@@ -1,6 +1,6 @@
 """What theory says about partitioned schemes.
 
-Causin, Gerbeau and Nobile (2005), carried over to a tube of radius R: the wave of wave number k = pi/L, the longest
+[Causin2005], carried over to a tube of radius R: the wave of wave number k = pi/L, the longest
 that fits between clamped ends, loads the wall with the mass rho_f m per area (see Tube.added_mass_length). The wall is
 a ring with mass rho_s h and stiffness a = sum E_i h_i / ((1 - nu^2) R^2) per area. All in mm, ms, mg, kPa."""
 

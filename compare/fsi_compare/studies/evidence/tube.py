@@ -1,5 +1,5 @@
 """A tube of layers filled with fluid, as the closed forms see it. The layers are incompressible, with shear modulus mu
-and, as in Holzapfel, Gasser and Ogden (2000), two families of fibres at +-alpha to the circumference that act in
+and, as in [Holzapfel2000], two families of fibres at +-alpha to the circumference that act in
 extension only. For small strains about rest
 
     W = mu (e_r^2 + e_h^2 + e_z^2) + 4 k1 (cos^2 alpha e_h + sin^2 alpha e_z)^2        energy per volume, kPa
@@ -17,7 +17,7 @@ import numpy as np
 from ...errors import InputError
 from .bessel import bessel_i
 
-# The rabbit's carotid artery (Holzapfel 2000): inner radius, thickness of media and adventitia, mm.
+# The rabbit's carotid artery [Holzapfel2000]: inner radius, thickness of media and adventitia, mm.
 INNER_RADIUS = 1.43
 THICKNESS = {"media": 0.26, "adventitia": 0.13}
 

@@ -8,8 +8,8 @@ from .tube import Tube
 
 
 def moens_korteweg(tube: Tube, restrained: bool = False) -> float:
-    """c^2 = E h / (2 rho R) of a thin wall, R the inner radius (Moens 1878, Korteweg 1878). E is the hoop modulus of a
-    wall free to shorten; `restrained`: of one held at its length, E / (1 - nu^2) = 4 E / 3 without fibres."""
+    """c^2 = E h / (2 rho R) of a thin wall, R the inner radius ([Moens1878], [Korteweg1878]). E is the hoop modulus of
+    a wall free to shorten; `restrained`: of one held at its length, E / (1 - nu^2) = 4 E / 3 without fibres."""
     hoop, coupling, axial = _sums(tube, [True] * len(tube.layers))
     stiffness = hoop
     if not restrained:

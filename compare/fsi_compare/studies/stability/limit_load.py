@@ -5,7 +5,7 @@ layer at rest, a, b under pressure, mu its shear modulus and k = a_i^2 - A_i^2 o
 p = sum over layers of mu [ln(B a / (A b)) + (k/2) (1/a^2 - 1/b^2)]; its supremum is the sum of mu ln(B/A).
 
 A long tube need not widen evenly: where the Jacobian of pressure and axial force by radius and axial stretch vanishes,
-a bulge sets in (Fu, Liu, Francisco 2016), which lengthens where it widens.
+a bulge sets in [Fu2016], which lengthens where it widens.
 """
 
 import math
