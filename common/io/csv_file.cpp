@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -41,7 +42,7 @@ bool kept(const std::string& row, std::size_t columns, std::size_t time_column, 
 }  // namespace
 
 CsvFile::CsvFile(std::filesystem::path file, const std::string& header, bool append)
-    : file_(std::move(file)), stream_(file_, append ? std::ios::app : std::ios::trunc) {
+    : file_(std::move(file)), columns_(split(header).size()), stream_(file_, append ? std::ios::app : std::ios::trunc) {
   if (!append) stream_ << header << '\n';
   stream_.flush();
   if (!stream_)
@@ -52,6 +53,7 @@ CsvFile::CsvFile(std::filesystem::path file, const std::string& header, bool app
 void CsvFile::write(const std::vector<std::vector<double>>& rows) {
   fmt::memory_buffer text;
   for (const auto& row : rows) {
+    assert(row.size() == columns_);
     for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(std::back_inserter(text), i > 0 ? ",{}" : "{}", row[i]);
     text.push_back('\n');
   }
@@ -75,6 +77,7 @@ void copy_csv_until(const std::filesystem::path& from, const std::filesystem::pa
   text = header + "\n";
   const auto columns = split(header);
   const auto time_column = std::find(columns.begin(), columns.end(), "time_ms") - columns.begin();
+  assert(static_cast<std::size_t>(time_column) < columns.size());
   while (std::getline(stream, line)) {
     if (stream.eof()) break;  // no newline at its end: torn off by a kill
     if (kept(line, columns.size(), static_cast<std::size_t>(time_column), time)) text += line + "\n";

@@ -42,12 +42,18 @@ struct FieldsWriter::Implementation {
       : h5(folder / "fields.h5"), xdmf(folder / "fields.xdmf"), grids(std::move(grids_)), steps(std::move(planned)) {
     for (const auto& grid : grids) {
       assert((grid.nodes_per_cell == 3 || grid.nodes_per_cell == 4) && grid.cells.size() % grid.nodes_per_cell == 0);
+      assert(grid.layer.empty() || grid.layer.size() * grid.nodes_per_cell == grid.cells.size());
+      assert(std::all_of(grid.cells.begin(), grid.cells.end(), [&](std::int32_t node) {
+        return node >= 0 && static_cast<std::size_t>(node) < grid.points.size();
+      }));
       for (const auto& field : grid.fields) written[{grid.name, field.name}].assign(steps.size(), 0);
     }
   }
 
   /// Position of a step, steps.size() when it is not planned.
   std::size_t position(std::int64_t step) const {
+    assert(std::is_sorted(steps.begin(), steps.end(),
+                          [](const FieldStep& a, const FieldStep& b) { return a.step < b.step; }));
     const auto found = std::lower_bound(steps.begin(), steps.end(), step,
                                         [](const FieldStep& entry, std::int64_t s) { return entry.step < s; });
     return found == steps.end() || found->step != step ? steps.size() : static_cast<std::size_t>(found - steps.begin());

@@ -1,6 +1,7 @@
 #include "io/result_folder.hpp"
 
 #include <array>
+#include <cassert>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -131,6 +132,7 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
 }
 
 void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {
+  assert(pressure.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], pascal_per_kilopascal * pressure.at(i)});
   centerline_.value().write(rows);
@@ -138,6 +140,7 @@ void ResultFolder::write_centerline(double time, const std::vector<double>& z, c
 
 void ResultFolder::write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
                               const std::vector<double>& axial) {
+  assert(radial.size() == z.size() && axial.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
   wall_.value().write(rows);

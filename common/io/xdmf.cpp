@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace fsi {
 
@@ -50,6 +51,7 @@ std::string grid_text(const FieldGrid& grid, const FinishedStep& finished) {
     if (std::find(finished.fields.begin(), finished.fields.end(), std::make_pair(grid.name, field.name)) ==
         finished.fields.end())
       continue;
+    assert(field.components == 1 || field.components == 3);
     text += fmt::format(
         "          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\"><Information Name=\"unit\" "
         "Value=\"{}\"/>{}</Attribute>\n",

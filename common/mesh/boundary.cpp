@@ -1,6 +1,7 @@
 #include "mesh/boundary.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 #include <utility>
 
@@ -11,8 +12,12 @@ namespace fsi {
 namespace {
 
 std::vector<char> region_flags(const TetrahedralMesh& mesh, const std::vector<int>& regions) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
   std::vector<char> flags(mesh.regions.size(), regions.empty() ? 1 : 0);
-  for (const int region : regions) flags[region] = 1;
+  for (const int region : regions) {
+    assert(region >= 0 && static_cast<std::size_t>(region) < flags.size());
+    flags[region] = 1;
+  }
   return flags;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <numeric>
 #include <vector>
 
@@ -10,6 +11,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int i) {
+    assert(i >= 0 && static_cast<std::size_t>(i) < parent_.size());
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }

@@ -3,6 +3,7 @@
 #include <gmsh.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cstddef>
 #include <system_error>
 #include <vector>
@@ -53,6 +54,7 @@ class TemporaryFile {
 };
 
 void fill_model(const TetrahedralMesh& mesh) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
   constexpr int triangle = 2, tetrahedron = 4;  // gmsh's numbers of the element types
   const int volumes = static_cast<int>(mesh.regions.size()), surfaces = static_cast<int>(mesh.facet_groups.size());
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -112,6 +113,7 @@ int element_layers(const TetrahedralMesh& mesh, int region) {
 }
 
 MeshQuality measure_quality(const TetrahedralMesh& mesh) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
   MeshQuality quality;
   quality.nodes = mesh.nodes.size();
   quality.tetrahedra = mesh.cells.size();
@@ -126,6 +128,7 @@ MeshQuality measure_quality(const TetrahedralMesh& mesh) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto corners = corners_of(mesh, mesh.cells[c]);
     const double eta = mean_ratio(corners);
+    assert(mesh.cell_region[c] >= 0 && static_cast<std::size_t>(mesh.cell_region[c]) < quality.regions.size());
     auto& region = quality.regions[mesh.cell_region[c]];
     ++region.tetrahedra;
     region.volume += tetrahedron_volume(corners[0], corners[1], corners[2], corners[3]);

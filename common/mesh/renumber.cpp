@@ -1,6 +1,7 @@
 #include "mesh/renumber.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <tuple>
 
@@ -115,6 +116,8 @@ Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh) {
 }
 
 TetrahedralMesh renumbered(const TetrahedralMesh& mesh, const Renumbering& order) {
+  assert(order.node_new_to_old.size() == mesh.nodes.size());
+  assert(order.cell_new_to_old.size() == mesh.cells.size() && mesh.cell_region.size() == mesh.cells.size());
   const auto old_to_new = inverse_permutation(order.node_new_to_old);
   TetrahedralMesh result;
   result.regions = mesh.regions;
@@ -134,8 +137,13 @@ TetrahedralMesh renumbered(const TetrahedralMesh& mesh, const Renumbering& order
 }
 
 std::vector<int> inverse_permutation(const std::vector<int>& permutation) {
-  std::vector<int> inverse(permutation.size());
-  for (std::size_t i = 0; i < permutation.size(); ++i) inverse[permutation[i]] = static_cast<int>(i);
+  std::vector<int> inverse(permutation.size(), -1);
+  for (std::size_t i = 0; i < permutation.size(); ++i) {
+    const int entry = permutation[i];
+    assert(entry >= 0 && static_cast<std::size_t>(entry) < inverse.size());
+    assert(inverse[entry] < 0 && "an entry of the permutation occurs twice");
+    inverse[entry] = static_cast<int>(i);
+  }
   return inverse;
 }
 

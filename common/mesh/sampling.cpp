@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -64,6 +65,7 @@ class CellGrid {
   /// Cells that may hold the point, ascending.
   std::pair<const int*, const int*> near(const Point& x) const {
     const int box = box_number(box_along(0, x[0]), box_along(1, x[1]), box_along(2, x[2]));
+    assert(box >= 0 && static_cast<std::size_t>(box) + 1 < start_.size());
     return {cells_.data() + start_[box], cells_.data() + start_[box + 1]};
   }
 
@@ -127,6 +129,8 @@ double wrapped(double angle) {
 }  // namespace
 
 std::vector<PointSample> sample_in_cells(const TetrahedralMesh& mesh, int region, const std::vector<Point>& points) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
+  assert(region < static_cast<int>(mesh.regions.size()));
   std::vector<int> cells;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     if (region < 0 || mesh.cell_region[c] == region) cells.push_back(static_cast<int>(c));
@@ -157,6 +161,7 @@ std::vector<PointSample> sample_in_cells(const TetrahedralMesh& mesh, int region
 std::vector<WallSample> wall_samples(const std::vector<Point>& nodes,
                                      const std::vector<TetrahedralMesh::Facet>& surface, const Axis& axis,
                                      const std::vector<double>& positions, int angles) {
+  assert(angles > 0);
   const AxisFrame frame(axis);
   struct Unrolled {
     std::array<double, 3> angle, axial;
@@ -234,6 +239,7 @@ double axial_position(const std::vector<Point>& nodes, const std::vector<Tetrahe
 }
 
 std::vector<double> evenly_spaced(double first, double last, int count) {
+  assert(count >= 0);
   std::vector<double> values(count);
   for (int i = 0; i < count; ++i) values[i] = (first * (count - 1 - i) + last * i) / std::max(1, count - 1);
   return values;

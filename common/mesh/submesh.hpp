@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <vector>
 
 #include "mesh/simplex_mesh.hpp"
@@ -19,9 +20,13 @@ struct Submesh {
   std::vector<int> cell_region;  ///< per cell, region of the whole mesh
 
   int node_count() const { return static_cast<int>(nodes.size()); }
-  /// The facet in local node numbers.
+  /// The facet in local node numbers; all its nodes must lie in this part.
   Facet local(Facet facet) const {
-    for (int& node : facet) node = local_node[node];
+    for (int& node : facet) {
+      assert(node >= 0 && static_cast<std::size_t>(node) < local_node.size());
+      node = local_node[node];
+      assert(node >= 0 && "facet outside the submesh");
+    }
     return facet;
   }
 };
@@ -29,9 +34,13 @@ struct Submesh {
 /// The cells whose region is listed, in the order of the mesh; local nodes keep the order of the mesh nodes.
 template <int Dim, int Order>
 Submesh<Dim, Order> submesh(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& regions) {
+  assert(mesh.cell_region.size() == mesh.cells.size());
   Submesh<Dim, Order> part;
   std::vector<char> wanted(mesh.regions.size(), 0);
-  for (int region : regions) wanted[region] = 1;
+  for (int region : regions) {
+    assert(region >= 0 && static_cast<std::size_t>(region) < wanted.size());
+    wanted[region] = 1;
+  }
   part.local_node.assign(mesh.nodes.size(), -1);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     if (wanted[mesh.cell_region[c]])

@@ -1,10 +1,16 @@
-# fsi_integration_test([CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those of
-# each class as FOLDER.CLASS, so that they can run beside each other.
+# fsi_integration_test([QUICK] [CLASS...]): registers the tests of test_FOLDER.py in the calling folder as FOLDER, or those
+# of each class as FOLDER.CLASS, so that they can run beside each other. QUICK: among the quick tests, which is for what
+# takes a few seconds.
 function(fsi_integration_test)
+  cmake_parse_arguments(arg "QUICK" "" "" ${ARGN})
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(tests ${folder})
-  if(ARGN)
-    list(TRANSFORM ARGN PREPEND ${folder}. OUTPUT_VARIABLE tests)
+  if(arg_UNPARSED_ARGUMENTS)
+    list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${folder}. OUTPUT_VARIABLE tests)
+  endif()
+  set(labels integration)
+  if(arg_QUICK)
+    list(APPEND labels quick)
   endif()
   foreach(test IN LISTS tests)
     add_test(NAME ${test}
@@ -17,6 +23,6 @@ function(fsi_integration_test)
       FSI_CASES=${PROJECT_SOURCE_DIR}/meshes/artery
       FSI_VTK_PYTHON=${FSI_VTK_PYTHON}
       FSI_VERSION=${PROJECT_VERSION})
-    set_tests_properties(${test} PROPERTIES LABELS integration TIMEOUT 600 ENVIRONMENT "${environment}")
+    set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT "${environment}")
   endforeach()
 endfunction()

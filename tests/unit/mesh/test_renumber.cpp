@@ -82,5 +82,17 @@ TEST(Renumber, HandlesUnconnectedParts) {
   EXPECT_TRUE(is_permutation_of(reverse_cuthill_mckee(mesh).node_new_to_old, 8));
 }
 
+// The build says which of the two holds, not NDEBUG itself: a preset that loses or gains it must be noticed.
+TEST(Assertions, AreOnInAllBuildsButRelease) {
+  const std::vector<int> no_permutation{0, 0}, far_outside{0, 5};
+#ifdef FSI_ASSERTIONS_EXPECTED
+  EXPECT_DEATH(inverse_permutation(no_permutation), "occurs twice");
+  EXPECT_DEATH(inverse_permutation(far_outside), "inverse.size");
+  EXPECT_DEATH(static_cast<void>(no_permutation[far_outside.size()]), "Assertion '__n < this->size\\(\\)' failed");
+#else
+  EXPECT_EQ(inverse_permutation(no_permutation).size(), 2u);
+#endif
+}
+
 }  // namespace
 }  // namespace fsi

@@ -1,0 +1,45 @@
+# Debian packages of what is built: `cpack -G DEB` in the build folder makes fsi-duo (programs, cases, studies, documents)
+# and fsi-duo-dev (libraries and headers). For other machines than this one, build with the preset `portable`.
+set(CPACK_PACKAGE_NAME fsi-duo)
+set(CPACK_PACKAGE_VENDOR "the fsi-duo authors")
+set(FSI_MAINTAINER "the fsi-duo authors <fsi-duo@localhost>" CACHE STRING "Who answers for the Debian packages, with address")
+set(CPACK_PACKAGE_CONTACT "${FSI_MAINTAINER}")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL programs development)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME fsi-duo)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+# Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found.
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-matplotlib, python3-numpy, python3-h5py")
+if(NOT FSI_PYTHON STREQUAL "/usr/bin/python3")
+  message(STATUS "Packages: fsi-compare would run with ${FSI_PYTHON}, which the Debian packages do not bring; "
+    "configure with -DFSI_PYTHON=/usr/bin/python3")
+endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME fsi-duo-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "cmake, pkg-config, libeigen3-dev, libfmt-dev, libspdlog-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, "
+  "libhdf5-dev, libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev")
+
+# The first line is the title; a line with a point alone is an empty line.
+set(_programs_text "fluid-structure interaction of an artery, solved twice and compared
+A pressure pulse in a blood-filled elastic artery, by a monolithic Newton method and by a partitioned
+fixed-point iteration between fluid and wall: fsi-mesh, fsi-monolithic, fsi-partitioned, fsi-compare.")
+set(_development_text "fluid-structure interaction, libraries and headers
+Static libraries, headers and the CMake package fsi-duo of the programs in fsi-duo.")
+set(_native_text "
+.
+Built for the instruction set of the machine that made this package: it may not start on another one.")
+if(NOT FSI_NATIVE)
+  set(_native_text "")
+endif()
+set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "${_programs_text}${_native_text}")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${_development_text}${_native_text}")
+include(CPack)
