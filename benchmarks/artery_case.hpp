@@ -3,19 +3,17 @@
 #include <cmath>
 #include <string>
 
+#include "materials/material.hpp"
 #include "mesh/artery_generator.hpp"
 #include "scene/build_scene.hpp"
 
 namespace fsi {
 
 inline MaterialData layer(const std::string& material, double c10) {
-  MaterialData data;
-  data.material = material;
-  data.c10 = c10;
-  data.c01 = 0.3;
-  data.k1 = 2.3632;
-  data.k2 = 0.8393;
-  data.alpha = 29;
+  const ParameterValues values{{"c10", c10}, {"c01", 0.3}, {"k1", 2.3632}, {"k2", 0.8393}, {"alpha", 29}};
+  MaterialData data{material, {}};
+  for (const auto& parameter : materials().at(material).parameters)
+    if (const auto value = values.find(parameter.name); value != values.end()) data.values.insert(*value);
   return data;
 }
 

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
       "fsi-monolithic", "Solves fluid and wall at once by Newton's method.", argc, argv,
       [](Scene<P1Tetrahedron>& scene, const Loads& loads, const Case& setup) -> std::unique_ptr<Stepper> {
         return std::make_unique<NewtonStepper<P1Tetrahedron>>(
-            scene, loads, newton_options(setup.monolithic), number_scene(scene),
+            scene, loads, setup.monolithic.newton, number_scene(scene),
             [&setup](const JacobianBlocks<P1Tetrahedron>& blocks) {
               return make_linear_solver(setup.monolithic.linear_solver, setup, blocks);
             });

@@ -28,7 +28,7 @@ CouplingStepper<Element>::CouplingStepper(Scene<Element>& scene, const Loads& lo
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
   if (scheme_.robin)
-    problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_, *setup.structure);
+    problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_);
   else
     problem_ = std::make_unique<DirichletNeumann<Element>>(scene, options_);
 }

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
                     [](Scene<P1Tetrahedron>& scene, const Loads& loads, const Case& setup) -> std::unique_ptr<Stepper> {
                       if (!scene.coupled())  // nothing to couple: the part that there is, by Newton's method
                         return std::make_unique<NewtonStepper<P1Tetrahedron>>(
-                            scene, loads, newton_options(setup.monolithic), number_single_medium(scene),
+                            scene, loads, setup.monolithic.newton, number_single_medium(scene),
                             [&setup](const JacobianBlocks<P1Tetrahedron>& blocks) {
                               return make_fast_or_direct(setup.monolithic.linear_solver, setup, blocks);
                             });

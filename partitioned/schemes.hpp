@@ -2,7 +2,7 @@
 
 #include <memory>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "case/case.hpp"
 #include "partitioned/accelerators/accelerator.hpp"
@@ -11,15 +11,13 @@ namespace fsi {
 
 /// A coupling scheme: how one pass goes through the sub-problems, and how passes are accelerated.
 struct CouplingScheme {
-  std::string name;  ///< partitioned.scheme
-  bool robin;        ///< Robin-Neumann, else Dirichlet-Neumann
-  bool one_pass;     ///< a step is one pass, converged or not
+  std::string_view name;  ///< partitioned.scheme, one of coupling_scheme_names()
+  bool robin;             ///< Robin-Neumann, else Dirichlet-Neumann
+  bool one_pass;          ///< a step is one pass, converged or not
   std::unique_ptr<Accelerator> (*make_accelerator)(const PartitionedData& options);
-  std::string advice;  ///< what helps when it does not converge
+  const char* advice;  ///< what helps when it does not converge
 };
 
-/// The schemes, each with its accelerator.
-const std::vector<CouplingScheme>& coupling_schemes();
 /// \throws InputError for a name that is not in the table
 const CouplingScheme& coupling_scheme(const std::string& name);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/error.hpp"
+
 namespace fsi {
 
 int edit_distance(const std::string& a, const std::string& b) {
@@ -34,6 +36,15 @@ std::string one_of(const std::vector<std::string>& candidates) {
     text += candidates[i];
   }
   return text;
+}
+
+std::string name_remedy(const std::string& name, const std::vector<std::string>& names) {
+  if (names.size() < 2) return "give " + one_of(names);
+  return "did you mean " + nearest_name(name, names) + "? There are " + one_of(names);
+}
+
+void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names) {
+  throw InputError("", what, "\"" + name + "\" is unknown", name_remedy(name, names));
 }
 
 }  // namespace fsi

@@ -14,4 +14,10 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 /// "a, b or c", for messages.
 std::string one_of(const std::vector<std::string>& candidates);
 
+/// What to do about a name that is none of `names`: "did you mean b? There are a, b or c".
+std::string name_remedy(const std::string& name, const std::vector<std::string>& names);
+
+/// \throws InputError, always: `name` is none of the `names` of the choice `what`
+[[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names);
+
 }  // namespace fsi

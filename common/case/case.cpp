@@ -32,19 +32,4 @@ int TimeData::steps() const {
   return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
 }
 
-const std::vector<std::string>& linear_solver_names() {
-  static const std::vector<std::string> names = {
-      "fast", "direct",         "diagonal",    "lower",       "upper",      "ssor",
-      "ilu",  "diagonal_exact", "lower_exact", "upper_exact", "ssor_exact", "ilu_exact",
-      "amg",  "amg_gmres",      "amg_fgmres",  "amli",        "amli_gmres", "amli_fgmres"};
-  return names;
-}
-
-const std::vector<std::string>& coupling_scheme_names() {
-  static const std::vector<std::string> names = {"aitken",        "constant",          "explicit",
-                                                 "iqn-ils",       "iqn-imvj",          "newton-krylov",
-                                                 "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
-  return names;
-}
-
 }  // namespace fsi

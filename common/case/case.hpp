@@ -7,7 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "case/choices.hpp"
+#include "case/coupled_multigrid_options.hpp"
+#include "case/fast_options.hpp"
+#include "case/quasi_newton_options.hpp"
+#include "materials/parameter.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "solvers/krylov/krylov.hpp"
+#include "solvers/newton.hpp"
 
 namespace fsi {
 
@@ -35,13 +42,8 @@ struct FluidData {
 
 /// [structure.layers.NAME]
 struct MaterialData {
-  std::string material;    ///< "neo-hookean", "mooney-rivlin" or "artery"
-  double c10 = 0;          ///< kPa
-  double c01 = 0;          ///< kPa, mooney-rivlin
-  double k1 = 0;           ///< kPa, artery
-  double k2 = 0;           ///< -, artery
-  double alpha = 0;        ///< degrees between fibre and circumference, artery
-  double fibre_scale = 1;  ///< 0.5 gives the paper's printed fibre stress (docs/theory.md, section 12)
+  std::string material;    ///< a name of materials()
+  ParameterValues values;  ///< its parameters, for make_material()
 };
 
 /// [structure]
@@ -72,52 +74,38 @@ struct StaticData {
 
 /// [monolithic.multigrid]: multigrid of the sub-problems and, under names with amg and amli, of the coupled system
 struct MultigridData {
-  std::string cycle = "w";   ///< coupled amg: "v", "w" or "k"; amli has its own
-  int pre_smoothing = 5;     ///< steps of the coupled smoother before the coarse correction,
-  int post_smoothing = 5;    ///< and after
-  double damping = 0;        ///< of the coupled smoother; 0: from the estimated largest eigenvalue, level by level
-  int levels = 10;           ///< at most
-  int coarsest_nodes = 400;  ///< fluid and wall nodes; levels of at most so many are solved directly
-  std::string coarsening = "colouring";           ///< or "aggregation"
-  std::string fluid_smoother = "braess-sarazin";  ///< or "vanka"
-  std::string wall_smoother = "braess-sarazin";   ///< or "vanka"
-  std::string sub_cycle = "w";                    ///< of the sub-problems: "v" or "w"
-  int sub_smoothing = 2;                          ///< smoothing steps of the sub-problems, before and after
+  CoupledCoarseningOptions coarsening;
+  CoupledSmoothingOptions smoothing;
+  CoupledCycleOptions cycle;  ///< of the coupled amg; amli has its own kind
+  SubProblemCycleOptions sub_problems;
 };
 
 /// [monolithic]
 struct MonolithicData {
-  std::string linear_solver = "fast";
-  double linear_tolerance = 0;      ///< residual of each linear solve, relative; 0: what Newton's convergence needs
-  int max_linear_iterations = 500;  ///< of each linear solve
-  int direct_below = 2000;          ///< unknowns below which `fast` factorises
-  int krylov_restart = 250;         ///< directions that GMRES and FGMRES keep
+  std::string linear_solver = "fast";  ///< one of linear_solver_names()
+  NewtonOptions newton;
+  FastOptions fast;
+  KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
   MultigridData multigrid;
-  std::string mode = "kept";  ///< "kept": factors serve while the residual keeps falling; "full": one each iteration
-  double newton_tolerance = 1e-8;  ///< increment relative to the first one of the step
-  double residual_tolerance = 0;   ///< optional further demand: residual relative to the first of the step; 0: none
-  int max_iterations = 30;
 };
 
 /// [partitioned]
 struct PartitionedData {
-  std::string scheme = "robin-neumann-iqn";
-  double tolerance = 1e-6;            ///< ||d~ - d|| <= tolerance ||d~|| on the interface
-  double absolute_tolerance = 1e-13;  ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
-  double force_tolerance = 0;         ///< further demand: force residual relative to the interface force; 0: none
-  double velocity_gap = 0.5;          ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
-  double relaxation = 0;              ///< constant factor, or the first of the scheme; 0 lets the scheme choose
+  std::string scheme = "robin-neumann-iqn";  ///< one of coupling_scheme_names()
+  double tolerance = 1e-6;                   ///< ||d~ - d|| <= tolerance ||d~|| on the interface
+  double absolute_tolerance = 1e-13;         ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
+  double force_tolerance = 0;        ///< further demand: force residual relative to the interface force; 0: none
+  double velocity_gap = 0.5;         ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
+  std::optional<double> relaxation;  ///< constant factor, or the first of the scheme; empty: the scheme chooses
   int max_iterations = 200;
-  int reused_steps = 10;               ///< earlier time steps whose differences iqn-ils keeps
-  int columns = 200;                   ///< differences that a quasi-Newton scheme keeps at most
-  double filter = 1e-2;                ///< a difference is dropped when less than this part of it is new
-  std::string linear_solver = "fast";  ///< of the sub-problems: "fast" or "direct"
-  int direct_below = 2000;             ///< unknowns of a sub-problem below which `fast` factorises
+  QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
+  std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()
+  FastOptions fast;                    ///< of the sub-problems
 };
 
 /// [output]
 struct OutputData {
-  std::vector<std::string> fields{"displacement", "velocity", "pressure"};
+  std::vector<std::string> fields = output_field_names();
   int every = 8;             ///< steps between entries of fields.h5; 0: no fields
   int checkpoint_every = 1;  ///< steps between checkpoints; 0: none
   bool energy = true;        ///< energy.csv
@@ -125,13 +113,8 @@ struct OutputData {
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.
 struct EconomyData {
-  std::string constant_operators = "kept";  ///< "rebuilt": the mesh motion's is assembled and set up at each use
+  bool keep_constant_operators = true;  ///< false: the mesh motion's is assembled and set up at each use
 };
-
-/// Names that monolithic.linear_solver can have.
-const std::vector<std::string>& linear_solver_names();
-/// Names that partitioned.scheme can have.
-const std::vector<std::string>& coupling_scheme_names();
 
 /// A whole scene as the case file states it. Sections that a scene does not need are absent.
 struct Case {
@@ -149,6 +132,7 @@ struct Case {
   PartitionedData partitioned;
   OutputData output;
   EconomyData economy;
+  std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
 };
 
 }  // namespace fsi

@@ -117,6 +117,22 @@ double CaseEntry::number() const {
   return value;
 }
 
+double CaseEntry::number(const Quantity& quantity) const {
+  const double value = number();
+  warn_of_unit(quantity, value);
+  return value;
+}
+
+bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
+  const auto slip = unit_slip(quantity, value);
+  if (!slip) return false;
+  const InputError message(source_->place(key_, node_->source()), printable(key_),
+                           fmt::format("{:g} looks like a value in {}", value, slip->unit),
+                           fmt::format("did you mean {:.3g} {}?", slip->meant, quantity.unit));
+  source_->warnings.emplace_back(message.what());
+  return true;
+}
+
 int CaseEntry::whole_number() const {
   const auto* whole = node_->as_integer();
   if (whole == nullptr) refuse_type("a whole number");

@@ -4,10 +4,11 @@
 
 #include <toml++/toml.h>
 
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "base/quantity.hpp"
 
 namespace fsi {
 
@@ -18,6 +19,8 @@ std::string printable(std::string text);
 struct CaseSource {
   std::string file;                  ///< as the user wrote it
   std::set<std::string> overridden;  ///< key paths that --set has put in place; all below them counts as well
+  /// What looks wrong without being refused. Collected while entries are read, which only look at their source.
+  mutable std::vector<std::string> warnings;
 
   bool is_overridden(const std::string& key) const;
   /// "case.toml:12", "--set", or "case.toml" when there is no line.
@@ -44,8 +47,12 @@ class CaseEntry {
   /// For a key that this section lacks: placed at the section's header.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& remedy) const;
 
+  /// Warns when the value seems to be in a wrong unit. \return whether it does
+  bool warn_of_unit(const Quantity& quantity, double value) const;
+
   // Conversions; each throws InputError when the entry is of another type.
-  double number() const;  ///< finite
+  double number() const;                          ///< finite
+  double number(const Quantity& quantity) const;  ///< as number(), with a warning when it seems to be in a wrong unit
   int whole_number() const;
   bool boolean() const;
   std::string text() const;
@@ -68,47 +75,7 @@ class CaseEntry {
   const CaseSource* source_;
 };
 
-/// A line of `--help-keys`.
-struct KeyHelp {
-  std::string path;
-  std::string about;
-  bool required = false;
-};
-
-/// A key of a section: what it means, and how its entry gets into the Target.
-template <class Target>
-struct CaseKey {
-  using Reader = std::function<void(const CaseEntry&, Target&)>;
-
-  std::string name;
-  bool required;
-  std::string about;  ///< meaning and unit
-  Reader read;
-  std::vector<KeyHelp> below;  ///< the keys of a section
-
-  CaseKey(std::string name_, bool required_, std::string about_, Reader read_, std::vector<KeyHelp> below_ = {})
-      : name(std::move(name_)),
-        required(required_),
-        about(std::move(about_)),
-        read(std::move(read_)),
-        below(std::move(below_)) {}
-};
-
 /// \throws InputError for an entry whose name is not among `known`, with the nearest that is
 void refuse_unknown_keys(const CaseEntry& section, const std::vector<std::string>& known);
-
-/// Reads a section by its table of keys: misspelt ones first, since they explain missing ones.
-template <class Target>
-void read_keys(const CaseEntry& section, const std::vector<CaseKey<Target>>& keys, Target& target) {
-  std::vector<std::string> known;
-  for (const auto& key : keys) known.push_back(key.name);
-  refuse_unknown_keys(section, known);
-  for (const auto& key : keys) {
-    if (section.has(key.name))
-      key.read(section.child(key.name, key.about), target);
-    else if (key.required)
-      section.refuse_missing(key.name, "add it (" + key.about + ")");
-  }
-}
 
 }  // namespace fsi

@@ -1,18 +1,26 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "case/case.hpp"
 
 namespace fsi {
 
-/// The entries of a case that determine the discrete equations, one `key = value` per line in a fixed order, numbers
-/// with round-trip precision. Left out, so that a run can be extended or rescued: title, [output], [time] end and
-/// predictor, the solver sections [monolithic] and [partitioned], and the mesh's path (a checkpoint knows the mesh by
-/// its contents).
+// What a case computes, as text and as a hash. It is made from the tables of keys that case files are read by
+// (case_keys.hpp): a new key of [fluid], [structure], [inlet], [load], [time] or [static] counts unless its row says
+// otherwise. Left out, so that a run can be extended, rescued or continued with other steps: title, [output],
+// [economy], [time] step, end and predictor, load_steps, the solver sections [monolithic] and [partitioned], and the
+// mesh's path (a checkpoint knows the mesh by its contents, and the steps).
+
+/// The entries that determine the equations: one `key = value` a line in the order of the tables, defaults too, numbers
+/// with round-trip precision.
 std::string canonical_dump(const Case& scene);
 
 /// FNV-1a 64 of canonical_dump, 16 hexadecimal digits.
 std::string hash_of_case(const Case& scene);
+
+/// The steps in which the equations are marched, by key: {"time.step": "0.125"} or {"static.load_steps": "10"}.
+std::map<std::string, std::string> stepping_of_case(const Case& scene);
 
 }  // namespace fsi

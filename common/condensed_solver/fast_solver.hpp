@@ -4,19 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "case/fast_options.hpp"
 #include "system/direct_linear_solver.hpp"
 #include "system/linear_solver.hpp"
 
 namespace fsi {
-
-/// Options of the `fast` linear solver. Defaults by measurement (docs/solvers.md).
-struct FastOptions {
-  std::int64_t direct_below = 2000;  ///< unknowns below which a sparse factorisation is quicker
-  int max_iterations = 400;          ///< of GMRES in one solve, before the preconditioner is strengthened
-  int restart = 50;                  ///< iterations between two residuals in double precision, at most
-  int momentum_sweeps = 0;           ///< symmetric Gauss-Seidel sweeps on the momentum equations; 0: chosen
-  int strong_sweeps = 8;             ///< the same when the preconditioner is strengthened
-};
 
 /// `fast`: the linear solver that a user should run. What is known exactly is eliminated: the numbering holds one
 /// velocity on the interface, and the mesh displacement follows from it by a harmonic extension whose matrix is

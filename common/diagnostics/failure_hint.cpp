@@ -9,6 +9,7 @@
 
 #include "diagnostics/limit_load.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "materials/material.hpp"
 #include "mesh/axis.hpp"
 #include "mesh/point_math.hpp"
 
@@ -93,8 +94,8 @@ std::string wall_hint(const WallAtFailure& wall, std::optional<double> limit, bo
   if (beyond)
     text += fmt::format(
         ", so that {:.4g} kPa inflate this one on and on: give a lower pressure, a shorter pulse, stiffer layers, or "
-        "fibres (material = \"artery\")",
-        wall.load);
+        "fibres (material = \"{}\")",
+        wall.load, fmt::join(materials_with_fibres(), "\" or \""));
   else
     text += fmt::format(
         ", less still where it bulges: {:.3g} kPa may be the limit load of this one; on a coarse mesh the wall is too "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/material.hpp"
 #include "mesh/axis.hpp"
 #include "mesh/point_math.hpp"
 
@@ -49,10 +50,11 @@ std::optional<double> tube_limit_load(const StructureData& wall, const Tetrahedr
   const AxisFrame frame({wall.axis_origin, wall.axis_direction});
   double limit = 0;
   for (const auto& [name, data] : wall.layers) {
-    if (data.k1 * data.fibre_scale > 0) return std::nullopt;
+    const auto modulus = inflation_modulus(make_material(data.material, data.values));
+    if (!modulus) return std::nullopt;
     const TubeLayer layer = measure(mesh, mesh.region_index(name), frame);
     if (!layer.is_tube()) return std::nullopt;
-    limit += (data.c10 + data.c01) * std::log(layer.outer / layer.inner);
+    limit += *modulus * std::log(layer.outer / layer.inner);
   }
   return limit;
 }

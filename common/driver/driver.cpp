@@ -157,6 +157,7 @@ class Run {
                                   summary_["unknowns"]["coupled"].get<long>(), threads(), loads_.steps());
     console.line(text);
     log.info(text);
+    for (const auto& warning : setup_.warnings) log.warning(warning);
     if (state_.step > 0) log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
   }
 
@@ -212,6 +213,7 @@ int run_driver(const std::string& program, const std::string& description, int a
     if (!line) return static_cast<int>(exit_done);
     set_dense_threads(set_threads(line->threads));
     const Case setup = read_case(line->case_file, line->overrides);
+    for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
     Run(program, *line, setup, make_stepper).march();

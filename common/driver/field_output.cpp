@@ -1,6 +1,8 @@
 #include "driver/field_output.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace fsi {
 
@@ -26,6 +28,24 @@ std::vector<double> taken(const std::vector<double>& from, int stride, int first
   return to;
 }
 
+/// A field of output.fields: which grids have it, and its values.
+struct OutputField {
+  std::string_view name;
+  int components;
+  const char* unit;
+  bool (*exists)(bool moves, bool flows);
+  std::vector<double> (*values)(const State& state, bool fluid);
+};
+
+constexpr std::array<OutputField, 3> output_fields{
+    {{"displacement", n, "mm", [](bool moves, bool) { return moves; },
+      [](const State& state, bool fluid) { return fluid ? state.now.mesh : taken(state.now.wall, n + 1, 0, n); }},
+     {"velocity", n, "mm/ms", [](bool, bool flows) { return flows; },
+      [](const State& state, bool fluid) { return fluid ? taken(state.now.flow, n + 1, 0, n) : state.wall_velocity; }},
+     {"pressure", 1, "kPa", [](bool, bool) { return true; },
+      [](const State& state, bool fluid) { return taken(fluid ? state.now.flow : state.now.wall, n + 1, n, 1); }}}};
+static_assert(names_match(output_field_list, output_fields), "case/choices.hpp owns these names");
+
 }  // namespace
 
 FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, int steps,
@@ -33,13 +53,11 @@ FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, i
                          int first_step)
     : scene_(scene) {
   if (setup.output.every == 0 || setup.output.fields.empty()) return;
-  const auto wanted = [&](const char* field) {
-    return std::find(setup.output.fields.begin(), setup.output.fields.end(), field) != setup.output.fields.end();
-  };
+  const auto& wanted = setup.output.fields;
   const auto describe = [&](FieldGrid grid, bool moves, bool flows) {
-    if (wanted("displacement") && moves) grid.fields.push_back({"displacement", n, "mm"});
-    if (wanted("velocity") && flows) grid.fields.push_back({"velocity", n, "mm/ms"});
-    if (wanted("pressure")) grid.fields.push_back({"pressure", 1, "kPa"});
+    for (const auto& field : output_fields)
+      if (std::find(wanted.begin(), wanted.end(), field.name) != wanted.end() && field.exists(moves, flows))
+        grid.fields.push_back({std::string(field.name), field.components, field.unit});
     if (!grid.fields.empty()) grids_.push_back(std::move(grid));
   };
   if (scene.fluid) describe(grid_of("fluid", scene.fluid->part()), scene.coupled(), true);
@@ -57,16 +75,9 @@ void FieldOutput::write(const State& state) {
   if (!writer_ || !writer_->wants(state.step)) return;
   FieldValues values;
   for (const auto& grid : grids_)
-    for (const auto& field : grid.fields) {
-      const bool fluid = grid.name == "fluid";
-      auto& to = values[{grid.name, field.name}];
-      if (field.name == "pressure")
-        to = taken(fluid ? state.now.flow : state.now.wall, n + 1, n, 1);
-      else if (field.name == "displacement")
-        to = fluid ? state.now.mesh : taken(state.now.wall, n + 1, 0, n);
-      else
-        to = fluid ? taken(state.now.flow, n + 1, 0, n) : state.wall_velocity;
-    }
+    for (const auto& field : grid.fields)
+      for (const auto& known : output_fields)
+        if (known.name == field.name) values[{grid.name, field.name}] = known.values(state, grid.name == "fluid");
   writer_->write(state.step, values);
 }
 

@@ -19,6 +19,11 @@ int failure(const std::string& name, const std::string& message, ExitCode code) 
 
 }  // namespace
 
+void warn(const std::string& name, const std::string& message) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s: warning: %s\n", name.c_str(), message.c_str());
+}
+
 int run_program(const std::string& name, const std::function<int()>& body) {
   try {
     return body();

@@ -9,4 +9,7 @@ namespace fsi {
 /// InputError 1, ConvergenceError 2, out of memory and anything unexpected 1. Otherwise returns the body's own code.
 int run_program(const std::string& name, const std::function<int()>& body);
 
+/// Prints "NAME: warning: MESSAGE" to the standard error stream; the program goes on.
+void warn(const std::string& name, const std::string& message);
+
 }  // namespace fsi

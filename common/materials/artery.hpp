@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "materials/parameter.hpp"
 #include "materials/strain.hpp"
 
 namespace fsi {
@@ -10,12 +15,28 @@ namespace fsi {
 /// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
 struct Artery {
   using FibreData = Fibres;
-  double c10;              ///< kPa
-  double k1;               ///< kPa
-  double k2;               ///< -
+  double c10 = 0;          ///< kPa
+  double k1 = 0;           ///< kPa
+  double k2 = 0;           ///< -
   double fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
+  double alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
+
+  static constexpr const char* name = "artery";
+  static std::vector<ParameterOf<Artery>> parameters() {
+    return {{&Artery::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
+            {&Artery::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
+            {&Artery::k2, "k2", "fibre exponent", quantity::number(), positive},
+            {&Artery::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
+            {&Artery::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false}};
+  }
 
   double shear_modulus() const { return c10; }
+  double fibre_angle() const { return alpha * (std::acos(-1.0) / 180); }
+  /// Two families of stretched fibres, energy k1/2 (J_i - 1)^2 each with J_i - 1 = 2 eps cos^2(alpha) nearly.
+  double fibre_stiffness() const { return 8 * fibre_scale * k1 * std::pow(std::cos(fibre_angle()), 4); }
+  std::optional<double> inflation_modulus() const {
+    return k1 * fibre_scale > 0 ? std::nullopt : std::optional<double>(c10);
+  }
 
   template <class T>
   T energy(const Strain<T>& s, const Fibres& fibres) const {

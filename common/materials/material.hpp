@@ -1,14 +1,57 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <type_traits>
 #include <variant>
+#include <vector>
 
+#include "base/name_table.hpp"
 #include "materials/artery.hpp"
 #include "materials/mooney_rivlin.hpp"
 #include "materials/neo_hookean.hpp"
+#include "materials/parameter.hpp"
 
 namespace fsi {
 
-/// One wall layer's material. A new material is a file beside these, an entry here and one in the case reader's table.
+/// One wall layer's material: the table of all there are. A new one is a file beside these and an entry here; case
+/// files, `--help-keys`, the membrane and the limit load know it from then on. A law L states
+///   L::name                  its name in case files
+///   L::parameters()          its parameters, see ParameterOf
+///   energy, stress           Psi and S' = 2 dPsi/dC without the volumetric part, kPa, of Strain<T> and FibreData
+///   FibreData                Fibres, and then fibre_angle() in radians from the circumference, or NoFibres
+///   shear_modulus()          mu of the undeformed isotropic part, kPa
+///   fibre_stiffness()        what fibres add to Young's modulus along the circumference at small strains, kPa
+///   inflation_modulus()      m of the pressure m ln(B/A) that a long tube of radii A < B tends to when inflated
+///                            without end at its own length, kPa; empty when it stiffens and bears any pressure
 using Material = std::variant<NeoHookean, MooneyRivlin, Artery>;
+
+/// A material as the case reader sees it.
+struct MaterialKind {
+  std::vector<Parameter> parameters;
+  bool has_fibres;
+  Material (*make)(const ParameterValues& values);
+
+  const Parameter* find(const std::string& name) const;
+};
+/// All kinds by name, in the order of Material.
+const NameTable<MaterialKind>& materials();
+
+/// Names of the kinds with fibres, in the table's order.
+std::vector<std::string> materials_with_fibres();
+
+/// \throws InputError for an unknown name, a value that is no parameter of this material and a missing one
+Material make_material(const std::string& name, const ParameterValues& values);
+
+// What the rest of the program asks of any material, see above.
+double shear_modulus(const Material& material);
+double fibre_stiffness(const Material& material);
+std::optional<double> inflation_modulus(const Material& material);
+
+template <class Law>
+inline constexpr bool has_fibres_v = std::is_same_v<typename Law::FibreData, Fibres>;
+
+bool has_fibres(const Material& material);
+double fibre_angle(const Material& material);  ///< radians from the circumference; 0 without fibres
 
 }  // namespace fsi

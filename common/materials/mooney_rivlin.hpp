@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "materials/parameter.hpp"
 #include "materials/strain.hpp"
 
 namespace fsi {
@@ -8,9 +12,17 @@ namespace fsi {
 /// 5.3.
 struct MooneyRivlin {
   using FibreData = NoFibres;
-  double c10, c01;  ///< kPa
+  double c10 = 0, c01 = 0;  ///< kPa
+
+  static constexpr const char* name = "mooney-rivlin";
+  static std::vector<ParameterOf<MooneyRivlin>> parameters() {
+    return {{&MooneyRivlin::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
+            {&MooneyRivlin::c01, "c01", "second isotropic stiffness", quantity::stiffness(), not_negative}};
+  }
 
   double shear_modulus() const { return c10 + c01; }
+  double fibre_stiffness() const { return 0; }
+  std::optional<double> inflation_modulus() const { return c10 + c01; }
 
   template <class T>
   static T i2(const Strain<T>& s) {

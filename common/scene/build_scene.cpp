@@ -13,10 +13,8 @@ namespace fsi {
 namespace {
 
 LayerMaterial layer_material(const MaterialData& data) {
-  const double degree = std::acos(-1.0) / 180;
-  if (data.material == "mooney-rivlin") return {MooneyRivlin{data.c10, data.c01}, 0};
-  if (data.material == "artery") return {Artery{data.c10, data.k1, data.k2, data.fibre_scale}, data.alpha * degree};
-  return {NeoHookean{data.c10}, 0};
+  const Material material = make_material(data.material, data.values);
+  return {material, fibre_angle(material)};
 }
 
 CylinderAxis cylinder_axis(const StructureData& data) {
@@ -78,7 +76,7 @@ std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const Tetra
     scene->profile.count("fluid elements", static_cast<std::int64_t>(scene->fluid->part().cells.size()));
   }
 
-  scene->keep_constant_operators = setup.economy.constant_operators == "kept";
+  scene->keep_constant_operators = setup.economy.keep_constant_operators;
   if (scene->coupled()) scene->assemble_mesh_motion();
   return scene;
 }

@@ -49,6 +49,11 @@ int NewtonReport::linear_iterations() const {
   return sum;
 }
 
+const NameTable<bool>& newton_modes() {
+  static const NameTable<bool> table{"monolithic.mode", {{"kept", true}, {"full", false}}};
+  return table;
+}
+
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   NewtonReport report;
   double residual = problem.evaluate();

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/name_table.hpp"
+
 namespace fsi {
 
 /// What Newton's method needs of a problem R(x) = 0. The problem keeps the iterate, its residual and the last
@@ -48,6 +50,9 @@ struct NewtonOptions {
   /// Sees each new linear system before it is solved: the number of the iteration, from 1. None: nobody looks.
   std::function<void(int iteration)> observe_system;
 };
+
+/// Names of keep_jacobian: "kept" (true), "full"
+const NameTable<bool>& newton_modes();
 
 /// One row of the convergence history.
 struct NewtonIteration {

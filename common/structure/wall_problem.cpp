@@ -17,7 +17,7 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
     layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph()), layer.material, {}});
-    if (std::holds_alternative<Artery>(layer.material))
+    if (has_fibres(layer.material))
       layers_.back().fibres = fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, layer.fibre_angle);
   }
 }

@@ -9,16 +9,6 @@
 
 namespace fsi {
 
-NewtonOptions newton_options(const MonolithicData& data) {
-  NewtonOptions options;
-  options.tolerance = data.newton_tolerance;
-  options.residual_tolerance = data.residual_tolerance;
-  options.max_iterations = data.max_iterations;
-  options.linear_tolerance = data.linear_tolerance;
-  options.keep_jacobian = data.mode == "kept";
-  return options;
-}
-
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent) {
   int k = 0;
   for (const auto& it : report.iterations)

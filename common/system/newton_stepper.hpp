@@ -3,16 +3,12 @@
 #include <string>
 #include <utility>
 
-#include "case/case.hpp"
 #include "system/system.hpp"
 #include "time/loads.hpp"
 #include "time/predictor.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
-
-/// Newton's options as the case states them.
-NewtonOptions newton_options(const MonolithicData& data);
 
 /// Lines of the paper's Table 3: iteration, increment, residual.
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent = "");

@@ -99,7 +99,8 @@ def _finish(process: subprocess.Popen) -> None:
 
 
 def message_of(code: int, said: str) -> str:
-    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    """Why a program ended, from what it said on its error stream; empty when it ended well. Warnings are no reason."""
+    lines = [line.strip() for line in said.splitlines() if line.strip() and ": warning: " not in line]
     if code < 0:
         try:
             name = signal.Signals(-code).name

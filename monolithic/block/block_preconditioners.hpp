@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/name_table.hpp"
 #include "monolithic/block/coupled_matrix.hpp"
 #include "monolithic/block/sub_solver.hpp"
 
@@ -140,15 +141,36 @@ class IluPreconditioner : public BlockPreconditioner<n> {
   std::vector<double> y_flow_;
 };
 
-/// By name: diagonal, lower, upper, ssor or ilu.
+namespace detail {
+
+template <template <int> class Preconditioner, int n>
+std::unique_ptr<CoupledPreconditioner> make_block(const CoupledMatrix<n>& k, SubSolvers inverse) {
+  return std::make_unique<Preconditioner<n>>(k, inverse);
+}
+
+}  // namespace detail
+
+template <int n>
+using MakeBlockPreconditioner = std::unique_ptr<CoupledPreconditioner> (*)(const CoupledMatrix<n>& k,
+                                                                           SubSolvers inverse);
+
+/// The preconditioners by name.
+template <int n>
+const NameTable<MakeBlockPreconditioner<n>>& block_preconditioners() {
+  static const NameTable<MakeBlockPreconditioner<n>> table{"block preconditioner",
+                                                           {{"diagonal", detail::make_block<DiagonalPreconditioner, n>},
+                                                            {"lower", detail::make_block<LowerPreconditioner, n>},
+                                                            {"upper", detail::make_block<UpperPreconditioner, n>},
+                                                            {"ssor", detail::make_block<SsorPreconditioner, n>},
+                                                            {"ilu", detail::make_block<IluPreconditioner, n>}}};
+  return table;
+}
+
+/// \throws InputError for a name that is not in the table
 template <int n>
 std::unique_ptr<CoupledPreconditioner> make_block_preconditioner(const std::string& name, const CoupledMatrix<n>& k,
                                                                  SubSolvers inverse) {
-  if (name == "diagonal") return std::make_unique<DiagonalPreconditioner<n>>(k, inverse);
-  if (name == "lower") return std::make_unique<LowerPreconditioner<n>>(k, inverse);
-  if (name == "upper") return std::make_unique<UpperPreconditioner<n>>(k, inverse);
-  if (name == "ssor") return std::make_unique<SsorPreconditioner<n>>(k, inverse);
-  return std::make_unique<IluPreconditioner<n>>(k, inverse);
+  return block_preconditioners<n>().at(name)(k, inverse);
 }
 
 }  // namespace fsi

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "algebra/node_graph.hpp"
+#include "case/coupled_multigrid_options.hpp"
 #include "monolithic/multigrid/coupled_cycle.hpp"
 #include "solvers/amg/coarsening.hpp"
 
@@ -13,12 +14,6 @@ struct CoupledNodes {
   const NodeGraph *mesh = nullptr, *flow = nullptr, *wall = nullptr;
   NodeMarks mesh_marks, flow_marks, wall_marks;
   std::vector<int> mesh_interface, flow_interface, wall_interface;  ///< the same points one by one, clamped ones too
-};
-
-struct CoupledCoarseningOptions {
-  CoarseningKind kind = CoarseningKind::colouring;
-  int max_levels = 10;
-  int coarsest_nodes = 400;  ///< fluid and wall nodes of a level that needs no coarser one
 };
 
 /// Transfers diag(P_m, P_f, P_s) from each level to the next. The interface is coarsened once, and its weights are the

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/direct_solver.hpp"
+#include "case/coupled_multigrid_options.hpp"
 #include "monolithic/block/block_gauss_seidel.hpp"
 #include "monolithic/block/block_preconditioners.hpp"
 #include "solvers/amg/transfer.hpp"
@@ -44,20 +45,6 @@ struct CoupledLevel {
   CoupledVector b, x, r;
   CoupledVector inner_b, inner_x;  ///< of the Krylov method around this level's cycle
   Fgmres krylov;
-};
-
-/// How the cycle visits the coarse levels.
-enum class CoupledCycleKind {
-  v,    ///< once
-  w,    ///< twice (algorithm 3 with nu = 2)
-  k,    ///< as preconditioner of FGMRES, a second iteration only where the first one left much of the residual
-  amli  ///< as preconditioner of nu = 2 iterations of FGMRES (algorithm 4)
-};
-
-struct CoupledCycleOptions {
-  CoupledCycleKind kind = CoupledCycleKind::w;
-  double k_cycle_reduction =
-      0.25;  ///< the K-cycle's second iteration is skipped when the first reduced the residual more
 };
 
 /// One iteration of the algebraic multigrid ([Langer2018], algorithm 3) or algebraic multilevel method (algorithm 4)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "case/coupled_multigrid_options.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "monolithic/multigrid/coupled_coarsening.hpp"
 #include "monolithic/multigrid/coupled_cycle.hpp"
@@ -32,15 +33,6 @@ struct CoupledMultigridOptions {
   CoupledCoarseningOptions coarsening;
   EllipticAmgOptions mesh = mesh_amg_options();  ///< of these three: cycle, smoother; the coarsening is the coupled one
   SaddleAmgOptions flow = fluid_amg_options(), wall = wall_amg_options();
-};
-
-/// Steps of the coupled smoother and their damping.
-struct CoupledSmoothingOptions {
-  int pre_smoothing = 5, post_smoothing = 5;
-  double damping = 0;         ///< omega_f = omega_s; 0: damping_for() the estimated largest eigenvalue, level by level
-  double mesh_damping = 1;    ///< omega_m; mesh motion takes no part in the loop that makes the iteration diverge
-  int power_iterations = 12;  ///< of the estimate
-  double safety = 0.95;       ///< factor on the estimated damping: too large a one does more harm than too small a one
 };
 
 /// Best damping omega = omega_f = omega_s of the block Gauss-Seidel iteration whose undamped form has the eigenvalues

@@ -63,13 +63,11 @@ double median_seconds(int most, const std::function<void()>& work) {
 }
 
 std::vector<std::string> parse_solvers(const std::string& text) {
+  const auto known = linear_solver_names();
   auto names = split(text, ',');
-  if (names.empty())
-    throw InputError("", "--linear-solvers", "no solver named", "give some of " + one_of(linear_solver_names()));
+  if (names.empty()) throw InputError("", "--linear-solvers", "no solver named", "give some of " + one_of(known));
   for (const auto& name : names)
-    if (std::find(linear_solver_names().begin(), linear_solver_names().end(), name) == linear_solver_names().end())
-      throw InputError("", "--linear-solvers", "\"" + name + "\" is unknown",
-                       "did you mean " + nearest_name(name, linear_solver_names()) + "?");
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name("--linear-solvers", name, known);
   return names;
 }
 
@@ -146,7 +144,7 @@ class LinearStudy {
     const auto make_fast = [&](const JacobianBlocks<Element>& blocks) {
       return make_linear_solver("fast", setup_, blocks);
     };
-    NewtonOptions options = newton_options(setup_.monolithic);
+    NewtonOptions options = setup_.monolithic.newton;
     NewtonStepper<Element> stepper(*scene_, loads_, options, number_scene(*scene_), make_fast);
     System<Element> system("coupled", *scene_, number_scene(*scene_), make_fast);
     State state = scene_->at_rest();
@@ -172,7 +170,7 @@ class LinearStudy {
     scene_->impose_conditions(state.now);
     scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
-    NewtonOptions options = newton_options(setup_.monolithic);
+    NewtonOptions options = setup_.monolithic.newton;
     options.keep_jacobian = false;
     options.linear_tolerance = std::min(1e-9, tolerance_);
     options.observe_system = [&](int iteration) {
@@ -323,9 +321,9 @@ class LinearStudy {
     };
     add("mesh", study_elliptic_multigrid<n>(*k.mesh, mesh, mesh_amg_options(), range));
     add("fluid", study_saddle_multigrid(*k.flow, fluid, fluid_amg_options(), range));
-    for (const char* smoother : {"braess-sarazin", "vanka"}) {
-      range.smoothers = {smoother};
-      add("wall", study_saddle_multigrid(*k.wall, wall, wall_amg_options(saddle_smoother_kind(smoother)), range));
+    for (const auto& [name, smoother] : saddle_smoother_kinds().rows()) {
+      range.smoothers = {name};
+      add("wall", study_saddle_multigrid(*k.wall, wall, wall_amg_options(smoother), range));
     }
   }
 

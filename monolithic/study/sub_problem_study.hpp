@@ -77,9 +77,9 @@ struct MultigridStudyRow {
 
 /// What a study varies; the rest comes from the options it is given.
 struct MultigridStudyRange {
-  std::vector<std::string> coarsenings{"colouring", "aggregation"};
-  std::vector<std::string> smoothers{"braess-sarazin", "vanka"};  ///< for saddle-point problems
-  std::vector<std::string> cycles{"v", "w", "k"};
+  std::vector<std::string> coarsenings = coarsening_kinds().names();
+  std::vector<std::string> smoothers = saddle_smoother_kinds().names();  ///< for saddle-point problems
+  std::vector<std::string> cycles = cycle_kinds().names();
   int max_levels = 4;  ///< hierarchies of 2, 3, ... levels, as far as the problem has nodes for
   double tolerance = 1e-9;
   int max_iterations = 60;
@@ -105,9 +105,9 @@ std::vector<MultigridStudyRow> study_saddle_multigrid(const BlockMatrix<Size, Si
   std::vector<MultigridStudyRow> rows;
   for (const auto& smoother : range.smoothers)
     detail::for_each_hierarchy(range, [&](const std::string& coarsening, const std::string& cycle, int levels) {
-      options.smoother = saddle_smoother_kind(smoother);
-      options.coarsening = coarsening_kind(coarsening);
-      options.cycle.kind = cycle_kind(cycle);
+      options.smoother = saddle_smoother_kinds().at(smoother);
+      options.coarsening = coarsening_kinds().at(coarsening);
+      options.cycle.kind = cycle_kinds().at(cycle);
       options.cycle.max_levels = levels;
       options.cycle.coarsest_nodes = 1;
       SaddleAmg<Size> amg(options);
@@ -127,8 +127,8 @@ std::vector<MultigridStudyRow> study_elliptic_multigrid(const BlockMatrix<1, Num
                                                         const MultigridStudyRange& range = {}) {
   std::vector<MultigridStudyRow> rows;
   detail::for_each_hierarchy(range, [&](const std::string& coarsening, const std::string& cycle, int levels) {
-    options.coarsening = coarsening_kind(coarsening);
-    options.cycle.kind = cycle_kind(cycle);
+    options.coarsening = coarsening_kinds().at(coarsening);
+    options.cycle.kind = cycle_kinds().at(cycle);
     options.cycle.max_levels = levels;
     options.cycle.coarsest_nodes = 1;
     EllipticAmg<Components, Numbers> amg(options);

@@ -2,19 +2,11 @@
 
 #include <vector>
 
+#include "case/quasi_newton_options.hpp"
 #include "partitioned/accelerators/accelerator.hpp"
 #include "partitioned/accelerators/difference_columns.hpp"
 
 namespace fsi {
-
-/// Options of the quasi-Newton accelerators; defaults near preCICE's (version 3: 0.1, 100, 10, QR3 1e-2).
-struct QuasiNewtonOptions {
-  double relaxation = 0.01;  ///< while there are no differences yet
-  double mixing = 1;         ///< relaxation of the part of a residual that the differences do not explain
-  int columns = 200;         ///< kept at most
-  int reused_steps = 10;     ///< earlier time steps whose columns are kept
-  double filter = 1e-2;      ///< a column is dropped when less than this part of it is new
-};
 
 /// Interface quasi-Newton with an approximation of the inverse Jacobian by least squares, IQN-ILS
 /// [Degroote2009]. With differences of successive passes as columns, V = [dr ...] and W = [dx~ ...], newest first

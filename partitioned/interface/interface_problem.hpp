@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "condensed_solver/fast_solver.hpp"
+#include "condensed_solver/fast_or_direct.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
 #include "scene/scene.hpp"
@@ -113,11 +113,7 @@ class InterfaceProblem {
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
   static LinearSolverFactory<Element> solver_factory(const PartitionedData& options) {
-    if (options.linear_solver == "direct") return {};
-    FastOptions fast;
-    fast.direct_below = options.direct_below;
-    return
-        [fast](const JacobianBlocks<Element>& blocks) { return std::make_unique<FastSolver<Element>>(blocks, fast); };
+    return general_solver_factory<Element>(options.linear_solver, options.fast);
   }
 
   /// The wall's displacement on the interface in a solution.

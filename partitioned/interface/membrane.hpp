@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "case/case.hpp"
 #include "fem/facet_load.hpp"
 #include "scene/scene.hpp"
 
@@ -95,26 +94,21 @@ auto wet_facets(const Scene<Element>& scene) {
 
 }  // namespace detail
 
-/// \param data  of the scene's wall, its layers in the same order
 template <class Element>
-Membrane membrane_of(const Scene<Element>& scene, const StructureData& data) {
+Membrane membrane_of(const Scene<Element>& scene) {
   Membrane m;
   const auto areas = nodal_areas<Element>(scene.fluid->part().nodes, detail::wet_facets(scene));
   for (const auto& node : scene.interface) {
     m.node_areas.push_back(areas[node.fluid]);
     m.area += areas[node.fluid];
   }
-  m.density = data.density;
+  m.density = scene.wall->constants().density;
   m.radius = 2 * detail::volume_of(scene.fluid->packs(), scene.fluid->part().cells.size()) / m.area;
-  auto layer = scene.wall->layers().begin();
-  for (const auto& [name, material] : data.layers) {
-    const double h = detail::volume_of(layer++->packs, scene.wall->part().cells.size()) / m.area;
-    const double mu = material.c10 + material.c01, kappa = data.bulk_modulus;
+  for (const auto& layer : scene.wall->layers()) {
+    const double h = detail::volume_of(layer.packs, scene.wall->part().cells.size()) / m.area;
+    const double mu = shear_modulus(layer.material), kappa = scene.wall->constants().bulk_modulus;
     const double nu = (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
-    // Two families of stretched fibres, energy k1/2 (J_i - 1)^2 each with J_i - 1 = 2 eps cos^2(alpha) nearly.
-    const double cosine = std::cos(material.alpha * std::acos(-1.0) / 180);
-    const double fibres = 8 * material.fibre_scale * material.k1 * std::pow(cosine, 4);
-    const double young = 2 * mu * (1 + nu) + (material.material == "artery" ? fibres : 0.0);
+    const double young = 2 * mu * (1 + nu) + fibre_stiffness(layer.material);
     m.thickness += h;
     m.shear_modulus += mu * h;
     m.tension += young * h / (1 - nu * nu);

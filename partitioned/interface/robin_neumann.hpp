@@ -28,9 +28,9 @@ class RobinNeumann : public InterfaceProblem<Element> {
  public:
   static constexpr int n = Element::components;
 
-  RobinNeumann(Scene<Element>& scene, const PartitionedData& options, const StructureData& wall)
+  RobinNeumann(Scene<Element>& scene, const PartitionedData& options)
       : Base(scene, options),
-        membrane_(membrane_of(scene, wall)),
+        membrane_(membrane_of(scene)),
         fluid_("fluid", scene, number_fluid(scene, /*free_interface=*/true), Base::solver_factory(options),
                SystemNorm::entries, &robin_) {
     for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);

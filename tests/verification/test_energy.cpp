@@ -187,7 +187,7 @@ TEST(EnergyBalance, ShowsATermThatIsOnePercentOff) {
   EXPECT_GT(off_by([](Case& c) { c.fluid->viscosity *= 1.01; }), 1e-3);
   EXPECT_GT(off_by([](Case& c) { c.fluid->density *= 1.01; }), 1e-5);
   EXPECT_GT(off_by([](Case& c) { c.structure->density *= 1.01; }), 1e-6);
-  EXPECT_GT(off_by([](Case& c) { c.structure->layers["media"].c10 *= 1.01; }), 1e-4);
+  EXPECT_GT(off_by([](Case& c) { c.structure->layers["media"].values["c10"] *= 1.01; }), 1e-4);
 }
 
 TEST(EnergyBalance, NumericalDissipationInTimeIsOfFirstOrder) {

@@ -80,7 +80,7 @@ TEST_P(EveryLinearSolver, SolvesTheAxisymmetricArteryToo) {
   static LinearisedScene<P1AxisymmetricTriangle> system(
       [] {
         Case setup = artery.setup();
-        setup.monolithic.multigrid.coarsest_nodes = 60;  // of 300: three levels
+        setup.monolithic.multigrid.coarsening.coarsest_nodes = 60;  // of 300: three levels
         return setup;
       }(),
       artery.scene(), 11, 2);
@@ -129,8 +129,8 @@ TEST(CoupledMultigrid, NeedsNoMoreIterationsThanThePaper) {
 TEST(CoupledMultigrid, UndampedSmootherDiverges) {
   auto& system = artery_system("neo-hookean", "coarse", 0, 1);
   Case setup = system.setup();
-  setup.monolithic.multigrid.damping = 1;
-  setup.monolithic.max_linear_iterations = 30;
+  setup.monolithic.multigrid.smoothing.damping = 1;
+  setup.monolithic.krylov.max_iterations = 30;
   const auto solver = make_linear_solver<P1Tetrahedron>("amg", setup, system.blocks());
   solver->update();
   std::vector<double> x;

@@ -125,13 +125,6 @@ std::vector<int> store_rows(std::vector<Row>& rows, const std::vector<int>& seed
 
 }  // namespace
 
-CoarseningKind coarsening_kind(const std::string& name) {
-  if (name == "colouring") return CoarseningKind::colouring;
-  if (name == "aggregation") return CoarseningKind::aggregation;
-  const std::vector<std::string> names{"colouring", "aggregation"};
-  throw InputError("", "coarsening", "unknown coarsening \"" + name + "\"", "use " + one_of(names));
-}
-
 NodeGraph interface_graph(const NodeGraph& first, const std::vector<int>& first_nodes, const NodeGraph& second,
                           const std::vector<int>& second_nodes) {
   std::vector<int> index(first.rows(), -1);

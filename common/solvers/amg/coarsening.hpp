@@ -1,22 +1,12 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "solvers/amg/kinds.hpp"
 #include "solvers/amg/transfer.hpp"
 
 namespace fsi {
-
-/// How coarse nodes and weights are chosen.
-enum class CoarseningKind {
-  colouring,   ///< red-black colouring of the graph, each fine node averages its coarse neighbours; [Kickinger1998]
-  aggregation  ///< disjoint aggregates, weight one; [Vanek1996] before smoothing
-};
-
-/// "colouring" or "aggregation".
-/// \throws InputError for another name
-CoarseningKind coarsening_kind(const std::string& name);
 
 struct CoarseningOptions {
   CoarseningKind kind = CoarseningKind::colouring;

@@ -1,16 +1,8 @@
 #include "solvers/amg/cycle.hpp"
 
 #include "algebra/vector_operations.hpp"
-#include "base/error.hpp"
 
 namespace fsi {
-
-CycleKind cycle_kind(const std::string& name) {
-  if (name == "v") return CycleKind::v;
-  if (name == "w") return CycleKind::w;
-  if (name == "k") return CycleKind::k;
-  throw InputError("", "cycle", "unknown cycle \"" + name + "\"", "use v, w or k");
-}
 
 void MultigridCycle::set_levels(const std::vector<int>& nodes, int entries,
                                 std::vector<std::shared_ptr<const NodeTransfer>> transfers) {

@@ -2,25 +2,14 @@
 
 #include <cstddef>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "algebra/direct_solver.hpp"
+#include "solvers/amg/kinds.hpp"
 #include "solvers/amg/transfer.hpp"
 
 namespace fsi {
-
-/// Order in which a multigrid iteration visits the levels.
-enum class CycleKind {
-  v,  ///< one visit of the coarser level
-  w,  ///< two
-  k   ///< one or two flexible GMRES iterations on the coarser level, each preconditioned by a cycle (AMLI)
-};
-
-/// "v", "w" or "k".
-/// \throws InputError for another name
-CycleKind cycle_kind(const std::string& name);
 
 struct CycleOptions {
   CycleKind kind = CycleKind::v;

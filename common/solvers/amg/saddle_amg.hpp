@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,15 +11,10 @@
 #include "solvers/amg/coarsest.hpp"
 #include "solvers/amg/cycle.hpp"
 #include "solvers/amg/galerkin.hpp"
+#include "solvers/amg/kinds.hpp"
 #include "solvers/amg/vanka.hpp"
 
 namespace fsi {
-
-enum class SaddleSmootherKind { braess_sarazin, vanka };
-
-/// "braess-sarazin" or "vanka".
-/// \throws InputError for another name
-SaddleSmootherKind saddle_smoother_kind(const std::string& name);
 
 struct SaddleAmgOptions {
   CycleOptions cycle;

@@ -12,7 +12,7 @@ using LinearOperator = std::function<void(const std::vector<double>& x, std::vec
 struct KrylovOptions {
   double tolerance = 1e-8;   ///< converged when |b - A x| <= tolerance |b|, the residual being computed, not estimated
   int max_iterations = 500;  ///< applications of A inside the iteration
-  int restart = 60;          ///< directions kept before the method starts again from its iterate
+  int restart = 250;         ///< directions kept before the method starts again from its iterate
 };
 
 /// What an iterative solver did. An iteration limit is never called convergence.

@@ -7,6 +7,7 @@
 #include "base/names.hpp"
 #include "case/case_reader.hpp"
 #include "example_cases.hpp"
+#include "materials/material.hpp"
 
 namespace fsi::test {
 
@@ -125,8 +126,7 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:21: inlet.pressure: missing; add it (pressure in kPa, or a table of [time in ms, pressure in kPa], "
        "linear in between)"},
       {"MaterialMissing", static_case, "material = \"neo-hookean\"\n", "",
-       "case.toml:7: structure.layers.wall.material: missing; add it (its model: artery, mooney-rivlin or "
-       "neo-hookean)"},
+       "case.toml:7: structure.layers.wall.material: missing; add it (its model: " + one_of(materials().names()) + ")"},
       {"FibreParameterMissing", coupled_case, "k2 = 0.8393\n", "",
        "case.toml:11: structure.layers.media.k2: missing; add it (fibre exponent)"},
       {"LayersMissing", static_case, "[structure.layers.wall]\nmaterial = \"neo-hookean\"\nc10 = 3\n", "",
@@ -167,8 +167,8 @@ const std::vector<BadCase>& bad_cases() {
       {"K2Zero", coupled_case, "k2 = 0.8393", "k2 = 0",
        "case.toml:15: structure.layers.media.k2: 0 is not positive; give a number > 0 (fibre exponent)"},
       {"AlphaTooLarge", coupled_case, "alpha = 29.0", "alpha = 119.0",
-       "case.toml:16: structure.layers.media.alpha: 119 is out of range; give a number >= 0 and <= 90 (degrees between "
-       "fibres and circumference)"},
+       "case.toml:16: structure.layers.media.alpha: 119 is out of range; give a number >= 0 and <= 90 (angle between "
+       "fibres and circumference in degrees)"},
       {"FibreScaleZero", coupled_case, "alpha = 29.0", "alpha = 29.0\nfibre_scale = 0",
        "case.toml:17: structure.layers.media.fibre_scale: 0 is not positive; give a number > 0 (factor on the fibre "
        "energy, default 1)"},
@@ -232,7 +232,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:4: mesh.level: \"corase\" is unknown; did you mean coarse? There are coarse, intermediate or fine"},
       {"MaterialUnknown", coupled_case, "\"mooney-rivlin\"", "\"money-rivlin\"",
        "case.toml:18: structure.layers.adventitia.material: \"money-rivlin\" is unknown; did you mean mooney-rivlin? "
-       "There are artery, mooney-rivlin or neo-hookean"},
+       "There are " +
+           one_of(materials().names())},
       {"LinearSolverUnknown", coupled_case, "\"direct\"", "\"amg_gmers\"",
        "case.toml:28: monolithic.linear_solver: \"amg_gmers\" is unknown; did you mean amg_gmres? There are " +
            one_of(linear_solver_names())},
@@ -293,7 +294,7 @@ const std::vector<BadCase>& bad_cases() {
        "differences iqn-ils keeps, default 10)"},
       {"FilterOne", coupled_case, "tolerance = 1e-6", "filter = 1",
        "case.toml:32: partitioned.filter: 1 is out of range; give a number >= 0 and < 1 (part of a difference that "
-       "must be new for a quasi-Newton scheme to keep it, default 1e-2)"},
+       "must be new for a quasi-Newton scheme to keep it, default 0.01)"},
       {"SubProblemSolverUnknown", coupled_case, "tolerance = 1e-6", "linear_solver = \"slow\"",
        "case.toml:32: partitioned.linear_solver: \"slow\" is unknown; did you mean fast? There are fast or direct"},
       {"FieldUnknown", coupled_case, "\"velocity\"", "\"velocities\"",

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from programs import (DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute,
+from programs import (ARTERY, DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute,
                       make_small_mesh)
 
 VERSION = os.environ["FSI_VERSION"]
@@ -60,6 +60,19 @@ class Console(FolderTest):
         self.assertEqual(text.count(f"\r\033[Kstep {STEPS}/{STEPS}"), 2)  # at work, and done
         self.assertEqual(text.count("\n"), 2)  # the first line's and the last
         self.assertTrue(text.endswith("\n"))
+
+    def test_a_wrong_unit_is_a_warning_and_the_run_goes_on(self):
+        warning = ("--set: structure.layers.media.alpha: 0.5 looks like a value in radians; "
+                   "did you mean 28.6 degrees?")
+        for program in DRIVERS:
+            folder = self.base / f"unit_{self.name(program)}"
+            process = attempt(program, ARTERY, "-q", folder=folder,
+                              settings=(*self.settings, "structure.layers.media.alpha=0.5"))
+            self.assertEqual(process.returncode, 0)
+            self.assertEqual(process.stderr, f"{self.name(program)}: warning: {warning}\n")
+            log = (folder / "run.log").read_text()
+            self.assertEqual(log.count(warning), 1)
+            self.assertIn("warning", log)
 
     def test_version_and_help(self):
         for program in (*DRIVERS, MESH):

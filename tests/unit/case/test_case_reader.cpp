@@ -1,10 +1,12 @@
 #include "case/case_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "case/case_hash.hpp"
+#include "case/choices.hpp"
+#include "materials/material.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fsi::test {
@@ -23,18 +25,18 @@ TEST(CaseReader, ReadsThePapersCases) {
   ASSERT_TRUE(neo.fluid && neo.structure && neo.inlet && neo.time);
   EXPECT_EQ(neo.fluid->viscosity, 3.5e-3);
   EXPECT_EQ(neo.structure->bulk_modulus, 1e5);
-  EXPECT_EQ(neo.structure->layers.at("media").c10, 3.0);
+  EXPECT_EQ(neo.structure->layers.at("media").values.at("c10"), 3.0);
   EXPECT_EQ(neo.inlet->points, (Points{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}));
   EXPECT_EQ(neo.time->steps(), 96);
   EXPECT_FALSE(neo.load || neo.static_load);
 
   const auto rivlin = read_case(folder / "mooney-rivlin.toml");
-  EXPECT_EQ(rivlin.structure->layers.at("adventitia").c01, 0.2);
+  EXPECT_EQ(rivlin.structure->layers.at("adventitia").values.at("c01"), 0.2);
 
   const auto artery = read_case(folder / "artery.toml");
-  EXPECT_EQ(artery.structure->layers.at("media").k1, 2.3632);
-  EXPECT_EQ(artery.structure->layers.at("adventitia").alpha, 62.0);
-  EXPECT_EQ(artery.structure->layers.at("media").fibre_scale, 1.0);
+  EXPECT_EQ(artery.structure->layers.at("media").values.at("k1"), 2.3632);
+  EXPECT_EQ(artery.structure->layers.at("adventitia").values.at("alpha"), 62.0);
+  EXPECT_EQ(artery.structure->layers.at("media").values.count("fibre_scale"), 0u) << "left to its default";
 }
 
 const std::string minimal_fluid = R"(
@@ -63,7 +65,7 @@ TEST(CaseReader, FillsInDefaults) {
   EXPECT_EQ(scene.partitioned.max_iterations, 200);
   EXPECT_EQ(scene.output.fields.size(), 3u);
   EXPECT_TRUE(scene.output.energy);
-  EXPECT_EQ(scene.economy.constant_operators, "kept");
+  EXPECT_TRUE(scene.economy.keep_constant_operators);
 }
 
 TEST(CaseReader, ReadsEveryKey) {
@@ -136,7 +138,7 @@ constant_operators = "rebuilt"
 )",
                                 "case.toml");
   EXPECT_EQ(scene.title, "all of it");
-  EXPECT_EQ(scene.economy.constant_operators, "rebuilt");
+  EXPECT_FALSE(scene.economy.keep_constant_operators);
   EXPECT_EQ(scene.mesh.level, "fine");
   EXPECT_TRUE(scene.mesh.file.empty());
   EXPECT_EQ(scene.structure->stabilisation, 0.05);
@@ -144,37 +146,37 @@ constant_operators = "rebuilt"
   EXPECT_EQ(scene.structure->axis_direction, (Point{0, 1.5, 0}));
   const auto& layer = scene.structure->layers.at("inside");
   EXPECT_EQ(layer.material, "artery");
-  EXPECT_EQ(layer.k2, 3);
-  EXPECT_EQ(layer.fibre_scale, 0.5);
+  EXPECT_EQ(layer.values.at("k2"), 3);
+  EXPECT_EQ(layer.values.at("fibre_scale"), 0.5);
   EXPECT_EQ(scene.load->points, (Points{{0, 4}}));
   EXPECT_EQ(scene.time->newmark_gamma, 0.5);
   EXPECT_EQ(scene.time->predictor, 2);
-  EXPECT_EQ(scene.monolithic.mode, "full");
-  EXPECT_EQ(scene.monolithic.residual_tolerance, 1e-7);
-  EXPECT_EQ(scene.monolithic.max_iterations, 7);
-  EXPECT_EQ(scene.monolithic.linear_tolerance, 1e-6);
-  EXPECT_EQ(scene.monolithic.max_linear_iterations, 70);
-  EXPECT_EQ(scene.monolithic.krylov_restart, 40);
+  EXPECT_FALSE(scene.monolithic.newton.keep_jacobian);
+  EXPECT_EQ(scene.monolithic.newton.residual_tolerance, 1e-7);
+  EXPECT_EQ(scene.monolithic.newton.max_iterations, 7);
+  EXPECT_EQ(scene.monolithic.newton.linear_tolerance, 1e-6);
+  EXPECT_EQ(scene.monolithic.krylov.max_iterations, 70);
+  EXPECT_EQ(scene.monolithic.krylov.restart, 40);
   const auto& multigrid = scene.monolithic.multigrid;
-  EXPECT_EQ(multigrid.cycle, "v");
-  EXPECT_EQ(multigrid.pre_smoothing, 8);
-  EXPECT_EQ(multigrid.post_smoothing, 0);
-  EXPECT_EQ(multigrid.damping, 0.3);
-  EXPECT_EQ(multigrid.levels, 4);
-  EXPECT_EQ(multigrid.coarsest_nodes, 99);
-  EXPECT_EQ(multigrid.coarsening, "aggregation");
-  EXPECT_EQ(multigrid.fluid_smoother, "vanka");
-  EXPECT_EQ(multigrid.wall_smoother, "vanka");
-  EXPECT_EQ(multigrid.sub_cycle, "v");
-  EXPECT_EQ(multigrid.sub_smoothing, 3);
+  EXPECT_EQ(multigrid.cycle.kind, CoupledCycleKind::v);
+  EXPECT_EQ(multigrid.smoothing.pre_smoothing, 8);
+  EXPECT_EQ(multigrid.smoothing.post_smoothing, 0);
+  EXPECT_EQ(multigrid.smoothing.damping, 0.3);
+  EXPECT_EQ(multigrid.coarsening.max_levels, 4);
+  EXPECT_EQ(multigrid.coarsening.coarsest_nodes, 99);
+  EXPECT_EQ(multigrid.coarsening.kind, CoarseningKind::aggregation);
+  EXPECT_EQ(multigrid.sub_problems.fluid_smoother, SaddleSmootherKind::vanka);
+  EXPECT_EQ(multigrid.sub_problems.wall_smoother, SaddleSmootherKind::vanka);
+  EXPECT_EQ(multigrid.sub_problems.kind, CycleKind::v);
+  EXPECT_EQ(multigrid.sub_problems.smoothing, 3);
   EXPECT_EQ(scene.partitioned.relaxation, 0.2);
   EXPECT_EQ(scene.partitioned.absolute_tolerance, 1e-9);
   EXPECT_EQ(scene.partitioned.force_tolerance, 1e-4);
-  EXPECT_EQ(scene.partitioned.reused_steps, 3);
-  EXPECT_EQ(scene.partitioned.columns, 30);
-  EXPECT_EQ(scene.partitioned.filter, 0.1);
+  EXPECT_EQ(scene.partitioned.quasi_newton.reused_steps, 3);
+  EXPECT_EQ(scene.partitioned.quasi_newton.columns, 30);
+  EXPECT_EQ(scene.partitioned.quasi_newton.filter, 0.1);
   EXPECT_EQ(scene.partitioned.linear_solver, "direct");
-  EXPECT_EQ(scene.partitioned.direct_below, 77);
+  EXPECT_EQ(scene.partitioned.fast.direct_below, 77);
   EXPECT_TRUE(scene.output.fields.empty());
   EXPECT_EQ(scene.output.every, 0);
   EXPECT_EQ(scene.output.checkpoint_every, 5);
@@ -199,7 +201,7 @@ TEST(CaseReader, OverridesEntries) {
   EXPECT_EQ(scene.fluid->density, 2);
   EXPECT_EQ(scene.title, "no quotes needed");
   EXPECT_EQ(scene.output.fields, std::vector<std::string>{"pressure"});
-  EXPECT_EQ(scene.monolithic.mode, "full");
+  EXPECT_FALSE(scene.monolithic.newton.keep_jacobian);
   EXPECT_EQ(scene.inlet->points, (Points{{0, 3.5}, {0.2, 3.5}, {0.2, 0}}));
   EXPECT_EQ(scene.time->steps(), 5);
 }
@@ -239,6 +241,55 @@ TEST(CaseReader, HelpNamesTheKeysOfEverySection) {
        {"mesh.file", "fluid.viscosity", "structure.layers.NAME.c10", "inlet.until", "time.step", "static.load_steps",
         "monolithic.mode", "partitioned.scheme", "output.every", "economy.constant_operators"})
     EXPECT_NE(help.find(key), std::string::npos) << key;
+}
+
+TEST(CaseReader, HelpHasUnitsNamesAndDefaultsFromWhereTheyAreOwned) {
+  const auto help = case_keys_help();
+  const auto line = [&](const std::string& key) {
+    const auto begin = help.find(" " + key + " ");
+    return begin == std::string::npos ? std::string() : help.substr(begin, help.find('\n', begin) - begin);
+  };
+  const auto says = [&](const std::string& key, const std::string& text) {
+    EXPECT_NE(line(key).find(text), std::string::npos) << line(key) << "\nlacks: " << text;
+  };
+  says("fluid.density", "mg/mm^3");
+  says("monolithic.direct_below", fmt::format("default {}", FastOptions().direct_below));
+  says("partitioned.direct_below", fmt::format("default {}", FastOptions().direct_below));
+  says("monolithic.krylov_restart", fmt::format("default {}", KrylovOptions().restart));
+  says("monolithic.max_iterations", fmt::format("default {}", NewtonOptions().max_iterations));
+  says("partitioned.columns", fmt::format("default {}", QuasiNewtonOptions().columns));
+  says("monolithic.multigrid.cycle", "v, w (default) or k");
+  for (const auto& name : linear_solver_names()) says("monolithic.linear_solver", name);
+  for (const auto& name : coupling_scheme_names()) says("partitioned.scheme", name);
+  for (const auto& [name, kind] : materials().rows())
+    for (const auto& parameter : kind.parameters) {
+      const auto found = help.find(name + ": " + parameter.about);
+      ASSERT_NE(found, std::string::npos) << name << " " << parameter.name;
+      const std::string unit = parameter.quantity->unit;
+      if (!unit.empty()) {
+        EXPECT_EQ(help.substr(found + name.size() + 2 + parameter.about.size(), 4 + unit.size()), " in " + unit);
+      }
+    }
+  EXPECT_EQ(help.find("{}"), std::string::npos) << "a default that nobody filled in";
+  EXPECT_EQ(help.find("{unit}"), std::string::npos);
+}
+
+TEST(CaseReader, EveryMaterialIsReadFromItsDeclaration) {
+  for (const auto& [name, kind] : materials().rows()) {
+    std::string layer = "structure.layers.w.material = '" + name + "'\n";
+    ParameterValues given;
+    for (const auto& parameter : kind.parameters) {
+      given[parameter.name] = 2.5 + 0.5 * static_cast<double>(given.size());
+      layer += fmt::format("structure.layers.w.{} = {}\n", parameter.name, given[parameter.name]);
+    }
+    const auto scene = parse_case(
+        "mesh.level = 'coarse'\nload.pressure = 2.0\nstatic.load_steps = 5\nstructure.density = 1\n"
+        "structure.bulk_modulus = 10\n" +
+            layer,
+        "case.toml");
+    EXPECT_EQ(scene.structure->layers.at("w").material, name);
+    EXPECT_EQ(scene.structure->layers.at("w").values, given) << name;
+  }
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class LinearSolverTable : public testing::TestWithParam<std::string> {};
 TEST_P(LinearSolverTable, EveryNameSolvesTheCoupledSystem) {
   auto& box = linearised_box();
   Case setup = box.setup();
-  setup.monolithic.multigrid.coarsest_nodes = 50;
+  setup.monolithic.multigrid.coarsening.coarsest_nodes = 50;
   const auto solver = make_linear_solver<Tet>(GetParam(), setup, box.blocks());
   EXPECT_FALSE(solver->ready());
   solver->update();
@@ -51,8 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Names, LinearSolverTable, testing::ValuesIn(linear_solv
 TEST(LinearSolverTable, IterationLimitIsNoConvergence) {
   auto& box = linearised_box();
   Case setup = box.setup();
-  setup.monolithic.max_linear_iterations = 2;
-  setup.monolithic.multigrid.coarsest_nodes = 50;
+  setup.monolithic.krylov.max_iterations = 2;
+  setup.monolithic.multigrid.coarsening.coarsest_nodes = 50;
   for (const char* name : {"lower", "amg", "amli_fgmres"}) {
     const auto solver = make_linear_solver<Tet>(name, setup, box.blocks());
     solver->update();

@@ -24,7 +24,7 @@ TEST(Membrane, ImpedanceIsTheHarmonicMeanOfPushAndShear) {
 TEST(Membrane, OfASceneHasItsWallsMass) {
   const Case setup = coupled_case("neo-hookean");
   const auto scene = build_scene(setup, fluid_and_wall_box(2));
-  const Membrane wall = membrane_of(*scene, *setup.structure);
+  const Membrane wall = membrane_of(*scene);
   double volume = 0;
   for (const auto& layer : scene->wall->layers())
     volume += detail::volume_of(layer.packs, scene->wall->part().cells.size());
@@ -43,8 +43,7 @@ TEST(Membrane, OfASceneHasItsWallsMass) {
 TEST(Membrane, FibresStiffenIt) {
   const Case slack = coupled_case("neo-hookean"), fibres = coupled_case("artery");
   const auto mesh = fluid_and_wall_box(2);
-  EXPECT_GT(membrane_of(*build_scene(fibres, mesh), *fibres.structure).tension,
-            1.5 * membrane_of(*build_scene(slack, mesh), *slack.structure).tension);
+  EXPECT_GT(membrane_of(*build_scene(fibres, mesh)).tension, 1.5 * membrane_of(*build_scene(slack, mesh)).tension);
 }
 
 }  // namespace

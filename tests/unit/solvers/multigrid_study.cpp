@@ -32,6 +32,6 @@ int main(int count, char** words) {
     MultigridStudyRange range;
     range.smoothers = {smoother};
     print("wall", study_saddle_multigrid(artery.wall, artery.wall_marks,
-                                         wall_amg_options(saddle_smoother_kind(smoother)), range));
+                                         wall_amg_options(saddle_smoother_kinds().at(smoother)), range));
   }
 }

@@ -143,8 +143,8 @@ TEST_P(Kinds, LeavePrescribedNodesOutWithoutScalarPart) {
 }
 
 TEST(Coarsening, NamesAreChecked) {
-  EXPECT_EQ(coarsening_kind("colouring"), CoarseningKind::colouring);
-  EXPECT_THROW(coarsening_kind("coloring"), InputError);
+  EXPECT_EQ(coarsening_kinds().at("colouring"), CoarseningKind::colouring);
+  EXPECT_THROW(coarsening_kinds().at("coloring"), InputError);
 }
 
 TEST(Coarsening, CoarseNodesOfAColouringAreIndependent) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// An interval of numbers that a key takes; its ends belong to it or not.
+struct Bounds {
+  double low, high;
+  bool with_low, with_high;
+
+  bool contains(double x) const { return (with_low ? x >= low : x > low) && (with_high ? x <= high : x < high); }
+  std::string problem() const;  ///< of a number outside: "is not positive", "is negative" or "is out of range"
+  std::string remedy() const;   ///< "give a number > 0"
+};
+inline constexpr Bounds positive{0, std::numeric_limits<double>::infinity(), false, false};
+inline constexpr Bounds not_negative{0, std::numeric_limits<double>::infinity(), true, false};
+
+/// A unit that users mistake for the right one, and the values that give it away. They lie where a value in the right
+/// unit would be beyond what is merely unusual: nobody computes with a fluid a thousand times denser than water.
+struct OtherUnit {
+  const char* name;
+  double factor;     ///< a value in this unit times `factor` is one in the right unit
+  double low, high;  ///< values that are in this unit, both ends included
+};
+
+/// A kind of number with a unit.
+struct Quantity {
+  const char* unit;  ///< empty: a pure number
+  std::vector<OtherUnit> others;
+};
+
+/// A value in the wrong unit.
+struct UnitSlip {
+  const char* unit;  ///< that the value seems to be in
+  double meant;      ///< the value in the right unit
+};
+/// Empty when the value may be what it says. The sign does not matter.
+std::optional<UnitSlip> unit_slip(const Quantity& quantity, double value);
+
+/// What the keys of a case file measure. The system of units is mm, ms, mg, and kPa with it.
+namespace quantity {
+const Quantity& number();
+const Quantity& density();  ///< of anything: nothing gives a wrong unit away
+const Quantity& fluid_density();
+const Quantity& wall_density();
+const Quantity& viscosity();
+const Quantity& pressure();
+const Quantity& stiffness();
+const Quantity& bulk_modulus();
+const Quantity& time();
+const Quantity& time_step();
+const Quantity& length();
+const Quantity& angle();
+}  // namespace quantity
+
+}  // namespace fsi

@@ -1,0 +1,45 @@
+#include "case/choices.hpp"
+
+#include "case/coupled_multigrid_options.hpp"
+
+namespace fsi {
+
+namespace {
+
+template <class List>
+std::vector<std::string> strings(const List& list) {
+  return {list.begin(), list.end()};
+}
+
+}  // namespace
+
+std::vector<std::string> general_solver_names() {
+  return strings(general_solver_list);
+}
+
+std::vector<std::string> linear_solver_names() {
+  auto names = general_solver_names();
+  for (const auto name : coupled_solver_list) names.emplace_back(name);
+  return names;
+}
+
+std::vector<std::string> coupling_scheme_names() {
+  return strings(coupling_scheme_list);
+}
+
+std::vector<std::string> output_field_names() {
+  return strings(output_field_list);
+}
+
+const NameTable<bool>& constant_operator_modes() {
+  static const NameTable<bool> table{"economy.constant_operators", {{"kept", true}, {"rebuilt", false}}};
+  return table;
+}
+
+const NameTable<CoupledCycleKind>& coupled_cycle_kinds() {
+  static const NameTable<CoupledCycleKind> table{
+      "cycle of the coupled amg", {{"v", CoupledCycleKind::v}, {"w", CoupledCycleKind::w}, {"k", CoupledCycleKind::k}}};
+  return table;
+}
+
+}  // namespace fsi

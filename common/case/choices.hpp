@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/name_table.hpp"
+
+namespace fsi {
+
+// Names that a case file can use for what lies above this folder. They are owned here; the tables that give them a
+// meaning are checked against them when they are compiled, see names_match().
+
+/// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
+/// factories: condensed_solver/fast_or_direct.hpp.
+inline constexpr std::array<std::string_view, 2> general_solver_list{"fast", "direct"};
+
+/// The other names of monolithic.linear_solver, for scenes of fluid and wall. Their table:
+/// monolithic/linear_solvers.cpp.
+inline constexpr std::array<std::string_view, 16> coupled_solver_list{
+    "diagonal",   "lower",     "upper", "ssor",      "ilu",        "diagonal_exact", "lower_exact", "upper_exact",
+    "ssor_exact", "ilu_exact", "amg",   "amg_gmres", "amg_fgmres", "amli",           "amli_gmres",  "amli_fgmres"};
+
+/// partitioned.scheme. Their table: partitioned/schemes.cpp.
+inline constexpr std::array<std::string_view, 9> coupling_scheme_list{
+    "aitken",        "constant",      "explicit",          "iqn-ils",           "iqn-imvj",
+    "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
+
+/// Fields of output.fields. Their table: driver/field_output.cpp.
+inline constexpr std::array<std::string_view, 3> output_field_list{"displacement", "velocity", "pressure"};
+
+std::vector<std::string> general_solver_names();
+std::vector<std::string> linear_solver_names();  ///< of monolithic.linear_solver: general and coupled ones
+std::vector<std::string> coupling_scheme_names();
+std::vector<std::string> output_field_names();
+
+/// economy.constant_operators: "kept" (true), "rebuilt"
+const NameTable<bool>& constant_operator_modes();
+
+}  // namespace fsi

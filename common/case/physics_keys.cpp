@@ -1,0 +1,315 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <system_error>
+
+#include "base/names.hpp"
+#include "case/case_keys.hpp"
+#include "case/key_values.hpp"
+#include "materials/material.hpp"
+#include "mesh/artery_generator.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr int most_steps = 1'000'000;
+constexpr bool required = true, optional = false;
+
+// [mesh].
+
+/// Relative to the case file; given by --set, relative to the working directory if the file is there.
+void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
+  const std::filesystem::path file = entry.text();
+  if (file.empty()) entry.refuse_value("is empty", "give the path of a gmsh file");
+  std::error_code error;
+  if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(file, error))
+    mesh.file = file;
+  else
+    mesh.file = std::filesystem::path(entry.source().file).parent_path() / file;
+}
+
+void check_mesh(const CaseEntry& entry, MeshData& mesh) {
+  if (mesh.file.empty() && mesh.level.empty())
+    entry.refuse("neither file nor level", "give file = \"NAME.msh\" or level = \"coarse\"");
+  if (!mesh.file.empty() && !mesh.level.empty()) entry.child("level").refuse("both file and level", "keep one of them");
+}
+
+std::vector<CaseKey<MeshData>> mesh_keys() {
+  return {
+      leaf<MeshData>("file", optional, "gmsh mesh, path relative to the case file",
+                     {read_mesh_file, [](const MeshData& mesh) { return mesh.file.string(); }}),
+      leaf("level", optional, "artery mesh made on demand: {}", name_from(at(&MeshData::level), artery_levels())),
+  };
+}
+
+// [fluid].
+
+std::vector<CaseKey<FluidData>> fluid_keys() {
+  return {
+      leaf("density", required, "density in {unit}",
+           number(at(&FluidData::density), positive, quantity::fluid_density())),
+      leaf("viscosity", required, "dynamic viscosity in {unit}",
+           number(at(&FluidData::viscosity), positive, quantity::viscosity())),
+      leaf("grad_div", optional, "grad-div stabilisation, default {}", flag(at(&FluidData::grad_div))),
+  };
+}
+
+// [structure].
+
+std::string about(const Parameter& parameter) {
+  const std::string unit = parameter.quantity->unit;
+  return parameter.about + (unit.empty() ? "" : " in " + unit) +
+         (parameter.required ? "" : ", default " + text_for_people(parameter.standard));
+}
+
+/// The keys of a layer of this material: its name and its parameters.
+std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
+  std::vector<CaseKey<MaterialData>> keys = {
+      leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
+  for (const auto& p : kind.parameters) {
+    KeyValue<MaterialData> value;
+    value.read = [p](const CaseEntry& entry, MaterialData& layer) {
+      const double given = entry.number();
+      if (!p.bounds.contains(given)) entry.refuse_value(p.bounds.problem(), p.bounds.remedy());
+      entry.warn_of_unit(*p.quantity, given);
+      layer.values[p.name] = given;
+    };
+    value.write = [p](const MaterialData& layer) {
+      const auto found = layer.values.find(p.name);
+      return fmt::format("{}", found == layer.values.end() ? p.standard : found->second);
+    };
+    keys.push_back(leaf(p.name, p.required, about(p), value));
+  }
+  return keys;
+}
+
+void read_layer(const CaseEntry& entry, MaterialData& layer) {
+  const auto names = materials().names();
+  const std::string about_material = "its model: " + one_of(names);
+  const auto children = entry.children();
+  if (!entry.has("material")) {
+    // A misspelt `material` explains better why there is none.
+    for (const auto& child : children)
+      if (edit_distance(child.key(), entry.key() + ".material") <= 2)
+        child.refuse("unknown key", "did you mean " + entry.key() + ".material?");
+    entry.refuse_missing("material", "add it (" + about_material + ")");
+  }
+  const auto name = entry.child("material", about_material);
+  require_name(name, names);
+  const MaterialKind& kind = materials().at(name.text());
+
+  // A parameter of another material is no misprint; say what this one takes.
+  for (const auto& child : children) {
+    const auto key = child.key().substr(entry.key().size() + 1);
+    if (key == "material" || kind.find(key) != nullptr) continue;
+    for (const auto& [other, other_kind] : materials().rows()) {
+      if (other_kind.find(key) == nullptr) continue;
+      std::vector<std::string> own;
+      for (const auto& parameter : kind.parameters) own.push_back(parameter.name);
+      child.refuse("is no parameter of " + name.text() + " but of " + other,
+                   "remove it (" + name.text() + " takes " + one_of(own) + ")");
+    }
+  }
+  read_keys(entry, layer_keys(kind), layer);
+}
+
+void read_layers(const CaseEntry& entry, StructureData& structure) {
+  const auto layers = entry.children();
+  if (layers.empty())
+    entry.refuse("has no layer", "add a section [structure.layers.NAME] per volume group of the wall");
+  for (const auto& layer : layers) {
+    const auto name = layer.key().substr(entry.key().size() + 1);
+    if (name == "fluid" || name.empty())
+      layer.refuse("\"" + name + "\" cannot be a layer", "use the name of a volume group of the wall");
+    read_layer(layer, structure.layers[name]);
+  }
+}
+
+void list_layers(const StructureData& structure, const std::string& path, std::vector<CaseValue>& values) {
+  for (const auto& [name, layer] : structure.layers)
+    list_keys(layer_keys(materials().at(layer.material)), layer, path + "." + name, values);
+}
+
+std::vector<KeyHelp> layers_help() {
+  std::vector<KeyHelp> help = {{"layers.NAME.material", one_of(materials().names()), required}};
+  for (const auto& [material, kind] : materials().rows())
+    for (const auto& parameter : kind.parameters)
+      help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
+  return help;
+}
+
+std::vector<CaseKey<StructureData>> structure_keys() {
+  return {
+      leaf("density", required, "density in {unit}",
+           number(at(&StructureData::density), positive, quantity::density())),
+      leaf("bulk_modulus", required, "bulk modulus in {unit}",
+           number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
+      leaf("stabilisation", optional, "alpha in tau = alpha h^2/(2 mu), default {}",
+           number(at(&StructureData::stabilisation), positive)),
+      leaf("axis_origin", optional, "point on the artery's axis in {unit}, default {}",
+           point(at(&StructureData::axis_origin), false)),
+      leaf("axis_direction", optional, "direction of the artery's axis, default {}",
+           point(at(&StructureData::axis_direction), true)),
+      {"layers", required, "a section [structure.layers.NAME] per volume group of the wall", read_layers, list_layers,
+       KeyRole::physics, layers_help()},
+  };
+}
+
+// [inlet], [load].
+
+/// `pressure` and `until` as they stand in the file.
+struct PressureInput {
+  PressureTable table;
+  bool is_table = false;
+  std::optional<double> until;
+};
+
+void read_pressure(const CaseEntry& entry, PressureInput& input) {
+  input.is_table = entry.is_array();
+  if (!input.is_table) {
+    input.table.points = {{0.0, entry.number(quantity::pressure())}};
+    return;
+  }
+  bool warned_of_time = false, warned_of_pressure = false;  // once is enough
+  auto& points = input.table.points;
+  for (const auto& row : entry.elements()) {
+    const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
+    if (pair.size() != 2) row.refuse_value("is no pair", "give [time, pressure]");
+    points.emplace_back(pair[0].number(), pair[1].number());
+    if (!warned_of_time) warned_of_time = pair[0].warn_of_unit(quantity::time(), points.back().first);
+    if (!warned_of_pressure) warned_of_pressure = pair[1].warn_of_unit(quantity::pressure(), points.back().second);
+    const auto n = points.size();
+    if (n > 1 && points[n - 1].first < points[n - 2].first)
+      row.refuse_value(fmt::format("comes before the time {} of the row above", points[n - 2].first),
+                       "sort the table by time");
+    if (n > 2 && points[n - 1].first == points[n - 3].first)
+      row.refuse_value("is the third row with this time", "give two rows for a jump");
+  }
+  if (points.empty()) entry.refuse_name("is empty", "give at least one row [time, pressure]");
+}
+
+void read_until(const CaseEntry& entry, PressureInput& input) {
+  input.until = entry.number(quantity::time());
+  if (!(*input.until > 0)) entry.refuse_value("is not positive", "give a time > 0");
+}
+
+void check_pressure(const CaseEntry& entry, PressureInput& input) {
+  if (!input.until) return;
+  if (input.is_table)
+    entry.child("until").refuse("stands beside a table of pressures",
+                                "remove it; the table says when the pressure ends");
+  auto& points = input.table.points;
+  const double pressure = points.front().second;
+  points = {{0.0, pressure}, {*input.until, pressure}, {*input.until, 0.0}};
+}
+
+std::vector<CaseKey<PressureInput>> pressure_keys() {
+  const auto unlisted = [](const PressureInput&) { return std::string(); };  // the section lists the table
+  return {
+      leaf<PressureInput>("pressure", required,
+                          "pressure in {unit}, or a table of [time in ms, pressure in {unit}], linear in between",
+                          {read_pressure, unlisted, "", quantity::pressure().unit}),
+      leaf<PressureInput>("until", optional,
+                          "time in {unit} at which a constant pressure falls to 0; without it the pressure stays",
+                          {read_until, unlisted, "", quantity::time().unit}),
+  };
+}
+
+CaseKey<Case> pressure_section(const std::string& name, const std::string& about,
+                               std::optional<PressureTable> Case::*place) {
+  const auto input = section<PressureInput, PressureInput>(
+      name, optional, about, pressure_keys(), [](PressureInput& all) -> PressureInput& { return all; },
+      [](const PressureInput& all) { return &all; }, KeyRole::physics, check_pressure);
+  return {name,
+          optional,
+          about,
+          [read = input.read, place](const CaseEntry& entry, Case& scene) {
+            PressureInput given;
+            read(entry, given);
+            scene.*place = given.table;
+          },
+          [place](const Case& scene, const std::string& path, std::vector<CaseValue>& values) {
+            if (!(scene.*place)) return;
+            std::vector<std::string> rows;
+            for (const auto& [time, pressure] : (scene.*place)->points)
+              rows.push_back(fmt::format("[{}, {}]", time, pressure));
+            values.push_back({path + ".pressure", fmt::format("[{}]", fmt::join(rows, ", ")), KeyRole::physics});
+          },
+          KeyRole::physics,
+          input.below};
+}
+
+// [time], [static].
+
+void check_time(const CaseEntry& entry, TimeData& time) {
+  const auto end = entry.child("end");
+  if (time.end < time.step)
+    end.refuse(fmt::format("{} is less than one step of {}", time.end, time.step), "give an end >= step");
+  const double steps = time.end / time.step;
+  if (steps > most_steps)
+    entry.child("step").refuse(fmt::format("{} would take {:.3g} steps to {}", time.step, steps, time.end),
+                               fmt::format("give a step that takes at most {}", most_steps));
+  const double whole_steps = std::round(steps);
+  if (std::abs(steps - whole_steps) > 1e-9)
+    end.refuse(fmt::format("{} is no multiple of the step {}", time.end, time.step),
+               fmt::format("give {:.12g} or {:.12g}", std::floor(steps) * time.step, std::ceil(steps) * time.step));
+}
+
+std::vector<CaseKey<TimeData>> time_keys() {
+  constexpr Bounds newmark{0, 1, false, true};
+  return {
+      leaf("step", required, "time step in {unit}", number(at(&TimeData::step), positive, quantity::time_step()),
+           KeyRole::stepping),
+      leaf("end", required, "end of the run in {unit}, a multiple of the step",
+           number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
+      leaf("newmark_beta", optional, "Newmark's beta of the wall, default {}",
+           number(at(&TimeData::newmark_beta), newmark)),
+      leaf("newmark_gamma", optional, "Newmark's gamma of the wall, default {}",
+           number(at(&TimeData::newmark_gamma), newmark)),
+      leaf("predictor", optional,
+           "order of the extrapolated start of each step, default 1; coupling schemes that iterate 2",
+           whole(at(&TimeData::predictor), 0, 2), KeyRole::running),
+  };
+}
+
+std::vector<CaseKey<StaticData>> static_keys() {
+  return {
+      leaf("load_steps", optional, "equal steps in which the load is raised, default {}",
+           whole(at(&StaticData::load_steps), 1, most_steps), KeyRole::stepping),
+  };
+}
+
+/// A section whose struct is an optional member of the case: present when the section is.
+template <class Data>
+CaseKey<Case> scene_section(const std::string& name, const std::string& about, const std::vector<CaseKey<Data>>& keys,
+                            std::optional<Data> Case::*place,
+                            std::function<void(const CaseEntry&, Data&)> check = nullptr) {
+  return section<Data, Case>(
+      name, optional, about, keys, [place](Case& scene) -> Data& { return (scene.*place).emplace(); },
+      [place](const Case& scene) { return scene.*place ? &*(scene.*place) : nullptr; }, KeyRole::physics, check);
+}
+
+}  // namespace
+
+std::vector<CaseKey<Case>> physics_keys() {
+  return {
+      leaf("title", optional, "what the case is, for people", any_text(at(&Case::title)), KeyRole::running),
+      leaf("element", optional, "element pair: {}", name_from(at(&Case::element), {"p1"}, {"p2p1"})),
+      section<MeshData, Case>(
+          "mesh", required, "where the mesh comes from", mesh_keys(),
+          [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },
+          KeyRole::running, check_mesh),  // a checkpoint knows the mesh by its contents
+      scene_section("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid),
+      scene_section("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
+                    &Case::structure),
+      pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
+      pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),
+      scene_section<TimeData>("time", "a run in time", time_keys(), &Case::time, check_time),
+      scene_section("static", "a wall without inertia, instead of [time]", static_keys(), &Case::static_load),
+  };
+}
+
+}  // namespace fsi

@@ -1,0 +1,165 @@
+#include <algorithm>
+
+#include "case/case_keys.hpp"
+#include "case/key_values.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr bool optional = false;
+constexpr Bounds tolerance{0, 1, false, false}, tolerance_or_none{0, 1, true, false};
+
+std::vector<CaseKey<MultigridData>> multigrid_keys() {
+  using M = MultigridData;
+  using Coarsening = CoupledCoarseningOptions;
+  using Smoothing = CoupledSmoothingOptions;
+  using Sub = SubProblemCycleOptions;
+  return {
+      leaf("cycle", optional, "of the coupled amg: {}",
+           name_from(at(&M::cycle, &CoupledCycleOptions::kind), coupled_cycle_kinds())),
+      leaf("pre_smoothing", optional, "steps of the coupled smoother before the coarse correction, default {}",
+           whole(at(&M::smoothing, &Smoothing::pre_smoothing), 0)),
+      leaf("post_smoothing", optional, "steps of the coupled smoother after the coarse correction, default {}",
+           whole(at(&M::smoothing, &Smoothing::post_smoothing), 0)),
+      leaf("damping", optional, "damping factor of the coupled smoother, default {}: estimated on each level",
+           number(at(&M::smoothing, &Smoothing::damping), {0, 1, true, true})),
+      leaf("levels", optional, "levels at most, default {}", whole(at(&M::coarsening, &Coarsening::max_levels), 1)),
+      leaf("coarsest_nodes", optional, "fluid and wall nodes of the level that is solved directly, at most, default {}",
+           whole(at(&M::coarsening, &Coarsening::coarsest_nodes), 1)),
+      leaf("coarsening", optional, "choice of coarse nodes: {}",
+           name_from(at(&M::coarsening, &Coarsening::kind), coarsening_kinds())),
+      leaf("fluid_smoother", optional, "smoother of the flow: {}",
+           name_from(at(&M::sub_problems, &Sub::fluid_smoother), saddle_smoother_kinds())),
+      leaf("wall_smoother", optional, "smoother of the wall: {}",
+           name_from(at(&M::sub_problems, &Sub::wall_smoother), saddle_smoother_kinds())),
+      leaf("sub_cycle", optional, "cycle of the sub-problems: {}",
+           name_from(at(&M::sub_problems, &Sub::kind), linear_cycle_kinds())),
+      leaf("sub_smoothing", optional, "smoothing steps of the sub-problems before and after, default {}",
+           whole(at(&M::sub_problems, &Sub::smoothing), 1)),
+  };
+}
+
+void check_multigrid(const CaseEntry& entry, MultigridData& multigrid) {
+  if (multigrid.smoothing.pre_smoothing + multigrid.smoothing.post_smoothing == 0)
+    entry.refuse("neither pre_smoothing nor post_smoothing", "give at least one step");
+}
+
+std::vector<CaseKey<MonolithicData>> monolithic_keys() {
+  using M = MonolithicData;
+  return {
+      leaf("linear_solver", optional,
+           "{}; fast: chosen by size and speed; direct: sparse factorisation; the next are GMRES preconditioned by "
+           "blocks, these inverted by multigrid or (..._exact) factorised; amg and amli are coupled multigrid, alone "
+           "or inside GMRES or FGMRES",
+           name_from(at(&M::linear_solver), linear_solver_names())),
+      leaf("linear_tolerance", optional,
+           "residual of each linear solve relative to its right-hand side, default {}: what Newton's convergence needs",
+           number(at(&M::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
+      leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
+           whole(at(&M::krylov, &KrylovOptions::max_iterations), 1)),
+      leaf("direct_below", optional, "unknowns below which fast factorises the matrix, default {}",
+           whole(at(&M::fast, &FastOptions::direct_below), 0)),
+      leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
+           whole(at(&M::krylov, &KrylovOptions::restart), 1)),
+      section<MultigridData, M>(
+          "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
+          [](M& monolithic) -> MultigridData& { return monolithic.multigrid; },
+          [](const M& monolithic) { return &monolithic.multigrid; }, KeyRole::running, check_multigrid),
+      leaf("mode", optional, "{}; kept: factors serve while the residual keeps falling; full: new ones each iteration",
+           name_from(at(&M::newton, &NewtonOptions::keep_jacobian), newton_modes())),
+      leaf("newton_tolerance", optional, "last increment relative to the first of the step, default {}",
+           number(at(&M::newton, &NewtonOptions::tolerance), tolerance)),
+      leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
+           number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),
+      leaf("max_iterations", optional, "Newton iterations per step, default {}",
+           whole(at(&M::newton, &NewtonOptions::max_iterations), 1)),
+  };
+}
+
+std::vector<CaseKey<PartitionedData>> partitioned_keys() {
+  using P = PartitionedData;
+  using QuasiNewton = QuasiNewtonOptions;
+  return {
+      leaf("scheme", optional, "coupling: {}", name_from(at(&P::scheme), coupling_scheme_names())),
+      leaf("tolerance", optional, "interface change relative to its displacement, default {}",
+           number(at(&P::tolerance), tolerance)),
+      leaf("absolute_tolerance", optional,
+           "interface change in {unit} (Euclidean norm) that is small enough too, default {}",
+           number(at(&P::absolute_tolerance), not_negative, quantity::length())),
+      leaf("force_tolerance", optional,
+           "what the interface's momentum balance may lack relative to the force, default {}: not demanded",
+           number(at(&P::force_tolerance), tolerance_or_none)),
+      leaf("velocity_gap", optional,
+           "explicit ends when fluid and wall differ in velocity by more than this part of the largest so far, over 8 "
+           "steps in a row, default {}",
+           number(at(&P::velocity_gap), positive)),
+      leaf("relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
+           number(at(&P::relaxation), {0, 2, false, false})),
+      leaf("max_iterations", optional, "coupling iterations per step, default {}", whole(at(&P::max_iterations), 1)),
+      leaf("reused_steps", optional, "earlier time steps whose differences iqn-ils keeps, default {}",
+           whole(at(&P::quasi_newton, &QuasiNewton::reused_steps), 0)),
+      leaf("columns", optional, "differences that a quasi-Newton scheme keeps at most, default {}",
+           whole(at(&P::quasi_newton, &QuasiNewton::columns), 1)),
+      leaf("filter", optional, "part of a difference that must be new for a quasi-Newton scheme to keep it, default {}",
+           number(at(&P::quasi_newton, &QuasiNewton::filter), tolerance_or_none)),
+      leaf("linear_solver", optional, "of the sub-problems: {}",
+           name_from(at(&P::linear_solver), general_solver_names())),
+      leaf("direct_below", optional, "unknowns of a sub-problem below which fast factorises the matrix, default {}",
+           whole(at(&P::fast, &FastOptions::direct_below), 0)),
+  };
+}
+
+void read_fields(const CaseEntry& entry, OutputData& output) {
+  output.fields.clear();
+  for (const auto& element : entry.elements()) {
+    require_name(element, output_field_names());
+    const auto field = element.text();
+    if (std::find(output.fields.begin(), output.fields.end(), field) != output.fields.end())
+      element.refuse_value("is named twice", "name each field once");
+    output.fields.push_back(field);
+  }
+}
+
+std::vector<CaseKey<OutputData>> output_keys() {
+  const auto listed = [](const OutputData& output) { return fmt::format("{}", fmt::join(output.fields, ", ")); };
+  return {
+      leaf<OutputData>("fields", optional, "fields in fields.h5: any of {}; default all",
+                       {read_fields, listed, listed(OutputData())}),
+      leaf("every", optional, "steps between entries of fields.h5, default {}; 0: no fields",
+           whole(at(&OutputData::every), 0)),
+      leaf("checkpoint_every", optional, "steps between checkpoints, default {}; 0: none",
+           whole(at(&OutputData::checkpoint_every), 0)),
+      leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
+  };
+}
+
+std::vector<CaseKey<EconomyData>> economy_keys() {
+  return {
+      leaf("constant_operators", optional,
+           "the mesh motion's operator, which never changes: {}; rebuilt: factorised at each use",
+           name_from(at(&EconomyData::keep_constant_operators), constant_operator_modes())),
+  };
+}
+
+/// A section with a default for everything in it.
+template <class Data>
+CaseKey<Case> default_section(const std::string& name, const std::string& about, const std::vector<CaseKey<Data>>& keys,
+                              Data Case::*place) {
+  return section<Data, Case>(
+      name, optional, about, keys, [place](Case& scene) -> Data& { return scene.*place; },
+      [place](const Case& scene) { return &(scene.*place); }, KeyRole::running);
+}
+
+}  // namespace
+
+std::vector<CaseKey<Case>> solver_keys() {
+  return {
+      default_section("monolithic", "for fsi-monolithic", monolithic_keys(), &Case::monolithic),
+      default_section("partitioned", "for fsi-partitioned", partitioned_keys(), &Case::partitioned),
+      default_section("output", "what is written", output_keys(), &Case::output),
+      default_section("economy", "savings to switch off, to see what they are worth", economy_keys(), &Case::economy),
+  };
+}
+
+}  // namespace fsi

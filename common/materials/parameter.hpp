@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/quantity.hpp"
+
+namespace fsi {
+
+/// The parameters of one wall layer by name, as its case file states them. What is absent has its default.
+using ParameterValues = std::map<std::string, double>;
+
+/// A parameter of a material as users see it: a key of [structure.layers.NAME].
+struct Parameter {
+  std::string name;
+  std::string about;  ///< meaning, without the unit
+  const Quantity* quantity;
+  Bounds bounds;
+  bool required;
+  double standard = 0;  ///< the value where it is absent and not required
+};
+
+/// The same beside a law, with the member that holds it. A member's initial value is its default.
+template <class Law>
+struct ParameterOf {
+  double Law::*member;
+  const char* name;
+  const char* about;
+  const Quantity& quantity;
+  Bounds bounds;
+  bool required = true;
+};
+
+}  // namespace fsi
