@@ -12,11 +12,6 @@ namespace fsi {
 
 namespace {
 
-LayerMaterial layer_material(const MaterialData& data) {
-  const Material material = make_material(data.material, data.values);
-  return {material, fibre_angle(material)};
-}
-
 CylinderAxis cylinder_axis(const StructureData& data) {
   CylinderAxis axis;
   const auto& d = data.axis_direction;
@@ -48,9 +43,9 @@ std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const Tetra
   if (setup.structure) {
     auto part = submesh(mesh, wall_regions);
     scene->wall_conditions = wall_conditions(mesh, part);
-    std::vector<std::pair<int, LayerMaterial>> layers;
+    std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
-      layers.push_back({mesh.region_index(name), layer_material(data)});
+      layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
     const Facets pressurised = setup.load ? in_part(part, inner_surface(mesh, wall_regions)) : Facets{};
     const auto& s = *setup.structure;
     scene->wall = std::make_unique<WallProblem<P1Tetrahedron>>(

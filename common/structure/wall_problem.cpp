@@ -9,16 +9,17 @@ namespace fsi {
 
 template <class Element>
 WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
-                                  const std::vector<std::pair<int, LayerMaterial>>& layers, const CylinderAxis& axis,
+                                  const std::vector<std::pair<int, Material>>& layers, const CylinderAxis& axis,
                                   Facets pressurised)
     : part_(std::move(part)), constants_(constants), pressurised_(std::move(pressurised)), space_(part_) {
-  for (const auto& [region, layer] : layers) {
+  for (const auto& [region, material] : layers) {
     std::vector<int> cells;
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
-    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph()), layer.material, {}});
-    if (has_fibres(layer.material))
-      layers_.back().fibres = fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, layer.fibre_angle);
+    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph()), material, {}});
+    if (has_fibres(material))
+      layers_.back().fibres =
+          fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, fibre_angle(material));
   }
 }
 

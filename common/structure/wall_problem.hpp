@@ -12,12 +12,6 @@
 
 namespace fsi {
 
-/// A material with the angle of its fibres, if it has any.
-struct LayerMaterial {
-  Material material;
-  double fibre_angle = 0;  ///< radians from the circumference
-};
-
 /// The wall sub-problem on its part of the mesh: residual and Jacobian without boundary conditions but with the
 /// follower pressure on `pressurised` facets.
 template <class Element>
@@ -29,7 +23,7 @@ class WallProblem {
 
   /// \param layers       region of the mesh and material of each layer
   /// \param pressurised  facets in the part's node numbers, normals outward from the wall; may be empty
-  WallProblem(Part part, const WallConstants& constants, const std::vector<std::pair<int, LayerMaterial>>& layers,
+  WallProblem(Part part, const WallConstants& constants, const std::vector<std::pair<int, Material>>& layers,
               const CylinderAxis& axis, Facets pressurised = {});
 
   const Part& part() const { return part_; }

@@ -99,13 +99,11 @@ class AxisymmetricArtery {
       }
   }
 
-  static LayerMaterial layer(const std::string& material, bool of_media) {
-    const double c10 = of_media ? 3.0 : 0.3, degree = std::acos(-1.0) / 180;
-    if (material == "mooney-rivlin") return {MooneyRivlin{c10, of_media ? 0.3 : 0.2}, 0};
-    if (material == "artery")
-      return {of_media ? Artery{c10, 2.3632, 0.8393, 1} : Artery{c10, 0.5620, 0.7112, 1},
-              (of_media ? 29 : 62) * degree};
-    return {NeoHookean{c10}, 0};
+  static Material layer(const std::string& material, bool of_media) {
+    const double c10 = of_media ? 3.0 : 0.3;
+    if (material == "mooney-rivlin") return MooneyRivlin{c10, of_media ? 0.3 : 0.2};
+    if (material == "artery") return of_media ? Artery{c10, 2.3632, 0.8393, 1, 29} : Artery{c10, 0.5620, 0.7112, 1, 62};
+    return NeoHookean{c10};
   }
 
   void make_scene(const std::string& material) {
@@ -130,8 +128,7 @@ class AxisymmetricArtery {
     }
     scene_->wall = std::make_unique<WallProblem<Element>>(
         std::move(wall), WallConstants{1.2, 1e5, alpha_},
-        std::vector<std::pair<int, LayerMaterial>>{{1, layer(material, true)}, {2, layer(material, false)}},
-        CylinderAxis{});
+        std::vector<std::pair<int, Material>>{{1, layer(material, true)}, {2, layer(material, false)}}, CylinderAxis{});
     std::vector<OpenBoundary<Element>> open{{"inlet", fluid.nodes, inlet}, {"outlet", fluid.nodes, outlet}};
     scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3}, std::move(open));
     scene_->mesh_motion = MeshMotionMatrix<Element>(scene_->fluid->graph());

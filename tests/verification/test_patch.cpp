@@ -19,19 +19,17 @@ using Tet = P1Tetrahedron;
 
 [[maybe_unused]] const int single_thread = set_threads(1);
 
-constexpr double degree = 3.14159265358979323846 / 180;
-
 struct NamedMaterial {
   const char* name;
-  LayerMaterial layer;
+  Material layer;
 };
 void PrintTo(const NamedMaterial& material, std::ostream* out) {
   *out << material.name;
 }
 
-const NamedMaterial materials[] = {{"neo_Hookean", {NeoHookean{3}, 0}},
-                                   {"Mooney_Rivlin", {MooneyRivlin{3, 0.3}, 0}},
-                                   {"artery", {Artery{3, 2.3632, 0.8393}, 29 * degree}}};
+const NamedMaterial materials[] = {{"neo_Hookean", NeoHookean{3}},
+                                   {"Mooney_Rivlin", MooneyRivlin{3, 0.3}},
+                                   {"artery", Artery{3, 2.3632, 0.8393, 1, 29}}};
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 

@@ -35,7 +35,7 @@ Assembled assemble_with(int thread_count) {
   all.fluid_mesh = fluid.jacobian(FluidDerivatives::flow_and_domain).shape_derivatives.values;
 
   const CylinderAxis axis{{{-0.7, -0.4, 0}}, {{0, 0, 1}}};
-  WallProblem<Tet> wall(whole(mesh), {1.2, 50, 0.5}, {{0, {Artery{3, 2.4, 0.8}, 0.5}}}, axis);
+  WallProblem<Tet> wall(whole(mesh), {1.2, 50, 0.5}, {{0, Artery{3, 2.4, 0.8, 1, 29}}}, axis);
   const auto s = random_field(x, 4, 0.1, 0.02, 5), history = random_field(x, 3, 1, 0.1, 6);
   wall.assemble({s.data(), history.data(), 16.0}, 0, s, all.wall, true);
   all.wall_matrix = wall.jacobian().values;
