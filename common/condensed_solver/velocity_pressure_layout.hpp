@@ -10,10 +10,10 @@
 namespace fsi {
 
 /// The unknowns of a scene without mesh motion as one velocity over fluid and wall, and the pressures: the wall's
-/// displacement is d = wall_factor v, on the interface both media have the same node (condensed as in [Failer2020], here
-/// by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the
-/// whole mesh, so that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A
-/// node of which only some components are unknowns has a place for all n; the others stay zero.
+/// displacement is d = wall_factor v, on the interface both media have the same node (condensed as in [Failer2020],
+/// here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the whole mesh, so
+/// that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A node
+/// of which only some components are unknowns has a place for all n; the others stay zero.
 template <class Element>
 class VelocityPressureLayout {
  public:
