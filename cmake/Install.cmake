@@ -28,6 +28,7 @@ install(DIRECTORY compare/fsi_compare compare/studies DESTINATION ${_data}/compa
 install(DIRECTORY meshes/artery DESTINATION ${_data}/meshes COMPONENT programs FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY docs DESTINATION ${_documents} COMPONENT programs PATTERN "*.in" EXCLUDE)
 install(FILES README.md DESTINATION ${_documents} COMPONENT programs)
+install(FILES CHANGELOG.md CONTRIBUTING.md DESTINATION ${_documents} COMPONENT programs OPTIONAL)
 install(FILES LICENSE DESTINATION ${_documents} RENAME copyright COMPONENT programs)
 
 # Headers and libraries. The libraries are found in the folders, so that a new one needs no entry here.
