@@ -16,7 +16,7 @@ import numpy as np
 TOP = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOP / "compare"))
 
-from fsi_compare.studies.accuracy.waves import QUANTITIES, Waves, extrapolated, read_waves, relative_difference  # noqa: E402
+from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated, read_waves, relative_difference  # noqa: E402
 
 STABILISATION = 0.05
 REFINEMENT = 4  # cells of 0.125 mm along, 0.09 mm across the fluid, 0.03 mm across the wall

@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from .cost import add_parser as add_cost, cost
-from .errors import InputError
-from .files import make_folder
-from .run_folder import Run, default_labels, read_run
-from .solvers import add_parser as add_solvers, solvers
+from .base.errors import InputError
+from .base.files import make_folder
+from .linear.command import add_parser as add_solvers, solvers
+from .reporting.cost import add_parser as add_cost, cost
+from .runs.run_folder import Run, default_labels, read_run
 from .studies.command import add_parser as add_study, study
 
 PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
@@ -94,7 +94,8 @@ def pressure(options: argparse.Namespace) -> int:
     check_comparable(runs, times)
     make_folder(options.output)
 
-    from . import pictures, tables  # matplotlib takes a second to load: not before the input has proved right
+    # matplotlib takes a second to load: not before the input has proved right
+    from .reporting import pictures, pressure_tables as tables
 
     comparison = tables.compare_pressure(runs, labels, times)
     written = [options.output / "pressure_waves.csv", options.output / "pressure_waves.json"]

@@ -8,13 +8,13 @@ import time
 from pathlib import Path
 from typing import List
 
-from ..errors import InputError
-from ..files import make_folder
-from ..progress import duration
-from ..programs import find_mesh_maker, find_program
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..base.progress import duration
+from ..base.suggestions import nearest
+from ..runs.programs import find_mesh_maker, find_program
 from . import kinds
-from .study_file import Study, read_study
-from .suggestions import nearest
+from .running.study_file import Study, read_study
 
 READY = Path(__file__).resolve().parents[2] / "studies"
 
@@ -69,7 +69,7 @@ def ready() -> List[str]:
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    from .runner import Runner, remove_runs
+    from .running.runner import Runner, remove_runs
 
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
         if value is not None and value < 1:
@@ -97,8 +97,8 @@ def study(options: argparse.Namespace) -> int:
     if all(run.status == "refused" for run in runs):
         raise InputError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
 
-    from .context import Context
-    from .report import Report  # matplotlib takes a second to load
+    from .running.context import Context
+    from ..reporting.report import Report  # matplotlib takes a second to load
 
     report = Report(folder, asked.title)
     code = kind.evaluate(Context(asked, runs, runner, report)) or 0

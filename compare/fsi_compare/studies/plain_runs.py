@@ -1,9 +1,9 @@
 """The plain kind: a table of all runs with how they ended and what they took."""
 
-from ..layout import Table, fixed
-from ..progress import duration
-from .context import Context
-from .study_file import Study, show
+from ..base.progress import duration
+from ..reporting.layout import Table, fixed
+from .running.context import Context
+from .running.study_file import Study, show
 
 
 def check(study: Study) -> None:

@@ -14,11 +14,11 @@ from fake_monolithic import make_executable
 from folder_case import FolderCase
 from synthetic import Z
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
 from fsi_compare.studies.accuracy.trend import trend
-from fsi_compare.studies.accuracy.waves import Waves, extrapolated, read_waves, relative_difference
+from fsi_compare.studies.evidence.waves import Waves, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 
@@ -251,7 +251,7 @@ class ReadyStudy(unittest.TestCase):
     def test_can_be_run(self):
         from fsi_compare.studies import kinds
         from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.study_file import read_study
+        from fsi_compare.studies.running.study_file import read_study
 
         for quick in (False, True):
             study = read_study(study_path("accuracy-cost"), kinds.NAMES, quick)

@@ -6,8 +6,8 @@ import unittest
 import numpy as np
 from synthetic import TIMES, Z, gaussian, parabola
 
-from fsi_compare.differences import difference, differences_at, l2_norm, largest_difference
-from fsi_compare.pressure_waves import PressureWaves
+from fsi_compare.runs.differences import difference, differences_at, l2_norm, largest_difference
+from fsi_compare.runs.pressure_waves import PressureWaves
 
 
 def waves_of(wave, times=TIMES, z=Z):

@@ -11,12 +11,12 @@ from folder_case import FolderCase
 from study_case import StudyCase
 from test_report import outside_references
 
-from fsi_compare import paper
-from fsi_compare.case_digest import case_digest
-from fsi_compare.errors import InputError
+from fsi_compare.base import paper
+from fsi_compare.runs.case_digest import case_digest
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies import kinds
-from fsi_compare.names import MATERIALS
+from fsi_compare.base.names import MATERIALS
 from fsi_compare.studies.paper import cost as paper_cost
 from fsi_compare.studies.paper.claims import (FEWER, IN_PART, MIXED, MORE, NO_RUN, NOT_COMPARABLE, Claim, claims_table,
                                               compared, rules_table, tally, unexamined)
@@ -26,8 +26,8 @@ from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
 from fsi_compare.studies.paper.wave_claims import wave_claims
 from fsi_compare.studies.command import READY
 from fsi_compare.studies.evidence.plane_cut import cut
-from fsi_compare.studies.study_file import Method, Request, read_study
-from fsi_compare.studies.study_run import DONE, StudyRun
+from fsi_compare.studies.running.study_file import Method, Request, read_study
+from fsi_compare.studies.running.study_run import DONE, StudyRun
 from fsi_compare.studies.evidence.tube_pictures import round_factor
 
 
@@ -259,14 +259,14 @@ class WholeStudy(StudyCase):
         self.assertEqual(self.verdict("increase when the mesh is refined"), "no run for it")
         self.assertIn("linear systems", page)
         made = len(calls(self.programs))
-        with mock.patch("fsi_compare.pictures.Figure.savefig"):  # the second time about the runs alone
+        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"):  # the second time about the runs alone
             code, _, err = self.call("--quick", "-q")
         self.assertEqual((code, len(calls(self.programs))), (0, made), err)
 
     def test_fresh_leaves_the_linear_systems(self):
         def call(*words):
-            with mock.patch("fsi_compare.pictures.Figure.savefig"), \
-                    mock.patch("fsi_compare.studies.report.Report.image"):
+            with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), \
+                    mock.patch("fsi_compare.reporting.report.Report.image"):
                 return self.call("--quick", *words)
 
         call()
@@ -282,7 +282,7 @@ class WholeStudy(StudyCase):
 
     def test_a_missing_run_is_told_and_its_claims_are_left_open(self):
         behave(self.programs, end={"fibre_scale": [2, "no convergence"], "scheme=aitken": [2, "no convergence either"]})
-        with mock.patch("fsi_compare.pictures.Figure.savefig"), mock.patch("fsi_compare.studies.report.Report.image"):
+        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch("fsi_compare.reporting.report.Report.image"):
             code, _, err = self.call("--quick", "-q")
         self.assertEqual(code, 2, err)
         page = (self.out / "report.html").read_text()
@@ -290,7 +290,7 @@ class WholeStudy(StudyCase):
         self.assertEqual(self.verdict("fixed-point iterations a step"), "no run for it")
 
     def test_full_form(self):
-        with mock.patch("fsi_compare.pictures.Figure.savefig"), mock.patch("fsi_compare.studies.report.Report.image"):
+        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch("fsi_compare.reporting.report.Report.image"):
             code, _, err = self.call("-q")
         self.assertEqual(code, 0, err)
         verdicts = {row["verdict"] for row in self.claims().values()}

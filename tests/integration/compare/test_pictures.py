@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from synthetic import TIMES, Z, gaussian
 
-from fsi_compare.pictures import LINES, pressure_figure, time_text, write_pressure_waves
-from fsi_compare.pressure_waves import PressureWaves
+from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves
+from fsi_compare.runs.pressure_waves import PressureWaves
 
 PAPER = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0]
 

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 from synthetic import TIMES, Z, artery_like, gaussian, parabola
 
-from fsi_compare.pressure_waves import PressureWaves, crest_speed, peak
+from fsi_compare.runs.pressure_waves import PressureWaves, crest_speed, peak
 
 
 def waves_of(wave, times=TIMES, z=Z):

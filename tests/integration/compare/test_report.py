@@ -13,8 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from study_case import StudyCase
 
-from fsi_compare.layout import Table
-from fsi_compare.studies.report import Report
+from fsi_compare.reporting.layout import Table
+from fsi_compare.reporting.report import Report
 
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/keep_study.py"
 specification = importlib.util.spec_from_file_location("keep_study", SCRIPT)

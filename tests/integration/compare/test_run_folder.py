@@ -6,8 +6,8 @@ import unittest
 from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, pressure_csv, write_run
 
-from fsi_compare.errors import InputError
-from fsi_compare.run_folder import default_labels, read_run
+from fsi_compare.base.errors import InputError
+from fsi_compare.runs.run_folder import default_labels, read_run
 
 SHORT = TIMES[:4]
 

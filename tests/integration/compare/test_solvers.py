@@ -12,8 +12,9 @@ from unittest import mock
 from fake_monolithic import behave, calls, install
 from folder_case import FolderCase
 
-from fsi_compare import paper
-from fsi_compare.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare import cli
+from fsi_compare.base import paper
+from fsi_compare.base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")
 
@@ -23,7 +24,7 @@ class StudyTest(FolderCase):
 
     def setUp(self):
         if not self.draw:
-            patch = mock.patch("fsi_compare.solver_pictures.write_solver_pictures", return_value=[])
+            patch = mock.patch("fsi_compare.linear.solver_pictures.write_solver_pictures", return_value=[])
             patch.start()
             self.addCleanup(patch.stop)
         super().setUp()
@@ -69,9 +70,9 @@ class WithPictures(StudyTest):
     draw = True
 
     def test_legend_covers_no_panel(self):
-        from fsi_compare.solver_pictures import cost_figure, iterations_figure
+        from fsi_compare.linear.solver_pictures import cost_figure, iterations_figure
 
-        with mock.patch("fsi_compare.solver_pictures.write_solver_pictures",
+        with mock.patch("fsi_compare.linear.solver_pictures.write_solver_pictures",
                         side_effect=lambda folder, grid: grids.append(grid) or []):
             for arguments in (SMALL, ("--systems", "1:1")):
                 grids = []
@@ -103,7 +104,7 @@ class WithPictures(StudyTest):
         self.assertEqual([path.suffix for path in self.out.iterdir() if path.suffix in (".png", ".svg")], [])
 
     def test_names_differ_in_grey(self):
-        from fsi_compare.solver_pictures import MATERIAL_LINES, MESH_MARKS
+        from fsi_compare.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
 
         for lines in (MATERIAL_LINES, MESH_MARKS):
             self.assertEqual(len({line["marker"] for line in lines.values()}), len(lines))
@@ -312,7 +313,7 @@ class Restart(StudyTest):
         behave(self.program, sleep=60)
         code = ("import sys; sys.path[:0] = sys.argv.pop(1),; "
                 "from fsi_compare.cli import main; sys.exit(main(sys.argv[1:]))")
-        words = [sys.executable, "-E", "-B", "-c", code, Path(paper.__file__).parents[1], "solvers", "-o", self.out,
+        words = [sys.executable, "-E", "-B", "-c", code, Path(cli.__file__).parents[1], "solvers", "-o", self.out,
                  "--case-dir", self.cases, "--program", self.program, *SMALL]
         study = subprocess.Popen(list(map(str, words)), stderr=subprocess.PIPE, text=True)
         pid = self.base / "pid"

@@ -4,10 +4,10 @@ import unittest
 
 from folder_case import FolderCase
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies import kinds
 from fsi_compare.studies.command import READY, ready, study_path
-from fsi_compare.studies.study_file import read_study
+from fsi_compare.studies.running.study_file import read_study
 
 GOOD = """\
 title = "A study"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence.tube import Layer, Tube, read_tube
 from fsi_compare.studies.evidence.wave_speed import long_wave, moens_korteweg, phase_speed, wall_stiffness
 

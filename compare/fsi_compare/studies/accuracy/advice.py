@@ -2,13 +2,13 @@
 
 from typing import List, Optional, Sequence, Tuple
 
-from ...progress import duration
-from .plan import Plan
+from ...base.progress import duration
+from ..evidence.waves import QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
 from .measured import GAIN, Measured
+from .plan import Plan
 from .trend import trend
-from .waves import QUANTITIES, Quantity
 
 
 def percent(value: float) -> str:

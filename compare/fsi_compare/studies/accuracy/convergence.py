@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from .plan import Plan
+from ..evidence.waves import QUANTITIES, relative_difference
 from .measured import STEP, Measured
 from .observed_order import SelfConvergence, self_convergence, slope
-from .waves import QUANTITIES, relative_difference
+from .plan import Plan
 
 SPACE, TIME = "element size", "time step"
 

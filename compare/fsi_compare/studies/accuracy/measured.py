@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
+from ..evidence.waves import QUANTITIES, Waves, read_waves, relative_difference
+from ..running.study_file import Request, show
+from ..running.study_run import StudyRun
 from .plan import Plan
-from ..study_file import Request, show
-from ..study_run import StudyRun
-from .waves import QUANTITIES, Waves, read_waves, relative_difference
 
 SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are
 GAIN = 0.02  # a slower setting whose total error is smaller by less than this part is no better

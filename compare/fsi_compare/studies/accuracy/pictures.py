@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ...pictures import finish
+from ...reporting.pictures import finish
+from ..evidence.waves import QUANTITIES
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
-from .waves import QUANTITIES
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "p", "h", "<", ">", "*")
 DOMINATED, ON_FRONTIER, PARTITIONED_FILL = "#b5b5b5", "#000000", "#ffffff"

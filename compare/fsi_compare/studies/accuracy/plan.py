@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, Tuple
 
-from ...errors import InputError
-from ..study_file import Study
-from ..suggestions import check_keys, nearest
-from .reference import WaveReference, read_reference
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ..evidence.reference import WaveReference, read_reference
+from ..running.study_file import Study
 
 KEYS = ("references", "times", "targets", "method", "tight", "family")
 

@@ -5,20 +5,20 @@ against the tight solution of the same discrete equations: what stopping early, 
 
 from typing import Dict, List, Optional, Sequence
 
-from ...layout import Table, fixed
-from ...names import MATERIALS
-from ...progress import duration
+from ...base.names import MATERIALS
+from ...base.progress import duration
+from ...reporting.layout import Table, fixed
+from ..evidence.waves import QUANTITIES, Quantity
+from ..plain_runs import runs_table
+from ..running.context import Context
+from ..running.repeats import timing_words
+from ..running.study_file import Study
 from . import pictures
-from .plan import Plan, read_plan
 from .advice import algebraic_advice, enough, estimate, percent, small_steps, total_advice
-from ..context import Context
 from .convergence import SPACE, TIME, Series, series
 from .frontier import frontier
 from .measured import GAIN, Measured, measure
-from ..plain_runs import runs_table
-from ..repeats import timing_words
-from ..study_file import Study
-from .waves import QUANTITIES, Quantity
+from .plan import Plan, read_plan
 
 
 def check(study: Study) -> None:

@@ -9,14 +9,14 @@ from typing import Any, Dict, List, Mapping
 
 import numpy as np
 
-from ...errors import InputError
-from ...layout import Table
+from ...base.errors import InputError
+from ...base.suggestions import check_keys
+from ...reporting.layout import Table
+from ..running.context import Context
+from ..running.study_file import Study
+from ..running.study_run import DONE, NOT_CONVERGED, StudyRun
 from .added_mass import AddedMass
 from .bisection import Bracket, bisect
-from ..context import Context
-from ..study_file import Study
-from ..study_run import DONE, NOT_CONVERGED, StudyRun
-from ..suggestions import check_keys
 
 KEYS = ("method", "case", "low", "high", "width", "steps", "stabilisations", "levels", "set")
 QUANTITIES = {"explicit": "structure.density", "constant": "partitioned.relaxation"}

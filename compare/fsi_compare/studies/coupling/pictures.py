@@ -5,7 +5,7 @@ from typing import Any, List, Mapping, Optional, Sequence
 
 from matplotlib.figure import Figure
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 
 # Told apart without colour by marker, dash pattern and lightness.
 STYLES = (

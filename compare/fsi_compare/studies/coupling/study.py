@@ -10,18 +10,18 @@ Groups by name, or by name and a suffix (passes, passes-fine), each of which may
 
 from typing import List, Optional, Sequence
 
-from ...cost import cost_table, read_cost
-from ...differences import largest_difference
-from ...errors import InputError
-from ...layout import Table, fixed
-from ...names import MATERIALS
+from ...base.errors import InputError
+from ...base.names import MATERIALS
+from ...base.suggestions import check_keys
+from ...reporting.cost import cost_table, read_cost
+from ...reporting.layout import Table, fixed
+from ...runs.differences import largest_difference
+from ..evidence.cross_check import WRONG, Cell
+from ..running.context import Context
+from ..running.study_file import Study, show
+from ..running.study_run import StudyRun
 from . import added_mass_runs, sweeps
 from .pictures import passes_figure
-from ..context import Context
-from ..cross_check import WRONG, Cell
-from ..study_file import Study, show
-from ..study_run import StudyRun
-from ..suggestions import check_keys
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
 REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)

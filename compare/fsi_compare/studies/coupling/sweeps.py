@@ -6,13 +6,13 @@
 from dataclasses import dataclass
 from typing import List, Sequence
 
-from ...errors import InputError
-from ...layout import Table, fixed
-from ..commands import with_name
-from ..cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
-from ..study_file import Study
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ...reporting.layout import Table, fixed
+from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
+from ..running.commands import with_name
+from ..running.study_file import Study
+from ..running.study_run import StudyRun
 from .pictures import Series
 
 KEYS = ("bound", "one_pass")

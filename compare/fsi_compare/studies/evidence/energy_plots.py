@@ -6,9 +6,9 @@ from typing import List, Optional, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...layout import Table
-from ...pictures import PANEL_INCHES, finish
-from ..study_run import StudyRun
+from ...reporting.layout import Table
+from ...reporting.pictures import PANEL_INCHES, finish
+from ..running.study_run import StudyRun
 
 FILE = "energy.csv"
 ENERGIES = ("fluid_kinetic_energy_uJ", "wall_kinetic_energy_uJ", "wall_isochoric_energy_uJ",

@@ -8,7 +8,7 @@ from typing import Dict
 import h5py
 import numpy as np
 
-from ...errors import InputError
+from ...base.errors import InputError
 
 FILE = "fields.xdmf"
 

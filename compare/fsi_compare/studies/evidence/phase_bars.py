@@ -5,10 +5,10 @@ from typing import Dict, Sequence
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ...errors import InputError
-from ...layout import Table
-from ...pictures import finish
-from ..study_run import StudyRun
+from ...base.errors import InputError
+from ...reporting.layout import Table
+from ...reporting.pictures import finish
+from ..running.study_run import StudyRun
 
 # Told apart in grey by lightness and hatch.
 PARTS = {

@@ -14,7 +14,7 @@ from typing import Optional, Sequence
 
 import numpy as np
 
-from ...errors import InputError
+from ...base.errors import InputError
 from .bessel import bessel_i
 
 # The rabbit's carotid artery [Holzapfel2000]: inner radius, thickness of media and adventitia, mm.

@@ -11,7 +11,7 @@ from matplotlib.quiver import Quiver
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 from .fields import Medium
 from .plane_cut import cut
 

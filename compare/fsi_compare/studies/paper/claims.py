@@ -4,7 +4,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Sequence
 
-from ...layout import Table
+from ...reporting.layout import Table
 
 REPRODUCED = "reproduced"
 IN_PART = "in part"

@@ -4,16 +4,16 @@ conclusion that it is the more robust one."""
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
-from ... import paper
-from ...cost import COUPLED, FLUID, WALL, calls
-from ...layout import Table, fixed
-from ...names import MATERIALS, MESHES
-from ...solver_tables import Grid
+from ...base import paper
+from ...base.names import MATERIALS, MESHES
+from ...linear.solver_tables import Grid
+from ...reporting.cost import COUPLED, FLUID, WALL, calls
+from ...reporting.layout import Table, fixed
+from ..running.repeats import spread
+from ..running.study_run import OUT_OF_TIME, StudyRun
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of
-from ..repeats import spread
-from ..study_run import OUT_OF_TIME, StudyRun
 
 PAPER_MONOLITHIC, FAST_MONOLITHIC, PAPER_PARTITIONED = "paper-monolithic", "monolithic", "fixed-point"
 RIVALS = (PAPER_PARTITIONED, "iqn-ils", "robin-neumann-iqn")

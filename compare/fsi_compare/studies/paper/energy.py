@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from ...layout import Table
-from ...names import MATERIALS
+from ...base.names import MATERIALS
+from ...reporting.layout import Table
 from ..evidence.energy_plots import Balance, balance, energy_section
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 from .runs import GROUPS, MONOLITHIC, RESOLVED, STOPPED_EARLY, WAVES, PaperRuns
 from .speeds import level_of
 

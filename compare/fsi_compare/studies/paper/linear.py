@@ -5,17 +5,17 @@ well and may hold more than the study asks for, so that --fresh leaves the folde
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ...errors import InputError
-from ...files import make_folder
-from ...linear_solvers import System
-from ...names import MATERIALS, MESHES, METHODS
-from ...programs import require_linear_systems
-from ...solver_tables import Grid
-from ...linear_study import Request, run_study
-from ..builds import Builds
-from ..context import Context
-from ..study_file import Study
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.files import make_folder
+from ...base.names import MATERIALS, MESHES, METHODS
+from ...base.suggestions import check_keys, nearest
+from ...linear.results import System
+from ...linear.solver_tables import Grid
+from ...linear.study import Request, run_study
+from ...runs.programs import require_linear_systems
+from ..running.builds import Builds
+from ..running.context import Context
+from ..running.study_file import Study
 
 FOLDER = "linear"
 FIRST_SYSTEM = (1, 1)

@@ -2,8 +2,8 @@
 
 from typing import List, Optional, Sequence
 
-from ...names import MATERIALS, MESHES
-from ..study_run import StudyRun
+from ...base.names import MATERIALS, MESHES
+from ..running.study_run import StudyRun
 
 MONOLITHIC, PARTITIONED = "monolithic", "robin-neumann-iqn"
 WAVES, RESOLVED, NEWTON, FIXED_POINT, COST = "waves", "resolved", "newton", "fixed-point", "cost"

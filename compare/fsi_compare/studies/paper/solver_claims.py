@@ -3,9 +3,9 @@
 import math
 from typing import Callable, Collection, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ... import paper
-from ...names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
-from ...solver_tables import Grid
+from ...base import paper
+from ...base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
+from ...linear.solver_tables import Grid
 from .claims import Claim, compared, unexamined, verdict
 from .linear import FIRST_SYSTEM
 

@@ -7,13 +7,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...layout import Table, fixed
-from ...names import MATERIALS
-from ...pictures import PANEL_INCHES, finish
-from ...pressure_waves import crest_speed
+from ...base.names import MATERIALS
+from ...reporting.layout import Table, fixed
+from ...reporting.pictures import PANEL_INCHES, finish
+from ...runs.pressure_waves import crest_speed
 from ..evidence import wave_speed
 from ..evidence.tube import Tube, read_tube
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 from .runs import DENSITY, FIBRES, MONOLITHIC, RESOLVED, TIMES, WAVES, PaperRuns, mesh_of
 from .waves import peaks
 
@@ -185,7 +185,7 @@ def _resolved_note(levels: Sequence[str]) -> str:
 
 def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequence[str]) -> Figure:
     """Left the thick wall's dispersion; right a line of marks for each wall, so that their names have room."""
-    from ...solver_pictures import MATERIAL_LINES
+    from ...linear.solver_pictures import MATERIAL_LINES
 
     width, height = 9.2, max(PANEL_INCHES[1] + 1.1, 0.9 + 0.36 * len(found))
     figure = Figure(figsize=(width, height))

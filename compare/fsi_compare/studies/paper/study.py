@@ -6,23 +6,24 @@ paper.linear)."""
 
 from typing import Dict, List, Sequence
 
-from ... import paper, solver_pictures
-from ...errors import InputError
-from ...names import MATERIALS
-from ...solver_tables import Grid, solver_tables
+from ...base import paper
+from ...base.errors import InputError
+from ...base.names import MATERIALS
+from ...base.suggestions import check_keys, nearest
+from ...linear import solver_pictures
+from ...linear.solver_tables import Grid, solver_tables
+from ..evidence.phase_bars import MEANING, phase_figure, phase_table
+from ..evidence.tube import Tube, read_tube
+from ..running.context import Context
+from ..running.study_file import Study
+from ..running.study_run import StudyRun
 from . import cost as paper_cost, linear as paper_linear, speeds as paper_speeds, tables as paper_tables
 from . import waves as paper_waves
-from ..context import Context
 from .claims import Claim, claims_table, rules_table, tally
 from .energy import write_energy
 from .runs import GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
 from .solver_claims import comparisons, solver_claims
 from .wave_claims import wave_claims
-from ..evidence.phase_bars import MEANING, phase_figure, phase_table
-from ..evidence.tube import Tube, read_tube
-from ..study_file import Study
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
 
 REPORT_KEYS = ("linear",)
 

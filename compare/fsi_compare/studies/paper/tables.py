@@ -4,11 +4,11 @@ import tomllib
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional
 
-from ... import paper
-from ...errors import InputError
-from ...layout import Table, fixed
-from ...names import MATERIALS, MESHES
-from ...solver_tables import Grid
+from ...base import paper
+from ...base.errors import InputError
+from ...base.names import MATERIALS, MESHES
+from ...linear.solver_tables import Grid
+from ...reporting.layout import Table, fixed
 from .runs import WAVES, PaperRuns, mesh_of
 
 LAYERS = ("media", "adventitia")

@@ -6,13 +6,13 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...differences import largest_difference
-from ...layout import Table, fixed
-from ...names import MATERIALS, MESHES
-from ...pictures import pressure_figure
-from ...pressure_waves import PressureWaves, peak
+from ...base.names import MATERIALS, MESHES
+from ...reporting.layout import Table, fixed
+from ...reporting.pictures import pressure_figure
+from ...runs.differences import largest_difference
+from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
 
 

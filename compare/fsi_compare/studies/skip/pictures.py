@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 
 WITH = {"facecolor": "#303030", "edgecolor": "#303030"}
 WITHOUT = {"facecolor": "#ffffff", "edgecolor": "#b06a2a", "hatch": "////"}

@@ -6,14 +6,14 @@ import statistics
 from dataclasses import dataclass, replace
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ...differences import largest_difference
-from ...errors import InputError
-from ...layout import Table, fixed
-from ..context import Context
-from ..cross_check import waves_of
-from ..study_file import Request, Study, show
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ...reporting.layout import Table, fixed
+from ...runs.differences import largest_difference
+from ..evidence.cross_check import waves_of
+from ..running.context import Context
+from ..running.study_file import Request, Study, show
+from ..running.study_run import StudyRun
 
 REPORT_KEYS = ("repeat", "economies")
 ECONOMY_KEYS = ("label", "counter", "off", "off_label", "differs")

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence, Tuple
 
-from ...layout import Table, fixed
-from ..cross_check import Cell, quantity
-from ..report import Report
-from ..study_file import show
+from ...reporting.layout import Table, fixed
+from ...reporting.report import Report
+from ..evidence.cross_check import Cell, quantity
+from ..running.study_file import show
 from .limit_load import Curve, Inflation, Wall, inflation, pulse_figure, static_figure
 from .messages import without_folder
 from .settings import Settings

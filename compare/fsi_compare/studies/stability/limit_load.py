@@ -16,10 +16,10 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...errors import InputError
-from ...pictures import LINES, finish
+from ...base.errors import InputError
+from ...reporting.pictures import LINES, finish
 from ..evidence.tube import Layer
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 LABEL = (0.1, 0.055)  # width and height of a label, of the picture's: nearer ones would cover each other

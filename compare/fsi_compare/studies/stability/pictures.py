@@ -7,10 +7,10 @@ from typing import Any, Dict, List, Sequence, Tuple
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from ...pictures import finish
-from ..cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
-from ..study_file import show
-from ..study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
+from ...reporting.pictures import finish
+from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
+from ..running.study_file import show
+from ..running.study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
 
 CELL_INCHES = (0.92, 0.36)
 MOST_ITERATIONS = 500.0  # darkest cell

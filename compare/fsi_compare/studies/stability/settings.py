@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Any, List, Mapping, Optional, Sequence
 
-from ...errors import InputError
-from ..cross_check import BOUND
-from ..study_file import Study
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ..evidence.cross_check import BOUND
+from ..running.study_file import Study
+from ..running.study_run import StudyRun
 from .limit_load import Wall, read_wall
 
 REPORT_KEYS = ("scope", "bound", "references", "one_pass", "quantities", "tube", "static", "pulse")

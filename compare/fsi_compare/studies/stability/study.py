@@ -5,13 +5,13 @@ the bound is a fault, as are crashes and values that are not finite, and gives e
 import re
 from typing import Dict, List, Sequence, Tuple
 
-from ...layout import Table, fixed
-from ...progress import duration
-from ..commands import with_name
-from ..context import Context
-from ..cross_check import (AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity)
-from ..study_file import Study, show
-from ..study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED
+from ...base.progress import duration
+from ...reporting.layout import Table, fixed
+from ..evidence.cross_check import (AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity)
+from ..running.commands import with_name
+from ..running.context import Context
+from ..running.study_file import Study, show
+from ..running.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED
 from .beyond_limit_load import beyond_limit_load
 from .messages import distinct, without_folder
 from .settings import Settings, settings_of

@@ -11,8 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from .files import replacing
-from .pressure_waves import PressureWaves
+from ..base.files import replacing
+from ..runs.pressure_waves import PressureWaves
 
 DPI = 200
 PANEL_INCHES = (3.7, 2.15)

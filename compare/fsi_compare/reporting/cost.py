@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from .columns import read_columns
-from .errors import InputError
-from .files import make_folder
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..runs.columns import read_columns
+from ..runs.run_folder import PROGRAMS, read_summary
 from .layout import Table, fixed, write_markdown
-from .run_folder import PROGRAMS, read_summary
 
 DESCRIPTION = """\
 Tabulates what finished runs took: wall time, coupling iterations, solves of the whole system and of the
@@ -76,7 +76,7 @@ def add_parser(commands, version: str) -> None:
 
 def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    from .cli import read_labels
+    from ..cli import read_labels
 
     if options.threads is not None and options.threads < 1:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")

@@ -6,7 +6,7 @@ from typing import Dict, Sequence
 
 import numpy as np
 
-from .errors import InputError
+from ..base.errors import InputError
 
 
 def read_columns(path: Path, needed: Sequence[str] = ()) -> Dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
 
-from .errors import InputError
+from ..base.errors import InputError
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict
 
-from ...errors import InputError
+from ...base.errors import InputError
 from .waves import QUANTITIES, Quantity, Waves, read_waves
 
 REMEDY = "make it with scripts/reference_waves.py"

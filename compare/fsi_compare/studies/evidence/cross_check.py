@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-from ..differences import largest_difference
-from ..errors import InputError
-from ..pressure_waves import PressureWaves
-from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
-from .study_run import WRONG as NOT_FINITE
+from ...base.errors import InputError
+from ...runs.differences import largest_difference
+from ...runs.pressure_waves import PressureWaves
+from ..running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from ..running.study_run import WRONG as NOT_FINITE
 
 AGREES = "converged"  # and no time level is further from the other driver's than the bound
 UNCHECKED = "converged, unchecked"  # the other driver was not run there, found nothing, or broke off earlier

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
-from .files import make_folder
-from .layout import Table, fixed
-from .linear_solvers import Solve
-from .names import MATERIALS
-from .processes import execute
-from .programs import Program, find_mesh_maker
-from .linear_study import Outcome, Request
+from ..base.files import make_folder
+from ..base.names import MATERIALS
+from ..reporting.layout import Table, fixed
+from ..runs.processes import execute
+from ..runs.programs import Program, find_mesh_maker
+from .results import Solve
+from .study import Outcome, Request
 
 FLUID_DENSITY = 1.0  # mg/mm^3, of the paper's case
 ASPECT_RATIO = 20

@@ -4,7 +4,7 @@ import sys
 import time
 from typing import Dict, List, Sequence, Tuple
 
-from ..progress import duration
+from ...base.progress import duration
 from .study_file import Request
 from .study_run import StudyRun
 

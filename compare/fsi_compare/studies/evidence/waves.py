@@ -7,8 +7,8 @@ from typing import Sequence
 
 import numpy as np
 
-from ...columns import read_columns
-from ...errors import InputError
+from ...base.errors import InputError
+from ...runs.columns import read_columns
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, List, Sequence
 
-from .report import Report
+from ...reporting.report import Report
 from .runner import Runner
 from .study_file import Request, Study
 from .study_run import StudyRun

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import List, Sequence, Tuple
 
-from .files import replacing
+from ..base.files import replacing
 
 
 @dataclass

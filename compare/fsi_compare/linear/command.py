@@ -6,14 +6,14 @@ import os
 from pathlib import Path
 from typing import Dict, List, Optional, Set, Tuple
 
+from ..base.errors import InputError
+from ..base.files import make_folder, replacing
+from ..base.names import MATERIALS, MESHES, METHODS, pick
+from ..reporting.layout import write_markdown
+from ..runs.programs import find_monolithic
 from . import stress as stress_study
-from .errors import InputError
-from .files import make_folder, replacing
-from .layout import write_markdown
-from .linear_solvers import System
-from .names import MATERIALS, MESHES, METHODS, pick
-from .programs import find_monolithic
-from .linear_study import Outcome, Request, run_study
+from .results import System
+from .study import Outcome, Request, run_study
 
 CASES = Path(__file__).resolve().parents[2] / "meshes" / "artery"
 STRESS_METHODS = "fast,amg_fgmres"

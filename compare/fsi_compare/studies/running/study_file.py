@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ..errors import InputError
-from .suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 LEVELS = ("coarse", "intermediate", "fine")

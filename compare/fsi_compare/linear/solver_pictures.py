@@ -7,10 +7,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from . import paper
-from .linear_solvers import System
-from .names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
-from .pictures import finish, write_figure
+from ..base import paper
+from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
+from ..reporting.pictures import finish, write_figure
+from .results import System
 from .solver_tables import Grid, suffix
 
 # By material: dash pattern, marker and lightness differ, so that they are told apart in grey. Later ones are narrower,

@@ -4,7 +4,7 @@ import difflib
 from pathlib import Path
 from typing import Iterable, Sequence
 
-from ..errors import InputError
+from .errors import InputError
 
 
 def nearest(name: str, names: Sequence[str]) -> str:

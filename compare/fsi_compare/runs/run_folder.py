@@ -12,7 +12,7 @@ from typing import Sequence
 
 import numpy as np
 
-from .errors import InputError
+from ..base.errors import InputError
 from .pressure_waves import PressureWaves
 
 PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}

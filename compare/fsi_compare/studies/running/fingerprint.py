@@ -6,8 +6,8 @@ import tomllib
 from pathlib import Path
 from typing import Optional
 
-from ..case_digest import case_digest
-from ..programs import Program
+from ...runs.case_digest import case_digest
+from ...runs.programs import Program
 from .study_file import Request
 
 HEADINGS = ("title",)  # in the results; nothing is solved differently

@@ -8,9 +8,9 @@ from typing import Dict, Tuple
 
 import numpy as np
 
-from ..columns import read_columns
-from ..pressure_waves import PressureWaves
-from ..run_folder import read_pressure
+from ...runs.columns import read_columns
+from ...runs.pressure_waves import PressureWaves
+from ...runs.run_folder import read_pressure
 from .study_file import Request
 
 DONE = "done"

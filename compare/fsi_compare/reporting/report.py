@@ -9,9 +9,9 @@ from typing import Callable, List, Sequence
 
 from matplotlib.figure import Figure
 
-from ..files import replacing
-from ..layout import Table
-from ..pictures import write_figure
+from ..base.files import replacing
+from .layout import Table
+from .pictures import write_figure
 
 STYLE = """
 :root { color-scheme: light; }

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
-from .case_digest import case_digest
-from .errors import InputError
-from .files import make_folder, replacing
-from .linear_solvers import FILE, LinearSolvers, System, read_linear_solvers
-from .processes import execute
-from .programs import Program
-from .progress import Progress
+from ..base.errors import InputError
+from ..base.files import make_folder, replacing
+from ..base.progress import Progress
+from ..runs.case_digest import case_digest
+from ..runs.processes import execute
+from ..runs.programs import Program
+from .results import FILE, LinearSolvers, System, read_linear_solvers
 
 REQUEST = "request.json"
 

@@ -6,10 +6,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from .differences import Difference, OverTime, differences_at, largest_difference
-from .files import replacing
-from .pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
-from .run_folder import Run
+from ..base.files import replacing
+from ..runs.differences import Difference, OverTime, differences_at, largest_difference
+from ..runs.pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
+from ..runs.run_folder import Run
 
 
 @dataclass(frozen=True)

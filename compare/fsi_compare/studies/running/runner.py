@@ -10,11 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ..errors import InputError
-from ..files import make_folder, replacing
-from ..processes import End, Job, execute, run_jobs
-from ..programs import Program
-from ..run_folder import read_summary
+from ...base.errors import InputError
+from ...base.files import make_folder, replacing
+from ...runs.processes import End, Job, execute, run_jobs
+from ...runs.programs import Program
+from ...runs.run_folder import read_summary
 from . import repeats
 from .builds import Builds
 from .fingerprint import fingerprint

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Callable, List, Optional, Sequence, Tuple
 
-from . import paper
-from .layout import Table, fixed
-from .linear_solvers import NewtonSystem, Solve, System
-from .names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, METHODS, MULTILEVEL
-from .linear_study import Outcome
+from ..base import paper
+from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, METHODS, MULTILEVEL
+from ..reporting.layout import Table, fixed
+from .results import NewtonSystem, Solve, System
+from .study import Outcome
 
 EXACT_RATIO = 1.3  # most that AMG sub-solves may cost in iterations over exact ones
 GROWTH = 3  # most iterations that a multilevel method may need on the fine mesh over the coarse one

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Optional, Tuple
 
-from .errors import InputError
+from ..base.errors import InputError
 
 FILE = "linear_solvers.json"
 System = Tuple[int, int]  # time step, Newton iteration; both from 1
