@@ -3,11 +3,12 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence
+from typing import Dict, Optional, Sequence
 
 from ..base.errors import InputError
 from ..base.files import make_folder
 from ..runs.columns import read_columns
+from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import PROGRAMS, read_summary
 from .layout import Table, fixed, write_markdown
 
@@ -76,8 +77,6 @@ def add_parser(commands, version: str) -> None:
 
 def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    from ..cli import read_labels
-
     if options.threads is not None and options.threads < 1:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
@@ -89,12 +88,6 @@ def cost(options: argparse.Namespace) -> int:
         print(table.text())
         print("Written: " + ", ".join(str(path) for path in written))
     return 0
-
-
-def folder_labels(folders: Sequence[Path]) -> List[str]:
-    """The folders' names, or their paths where two names are the same."""
-    names = [folder.resolve().name for folder in folders]
-    return [name if names.count(name) == 1 else str(folder) for name, folder in zip(names, folders)]
 
 
 def read_cost(folder: Path, label: str) -> Cost:

@@ -8,7 +8,6 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
 
 import numpy as np
 
@@ -145,21 +144,6 @@ def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -
             raise InputError(path, f"line {line}", "z_mm differs from the first time level's",
                              "all time levels must hold the same points; run it again")
     return PressureWaves(times=time[starts[:-1]], z=z[:points], pressure=pressure.reshape(-1, points))
-
-
-def default_labels(runs: Sequence[Run]) -> list:
-    """Names that tell the runs apart, as short as that allows: the program, then its case or folder beside it."""
-    programs = [run.short_program for run in runs]
-    choices = (
-        programs,
-        [f"{p}, {run.title}" if run.title else p for p, run in zip(programs, runs)],
-        [f"{p}, {run.folder.resolve().name}" for p, run in zip(programs, runs)],
-        [f"{p}, {run.folder}" for p, run in zip(programs, runs)],
-    )
-    for labels in choices:
-        if len(set(labels)) == len(runs):
-            return labels
-    return [f"{label} ({i})" for i, label in enumerate(choices[-1], 1)]
 
 
 def _read_text(path: Path) -> str:

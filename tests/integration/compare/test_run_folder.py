@@ -7,7 +7,8 @@ from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, pressure_csv, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.runs.run_folder import default_labels, read_run
+from fsi_compare.runs.labels import default_labels
+from fsi_compare.runs.run_folder import read_run
 
 SHORT = TIMES[:4]
 

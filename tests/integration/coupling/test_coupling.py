@@ -3,7 +3,6 @@
 import csv
 import unittest
 
-import numpy as np
 from programs import (ARTERY, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, attempt, calls, difference,
                       make_small_mesh, pressure, restart, run, summary, table, wall)
 

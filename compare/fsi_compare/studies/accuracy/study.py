@@ -8,8 +8,8 @@ from typing import Dict, List, Optional, Sequence
 from ...base.names import MATERIALS
 from ...base.progress import duration
 from ...reporting.layout import Table, fixed
+from ..evidence.runs_table import runs_table
 from ..evidence.waves import QUANTITIES, Quantity
-from ..plain_runs import runs_table
 from ..running.context import Context
 from ..running.repeats import timing_words
 from ..running.study_file import Study
