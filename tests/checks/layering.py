@@ -8,6 +8,8 @@ import re
 import sys
 from pathlib import Path
 
+from circles import circles
+
 # Lowest first. Folders of one line share a floor.
 FLOORS = (
     ("common/base",),
@@ -97,24 +99,9 @@ def wrong_includes(root):
 
 
 def cycles(root):
-    """One message for each circle of includes, found by depth-first search."""
+    """One message for each circle of includes."""
     graph = {path: [(line, target) for line, _, target in includes(root, path)] for path in source_files(root)}
-    finished = set()
-    messages = []
-
-    def visit(path, trail):
-        for line, target in graph.get(path, ()):
-            if target in trail:
-                circle = trail[trail.index(target):] + [target]
-                messages.append(f"{path}:{line}: include cycle: {' -> '.join(circle)}")
-            elif target not in finished:
-                visit(target, trail + [target])
-        finished.add(path)
-
-    for path in graph:
-        if path not in finished:
-            visit(path, [path])
-    return messages
+    return [f"{path}:{line}: include cycle: {' -> '.join(circle)}" for path, line, circle in circles(graph)]
 
 
 def main(arguments):
