@@ -20,9 +20,11 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    top = _Parser(prog="fsi-compare",
-                  description="Compares finished runs and the linear solvers, and drives whole studies.",
-                  allow_abbrev=False)
+    top = _Parser(
+        prog="fsi-compare",
+        description="Compares finished runs and the linear solvers, and drives whole studies.",
+        allow_abbrev=False,
+    )
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     add_pressure(commands, version)

@@ -10,7 +10,7 @@ def circles(graph):
     def visit(name, trail):
         for line, target in graph.get(name, ()):
             if target in trail:
-                found.append((name, line, trail[trail.index(target):] + [target]))
+                found.append((name, line, trail[trail.index(target) :] + [target]))
             elif target not in finished:
                 visit(target, trail + [target])
         finished.add(name)

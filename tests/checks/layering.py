@@ -49,14 +49,18 @@ def floor_of(folder):
 
 
 def allowed_folders(folder):
-    below = [name for floor in FLOORS[:floor_of(folder)] for name in floor]
+    below = [name for floor in FLOORS[: floor_of(folder)] for name in floor]
     return below + [folder]
 
 
 def source_files(root):
     """Paths of all C++ files, relative to the root, with forward slashes."""
-    return sorted(path.relative_to(root).as_posix() for top in TOP_FOLDERS for path in (root / top).rglob("*")
-                  if path.suffix in (".hpp", ".h", ".cpp"))
+    return sorted(
+        path.relative_to(root).as_posix()
+        for top in TOP_FOLDERS
+        for path in (root / top).rglob("*")
+        if path.suffix in (".hpp", ".h", ".cpp")
+    )
 
 
 def includes(root, path):

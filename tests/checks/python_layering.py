@@ -70,9 +70,10 @@ def imports(root, path, modules):
             elif node.level > len(package) + 1:
                 yield node.lineno, text, None
             else:
-                kept = package[:len(package) - node.level + 1]
-                yield from _own(node.lineno, text, ".".join(kept + ([node.module] if node.module else [])), names,
-                                modules)
+                kept = package[: len(package) - node.level + 1]
+                yield from _own(
+                    node.lineno, text, ".".join(kept + ([node.module] if node.module else [])), names, modules
+                )
         elif isinstance(node, ast.Call) and module_of(path) not in COMPUTED:
             called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
             if called in ("import_module", "__import__"):
@@ -118,8 +119,10 @@ def cycles(root):
     """One message for each circle of imports."""
     paths = source_files(root)
     modules = {module_of(path): path for path in paths}
-    graph = {path: [(line, target) for line, _, target in imports(root, path, modules) if target is not None]
-             for path in paths}
+    graph = {
+        path: [(line, target) for line, _, target in imports(root, path, modules) if target is not None]
+        for path in paths
+    }
     return [f"{path}:{line}: import cycle: {' -> '.join(circle)}" for path, line, circle in circles(graph)]
 
 

@@ -11,8 +11,14 @@ MESHES = {"coarse": "C", "intermediate": "I", "fine": "F"}
 BLOCK_PRECONDITIONERS = {"diagonal": "P_D", "lower": "P_L", "upper": "P_U", "ssor": "P_SSOR", "ilu": "P_ILU"}
 EXACT = {name: f"{name}_exact" for name in BLOCK_PRECONDITIONERS}
 # The paper's coupled multilevel methods (its Table 5).
-MULTILEVEL = {"amg": "AMG", "amg_gmres": "AMG_GMRES", "amg_fgmres": "AMG_FGMRES", "amli": "AMLI",
-              "amli_gmres": "AMLI_GMRES", "amli_fgmres": "AMLI_FGMRES"}
+MULTILEVEL = {
+    "amg": "AMG",
+    "amg_gmres": "AMG_GMRES",
+    "amg_fgmres": "AMG_FGMRES",
+    "amli": "AMLI",
+    "amli_gmres": "AMLI_GMRES",
+    "amli_fgmres": "AMLI_FGMRES",
+}
 METHODS = ("direct", "fast", *BLOCK_PRECONDITIONERS, *EXACT.values(), *MULTILEVEL)
 
 
@@ -22,8 +28,9 @@ def pick(option: str, text: str, known: Sequence[str]) -> List[str]:
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in known:
-            raise InputError("", option, f"'{name}' is unknown", f"nearest: {nearest(name, known)}; names are "
-                             f"{', '.join(known)}")
+            raise InputError(
+                "", option, f"'{name}' is unknown", f"nearest: {nearest(name, known)}; names are " f"{', '.join(known)}"
+            )
         if names.count(name) > 1:
             raise InputError("", option, f"'{name}' is given twice", "give each name once")
     return names

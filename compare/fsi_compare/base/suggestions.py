@@ -18,5 +18,6 @@ def check_keys(file: Path, section: str, keys: Iterable[str], known: Sequence[st
     """Raises InputError for the first of a section's keys that is not known; an empty section is the file itself."""
     for key in keys:
         if key not in known:
-            raise InputError(file, f"{section}.{key}".lstrip("."), "is unknown",
-                             f"did you mean '{nearest(key, known)}'?")
+            raise InputError(
+                file, f"{section}.{key}".lstrip("."), "is unknown", f"did you mean '{nearest(key, known)}'?"
+            )

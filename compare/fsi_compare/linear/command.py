@@ -42,32 +42,71 @@ examples:
 
 def add_parser(commands, default_output: str, version: str) -> None:
     solvers = commands.add_parser(
-        "solvers", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        help="iterations and cost of the linear solvers", description=DESCRIPTION)
-    solvers.add_argument("-o", "--output", metavar="OUTDIR", type=Path, default=Path(default_output),
-                         help="folder for the files written (default: %(default)s)")
-    solvers.add_argument("--methods", metavar="A,B,...",
-                         help=f"of {', '.join(METHODS)} (default: all; with --stress {STRESS_METHODS})")
-    solvers.add_argument("--materials", metavar="A,B,...",
-                         help=f"of {', '.join(MATERIALS)} (default: all; with --stress neo-hookean)")
-    solvers.add_argument("--meshes", metavar="A,B,...",
-                         help=f"of {', '.join(MESHES)} (default: all; with --stress coarse)")
-    solvers.add_argument("--without", metavar="MESH:METHOD,...",
-                         help="leave a method out on a mesh, e.g. fine:direct where it does not fit into memory")
-    solvers.add_argument("--systems", metavar="STEP:IT,...",
-                         help="time step and Newton iteration of each system (default: 1:1,12:2; with --stress 1:1)")
-    solvers.add_argument("--tolerance", metavar="TOL", type=float, default=1e-9,
-                         help="of the true relative residual (default: %(default)g)")
+        "solvers",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="iterations and cost of the linear solvers",
+        description=DESCRIPTION,
+    )
+    solvers.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path(default_output),
+        help="folder for the files written (default: %(default)s)",
+    )
+    solvers.add_argument(
+        "--methods", metavar="A,B,...", help=f"of {', '.join(METHODS)} (default: all; with --stress {STRESS_METHODS})"
+    )
+    solvers.add_argument(
+        "--materials", metavar="A,B,...", help=f"of {', '.join(MATERIALS)} (default: all; with --stress neo-hookean)"
+    )
+    solvers.add_argument(
+        "--meshes", metavar="A,B,...", help=f"of {', '.join(MESHES)} (default: all; with --stress coarse)"
+    )
+    solvers.add_argument(
+        "--without",
+        metavar="MESH:METHOD,...",
+        help="leave a method out on a mesh, e.g. fine:direct where it does not fit into memory",
+    )
+    solvers.add_argument(
+        "--systems",
+        metavar="STEP:IT,...",
+        help="time step and Newton iteration of each system (default: 1:1,12:2; with --stress 1:1)",
+    )
+    solvers.add_argument(
+        "--tolerance",
+        metavar="TOL",
+        type=float,
+        default=1e-9,
+        help="of the true relative residual (default: %(default)g)",
+    )
     solvers.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
-    solvers.add_argument("--stress", action="store_true",
-                         help="densities, time step, bulk modulus, viscosity and element shape far from the paper's")
-    solvers.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], dest="settings",
-                         help="override an entry of the case files; may be repeated")
-    solvers.add_argument("--case-dir", metavar="DIR", type=Path, default=CASES,
-                         help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of "
-                              "the sources)")
-    solvers.add_argument("--program", metavar="PATH", type=Path,
-                         help="fsi-monolithic (default: beside this program, else on the path)")
+    solvers.add_argument(
+        "--stress",
+        action="store_true",
+        help="densities, time step, bulk modulus, viscosity and element shape far from the paper's",
+    )
+    solvers.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        dest="settings",
+        help="override an entry of the case files; may be repeated",
+    )
+    solvers.add_argument(
+        "--case-dir",
+        metavar="DIR",
+        type=Path,
+        default=CASES,
+        help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of " "the sources)",
+    )
+    solvers.add_argument(
+        "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"
+    )
     solvers.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
     solvers.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     solvers.add_argument("--version", action="version", version=f"fsi-compare {version}")
@@ -76,14 +115,16 @@ def add_parser(commands, default_output: str, version: str) -> None:
 def solvers(options: argparse.Namespace) -> int:
     """Checks everything before the first run. Returns the exit code."""
     methods = pick("--methods", options.methods or (STRESS_METHODS if options.stress else ",".join(METHODS)), METHODS)
-    materials = pick("--materials", options.materials or ("neo-hookean" if options.stress else ",".join(MATERIALS)),
-                     list(MATERIALS))
+    materials = pick(
+        "--materials", options.materials or ("neo-hookean" if options.stress else ",".join(MATERIALS)), list(MATERIALS)
+    )
     meshes = pick("--meshes", options.meshes or ("coarse" if options.stress else ",".join(MESHES)), list(MESHES))
     systems = read_systems(options.systems or ("1:1" if options.stress else "1:1,12:2"))
     without = read_without(options.without)
     if not (math.isfinite(options.tolerance) and 0 < options.tolerance < 1):
-        raise InputError("", "--tolerance", f"{options.tolerance:g} will not do",
-                         "give a number between 0 and 1, e.g. 1e-9")
+        raise InputError(
+            "", "--tolerance", f"{options.tolerance:g} will not do", "give a number between 0 and 1, e.g. 1e-9"
+        )
     if options.threads is not None and options.threads < 0:
         raise InputError("", "--threads", f"{options.threads} is negative", "give 1 or more, or 0 for one per core")
     if options.stress:
@@ -95,9 +136,18 @@ def solvers(options: argparse.Namespace) -> int:
     make_folder(options.output)
     check_writable(options.output)
 
-    base = Request(name="", case=options.case_dir, material="", mesh="", settings=settings, solvers=tuple(methods),
-                   systems=tuple(systems), tolerance=options.tolerance, threads=options.threads,
-                   sub_problems=options.sub_problems)
+    base = Request(
+        name="",
+        case=options.case_dir,
+        material="",
+        mesh="",
+        settings=settings,
+        solvers=tuple(methods),
+        systems=tuple(systems),
+        tolerance=options.tolerance,
+        threads=options.threads,
+        sub_problems=options.sub_problems,
+    )
     if options.stress:
         return stress(options, program, base, materials, meshes)
 
@@ -107,10 +157,20 @@ def solvers(options: argparse.Namespace) -> int:
         if not asked:
             raise InputError("", "--without", f"leaves no method on the {mesh} mesh", "leave the mesh out of --meshes")
         for material in materials:
-            requests.append(Request(
-                name=f"{material}-{mesh}", case=options.case_dir / f"{material}.toml", material=material, mesh=mesh,
-                settings=(*settings, f"mesh.level={mesh}"), solvers=asked, systems=base.systems,
-                tolerance=base.tolerance, threads=base.threads, sub_problems=base.sub_problems))
+            requests.append(
+                Request(
+                    name=f"{material}-{mesh}",
+                    case=options.case_dir / f"{material}.toml",
+                    material=material,
+                    mesh=mesh,
+                    settings=(*settings, f"mesh.level={mesh}"),
+                    solvers=asked,
+                    systems=base.systems,
+                    tolerance=base.tolerance,
+                    threads=base.threads,
+                    sub_problems=base.sub_problems,
+                )
+            )
     outcomes = run_study(program, options.output / "runs", requests, options.quiet)
 
     from . import solver_pictures, solver_tables  # matplotlib takes a second to load
@@ -138,8 +198,10 @@ def exit_code(outcomes: List[Outcome]) -> int:
 
 
 def write(options, tables, markdown: str, heading: str) -> List[Path]:
-    return [*(table.write_csv(options.output) for table in tables),
-            write_markdown(options.output / markdown, heading, tables)]
+    return [
+        *(table.write_csv(options.output) for table in tables),
+        write_markdown(options.output / markdown, heading, tables),
+    ]
 
 
 def report(options, tables, written) -> None:
@@ -154,8 +216,12 @@ def read_systems(text: str) -> List[System]:
     for part in text.split(","):
         words = part.strip().split(":")
         if len(words) != 2 or not all(word.isascii() and word.isdigit() and int(word) > 0 for word in words):
-            raise InputError("", "--systems", f"'{part.strip()}' is not a system",
-                             "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2")
+            raise InputError(
+                "",
+                "--systems",
+                f"'{part.strip()}' is not a system",
+                "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2",
+            )
         system = (int(words[0]), int(words[1]))
         if system in systems:
             raise InputError("", "--systems", f"{part.strip()} is given twice", "give each system once")

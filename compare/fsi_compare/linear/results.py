@@ -109,8 +109,12 @@ def read_linear_solvers(path: Path) -> LinearSolvers:
         threads=top.count("threads"),
         mesh=top.object("mesh").values,
         tolerance=tolerance,
-        newton=[NewtonStep(entry.count("step"), entry.number("time_ms"), entry.numbers("increments"),
-                           entry.numbers("residuals")) for entry in top.objects("newton")],
+        newton=[
+            NewtonStep(
+                entry.count("step"), entry.number("time_ms"), entry.numbers("increments"), entry.numbers("residuals")
+            )
+            for entry in top.objects("newton")
+        ],
         systems={system.key: system for system in systems},
         sub_problems=[_sub_problem(entry) for entry in top.objects("sub_problems")] if "sub_problems" in data else [],
     )
@@ -168,8 +172,10 @@ class _Object:
         return _Object(self.path, f"{self.key}.{key}".lstrip("."), self._value(key, dict, "a JSON object"))
 
     def objects(self, key: str) -> List["_Object"]:
-        return [_Object(self.path, f"{self.key}.{key}[{i}]".lstrip("."), entry)
-                for i, entry in enumerate(self._value(key, list, "a list"))]
+        return [
+            _Object(self.path, f"{self.key}.{key}[{i}]".lstrip("."), entry)
+            for i, entry in enumerate(self._value(key, list, "a list"))
+        ]
 
 
 def _system(entry: _Object, tolerance: float) -> NewtonSystem:
@@ -215,7 +221,10 @@ def _solve(entry: _Object, tolerance: float) -> Solve:
 
 
 def _sub_problem(entry: _Object) -> SubProblem:
-    return SubProblem(*(entry.text(name) for name in ("problem", "coarsening", "smoother", "cycle")),
-                      levels=entry.count("levels"), factor=entry.optional("factor"),
-                      iterations=entry.optional("iterations", entry.count),
-                      operator_complexity=entry.optional("operator_complexity"))
+    return SubProblem(
+        *(entry.text(name) for name in ("problem", "coarsening", "smoother", "cycle")),
+        levels=entry.count("levels"),
+        factor=entry.optional("factor"),
+        iterations=entry.optional("iterations", entry.count),
+        operator_complexity=entry.optional("operator_complexity"),
+    )

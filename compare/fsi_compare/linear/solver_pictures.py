@@ -32,6 +32,7 @@ PANEL_INCHES = (2.9, 2.2)
 
 def write_solver_pictures(folder: Path, grid: Grid) -> List[Path]:
     """For each system `iterations_*` and `cost_*` as PNG and SVG; none for which nothing has converged."""
+
     def anything(key, methods, quantity):
         return any(_curve(grid, material, key, method, quantity) for material in grid.materials for method in methods)
 
@@ -52,7 +53,7 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     rows = -(-len(methods) // columns)
     figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
     panels = figure.subplots(rows, columns, squeeze=False)
-    for axes in panels.flat[len(methods):]:
+    for axes in panels.flat[len(methods) :]:
         axes.set_visible(False)
     for axes, method in zip(panels.flat, methods):
         for material in grid.materials:
@@ -67,8 +68,13 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     for material in grid.materials:
         handles += [Line2D([], [], **MATERIAL_LINES[material]), Line2D([], [], **_paper_line(material))]
         labels += [MATERIALS[material], f"{MATERIALS[material]}, paper{'' if key == (1, 1) else ' (first system)'}"]
-    finish(figure, handles, labels, f"Iterations, {grid.heading(key)}",
-           (max(columns * PANEL_INCHES[0], 4.5), rows * PANEL_INCHES[1]))
+    finish(
+        figure,
+        handles,
+        labels,
+        f"Iterations, {grid.heading(key)}",
+        (max(columns * PANEL_INCHES[0], 4.5), rows * PANEL_INCHES[1]),
+    )
     return figure
 
 
@@ -84,8 +90,11 @@ def cost_figure(grid: Grid, key: System) -> Figure:
     for row, (quantity, name) in zip(panels, quantities):
         for axes, material in zip(row, grid.materials):
             for mesh in grid.meshes:
-                axes.plot(*_columns(_points(grid, material, mesh, key, methods, quantity)), linestyle="none",
-                          **_mesh_mark(mesh))
+                axes.plot(
+                    *_columns(_points(grid, material, mesh, key, methods, quantity)),
+                    linestyle="none",
+                    **_mesh_mark(mesh),
+                )
             axes.set_xscale("log")
             axes.set_xlabel(name)
     panels[0, 0].set_yticks(range(len(methods)), methods)
@@ -101,8 +110,9 @@ def _mesh_mark(mesh: str) -> dict:
     return {"markersize": 5, "color": "#000000", "markeredgewidth": 0.8, **MESH_MARKS[mesh]}
 
 
-def _points(grid: Grid, material: str, mesh: str, key: System, methods: Sequence[str],
-            quantity: str) -> List[Tuple[float, float]]:
+def _points(
+    grid: Grid, material: str, mesh: str, key: System, methods: Sequence[str], quantity: str
+) -> List[Tuple[float, float]]:
     """(value, line) of the methods that have converged; the axis is logarithmic."""
     solves = [(grid.entry(material, mesh, key, method).solve, line) for line, method in enumerate(methods)]
     values = [(getattr(solve, quantity), line) for solve, line in solves if solve is not None]
@@ -153,4 +163,4 @@ def _log_axes(axes) -> None:
 
 def _widened(low: float, high: float, factor: float) -> Tuple[float, float]:
     middle = (low * high) ** 0.5
-    return (low, high) if high >= factor * low else (middle / factor ** 0.5, middle * factor ** 0.5)
+    return (low, high) if high >= factor * low else (middle / factor**0.5, middle * factor**0.5)

@@ -62,8 +62,16 @@ class Grid:
         return Entry("converged", solve) if solve.converged else Entry("not converged", message=solve.message)
 
     def time_ms(self, key: System) -> Optional[float]:
-        return next((system.time_ms for material in self.materials for mesh in self.meshes
-                     for system in [self.system(material, mesh, key)] if system), None)
+        return next(
+            (
+                system.time_ms
+                for material in self.materials
+                for mesh in self.meshes
+                for system in [self.system(material, mesh, key)]
+                if system
+            ),
+            None,
+        )
 
     def heading(self, key: System) -> str:
         time = self.time_ms(key)
@@ -92,13 +100,18 @@ def solver_tables(grid: Grid) -> List[Table]:
 def newton_table(grid: Grid) -> Table:
     """Table 3: norms of Newton's increments in the first step."""
     table = Table(
-        "table3_newton", "Table 3: norms of Newton's increments in the first time step, ours and the paper's",
+        "table3_newton",
+        "Table 3: norms of Newton's increments in the first time step, ours and the paper's",
         [("", "material"), ("", "#it"), *((mesh, who) for mesh in grid.meshes for who in ("ours", "paper"))],
-        ("material", "mesh", "nodes", "newton_iteration", "increment", "residual", "paper_increment"), left=1,
-        notes=["Ours: L2 norm over fluid and wall, of all fields in mm, mm/ms and kPa added up as they are, as in the "
-               "paper's algorithm 1. The paper's column is headed relative error, without scaling or units: its first "
-               "increment is about 30 times ours on every mesh, so much like an L2 norm in others. Compare the decay, "
-               "not the sizes."])
+        ("material", "mesh", "nodes", "newton_iteration", "increment", "residual", "paper_increment"),
+        left=1,
+        notes=[
+            "Ours: L2 norm over fluid and wall, of all fields in mm, mm/ms and kPa added up as they are, as in the "
+            "paper's algorithm 1. The paper's column is headed relative error, without scaling or units: its first "
+            "increment is about 30 times ours on every mesh, so much like an L2 norm in others. Compare the decay, "
+            "not the sizes."
+        ],
+    )
     for material in grid.materials:
         columns = []
         for mesh in grid.meshes:
@@ -123,8 +136,20 @@ def newton_table(grid: Grid) -> Table:
     return table
 
 
-COUNT_COLUMNS = ("step", "newton_iteration", "time_ms", "material", "mesh", "unknowns", "method", "status",
-                 "iterations", "paper_iterations", "limit_iterations", "above_limit")
+COUNT_COLUMNS = (
+    "step",
+    "newton_iteration",
+    "time_ms",
+    "material",
+    "mesh",
+    "unknowns",
+    "method",
+    "status",
+    "iterations",
+    "paper_iterations",
+    "limit_iterations",
+    "above_limit",
+)
 
 
 def block_table(grid: Grid, key: System) -> Table:
@@ -135,7 +160,9 @@ def block_table(grid: Grid, key: System) -> Table:
         f"table4_block_preconditioners_{suffix(key)}",
         f"Table 4: iterations of GMRES with block preconditioners, {grid.heading(key)}",
         [("", "material"), ("", "method"), *((mesh, what) for mesh in grid.meshes for what in shown)],
-        (*COUNT_COLUMNS, "exact_status", "exact_iterations", "ratio_to_exact", "message", "exact_message"), left=2)
+        (*COUNT_COLUMNS, "exact_status", "exact_iterations", "ratio_to_exact", "message", "exact_message"),
+        left=2,
+    )
     marks = _Marks(grid, key)
     wide = 0
     for material in grid.materials:
@@ -153,13 +180,22 @@ def block_table(grid: Grid, key: System) -> Table:
                     row += [exact.short, fixed(ratio, ".2f") + ("!" if above_ratio else "")]
                 row.append(fixed(paper.iterations(method, material, mesh), "d"))
                 marks.remember(material, mesh, f"{label} exact", exact)
-                table.csv_rows.append((*marks.csv(material, mesh, method, entry), exact.status, exact.iterations, ratio,
-                                       entry.message, exact.message))
+                table.csv_rows.append(
+                    (
+                        *marks.csv(material, mesh, method, entry),
+                        exact.status,
+                        exact.iterations,
+                        ratio,
+                        entry.message,
+                        exact.message,
+                    )
+                )
             table.rows.append(row)
     table.notes = marks.notes()
     if with_exact:
-        table.notes.append(f"!: more than {EXACT_RATIO:g} times the count with exact sub-solves: "
-                           f"{wide if wide else 'none'}")
+        table.notes.append(
+            f"!: more than {EXACT_RATIO:g} times the count with exact sub-solves: " f"{wide if wide else 'none'}"
+        )
     table.notes.append(_order_note(grid, key))
     return table
 
@@ -170,7 +206,8 @@ def multilevel_table(grid: Grid, key: System) -> Table:
         f"table5_multilevel_{suffix(key)}",
         f"Table 5: iterations of coupled multilevel methods, ours (paper's), {grid.heading(key)}",
         [("", "method"), *((MATERIALS[material], MESHES[mesh]) for material in grid.materials for mesh in grid.meshes)],
-        (*COUNT_COLUMNS, "message"))
+        (*COUNT_COLUMNS, "message"),
+    )
     marks = _Marks(grid, key)
     grown = []
     for method, label in MULTILEVEL.items():
@@ -178,8 +215,10 @@ def multilevel_table(grid: Grid, key: System) -> Table:
         for material in grid.materials:
             for mesh in grid.meshes:
                 entry = grid.entry(material, mesh, key, method)
-                row.append(f"{marks.count(material, mesh, method, label, entry)} "
-                           f"({fixed(paper.iterations(method, material, mesh), 'd')})")
+                row.append(
+                    f"{marks.count(material, mesh, method, label, entry)} "
+                    f"({fixed(paper.iterations(method, material, mesh), 'd')})"
+                )
                 table.csv_rows.append((*marks.csv(material, mesh, method, entry), entry.message))
             coarse, fine = (grid.entry(material, mesh, key, method).iterations for mesh in ("coarse", "fine"))
             if coarse is not None and fine is not None and fine > coarse + GROWTH:
@@ -187,8 +226,10 @@ def multilevel_table(grid: Grid, key: System) -> Table:
         table.rows.append(row)
     table.notes = marks.notes()
     if "coarse" in grid.meshes and "fine" in grid.meshes:
-        table.notes.append(f"more than {GROWTH} iterations above the coarse mesh on the fine one: "
-                           f"{', '.join(grown) if grown else 'none'}")
+        table.notes.append(
+            f"more than {GROWTH} iterations above the coarse mesh on the fine one: "
+            f"{', '.join(grown) if grown else 'none'}"
+        )
     return table
 
 
@@ -223,8 +264,19 @@ class _Marks:
         system = self._grid.system(material, mesh, self._key)
         above = None if entry.iterations is None or limit is None else "yes" if entry.iterations > limit else "no"
         time_ms, unknowns = (system.time_ms, system.unknowns["total"]) if system else (None, None)
-        return (*self._key, time_ms, material, mesh, unknowns, method, entry.status, entry.iterations,
-                paper.iterations(method, material, mesh), limit, above)
+        return (
+            *self._key,
+            time_ms,
+            material,
+            mesh,
+            unknowns,
+            method,
+            entry.status,
+            entry.iterations,
+            paper.iterations(method, material, mesh),
+            limit,
+            above,
+        )
 
     def notes(self) -> List[str]:
         notes = [f"*: above the paper's count: {self._above if self._above else 'none'} of {self._cells} cells"]
@@ -233,8 +285,10 @@ class _Marks:
         elif self._key != (1, 1):
             notes.append("The paper's numbers are those of its first Newton system.")
         if any(tolerance != paper.tolerance() for tolerance in self._grid.tolerances):
-            notes.append(f"Solved to {', '.join(format(t, 'g') for t in self._grid.tolerances)}, in the paper to "
-                         f"{paper.tolerance():g}.")
+            notes.append(
+                f"Solved to {', '.join(format(t, 'g') for t in self._grid.tolerances)}, in the paper to "
+                f"{paper.tolerance():g}."
+            )
         if any(status == "n.c." for status, _, _ in self._failures):
             notes.append("n.c.: not converged")
         return notes + [f"{status}: {where}: {message}" for status, where, message in dict.fromkeys(self._failures)]
@@ -254,8 +308,10 @@ def _order_note(grid: Grid, key: System) -> str:
                         continue
                     compared += 1
                     if ours[0] < ours[1]:
-                        swapped.append(f"{BLOCK_PRECONDITIONERS[worse]} {ours[0]} < {BLOCK_PRECONDITIONERS[better]} "
-                                       f"{ours[1]} ({MATERIALS[material]} {MESHES[mesh]})")
+                        swapped.append(
+                            f"{BLOCK_PRECONDITIONERS[worse]} {ours[0]} < {BLOCK_PRECONDITIONERS[better]} "
+                            f"{ours[1]} ({MATERIALS[material]} {MESHES[mesh]})"
+                        )
     if not compared:
         return "order of the preconditioners as in the paper: n/a"
     return f"order of the preconditioners as in the paper: {'no: ' + ', '.join(swapped) if swapped else 'yes'}"
@@ -281,12 +337,34 @@ COSTS: Sequence[Tuple[str, str, str, str, Callable[[Solve], object]]] = (
 def cost_table(grid: Grid, key: System) -> Table:
     """What each method costs, all materials and meshes below each other."""
     table = Table(
-        f"cost_{suffix(key)}", f"Cost of the methods, {grid.heading(key)}",
-        [("", "material"), ("", "mesh"), ("", "unknowns"), ("", "method"),
-         *((group, name) for _, group, name, _, _ in COSTS)],
-        ("step", "newton_iteration", "time_ms", "material", "mesh", "unknowns", "mesh_unknowns", "flow_unknowns",
-         "wall_unknowns", "threads", "product_seconds", "method", "status", *(name for name, *_ in COSTS), "message"),
-        left=4)
+        f"cost_{suffix(key)}",
+        f"Cost of the methods, {grid.heading(key)}",
+        [
+            ("", "material"),
+            ("", "mesh"),
+            ("", "unknowns"),
+            ("", "method"),
+            *((group, name) for _, group, name, _, _ in COSTS),
+        ],
+        (
+            "step",
+            "newton_iteration",
+            "time_ms",
+            "material",
+            "mesh",
+            "unknowns",
+            "mesh_unknowns",
+            "flow_unknowns",
+            "wall_unknowns",
+            "threads",
+            "product_seconds",
+            "method",
+            "status",
+            *(name for name, *_ in COSTS),
+            "message",
+        ),
+        left=4,
+    )
     apart, messages = 0, []
     for material in grid.materials:
         for mesh in grid.meshes:
@@ -302,35 +380,78 @@ def cost_table(grid: Grid, key: System) -> Table:
                 if entry.solve is None:
                     shown[0] = entry.short
                     where = f"{MATERIALS[material]} {MESHES[mesh]}"
-                    messages.append(f"{entry.short}: {where}: {entry.message}" if entry.status == "failed" else
-                                    f"{entry.short}: {method}, {where}: {entry.message}")
+                    messages.append(
+                        f"{entry.short}: {where}: {entry.message}"
+                        if entry.status == "failed"
+                        else f"{entry.short}: {method}, {where}: {entry.message}"
+                    )
                 elif entry.solve.difference is not None and entry.solve.difference > SAME_SOLUTION:
                     apart += 1
                     shown[-1] += "!"
                 where = (MATERIALS[material], mesh, fixed(unknowns.get("total"), ",d")) if first else ("", "", "")
                 table.rows.append([*where, method, *shown])
-                table.csv_rows.append((
-                    *key, system.time_ms if system else None, material, mesh,
-                    *(unknowns.get(name) for name in ("total", "mesh", "flow", "wall")),
-                    outcome.results.threads if outcome.results else None, system.product_seconds if system else None,
-                    method, entry.status, *values, entry.message))
+                table.csv_rows.append(
+                    (
+                        *key,
+                        system.time_ms if system else None,
+                        material,
+                        mesh,
+                        *(unknowns.get(name) for name in ("total", "mesh", "flow", "wall")),
+                        outcome.results.threads if outcome.results else None,
+                        system.product_seconds if system else None,
+                        method,
+                        entry.status,
+                        *values,
+                        entry.message,
+                    )
+                )
                 first = False
-    table.notes = ["work units: solve seconds / seconds of one product with the coupled matrix; cycles: of the "
-                   "sub-problems' AMG",
-                   f"!: relative difference to the direct solver's solution above {SAME_SOLUTION:g}: "
-                   f"{apart if apart else 'none'}", *dict.fromkeys(messages)]
+    table.notes = [
+        "work units: solve seconds / seconds of one product with the coupled matrix; cycles: of the "
+        "sub-problems' AMG",
+        f"!: relative difference to the direct solver's solution above {SAME_SOLUTION:g}: "
+        f"{apart if apart else 'none'}",
+        *dict.fromkeys(messages),
+    ]
     return table
 
 
 def sub_problem_table(grid: Grid) -> Table:
     """The sub-problems' AMG alone."""
     table = Table(
-        "sub_problems", "AMG of the sub-problems alone",
-        [("", name) for name in ("material", "mesh", "problem", "coarsening", "smoother", "cycle", "levels", "factor",
-                                 "#it", "complexity")],
-        ("material", "mesh", "nodes", "problem", "coarsening", "smoother", "cycle", "levels", "convergence_factor",
-         "iterations", "operator_complexity"), left=6,
-        notes=["factor: mean contraction of the residual per cycle; 1 and more: n.c."])
+        "sub_problems",
+        "AMG of the sub-problems alone",
+        [
+            ("", name)
+            for name in (
+                "material",
+                "mesh",
+                "problem",
+                "coarsening",
+                "smoother",
+                "cycle",
+                "levels",
+                "factor",
+                "#it",
+                "complexity",
+            )
+        ],
+        (
+            "material",
+            "mesh",
+            "nodes",
+            "problem",
+            "coarsening",
+            "smoother",
+            "cycle",
+            "levels",
+            "convergence_factor",
+            "iterations",
+            "operator_complexity",
+        ),
+        left=6,
+        notes=["factor: mean contraction of the residual per cycle; 1 and more: n.c."],
+    )
     for material in grid.materials:
         for mesh in grid.meshes:
             outcome = grid.outcome(material, mesh)
@@ -338,12 +459,35 @@ def sub_problem_table(grid: Grid) -> Table:
                 continue
             for p in outcome.results.sub_problems:
                 good = p.factor is not None and p.factor < 1
-                table.rows.append([MATERIALS[material], mesh, p.problem, p.coarsening, p.smoother, p.cycle,
-                                   str(p.levels), f"{p.factor:.3f}" if good else "n.c.",
-                                   fixed(p.iterations if good else None, "d"), fixed(p.operator_complexity, ".2f")])
-                table.csv_rows.append((material, mesh, outcome.results.mesh.get("nodes"), p.problem, p.coarsening,
-                                       p.smoother, p.cycle, p.levels, p.factor if good else None,
-                                       p.iterations if good else None, p.operator_complexity))
+                table.rows.append(
+                    [
+                        MATERIALS[material],
+                        mesh,
+                        p.problem,
+                        p.coarsening,
+                        p.smoother,
+                        p.cycle,
+                        str(p.levels),
+                        f"{p.factor:.3f}" if good else "n.c.",
+                        fixed(p.iterations if good else None, "d"),
+                        fixed(p.operator_complexity, ".2f"),
+                    ]
+                )
+                table.csv_rows.append(
+                    (
+                        material,
+                        mesh,
+                        outcome.results.mesh.get("nodes"),
+                        p.problem,
+                        p.coarsening,
+                        p.smoother,
+                        p.cycle,
+                        p.levels,
+                        p.factor if good else None,
+                        p.iterations if good else None,
+                        p.operator_complexity,
+                    )
+                )
     return table
 
 

@@ -36,9 +36,19 @@ class Request:
     files: Tuple[Path, ...] = ()  # beside the case file
 
     def command(self, program: Program, folder: Path) -> List[str]:
-        words = [str(program.path), str(self.case), "-o", str(folder), "-q",
-                 "--linear-systems", ",".join(f"{step}:{iteration}" for step, iteration in self.systems),
-                 "--linear-solvers", ",".join(self.solvers), "--linear-tolerance", repr(self.tolerance)]
+        words = [
+            str(program.path),
+            str(self.case),
+            "-o",
+            str(folder),
+            "-q",
+            "--linear-systems",
+            ",".join(f"{step}:{iteration}" for step, iteration in self.systems),
+            "--linear-solvers",
+            ",".join(self.solvers),
+            "--linear-tolerance",
+            repr(self.tolerance),
+        ]
         if self.sub_problems:
             words.append("--sub-problems")
         if self.threads is not None:
@@ -77,7 +87,9 @@ class Outcome:
     def converged(self) -> bool:
         return self.results is not None and all(
             self.results.systems[system].solves[name].converged
-            for system in self.request.systems for name in self.request.solvers)
+            for system in self.request.systems
+            for name in self.request.solvers
+        )
 
 
 def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet: bool) -> List[Outcome]:
@@ -139,8 +151,12 @@ def _run(program: Program, place: Path, request: Request, progress: Progress) ->
     seconds = time.monotonic() - start
     outcome = _outcome(place, request, ended, program.version)
     if outcome.results is not None:
-        memory = {**request.fingerprint(), "case_hash": outcome.results.case_hash, "seconds": round(seconds, 3),
-                  "executable": program.digest}
+        memory = {
+            **request.fingerprint(),
+            "case_hash": outcome.results.case_hash,
+            "seconds": round(seconds, 3),
+            "executable": program.digest,
+        }
         with replacing(place / REQUEST) as temporary:
             temporary.write_text(json.dumps(memory, indent=2) + "\n", encoding="utf-8")
     progress.end(outcome.failure, outcome.refused, seconds)

@@ -62,15 +62,27 @@ class Cost:
 
 def add_parser(commands, version: str) -> None:
     cost = commands.add_parser(
-        "cost", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        help="wall time, solves and iterations of finished runs", description=DESCRIPTION)
+        "cost",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="wall time, solves and iterations of finished runs",
+        description=DESCRIPTION,
+    )
     cost.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    cost.add_argument("-o", "--output", metavar="OUTDIR", type=Path, default=Path("results/cost"),
-                      help="folder for the files written (default: %(default)s)")
+    cost.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path("results/cost"),
+        help="folder for the files written (default: %(default)s)",
+    )
     cost.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
     cost.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
-    cost.add_argument("--threads", metavar="N", type=int,
-                      help="accepted as by all programs; this comparison is quick on one thread")
+    cost.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
+    )
     cost.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     cost.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
@@ -93,12 +105,17 @@ def cost(options: argparse.Namespace) -> int:
 def read_cost(folder: Path, label: str) -> Cost:
     """Raises InputError unless the run is finished and its tables are complete."""
     if not folder.is_dir():
-        raise InputError(folder, "", "is not a folder" if folder.exists() else "no such folder",
-                         "give the folder that a run wrote with -o")
+        raise InputError(
+            folder,
+            "",
+            "is not a folder" if folder.exists() else "no such folder",
+            "give the folder that a run wrote with -o",
+        )
     summary = read_summary(folder / "summary.json")
     program = PROGRAMS[summary["program"]]
-    iterations = read_columns(folder / ITERATIONS,
-                              ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))
+    iterations = read_columns(
+        folder / ITERATIONS, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s")
+    )
     coupled = program == "partitioned" and (folder / COUPLING).exists()
     coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else {}
     outer = iterations["outer_iterations"].tolist()
@@ -139,46 +156,115 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     systems = ("whole", "fluid", "wall", "mesh")
     keys = (COUPLED, FLUID, WALL, MESH)
     table = Table(
-        stem="cost", title=title, left=3,
-        columns=[("", "run"), ("", "driver"), ("", "mesh"), ("", "steps"), ("", "seconds per step"),
-                 ("", "relative time"), ("coupling iterations", "mean"), ("coupling iterations", "range"),
-                 ("linear solves per step", "whole"), ("linear solves per step", "fluid"),
-                 ("linear solves per step", "wall"), ("linear solves per step", "mesh"),
-                 ("linear iterations", "per step"), ("", "set-ups"),
-                 ("interface residual", "displacement"), ("interface residual", "force"), ("", "memory in MiB")],
-        csv_columns=["run", "program", "mesh", "unknowns", "threads", "steps", "wall_s", "wall_s_per_step",
-                     "wall_relative_to_first", "coupling_iterations_mean", "coupling_iterations_min",
-                     "coupling_iterations_max", "newton_iterations", "linear_iterations",
-                     *(f"solves_{name}" for name in systems), *(f"preparations_{name}" for name in systems),
-                     "displacement_residual_max", "force_residual_max", "peak_memory_MiB"])
+        stem="cost",
+        title=title,
+        left=3,
+        columns=[
+            ("", "run"),
+            ("", "driver"),
+            ("", "mesh"),
+            ("", "steps"),
+            ("", "seconds per step"),
+            ("", "relative time"),
+            ("coupling iterations", "mean"),
+            ("coupling iterations", "range"),
+            ("linear solves per step", "whole"),
+            ("linear solves per step", "fluid"),
+            ("linear solves per step", "wall"),
+            ("linear solves per step", "mesh"),
+            ("linear iterations", "per step"),
+            ("", "set-ups"),
+            ("interface residual", "displacement"),
+            ("interface residual", "force"),
+            ("", "memory in MiB"),
+        ],
+        csv_columns=[
+            "run",
+            "program",
+            "mesh",
+            "unknowns",
+            "threads",
+            "steps",
+            "wall_s",
+            "wall_s_per_step",
+            "wall_relative_to_first",
+            "coupling_iterations_mean",
+            "coupling_iterations_min",
+            "coupling_iterations_max",
+            "newton_iterations",
+            "linear_iterations",
+            *(f"solves_{name}" for name in systems),
+            *(f"preparations_{name}" for name in systems),
+            "displacement_residual_max",
+            "force_residual_max",
+            "peak_memory_MiB",
+        ],
+    )
     for c in costs:
         relative = c.seconds_per_step / costs[0].seconds_per_step if costs[0].seconds_per_step > 0 else None
         low, high = c.coupling_range or (None, None)
         solves = [c.solves.get(key) for key in keys]
         prepared = [c.preparations.get(key) for key in keys]
-        table.rows.append([
-            c.label, c.program, c.mesh, str(c.steps), f"{c.seconds_per_step:.3g}", fixed(relative, ".2f"),
-            fixed(c.coupling_mean, ".2f"), "-" if low is None else f"{low}-{high}",
-            *(fixed(None if n is None else n / c.steps, ".1f") for n in solves), fixed(c.linear / c.steps, ".1f"),
-            str(sum(n for n in prepared if n is not None)), fixed(c.displacement_residual, ".1e"),
-            fixed(c.force_residual, ".1e"), fixed(c.memory_mib, ".0f")])
-        table.csv_rows.append([
-            c.label, c.program, c.mesh, c.unknowns, c.threads, c.steps, c.seconds, c.seconds_per_step, relative,
-            c.coupling_mean, low, high, c.newton, c.linear, *solves, *prepared, c.displacement_residual,
-            c.force_residual, c.memory_mib])
-    table.notes.append("Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
-                       "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
-                       "preconditioner, in all steps.")
-    table.notes.append("Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
-                       "up to Newton's tolerance.")
+        table.rows.append(
+            [
+                c.label,
+                c.program,
+                c.mesh,
+                str(c.steps),
+                f"{c.seconds_per_step:.3g}",
+                fixed(relative, ".2f"),
+                fixed(c.coupling_mean, ".2f"),
+                "-" if low is None else f"{low}-{high}",
+                *(fixed(None if n is None else n / c.steps, ".1f") for n in solves),
+                fixed(c.linear / c.steps, ".1f"),
+                str(sum(n for n in prepared if n is not None)),
+                fixed(c.displacement_residual, ".1e"),
+                fixed(c.force_residual, ".1e"),
+                fixed(c.memory_mib, ".0f"),
+            ]
+        )
+        table.csv_rows.append(
+            [
+                c.label,
+                c.program,
+                c.mesh,
+                c.unknowns,
+                c.threads,
+                c.steps,
+                c.seconds,
+                c.seconds_per_step,
+                relative,
+                c.coupling_mean,
+                low,
+                high,
+                c.newton,
+                c.linear,
+                *solves,
+                *prepared,
+                c.displacement_residual,
+                c.force_residual,
+                c.memory_mib,
+            ]
+        )
+    table.notes.append(
+        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
+        "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
+        "preconditioner, in all steps."
+    )
+    table.notes.append(
+        "Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
+        "up to Newton's tolerance."
+    )
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
-        table.notes.append(f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do "
-                           "not compare.")
+        table.notes.append(
+            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do " "not compare."
+        )
     if len({(c.mesh, c.steps) for c in costs}) > 1:
         table.notes.append("The runs differ in mesh or number of steps.")
     parts = [c.label for c in costs if c.restarted_from is not None]
     if parts:
-        table.notes.append(f"Restarted, so that solves, factorisations and memory are those of the last part: "
-                           f"{', '.join(parts)}.")
+        table.notes.append(
+            f"Restarted, so that solves, factorisations and memory are those of the last part: " f"{', '.join(parts)}."
+        )
     return table

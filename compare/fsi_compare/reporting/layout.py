@@ -43,13 +43,19 @@ class Table:
         return "\n".join(line.rstrip() for line in lines) + "\n"
 
     def _line(self, cells: Sequence[str], widths: Sequence[int]) -> str:
-        return "  " + "  ".join(cell.ljust(width) if i < self.left else cell.rjust(width)
-                                for i, (cell, width) in enumerate(zip(cells, widths)))
+        return "  " + "  ".join(
+            cell.ljust(width) if i < self.left else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(cells, widths))
+        )
 
     def markdown(self, heading: str = "## {}") -> str:
         heads = [f"{group}: {name}" if group and name else group or name for group, name in self.columns]
-        lines = [heading.format(self.title), "", _markdown_row(heads),
-                 _markdown_row(["---" if i < self.left else "---:" for i in range(len(heads))])]
+        lines = [
+            heading.format(self.title),
+            "",
+            _markdown_row(heads),
+            _markdown_row(["---" if i < self.left else "---:" for i in range(len(heads))]),
+        ]
         lines += [_markdown_row(row) for row in self.rows]
         for note in self.notes:
             lines += ["", note.replace("*", r"\*").replace("_", r"\_").strip()]

@@ -46,8 +46,9 @@ STYLE = {
 }
 
 
-def write_pressure_waves(folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float],
-                         title: str) -> List[Path]:
+def write_pressure_waves(
+    folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+) -> List[Path]:
     """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
     return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
 
@@ -66,15 +67,16 @@ def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Pa
     return paths
 
 
-def pressure_figure(waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float],
-                    title: str) -> Figure:
+def pressure_figure(
+    waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+) -> Figure:
     """One panel per time, in reading order; the legend has its own strip below the panels."""
     columns = 1 if len(times) == 1 else 2 if len(times) <= 8 else 3
     rows = -(-len(times) // columns)
     width = columns * PANEL_INCHES[0] + (1.5 if columns == 1 else 0)
     figure = Figure(figsize=(width, rows * PANEL_INCHES[1]))
     grid = figure.subplots(rows, columns, squeeze=False)
-    for axes in grid.flat[len(times):]:
+    for axes in grid.flat[len(times) :]:
         axes.set_visible(False)
     for axes, time in zip(grid.flat, times):
         for i, (wave, label) in enumerate(zip(waves, labels)):
@@ -87,7 +89,7 @@ def pressure_figure(waves: Sequence[PressureWaves], labels: Sequence[str], times
         axes.set_ylabel("pressure in Pa")
     _share_scales(grid, len(times))
 
-    finish(figure, grid[0, 0].get_lines()[:len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
+    finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
     return figure
 
 

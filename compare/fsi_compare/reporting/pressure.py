@@ -21,22 +21,37 @@ examples:
 
 def add_parser(commands, version: str) -> None:
     pressure = commands.add_parser(
-        "pressure", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
+        "pressure",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
         help="pressure waves along the centre line",
         description="Compares the pressure along the centre line. The first run is the reference.\n"
-                    "Prints differences, peaks and peak speeds, and writes to OUTDIR:\n"
-                    "  pressure_waves.csv         all runs at the selected times\n"
-                    "  pressure_waves.png, .svg   one panel per time\n"
-                    "  pressure_waves.json        the printed numbers in full precision")
+        "Prints differences, peaks and peak speeds, and writes to OUTDIR:\n"
+        "  pressure_waves.csv         all runs at the selected times\n"
+        "  pressure_waves.png, .svg   one panel per time\n"
+        "  pressure_waves.json        the printed numbers in full precision",
+    )
     pressure.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    pressure.add_argument("-o", "--output", metavar="OUTDIR", type=Path, default=Path("results/compare"),
-                          help="folder for the files written (default: %(default)s)")
-    pressure.add_argument("--times", metavar="T,T,...", default=PAPER_TIMES,
-                          help="times in ms; linear between time steps (default: %(default)s)")
+    pressure.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path("results/compare"),
+        help="folder for the files written (default: %(default)s)",
+    )
+    pressure.add_argument(
+        "--times",
+        metavar="T,T,...",
+        default=PAPER_TIMES,
+        help="times in ms; linear between time steps (default: %(default)s)",
+    )
     pressure.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: program, case or folder)")
     pressure.add_argument("--title", help="heading of the picture (default: the runs' title)")
-    pressure.add_argument("--threads", metavar="N", type=int,
-                          help="accepted as by all programs; this comparison is quick on one thread")
+    pressure.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
+    )
     pressure.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
@@ -73,8 +88,9 @@ def read_times(text: str) -> List[float]:
         try:
             time = float(part)
         except ValueError:
-            raise InputError("", "--times", f"'{part.strip()}' is not a number",
-                             "give times in ms separated by commas") from None
+            raise InputError(
+                "", "--times", f"'{part.strip()}' is not a number", "give times in ms separated by commas"
+            ) from None
         if not math.isfinite(time) or time < 0:
             raise InputError("", "--times", f"{part.strip()} is not a time", "give times in ms, zero or later")
         if time in times:
@@ -91,12 +107,20 @@ def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
         path = run.folder / "centerline_pressure.csv"
         for time in times:
             if not waves.covers(time):
-                raise InputError(path, "--times", f"{time:g} ms is outside the run",
-                                 f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms")
+                raise InputError(
+                    path,
+                    "--times",
+                    f"{time:g} ms is outside the run",
+                    f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms",
+                )
         if not waves.covers_line(reference.pressure.z):
             z = reference.pressure.z
-            raise InputError(path, "z_mm", f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from "
-                             f"{z[0]:g} to {z[-1]:g} mm", "compare runs on the same geometry")
+            raise InputError(
+                path,
+                "z_mm",
+                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from " f"{z[0]:g} to {z[-1]:g} mm",
+                "compare runs on the same geometry",
+            )
 
 
 def default_title(runs: Sequence[Run]) -> str:

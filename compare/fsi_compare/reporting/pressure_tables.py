@@ -45,12 +45,17 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
     for label, run in zip(comparison.labels, runs):
         waves = run.pressure
         program = f"{run.program} {run.version}".strip()
-        lines.append(f"  {label:<{width}}  {run.folder}: {program}, {len(waves.times)} time levels "
-                     f"from {waves.times[0]:g} to {waves.times[-1]:g} ms, {len(waves.z)} points")
+        lines.append(
+            f"  {label:<{width}}  {run.folder}: {program}, {len(waves.times)} time levels "
+            f"from {waves.times[0]:g} to {waves.times[-1]:g} ms, {len(waves.z)} points"
+        )
 
     for label, at_times, over_time in zip(comparison.labels[1:], comparison.at_times, comparison.over_time):
-        lines += ["", f"Pressure of {label} against {comparison.labels[0]} (reference)",
-                  "       t in ms   max norm in Pa   relative   L2 norm in Pa mm^1/2   relative"]
+        lines += [
+            "",
+            f"Pressure of {label} against {comparison.labels[0]} (reference)",
+            "       t in ms   max norm in Pa   relative   L2 norm in Pa mm^1/2   relative",
+        ]
         for time, difference in zip(comparison.times, at_times):
             lines.append(_difference_row(f"{time:g}", difference))
         if over_time.largest is None:
@@ -58,8 +63,11 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
         else:
             lines.append(_difference_row(f"all {over_time.levels}", over_time.largest))
     if comparison.at_times:
-        lines += ["", "relative: to the reference's norm at the same time. Last row: maximum of each column over all "
-                  "common time levels."]
+        lines += [
+            "",
+            "relative: to the reference's norm at the same time. Last row: maximum of each column over all "
+            "common time levels.",
+        ]
 
     low, high = SPEED_WINDOW_MS
     for label, peaks, speed in zip(comparison.labels, comparison.peaks, comparison.speeds):
@@ -71,8 +79,10 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
 
 
 def _difference_row(name: str, d: Difference) -> str:
-    return (f"  {name:>12}   {d.max_norm:>14.4e}   {_relative(d.max_relative):>8}   {d.l2_norm:>20.4e}   "
-            f"{_relative(d.l2_relative):>8}")
+    return (
+        f"  {name:>12}   {d.max_norm:>14.4e}   {_relative(d.max_relative):>8}   {d.l2_norm:>20.4e}   "
+        f"{_relative(d.l2_relative):>8}"
+    )
 
 
 def _relative(value: Optional[float]) -> str:
@@ -97,15 +107,21 @@ def write_json(path: Path, comparison: Comparison) -> None:
         run = {
             "run": label,
             "speed_mm_per_ms": comparison.speeds[i],
-            "peaks": [{"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
-                      for time, crest in zip(comparison.times, comparison.peaks[i])],
+            "peaks": [
+                {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
+                for time, crest in zip(comparison.times, comparison.peaks[i])
+            ],
         }
         if i > 0:
             over_time = comparison.over_time[i - 1]
-            run["differences"] = [{"time_ms": time, **_named(difference)}
-                                  for time, difference in zip(comparison.times, comparison.at_times[i - 1])]
-            run["largest_difference"] = {"common_levels": over_time.levels,
-                                         **(_named(over_time.largest) if over_time.largest else {})}
+            run["differences"] = [
+                {"time_ms": time, **_named(difference)}
+                for time, difference in zip(comparison.times, comparison.at_times[i - 1])
+            ]
+            run["largest_difference"] = {
+                "common_levels": over_time.levels,
+                **(_named(over_time.largest) if over_time.largest else {}),
+            }
         runs.append(run)
     data = {"reference": comparison.labels[0], "speed_window_ms": SPEED_WINDOW_MS, "runs": runs}
     with replacing(path) as temporary:
@@ -114,5 +130,9 @@ def write_json(path: Path, comparison: Comparison) -> None:
 
 def _named(difference: Difference) -> dict:
     values = asdict(difference)
-    return {"max_norm_Pa": values["max_norm"], "max_relative": values["max_relative"],
-            "l2_norm_Pa_sqrt_mm": values["l2_norm"], "l2_relative": values["l2_relative"]}
+    return {
+        "max_norm_Pa": values["max_norm"],
+        "max_relative": values["max_relative"],
+        "l2_norm_Pa_sqrt_mm": values["l2_norm"],
+        "l2_relative": values["l2_relative"],
+    }

@@ -73,8 +73,10 @@ class Report:
     def image(self, png: Path, caption: str) -> None:
         data = base64.b64encode(png.read_bytes()).decode("ascii")
         text = re.sub(r"[`*]", "", caption)
-        self._body.append(f'<figure><img alt="{html.escape(text, quote=True)}" src="data:image/png;base64,{data}">'
-                          f"<figcaption>{_inline(caption)}</figcaption></figure>")
+        self._body.append(
+            f'<figure><img alt="{html.escape(text, quote=True)}" src="data:image/png;base64,{data}">'
+            f"<figcaption>{_inline(caption)}</figcaption></figure>"
+        )
         self._markdown += [f"![{png.stem.replace('_', ' ')}]({png.name})", caption]
 
     def write(self) -> Path:
@@ -82,12 +84,26 @@ class Report:
         with replacing(self.folder / "report.md") as temporary:
             temporary.write_text("\n\n".join(self._markdown) + "\n", encoding="utf-8")
         links = " &middot; ".join(f'<a href="#s{i}">{_inline(name)}</a>' for i, name in enumerate(self._sections, 1))
-        page = "\n".join([
-            "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            '<link rel="icon" href="data:,">',  # browsers ask for one otherwise
-            f"<title>{html.escape(self.title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>",
-            f"<h1>{_inline(self.title)}</h1>", f"<nav>{links}</nav>", *self._body, "</body>", "</html>", ""])
+        page = "\n".join(
+            [
+                "<!DOCTYPE html>",
+                '<html lang="en">',
+                "<head>",
+                '<meta charset="utf-8">',
+                '<meta name="viewport" content="width=device-width, initial-scale=1">',
+                '<link rel="icon" href="data:,">',  # browsers ask for one otherwise
+                f"<title>{html.escape(self.title)}</title>",
+                f"<style>{STYLE}</style>",
+                "</head>",
+                "<body>",
+                f"<h1>{_inline(self.title)}</h1>",
+                f"<nav>{links}</nav>",
+                *self._body,
+                "</body>",
+                "</html>",
+                "",
+            ]
+        )
         path = self.folder / "report.html"
         with replacing(path) as temporary:
             temporary.write_text(page, encoding="utf-8")

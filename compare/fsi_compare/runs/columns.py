@@ -22,8 +22,9 @@ def read_columns(path: Path, needed: Sequence[str] = ()) -> Dict[str, np.ndarray
     if not lines:
         raise InputError(path, "", "is empty", "run it again")
     if not text.endswith("\n"):
-        raise InputError(path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it "
-                                                                   "again")
+        raise InputError(
+            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it " "again"
+        )
     names = [name.strip() for name in lines[0].split(",")]
     for name in needed:
         if name not in names:
@@ -34,15 +35,17 @@ def read_columns(path: Path, needed: Sequence[str] = ()) -> Dict[str, np.ndarray
     for row, line in enumerate(lines[1:]):
         fields = line.split(",")
         if len(fields) != len(names):
-            raise InputError(path, f"line {row + 2}", f"has {len(fields)} values instead of {len(names)}",
-                             "run it again")
+            raise InputError(
+                path, f"line {row + 2}", f"has {len(fields)} values instead of {len(names)}", "run it again"
+            )
         for column, (name, field) in enumerate(zip(names, fields)):
             if field.strip():
                 try:
                     values[row, column] = float(field)
                 except ValueError:
-                    raise InputError(path, f"line {row + 2}", f"{name} '{field}' is not a number",
-                                     "run it again") from None
+                    raise InputError(
+                        path, f"line {row + 2}", f"{name} '{field}' is not a number", "run it again"
+                    ) from None
             if name in needed and not math.isfinite(values[row, column]):
                 raise InputError(path, f"line {row + 2}", f"{name} is {field.strip() or 'empty'}", "run it again")
     return {name: values[:, column] for column, name in enumerate(names)}

@@ -12,8 +12,9 @@ def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
         return None
     labels = [label.strip() for label in text.split(",")]
     if len(labels) != runs:
-        raise InputError("", "--labels", f"{len(labels)} labels for {runs} runs",
-                         "give one per run, separated by commas")
+        raise InputError(
+            "", "--labels", f"{len(labels)} labels for {runs} runs", "give one per run, separated by commas"
+        )
     for label in labels:
         if not label:
             raise InputError("", "--labels", "a label is empty", "give one per run, separated by commas")

@@ -123,4 +123,4 @@ def _maxima(pressure: np.ndarray) -> np.ndarray:
 def _on_same_hump(pressure: np.ndarray, top: int, other: int) -> bool:
     """Whether the pressure stays above half of its value at `top` all the way from there to `other`."""
     low, high = sorted((top, other))
-    return bool(np.all(pressure[low:high + 1] >= 0.5 * pressure[top]))
+    return bool(np.all(pressure[low : high + 1] >= 0.5 * pressure[top]))

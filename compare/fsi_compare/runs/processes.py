@@ -32,10 +32,15 @@ def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
     return ends[0]
 
 
-def run_jobs(jobs: Iterable[Job], at_once: int, ended: Callable[[int, End], None],
-             tick: Callable[[Sequence[int]], None] = lambda running: None) -> None:
+def run_jobs(
+    jobs: Iterable[Job],
+    at_once: int,
+    ended: Callable[[int, End], None],
+    tick: Callable[[Sequence[int]], None] = lambda running: None,
+) -> None:
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
     fsi-compare is interrupted or asked to end, so are they. A program that cannot be started ends with code 1."""
+
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -80,8 +85,9 @@ def run_jobs(jobs: Iterable[Job], at_once: int, ended: Callable[[int, End], None
 def _start(job: Job):
     said = tempfile.TemporaryFile()
     try:
-        process = subprocess.Popen([str(word) for word in job.command], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=said)
+        process = subprocess.Popen(
+            [str(word) for word in job.command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said
+        )
     except OSError:
         said.close()
         raise

@@ -32,8 +32,12 @@ def find_monolithic(named: Optional[Path]) -> Program:
 def require_linear_systems(program: Program) -> None:
     """Raises InputError unless fsi-monolithic knows how to solve single systems."""
     if "--linear-systems" not in _answer(program.path, "--help"):
-        raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems",
-                         "take the program built from the same sources as fsi-compare")
+        raise InputError(
+            program.path,
+            "--program",
+            f"version {program.version} does not know --linear-systems",
+            "take the program built from the same sources as fsi-compare",
+        )
 
 
 def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
@@ -73,8 +77,9 @@ def _beside(program: Path, name: str) -> Optional[Path]:
 
 def _answer(path: Path, option: str) -> str:
     try:
-        return subprocess.run([str(path), option], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              errors="replace", timeout=60).stdout
+        return subprocess.run(
+            [str(path), option], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=60
+        ).stdout
     except (OSError, subprocess.TimeoutExpired) as error:
         reason = error.strerror if isinstance(error, OSError) else "no answer in 60 s"
         raise InputError(path, "--program", f"cannot be started: {reason}", BUILD) from None

@@ -59,8 +59,12 @@ def read_summary(path: Path) -> dict:
     try:
         summary = json.loads(text)
     except json.JSONDecodeError as error:
-        raise InputError(path, f"line {error.lineno}", f"is not JSON: {error.msg}",
-                         "the run was interrupted while writing; run it again") from None
+        raise InputError(
+            path,
+            f"line {error.lineno}",
+            f"is not JSON: {error.msg}",
+            "the run was interrupted while writing; run it again",
+        ) from None
     if not isinstance(summary, dict):
         raise InputError(path, "", "is not a JSON object", "run it again")
 
@@ -74,11 +78,19 @@ def read_summary(path: Path) -> dict:
     if status is None:
         raise InputError(path, "status", "is missing", "run it again")
     if status == "running":
-        raise InputError(path, "status", "the run is not finished",
-                         f"wait for its end or resume it with {program} --restart {path.parent}")
+        raise InputError(
+            path,
+            "status",
+            "the run is not finished",
+            f"wait for its end or resume it with {program} --restart {path.parent}",
+        )
     if status == "not converged":
-        raise InputError(path, "status", "the run stopped without converging",
-                         f"see {path.parent / 'run.log'}, change the solver's settings and run it again")
+        raise InputError(
+            path,
+            "status",
+            "the run stopped without converging",
+            f"see {path.parent / 'run.log'}, change the solver's settings and run it again",
+        )
     if status == "failed":
         raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
     if status != "done":
@@ -95,11 +107,13 @@ def read_pressure(path: Path) -> PressureWaves:
     header = [name.strip() for name in lines[0].split(",")]
     for name in PRESSURE_COLUMNS:
         if name not in header:
-            raise InputError(path, "line 1", f"column '{name}' is missing",
-                             f"the first line must read {','.join(PRESSURE_COLUMNS)}")
+            raise InputError(
+                path, "line 1", f"column '{name}' is missing", f"the first line must read {','.join(PRESSURE_COLUMNS)}"
+            )
     if not text.endswith("\n"):
-        raise InputError(path, f"line {len(lines)}", "is cut off",
-                         "the run was interrupted while writing; run it again")
+        raise InputError(
+            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it again"
+        )
     if len(lines) == 1:
         raise InputError(path, "", "holds no time level", "the run wrote no time step; run it again")
 
@@ -108,17 +122,26 @@ def read_pressure(path: Path) -> PressureWaves:
     for row, line in enumerate(lines[1:]):
         fields = line.split(",")
         if len(fields) != len(header):
-            raise InputError(path, f"line {row + 2}", f"has {len(fields)} values instead of {len(header)}",
-                             "the run was interrupted while writing; run it again")
+            raise InputError(
+                path,
+                f"line {row + 2}",
+                f"has {len(fields)} values instead of {len(header)}",
+                "the run was interrupted while writing; run it again",
+            )
         for i, column in enumerate(columns):
             try:
                 values[row, i] = float(fields[column])
             except ValueError:
-                raise InputError(path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number",
-                                 "run it again") from None
+                raise InputError(
+                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number", "run it again"
+                ) from None
             if not math.isfinite(values[row, i]):
-                raise InputError(path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} is {fields[column].strip()}",
-                                 "the run went wrong before this time; look at its run.log")
+                raise InputError(
+                    path,
+                    f"line {row + 2}",
+                    f"{PRESSURE_COLUMNS[i]} is {fields[column].strip()}",
+                    "the run went wrong before this time; look at its run.log",
+                )
     return _levels(path, *values.T)
 
 
@@ -133,16 +156,27 @@ def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -
         raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the centre line")
     for start, stop in zip(starts[1:-1], starts[2:]):
         if time[start] < time[start - 1]:
-            raise InputError(path, f"line {start + 2}",
-                             f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
-                             "time levels must be ordered; run it again")
+            raise InputError(
+                path,
+                f"line {start + 2}",
+                f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
+                "time levels must be ordered; run it again",
+            )
         if stop - start != points:
-            raise InputError(path, f"time_ms {time[start]:g}", f"has {stop - start} of {points} points",
-                             "the run was interrupted while writing; run it again")
+            raise InputError(
+                path,
+                f"time_ms {time[start]:g}",
+                f"has {stop - start} of {points} points",
+                "the run was interrupted while writing; run it again",
+            )
         if np.any(z[start:stop] != z[:points]):
             line = int(start + np.flatnonzero(z[start:stop] != z[:points])[0]) + 2
-            raise InputError(path, f"line {line}", "z_mm differs from the first time level's",
-                             "all time levels must hold the same points; run it again")
+            raise InputError(
+                path,
+                f"line {line}",
+                "z_mm differs from the first time level's",
+                "all time levels must hold the same points; run it again",
+            )
     return PressureWaves(times=time[starts[:-1]], z=z[:points], pressure=pressure.reshape(-1, points))
 
 

@@ -40,31 +40,42 @@ examples:
 
 def add_parser(commands, version: str) -> None:
     study = commands.add_parser(
-        "study", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        help="a whole study: runs what is missing, writes an HTML report", description=DESCRIPTION)
+        "study",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="a whole study: runs what is missing, writes an HTML report",
+        description=DESCRIPTION,
+    )
     study.add_argument("study", metavar="STUDY", help=f"study file (TOML), or a ready one: {', '.join(ready())}")
     study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
     study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
-    study.add_argument("--fresh", action="store_true",
-                       help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
-                            "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew")
+    study.add_argument(
+        "--fresh",
+        action="store_true",
+        help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
+        "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew",
+    )
     study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
-    study.add_argument("--partitioned",
-                       metavar="PATH",
-                       type=Path,
-                       help="fsi-partitioned (default: beside this program)")
+    study.add_argument(
+        "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
+    )
     study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
-    study.add_argument("--jobs", metavar="N", type=int,
-                       help="runs at once (default: the study's); more than one spoils the seconds")
+    study.add_argument(
+        "--jobs", metavar="N", type=int, help="runs at once (default: the study's); more than one spoils the seconds"
+    )
     study.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     study.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
 
 def ready() -> List[str]:
     """Names of the study files there; case files that they use lie beside them."""
-    return sorted(path.stem for path in READY.glob("*.toml")
-                  if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE))
+    return sorted(
+        path.stem
+        for path in READY.glob("*.toml")
+        if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE)
+    )
 
 
 def study(options: argparse.Namespace) -> int:
@@ -76,12 +87,18 @@ def study(options: argparse.Namespace) -> int:
             raise InputError("", name, f"{value} is not positive", "give 1 or more")
     asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
     if not asked.requests:
-        raise InputError(asked.path, "runs", "holds nothing to run" + (" in its quick form" if options.quick else ""),
-                         "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""))
+        raise InputError(
+            asked.path,
+            "runs",
+            "holds nothing to run" + (" in its quick form" if options.quick else ""),
+            "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""),
+        )
     kind = kinds.kind(asked.kind)
     kind.check(asked)
-    programs = {"fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
-                "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned")}
+    programs = {
+        "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
+        "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
+    }
     if options.list:
         lines = [f"{request.group}: {request.label}" for request in asked.requests]
         print("\n".join([*lines, *getattr(kind, "also_runs", lambda study: [])(asked)]))
@@ -91,8 +108,15 @@ def study(options: argparse.Namespace) -> int:
         remove_runs(folder)
     make_folder(folder)
     begin = time.monotonic()
-    runner = Runner(asked, folder, programs, find_mesh_maker(programs["fsi-monolithic"]), options.threads, options.jobs,
-                    options.quiet)
+    runner = Runner(
+        asked,
+        folder,
+        programs,
+        find_mesh_maker(programs["fsi-monolithic"]),
+        options.threads,
+        options.jobs,
+        options.quiet,
+    )
     runs = runner.run(asked.requests)
     if all(run.status == "refused" for run in runs):
         raise InputError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
@@ -118,8 +142,12 @@ def study_path(text: str) -> Path:
         return path
     if text in ready():
         return READY / f"{text}.toml"
-    raise InputError("", "STUDY", f"'{text}' is neither a file nor a ready study",
-                     f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
+    raise InputError(
+        "",
+        "STUDY",
+        f"'{text}' is neither a file nor a ready study",
+        f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}",
+    )
 
 
 def about(report, asked: Study, runner, programs) -> None:
@@ -128,11 +156,13 @@ def about(report, asked: Study, runner, programs) -> None:
     if runner.warning:
         report.text(f"**Note:** {runner.warning}.")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
-    report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
-                f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
-                f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
-                f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
-                "in its folder's `study_run.json`, under `runs/`.")
+    report.text(
+        f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
+        f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
+        f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
+        f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
+        "in its folder's `study_run.json`, under `runs/`."
+    )
 
 
 def processor() -> str:

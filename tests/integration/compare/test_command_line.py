@@ -46,12 +46,15 @@ class CommandLine(FolderCase):
         rows = self.csv("pressure_waves.csv")
         self.assertEqual(list(rows[0]), ["run", "time_ms", "z_mm", "pressure_Pa"])
         self.assertEqual(len(rows), 2 * 2 * 181)
-        self.assertEqual([(row["run"], row["time_ms"]) for row in rows[::181]],
-                         [("mono", "1.55"), ("mono", "3.0"), ("part", "1.55"), ("part", "3.0")])
+        self.assertEqual(
+            [(row["run"], row["time_ms"]) for row in rows[::181]],
+            [("mono", "1.55"), ("mono", "3.0"), ("part", "1.55"), ("part", "3.0")],
+        )
         wave = parabola(0.66)
         np.testing.assert_array_equal([float(row["pressure_Pa"]) for row in rows[181:362]], wave(3.0, Z))
-        np.testing.assert_allclose([float(row["pressure_Pa"]) for row in rows[:181]],
-                                   0.6 * wave(1.5, Z) + 0.4 * wave(1.625, Z), atol=1e-12)
+        np.testing.assert_allclose(
+            [float(row["pressure_Pa"]) for row in rows[:181]], 0.6 * wave(1.5, Z) + 0.4 * wave(1.625, Z), atol=1e-12
+        )
 
     def test_json(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "-q")
@@ -64,8 +67,10 @@ class CommandLine(FolderCase):
     def test_files_and_quiet(self):
         code, out, err = self.call("pressure", self.one, self.two, "-o", self.out, "-q", "--threads", "2")
         self.assertEqual((code, out, err), (0, "", ""))
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
-                         ["pressure_waves." + kind for kind in ("csv", "json", "png", "svg")])
+        self.assertEqual(
+            sorted(path.name for path in self.out.iterdir()),
+            ["pressure_waves." + kind for kind in ("csv", "json", "png", "svg")],
+        )
         umask = os.umask(0)
         os.umask(umask)
         self.assertEqual((self.out / "pressure_waves.csv").stat().st_mode & 0o777, 0o666 & ~umask)
@@ -99,18 +104,26 @@ class CommandLine(FolderCase):
 
     def test_time_outside_names_the_range(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES[:24])
-        self.assert_refused("short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between "
-                            "0.125 and 3 ms", "pressure", self.one, short, "-o", self.out)
+        self.assert_refused(
+            "short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between " "0.125 and 3 ms",
+            "pressure",
+            self.one,
+            short,
+            "-o",
+            self.out,
+        )
 
     def test_other_length(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES, Z[:100])
-        self.assert_refused("z_mm: runs from 0 to 9.9 mm, the first run's from 0 to 18 mm", "pressure", self.one, short,
-                            "-o", self.out)
+        self.assert_refused(
+            "z_mm: runs from 0 to 9.9 mm, the first run's from 0 to 18 mm", "pressure", self.one, short, "-o", self.out
+        )
 
     def test_unfinished_run(self):
         running = write_run(self.base / "running", parabola(0.6), status="running")
-        self.assert_refused("running/summary.json: status: the run is not finished", "pressure", self.one, running,
-                            "-o", self.out)
+        self.assert_refused(
+            "running/summary.json: status: the run is not finished", "pressure", self.one, running, "-o", self.out
+        )
 
     def test_wrong_use(self):
         one, two, out = self.one, self.two, ("-o", self.out)
@@ -154,16 +167,18 @@ class BuiltProgram(unittest.TestCase):
             base = Path(folder)
             (base / "numpy.py").write_text("raise ImportError('not the one')")
             one = write_run(base / "a run", parabola(0.6))
-            done = self.call("pressure", one.name, "-o", "my output", cwd=base,
-                             env={**os.environ, "PYTHONPATH": folder})
+            done = self.call(
+                "pressure", one.name, "-o", "my output", cwd=base, env={**os.environ, "PYTHONPATH": folder}
+            )
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertTrue((base / "my output" / "pressure_waves.png").is_file())
 
     def test_exit_code_of_an_error(self):
         done = self.call("pressure", "/nowhere")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertEqual(done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote "
-                                      "with -o\n")
+        self.assertEqual(
+            done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote " "with -o\n"
+        )
 
 
 if __name__ == "__main__":

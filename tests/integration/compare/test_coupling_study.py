@@ -68,18 +68,33 @@ class Bisection(unittest.TestCase):
 class Tables(FolderCase):
     def run_of(self, name, program, passes, status=DONE, group="agreement", factor=1.0):
         wave = parabola(0.66)
-        folder = write_run(self.base / name, lambda t, z: factor * wave(t, z), program=program,
-                           totals={"steps": 2, "outer_iterations": sum(passes), "newton_iterations": 9, "wall_s": 1.0})
+        folder = write_run(
+            self.base / name,
+            lambda t, z: factor * wave(t, z),
+            program=program,
+            totals={"steps": 2, "outer_iterations": sum(passes), "newton_iterations": 9, "wall_s": 1.0},
+        )
         (folder / "iterations.csv").write_text(
-            "step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1)))
-        request = Request(group, "neo-hookean", Method(name, name, program, {}), {"mesh": "coarse"}, Path("case.toml"),
-                          StudyMesh("coarse", "coarse", ()), {"partitioned.tolerance": 1e-9}, 1.0)
+            "step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1))
+        )
+        request = Request(
+            group,
+            "neo-hookean",
+            Method(name, name, program, {}),
+            {"mesh": "coarse"},
+            Path("case.toml"),
+            StudyMesh("coarse", "coarse", ()),
+            {"partitioned.tolerance": 1e-9},
+            1.0,
+        )
         return StudyRun(request, folder, status, "" if status == DONE else "diverged", 1.0, "")
 
     def test_agreement_is_the_relative_difference(self):
-        runs = [self.run_of("whole", "fsi-monolithic", [1, 1]),
-                self.run_of("iqn-ils", "fsi-partitioned", [9, 6], factor=1.0 + 1e-7),
-                self.run_of("aitken", "fsi-partitioned", [9, 6], status=NOT_CONVERGED)]
+        runs = [
+            self.run_of("whole", "fsi-monolithic", [1, 1]),
+            self.run_of("iqn-ils", "fsi-partitioned", [9, 6], factor=1.0 + 1e-7),
+            self.run_of("aitken", "fsi-partitioned", [9, 6], status=NOT_CONVERGED),
+        ]
         table = coupling.agreement_table(runs)
         self.assertEqual([row[0] for row in table.rows], ["iqn-ils", "aitken"])
         self.assertEqual(table.rows[0][1], "1.0e-07 (7.5)")
@@ -110,22 +125,48 @@ class Sweeps(FolderCase):
         for (name, density), factor in {**{("whole", d): 1.0 for d in monolithic}, **factors}.items():
             wave = parabola(0.66)
             program = "fsi-monolithic" if name == "whole" else "fsi-partitioned"
-            folder = write_run(self.base / f"{name}-{density}", lambda t, z: (factor or 1.0) * wave(t, z),
-                               program=program, totals={"steps": 2, "outer_iterations": 4, "newton_iterations": 8})
-            request = Request("density", "a", Method(name, name, program, {}), {"structure.density": density},
-                              Path("case.toml"), None, {}, 1.0)
-            runs.append(StudyRun(request, folder, DONE if factor else NOT_CONVERGED, "" if factor else "diverged", 1.0,
-                                 f"/opt/bin/{program} case.toml"))
+            folder = write_run(
+                self.base / f"{name}-{density}",
+                lambda t, z: (factor or 1.0) * wave(t, z),
+                program=program,
+                totals={"steps": 2, "outer_iterations": 4, "newton_iterations": 8},
+            )
+            request = Request(
+                "density",
+                "a",
+                Method(name, name, program, {}),
+                {"structure.density": density},
+                Path("case.toml"),
+                None,
+                {},
+                1.0,
+            )
+            runs.append(
+                StudyRun(
+                    request,
+                    folder,
+                    DONE if factor else NOT_CONVERGED,
+                    "" if factor else "diverged",
+                    1.0,
+                    f"/opt/bin/{program} case.toml",
+                )
+            )
         return sweeps.checked(runs, self.SETTINGS)
 
     def test_every_answer_is_checked(self):
-        found = self.cells({("iqn-ils", 1.0): 1 + 1e-5, ("iqn-ils", 10.0): 1.01, ("explicit", 1.0): None,
-                            ("explicit", 10.0): 1.12})
+        found = self.cells(
+            {("iqn-ils", 1.0): 1 + 1e-5, ("iqn-ils", 10.0): 1.01, ("explicit", 1.0): None, ("explicit", 10.0): 1.12}
+        )
         self.assertEqual([cell.outcome for cell in found], [AGREES, WRONG, NOT_CONVERGED, DEVIATES])
         self.assertEqual([cell.method for cell in sweeps.faults(found)], ["iqn-ils"])
         table = sweeps.sweep_table("density", "density ratio", found, self.SETTINGS)
-        self.assertEqual(table.rows, [["iqn-ils", "2.0", "2.0 (off 1 %)", "1.0e-02"],
-                                      ["explicit", "not converged", "2.0 (off 12 %)", "1.2e-01"]])
+        self.assertEqual(
+            table.rows,
+            [
+                ["iqn-ils", "2.0", "2.0 (off 1 %)", "1.0e-02"],
+                ["explicit", "not converged", "2.0 (off 12 %)", "1.2e-01"],
+            ],
+        )
         self.assertTrue(all(row[-1] == "fsi-partitioned case.toml" for row in table.csv_rows))
         self.assertIn("2 are off by more than that", sweeps.in_words(found, self.SETTINGS))
         lines = sweeps.series(found)
@@ -142,8 +183,9 @@ class Sweeps(FolderCase):
 
 class Commands(unittest.TestCase):
     def test_program_by_name(self):
-        self.assertEqual(with_name("'/a b/fsi-monolithic' case.toml --set 'x=\"y\"'"),
-                         "fsi-monolithic case.toml --set 'x=\"y\"'")
+        self.assertEqual(
+            with_name("'/a b/fsi-monolithic' case.toml --set 'x=\"y\"'"), "fsi-monolithic case.toml --set 'x=\"y\"'"
+        )
         self.assertEqual(with_name(""), "")
 
 
@@ -157,6 +199,7 @@ class Growth(unittest.TestCase):
         class Fake:
             def columns(self, file):
                 return {"time_ms": np.repeat(times, 3), "radial_mm": radial.ravel()}
+
         return added_mass_runs.alternates_ever_more(Fake())
 
     def test_only_what_grows_and_is_not_small_is_unstable(self):
@@ -191,15 +234,19 @@ class StudyFile(unittest.TestCase):
             (Path(folder) / "case.toml").write_text("")
             path.write_text(GOOD)
             coupling.check(read_study(path, ["coupling"]))
-            for old, new, expected in (("[runs.passes]", "[runs.pass]", "runs.pass"),
-                                       ("[report.explicit]", "[report.explicitt]", "did you mean 'explicit'"),
-                                       ("[report.explicit]", "[report.sweeps]\nbound = 0\n[report.explicit]",
-                                        "report.sweeps.bound"),
-                                       ("[report.explicit]", "[report.sweeps]\none_pass = ['a']\n[report.explicit]",
-                                        "did you mean 'explicit'"),
-                                       ("low = 1.0", "low = 3.0", "report.explicit.low"),
-                                       ('case = "a"', 'case = "b"', "report.explicit.case"),
-                                       ("steps = [0.1]\n", "", "report.explicit.steps")):
+            for old, new, expected in (
+                ("[runs.passes]", "[runs.pass]", "runs.pass"),
+                ("[report.explicit]", "[report.explicitt]", "did you mean 'explicit'"),
+                ("[report.explicit]", "[report.sweeps]\nbound = 0\n[report.explicit]", "report.sweeps.bound"),
+                (
+                    "[report.explicit]",
+                    "[report.sweeps]\none_pass = ['a']\n[report.explicit]",
+                    "did you mean 'explicit'",
+                ),
+                ("low = 1.0", "low = 3.0", "report.explicit.low"),
+                ('case = "a"', 'case = "b"', "report.explicit.case"),
+                ("steps = [0.1]\n", "", "report.explicit.steps"),
+            ):
                 path.write_text(GOOD.replace(old, new))
                 with self.assertRaises(InputError) as caught:
                     coupling.check(read_study(path, ["coupling"]))

@@ -18,8 +18,20 @@ from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies import kinds
 from fsi_compare.base.names import MATERIALS
 from fsi_compare.studies.paper import cost as paper_cost
-from fsi_compare.studies.paper.claims import (FEWER, IN_PART, MIXED, MORE, NO_RUN, NOT_COMPARABLE, Claim, claims_table,
-                                              compared, rules_table, tally, unexamined)
+from fsi_compare.studies.paper.claims import (
+    FEWER,
+    IN_PART,
+    MIXED,
+    MORE,
+    NO_RUN,
+    NOT_COMPARABLE,
+    Claim,
+    claims_table,
+    compared,
+    rules_table,
+    tally,
+    unexamined,
+)
 from fsi_compare.studies.paper.energy import remainders
 from fsi_compare.studies.paper.solver_claims import best_order
 from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
@@ -42,9 +54,13 @@ class PlaneCut(unittest.TestCase):
         return float(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2)
 
     def test_areas_of_cuts_through_a_cube(self):
-        for normal, offset, kept, area in (([0, 0, 1], 0.3, [0, 1], 1.0), ([1, 0, 0], 0.77, [1, 2], 1.0),
-                                           ([1, 1, 0], 0.6, [0, 2], 0.6), ([1, 1, 1], 1.5, [0, 1], 0.75),
-                                           ([0, 0, 1], 2.0, [0, 1], 0.0)):
+        for normal, offset, kept, area in (
+            ([0, 0, 1], 0.3, [0, 1], 1.0),
+            ([1, 0, 0], 0.77, [1, 2], 1.0),
+            ([1, 1, 0], 0.6, [0, 2], 0.6),
+            ([1, 1, 1], 1.5, [0, 1], 0.75),
+            ([0, 0, 1], 2.0, [0, 1], 0.0),
+        ):
             triangles, _, owners = cut(self.CELLS, self.CUBE @ np.array(normal, float) - offset, self.CUBE[:, kept])
             self.assertAlmostEqual(self.area(triangles), area, 12, normal)
             self.assertEqual(len(triangles), len(owners))
@@ -60,8 +76,15 @@ class PlaneCut(unittest.TestCase):
         self.assertTrue(np.isfinite(triangles).all())
 
     def test_magnification(self):
-        for displacement, factor in ((0.045, 10), (0.5, 1), (0.026, 10), (0.0249, 20), (3.0, 1), (0.0, 1), (1e-4,
-                                                                                                            5000)):
+        for displacement, factor in (
+            (0.045, 10),
+            (0.5, 1),
+            (0.026, 10),
+            (0.0249, 20),
+            (3.0, 1),
+            (0.0, 1),
+            (1e-4, 5000),
+        ):
             self.assertEqual(round_factor(displacement), factor)
 
 
@@ -80,7 +103,8 @@ class Energy(FolderCase):
             "wall_volumetric_energy_uJ,"
             "inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,viscous_dissipation_uJ,"
             "numerical_dissipation_uJ,remainder_uJ\n"
-            "1,0.125,4,1,2,0.5,10,1,0.5,1,2,0\n2,0.25,3,1,2,0.5,0,0,0.5,0.25,0.25,-0.001\n")
+            "1,0.125,4,1,2,0.5,10,1,0.5,1,2,0\n2,0.25,3,1,2,0.5,0,0,0.5,0.25,0.25,-0.001\n"
+        )
         found = energy_plots.balance(run_in(self.base))
         self.assertEqual(found.parts["supplied"].tolist(), [10.5, 10.0])
         self.assertEqual(found.parts["elastic"].tolist(), [2.5, 2.5])
@@ -89,33 +113,53 @@ class Energy(FolderCase):
         table = energy_plots.energy_table([found], ["a run"])
         self.assertEqual(table.rows[0][:3], ["a run", "10", "30.00"])
 
-
     def test_the_worst_of_each_group(self):
         def one(left_over):
-            return energy_plots.Balance(np.array([1.0]), {"supplied": np.array([2.0]),
-                                                          energy_plots.REMAINDER: np.array([left_over])})
+            return energy_plots.Balance(
+                np.array([1.0]), {"supplied": np.array([2.0]), energy_plots.REMAINDER: np.array([left_over])}
+            )
 
-        pairs = [(run_in(self.base), one(2e-9)), (run_in(self.base), one(-4e-9)),
-                 (run_in(self.base, case="artery"), one(2e-6)),
-                 (run_in(self.base, "fsi-partitioned", "stopped-early"), one(0.2))]
-        self.assertEqual([(r.group, r.approach, r.wall, r.runs, r.worst) for r in remainders(pairs)],
-                         [("waves", "monolithic", "without fibres", 2, 2e-9),
-                          ("waves", "monolithic", "with fibres", 1, 1e-6),
-                          ("stopped-early", "partitioned", "without fibres", 1, 0.1)])
+        pairs = [
+            (run_in(self.base), one(2e-9)),
+            (run_in(self.base), one(-4e-9)),
+            (run_in(self.base, case="artery"), one(2e-6)),
+            (run_in(self.base, "fsi-partitioned", "stopped-early"), one(0.2)),
+        ]
+        self.assertEqual(
+            [(r.group, r.approach, r.wall, r.runs, r.worst) for r in remainders(pairs)],
+            [
+                ("waves", "monolithic", "without fibres", 2, 2e-9),
+                ("waves", "monolithic", "with fibres", 1, 1e-6),
+                ("stopped-early", "partitioned", "without fibres", 1, 0.1),
+            ],
+        )
 
 
 class Phases(FolderCase):
     def test_parts_make_up_the_whole(self):
-        phases = {"assembly: fluid residual": 1.0, "assembly: interface balance": 0.5, "factorisation: fluid": 0.25,
-                  "set-up: wall": 0.5,
-                  "solve: wall": 2.0, "output": 0.125, "energy balance": 0.125, "something new": 0.25}
-        (self.base / "summary.json").write_text(json.dumps(
-            {"phases": {name: {"calls": 1, "seconds": s} for name, s in phases.items()}, "totals": {"steps": 2,
-                                                                                                    "wall_s": 6.0}}))
+        phases = {
+            "assembly: fluid residual": 1.0,
+            "assembly: interface balance": 0.5,
+            "factorisation: fluid": 0.25,
+            "set-up: wall": 0.5,
+            "solve: wall": 2.0,
+            "output": 0.125,
+            "energy balance": 0.125,
+            "something new": 0.25,
+        }
+        (self.base / "summary.json").write_text(
+            json.dumps(
+                {
+                    "phases": {name: {"calls": 1, "seconds": s} for name, s in phases.items()},
+                    "totals": {"steps": 2, "wall_s": 6.0},
+                }
+            )
+        )
         (self.base / "coupling.csv").write_text("step,coupling_s\n1,0.125\n2,0.125\n")
         parts = phase_bars.phase_seconds(run_in(self.base, "fsi-partitioned"))
-        self.assertEqual(parts, {"assembly": 1.0, "set-up": 0.75, "solve": 2.0, "coupling": 0.75, "output": 0.25,
-                                 "other": 1.25})
+        self.assertEqual(
+            parts, {"assembly": 1.0, "set-up": 0.75, "solve": 2.0, "coupling": 0.75, "output": 0.25, "other": 1.25}
+        )
         self.assertEqual(sum(parts.values()), 6.0)
         table = phase_bars.phase_table([run_in(self.base)], ["a run"])
         self.assertEqual(table.rows[0], ["a run", "500", "375", "1000", "375", "125", "625", "3000"])
@@ -123,11 +167,17 @@ class Phases(FolderCase):
 
 class Verdicts(unittest.TestCase):
     def test_the_tally_follows_from_the_table(self):
-        found = [Claim("5", "a", IN_PART, ""), Claim("5", "b", IN_PART, ""), Claim("5", "c", NOT_COMPARABLE, ""),
-                 unexamined("5", "d", "a rule"), Claim("5", "e", FEWER, "")]
+        found = [
+            Claim("5", "a", IN_PART, ""),
+            Claim("5", "b", IN_PART, ""),
+            Claim("5", "c", NOT_COMPARABLE, ""),
+            unexamined("5", "d", "a rule"),
+            Claim("5", "e", FEWER, ""),
+        ]
         self.assertEqual(tally(found), "Of 4 claims: 2 in part, 1 not comparable, 1 no run for it.")
-        self.assertEqual([row[2] for row in claims_table(found).rows],
-                         [IN_PART, IN_PART, NOT_COMPARABLE, NO_RUN, FEWER])
+        self.assertEqual(
+            [row[2] for row in claims_table(found).rows], [IN_PART, IN_PART, NOT_COMPARABLE, NO_RUN, FEWER]
+        )
         self.assertEqual(rules_table(found).rows, [["5", "d", "a rule"]])
 
     def test_comparisons(self):
@@ -146,8 +196,9 @@ class Levels(unittest.TestCase):
     def wall(material, *levels):
         found, before = {}, None
         for name, speed in zip(("coarse", "intermediate", "fine, 0.05"), levels):
-            found[name] = Measured(name, speed, 10 * speed, before and abs(speed - before),
-                                   before and 10 * abs(speed - before))
+            found[name] = Measured(
+                name, speed, 10 * speed, before and abs(speed - before), before and 10 * abs(speed - before)
+            )
             before = speed
         return Speeds(material, "", 1.0, 1.2, 1.1, 0.9, found)
 
@@ -158,15 +209,18 @@ class Levels(unittest.TestCase):
     def test_within_the_errors_is_in_part(self):
         self.assertEqual(self.verdicts((0.7, 0.71), (0.7, 0.72), (0.5, 0.51)), ["reproduced"] * 3)
         self.assertEqual(self.verdicts((0.7, 0.71), (0.7, 0.72), (0.6, 0.7)), ["reproduced", "in part", "in part"])
-        self.assertEqual(self.verdicts((0.6, 0.62), (0.7, 0.9), (1.0, 1.0)),
-                         ["not reproduced", "not reproduced", "not reproduced"])
+        self.assertEqual(
+            self.verdicts((0.6, 0.62), (0.7, 0.9), (1.0, 1.0)), ["not reproduced", "not reproduced", "not reproduced"]
+        )
         # on the finest level that all have
         self.assertEqual(self.verdicts((0.7, 0.71, 0.1), (0.7, 0.72, 9.0), (0.5, 0.51)), ["reproduced"] * 3)
         self.assertEqual(self.verdicts((), (0.7, 0.72), (1.0,)), [NO_RUN] * 3)
 
     def test_table(self):
-        table = speed_table([self.wall("artery", 0.87, 0.82, 1.0), self.wall("neo-hookean", 0.67, 0.63)],
-                            ["coarse", "intermediate", "fine, 0.05"])
+        table = speed_table(
+            [self.wall("artery", 0.87, 0.82, 1.0), self.wall("neo-hookean", 0.67, 0.63)],
+            ["coarse", "intermediate", "fine, 0.05"],
+        )
         self.assertEqual(table.rows[0][5:9], ["0.870", "0.820", "1.000", "0.180"])
         self.assertEqual(table.rows[1][5:9], ["0.670", "0.630", "-", "0.040"])
 
@@ -200,8 +254,12 @@ class Checks(FolderCase):
         self.refused("[runs.waves]", "[runs.cost2]", "runs.cost2")
         self.refused("[report.linear]", "[report.linar]", "report.linar", "did you mean 'linear'?")
         self.refused('"amli_fgmres"', '"amli_fgmre"', "report.linear.methods", "did you mean 'amli_fgmres'?")
-        self.refused('later_meshes = ["coarse"', 'later_meshes = ["corse"', "report.linear.later_meshes",
-                     "did you mean 'coarse'?")
+        self.refused(
+            'later_meshes = ["coarse"',
+            'later_meshes = ["corse"',
+            "report.linear.later_meshes",
+            "did you mean 'coarse'?",
+        )
         self.refused("neo-hookean =", "neohookean =", "runs.cost", "'neo-hookean' is unknown")
         self.refused("[methods.monolithic]", "[methods.mono]", "runs.waves")
 
@@ -242,14 +300,30 @@ class WholeStudy(StudyCase):
         self.assertEqual(code, 0, err)
         page = (self.out / "report.html").read_text()
         self.assertEqual(outside_references(page), [])
-        for name in ("claims", "table1_parameters", "table2_meshes", "table3_newton",
-                     "table4_block_preconditioners_step1_newton1",
-                     "table5_multilevel_step1_newton1", "agreement", "stopped_early", "wave_speed", "cost_statement",
-                     "cost_saving", "phases_coarse"):
+        for name in (
+            "claims",
+            "table1_parameters",
+            "table2_meshes",
+            "table3_newton",
+            "table4_block_preconditioners_step1_newton1",
+            "table5_multilevel_step1_newton1",
+            "agreement",
+            "stopped_early",
+            "wave_speed",
+            "cost_statement",
+            "cost_saving",
+            "phases_coarse",
+        ):
             self.assertTrue((self.out / f"{name}.csv").is_file(), name)
-        for name in ("pressure_neo-hookean", "pressure_mooney-rivlin", "pressure_artery", "pressure_materials",
-                     "stopped_early", "wave_speed",
-                     "phases_coarse"):
+        for name in (
+            "pressure_neo-hookean",
+            "pressure_mooney-rivlin",
+            "pressure_artery",
+            "pressure_materials",
+            "stopped_early",
+            "wave_speed",
+            "phases_coarse",
+        ):
             self.assertTrue((self.out / f"{name}.png").is_file() and (self.out / f"{name}.svg").is_file(), name)
         self.assertIn("The runs hold no <code>energy.csv</code>", page)
         self.assertEqual(self.verdict("conform very well"), "reproduced")
@@ -265,8 +339,9 @@ class WholeStudy(StudyCase):
 
     def test_fresh_leaves_the_linear_systems(self):
         def call(*words):
-            with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), \
-                    mock.patch("fsi_compare.reporting.report.Report.image"):
+            with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch(
+                "fsi_compare.reporting.report.Report.image"
+            ):
                 return self.call("--quick", *words)
 
         call()
@@ -276,13 +351,18 @@ class WholeStudy(StudyCase):
         build_anew(self.programs, "fsi-monolithic")
         code, _, err = call("--fresh")
         self.assertEqual((code, len(calls(self.programs))), (0, 2 * made - linear), err)
-        self.assertIn(f"warning: {linear} of {linear} runs of linear systems were made by another build of "
-                      "fsi-monolithic 0.1.0: removing `linear/runs` makes them again\n", err)
+        self.assertIn(
+            f"warning: {linear} of {linear} runs of linear systems were made by another build of "
+            "fsi-monolithic 0.1.0: removing `linear/runs` makes them again\n",
+            err,
+        )
         self.assertNotIn("finished runs", err)
 
     def test_a_missing_run_is_told_and_its_claims_are_left_open(self):
         behave(self.programs, end={"fibre_scale": [2, "no convergence"], "scheme=aitken": [2, "no convergence either"]})
-        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch("fsi_compare.reporting.report.Report.image"):
+        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch(
+            "fsi_compare.reporting.report.Report.image"
+        ):
             code, _, err = self.call("--quick", "-q")
         self.assertEqual(code, 2, err)
         page = (self.out / "report.html").read_text()
@@ -290,7 +370,9 @@ class WholeStudy(StudyCase):
         self.assertEqual(self.verdict("fixed-point iterations a step"), "no run for it")
 
     def test_full_form(self):
-        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch("fsi_compare.reporting.report.Report.image"):
+        with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch(
+            "fsi_compare.reporting.report.Report.image"
+        ):
             code, _, err = self.call("-q")
         self.assertEqual(code, 0, err)
         verdicts = {row["verdict"] for row in self.claims().values()}

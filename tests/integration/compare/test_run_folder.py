@@ -73,7 +73,7 @@ class RefusesBadFolder(FolderCase):
 
     def change_line(self, number, text):
         lines = self.pressure.read_text().splitlines()
-        lines[number - 1:number] = [] if text is None else [text]
+        lines[number - 1 : number] = [] if text is None else [text]
         self.pressure.write_text("\n".join(lines) + "\n")
 
     def test_no_folder(self):
@@ -136,8 +136,9 @@ class RefusesBadFolder(FolderCase):
 
     def test_wrong_column(self):
         self.change_line(1, "time_ms,z_mm,pressure_kPa")
-        self.assert_refused("line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,"
-                            "pressure_Pa")
+        self.assert_refused(
+            "line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm," "pressure_Pa"
+        )
 
     def test_last_line_cut_off(self):
         self.pressure.write_text(self.pressure.read_text()[:-4])

@@ -63,8 +63,18 @@ class Study(FolderTest):
         self.assertEqual(result.stat().st_mtime_ns, before)
 
     def test_a_misspelt_setting_is_one_error(self):
-        done = self.study("--methods", "direct", "--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1",
-                          "--set", "fluid.densty=1")
+        done = self.study(
+            "--methods",
+            "direct",
+            "--materials",
+            "neo-hookean",
+            "--meshes",
+            "coarse",
+            "--systems",
+            "1:1",
+            "--set",
+            "fluid.densty=1",
+        )
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
         self.assertIn("density", done.stderr)
 

@@ -37,8 +37,16 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
         _log(axes, "seconds")
     handles, labels = _mesh_handles(meshes)
     for step in steps if len(steps) > 1 else ():
-        handles.append(Line2D([], [], linestyle="none", marker="o", color=ON_FRONTIER,
-                              markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1)))
+        handles.append(
+            Line2D(
+                [],
+                [],
+                linestyle="none",
+                marker="o",
+                color=ON_FRONTIER,
+                markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1),
+            )
+        )
         labels.append(f"step {step:g} ms")
     _finish(figure, handles, labels, measured, title)
     return figure
@@ -58,10 +66,20 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity,
         axes.set_title(name, wrap=True)
         axes.set_ylabel("error in % of the tight solution")
         _log(axes, "seconds")
-    handles = [Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6,
-                      markerfacecolor=PARTITIONED_FILL if any(m.partitioned for m in everyone
-                                                              if m.run.request.method.label == label)
-                      else ON_FRONTIER) for label, marker in methods.items()]
+    handles = [
+        Line2D(
+            [],
+            [],
+            linestyle="none",
+            marker=marker,
+            color=ON_FRONTIER,
+            markersize=6,
+            markerfacecolor=PARTITIONED_FILL
+            if any(m.partitioned for m in everyone if m.run.request.method.label == label)
+            else ON_FRONTIER,
+        )
+        for label, marker in methods.items()
+    ]
     _finish(figure, handles, list(methods), everyone, title, drivers=False)
     return figure
 
@@ -72,20 +90,29 @@ def orders(series: Sequence[Series], what: str, title: str) -> Figure:
     handles: List[Line2D] = []
     for axes, quantity in zip(panels, QUANTITIES):
         for i, one in enumerate(series):
-            style = {"linestyle": DASHES[i % len(DASHES)], "marker": MARKERS[i % len(MARKERS)],
-                     "color": GREYS[i % len(GREYS)],
-                     "markersize": 5, "linewidth": 1.3}
+            style = {
+                "linestyle": DASHES[i % len(DASHES)],
+                "marker": MARKERS[i % len(MARKERS)],
+                "color": GREYS[i % len(GREYS)],
+                "markersize": 5,
+                "linewidth": 1.3,
+            }
             ys = [100 * d for d in one.distances[quantity.column]]
-            line, = axes.plot([_size(one, j) for j in range(len(ys))], ys, **style)
+            (line,) = axes.plot([_size(one, j) for j in range(len(ys))], ys, **style)
             if quantity is QUANTITIES[0]:
                 handles.append(line)
         _slopes(axes)
         axes.set_title(quantity.name)
         axes.set_ylabel("difference from the next finer in %")
         _log(axes, "element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step in ms")
-    _finish(figure, handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s)
-                                       for s in (":", "--")],
-            [one.fixed for one in series] + ["first order", "second order"], [], title, drivers=False)
+    _finish(
+        figure,
+        handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s) for s in (":", "--")],
+        [one.fixed for one in series] + ["first order", "second order"],
+        [],
+        title,
+        drivers=False,
+    )
     return figure
 
 
@@ -102,8 +129,9 @@ def _slopes(axes) -> None:
     x, y = (min(xs) * max(xs)) ** 0.5, (min(ys) * max(ys)) ** 0.5
     ends = (min(xs), max(xs)) if max(xs) > min(xs) else (0.7 * x, 1.4 * x)
     for order, style in ((1, ":"), (2, "--")):
-        axes.plot(ends, [y * (end / x) ** order for end in ends], color="#999999", linewidth=0.8, linestyle=style,
-                  zorder=1)
+        axes.plot(
+            ends, [y * (end / x) ** order for end in ends], color="#999999", linewidth=0.8, linestyle=style, zorder=1
+        )
 
 
 def _panels(count: int):
@@ -127,18 +155,35 @@ def _scatter(axes, points, measured: Sequence[Measured], marker, size, gain: flo
     best = frontier(points, gain)
     for i, ((x, y), m) in enumerate(zip(points, measured)):
         colour = ON_FRONTIER if i in best else DOMINATED
-        axes.plot([x], [y], linestyle="none", marker=marker(m), markersize=size(m), color=colour, markeredgewidth=1.0,
-                  markerfacecolor=PARTITIONED_FILL if m.partitioned else colour, zorder=3 if i in best else 2)
+        axes.plot(
+            [x],
+            [y],
+            linestyle="none",
+            marker=marker(m),
+            markersize=size(m),
+            color=colour,
+            markeredgewidth=1.0,
+            markerfacecolor=PARTITIONED_FILL if m.partitioned else colour,
+            zorder=3 if i in best else 2,
+        )
     axes.plot([points[i][0] for i in best], [points[i][1] for i in best], color=ON_FRONTIER, linewidth=1.0, zorder=2.5)
     for number, i in enumerate(best, 1):
         # On alternate sides of the frontier, which falls to the right: neighbours' numbers stay apart.
-        axes.annotate(str(number), points[i], textcoords="offset points", xytext=(-6, -11) if number % 2 else (6, 5),
-                      fontsize=7, ha="center", zorder=4)
+        axes.annotate(
+            str(number),
+            points[i],
+            textcoords="offset points",
+            xytext=(-6, -11) if number % 2 else (6, 5),
+            fontsize=7,
+            ha="center",
+            zorder=4,
+        )
 
 
 def _mesh_handles(meshes: Mapping[str, str]):
-    handles = [Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6)
-               for marker in meshes.values()]
+    handles = [
+        Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6) for marker in meshes.values()
+    ]
     return handles, [f"{name} mesh" for name in meshes]
 
 
@@ -149,8 +194,17 @@ def _finish(figure: Figure, handles, labels, measured: Sequence[Measured], title
         handles.append(Line2D([], [], linestyle="none", marker="o", markersize=5, color=DOMINATED))
         labels.append("dominated")
         if any(m.partitioned for m in measured):
-            handles.append(Line2D([], [], linestyle="none", marker="o", markersize=6, color=ON_FRONTIER,
-                                  markerfacecolor=PARTITIONED_FILL))
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    linestyle="none",
+                    marker="o",
+                    markersize=6,
+                    color=ON_FRONTIER,
+                    markerfacecolor=PARTITIONED_FILL,
+                )
+            )
             labels.append("hollow: partitioned")
     width, height = figure.get_size_inches()
     finish(figure, handles, labels, title, (width, height))

@@ -58,8 +58,9 @@ def waves_of(run: StudyRun) -> Optional[PressureWaves]:
         columns = run.columns("wall_displacement.csv")
         points = int((columns["time_ms"] == columns["time_ms"][0]).sum())
         shape = (-1, points)
-        return PressureWaves(columns["time_ms"].reshape(shape)[:, 0], columns["z_mm"][:points],
-                             columns["radial_mm"].reshape(shape))
+        return PressureWaves(
+            columns["time_ms"].reshape(shape)[:, 0], columns["z_mm"][:points], columns["radial_mm"].reshape(shape)
+        )
     except (InputError, KeyError, IndexError, ValueError):
         return None
 

@@ -37,8 +37,9 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
             if abs(float(grid.find("Time").get("Value")) - time) < 1e-6:
                 media[collection.get("Name")] = _medium(folder, grid)
     if not media:
-        raise InputError(path, f"time {time:g} ms", "is not among the times written",
-                         "choose output.every so that it is")
+        raise InputError(
+            path, f"time {time:g} ms", "is not among the times written", "choose output.every so that it is"
+        )
     return media
 
 

@@ -35,5 +35,6 @@ def read_reference(folder: Path) -> WaveReference:
         raise InputError(path, "", f"cannot be read: {error.strerror}", REMEDY) from None
     except (ValueError, KeyError, TypeError):
         raise InputError(path, "own_error", "is not a reference's description", REMEDY) from None
-    return WaveReference(folder, description, own, {q.column: read_waves(folder / q.file, q.column)
-                                                    for q in QUANTITIES})
+    return WaveReference(
+        folder, description, own, {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    )

@@ -55,10 +55,16 @@ def tube_cut(media: Mapping[str, Medium], factor: float) -> TubeCut:
     """`factor` magnifies the displacement."""
     fluid, wall = media["fluid"], media["wall"]
     corners, _, _ = cut(
-        fluid.cells, _distance(fluid),
+        fluid.cells,
+        _distance(fluid),
         np.column_stack(
-            (_in_plane(fluid.points + factor * fluid.data["displacement"]), _in_plane(fluid.data["velocity"]),
-             np.linalg.norm(fluid.data["velocity"], axis=1))))
+            (
+                _in_plane(fluid.points + factor * fluid.data["displacement"]),
+                _in_plane(fluid.data["velocity"]),
+                np.linalg.norm(fluid.data["velocity"], axis=1),
+            )
+        ),
+    )
     shell, _, owners = cut(wall.cells, _distance(wall), _in_plane(wall.points + factor * wall.data["displacement"]))
     numbers = {value: i for i, value in enumerate(_from_inside(wall))}
     layer = np.array([numbers[value] for value in wall.data["layer"][owners]], int)
@@ -92,12 +98,26 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
         numbers = np.arange(3 * len(one.fluid)).reshape(-1, 3)
         z, x = one.fluid.reshape(-1, 2).T
         # One picture within the SVG in place of thousands of shaded triangles.
-        shades = axes.tripcolor(Triangulation(z, x, numbers), one.speed.ravel(), shading="gouraud", cmap="cividis",
-                                vmin=0, vmax=fastest, rasterized=True)
+        shades = axes.tripcolor(
+            Triangulation(z, x, numbers),
+            one.speed.ravel(),
+            shading="gouraud",
+            cmap="cividis",
+            vmin=0,
+            vmax=fastest,
+            rasterized=True,
+        )
         layer = np.minimum(one.layer, len(LAYERS) - 1)
         for i, style in enumerate(LAYERS):
-            axes.add_collection(PolyCollection(one.wall[layer == i], edgecolor=EDGE, linewidth=0.25,
-                                               facecolor=style["facecolor"], hatch=style["hatch"]))
+            axes.add_collection(
+                PolyCollection(
+                    one.wall[layer == i],
+                    edgecolor=EDGE,
+                    linewidth=0.25,
+                    facecolor=style["facecolor"],
+                    hatch=style["hatch"],
+                )
+            )
         arrows = _arrows(axes, one, fastest)
         if arrows is not None and axes is grid[0]:
             size = round_below(fastest)
@@ -112,8 +132,13 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     grid[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 3, 5, 10]))
     handles = [Patch(edgecolor=EDGE, facecolor=style["facecolor"], hatch=style["hatch"]) for style in LAYERS]
     times = "" if factor == 1 else f", displacement {factor:g} times"
-    finish(figure, handles, ["media", "adventitia"], f"Deformed wall and velocity at t = {time:g} ms{times}",
-           (width, height))
+    finish(
+        figure,
+        handles,
+        ["media", "adventitia"],
+        f"Deformed wall and velocity at t = {time:g} ms{times}",
+        (width, height),
+    )
     # Beside the panels that tight_layout has placed.
     figure.subplots_adjust(right=0.88)
     top, bottom = grid[0].get_position().y1, grid[-1].get_position().y0
@@ -132,10 +157,20 @@ def _arrows(axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
     values = np.zeros((len(points), 2))
     values[index.ravel()] = one.velocity.reshape(-1, 2)
     at_z, at_x = np.meshgrid(
-        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * x.max() * np.linspace(-1, 1, ARROWS[1]))
+        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * x.max() * np.linspace(-1, 1, ARROWS[1])
+    )
     try:
         along = [LinearTriInterpolator(mesh, values[:, i])(at_z, at_x) for i in (0, 1)]
     except (RuntimeError, ValueError):
         return None  # a cut that matplotlib cannot search goes without arrows
-    return axes.quiver(at_z, at_x, *along, color="#ffffff", edgecolor="#000000", linewidth=0.4, scale=30 * fastest,
-                       width=0.0022, zorder=3)
+    return axes.quiver(
+        at_z,
+        at_x,
+        *along,
+        color="#ffffff",
+        edgecolor="#000000",
+        linewidth=0.4,
+        scale=30 * fastest,
+        width=0.0022,
+        zorder=3,
+    )

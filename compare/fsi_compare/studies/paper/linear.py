@@ -41,8 +41,9 @@ def check(study: Study) -> None:
             _names(study, f"{key}.later_meshes", part["later_meshes"], list(MESHES))
     for case in study.cases:
         if case not in MATERIALS:
-            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials",
-                             f"name it {', '.join(MATERIALS)}")
+            raise InputError(
+                study.path, f"cases.{case}", "is none of the paper's materials", f"name it {', '.join(MATERIALS)}"
+            )
 
 
 def _names(study: Study, key: str, names: Any, known: List[str]) -> None:
@@ -66,8 +67,9 @@ def chosen(study: Study) -> Optional[Chosen]:
     if section is None or (study.quick and "quick" not in section):
         return None
     merged: Dict[str, Any] = {**section, **({"later_meshes": [], **section["quick"]} if study.quick else {})}
-    return Chosen(merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)),
-                  merged.get("later_meshes", []))
+    return Chosen(
+        merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)), merged.get("later_meshes", [])
+    )
 
 
 def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
@@ -89,14 +91,24 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
         if outcome.taken_up:
             builds.count(program, outcome.executable)
     runner.builds.append(builds)
-    return Grid(outcomes[:len(first)]), Grid(outcomes[len(first):]) if later else None
+    return Grid(outcomes[: len(first)]), Grid(outcomes[len(first) :]) if later else None
 
 
-def _requests(context: Context, meshes: Sequence[str], methods: Sequence[str], systems: Sequence[System],
-              ending: str = "") -> List[Request]:
+def _requests(
+    context: Context, meshes: Sequence[str], methods: Sequence[str], systems: Sequence[System], ending: str = ""
+) -> List[Request]:
     return [
-        Request(name=f"{material}-{mesh}{ending}", case=case, material=material, mesh=mesh,
-                settings=(f"mesh.level={mesh}",), solvers=tuple(methods), systems=tuple(systems), tolerance=TOLERANCE,
-                threads=context.runner.threads)
+        Request(
+            name=f"{material}-{mesh}{ending}",
+            case=case,
+            material=material,
+            mesh=mesh,
+            settings=(f"mesh.level={mesh}",),
+            solvers=tuple(methods),
+            systems=tuple(systems),
+            tolerance=TOLERANCE,
+            threads=context.runner.threads,
+        )
         for mesh in sorted(meshes, key=list(MESHES).index)
-        for material, case in context.study.cases.items()]
+        for material, case in context.study.cases.items()
+    ]

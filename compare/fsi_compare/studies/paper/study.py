@@ -31,16 +31,25 @@ REPORT_KEYS = ("linear",)
 def check(study: Study) -> None:
     for case in study.cases:
         if case not in MATERIALS:
-            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials",
-                             f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}")
+            raise InputError(
+                study.path,
+                f"cases.{case}",
+                "is none of the paper's materials",
+                f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}",
+            )
     for request in study.requests:
         if request.group not in GROUPS:
-            raise InputError(study.path, f"runs.{request.group}", "is no group of this kind of study",
-                             f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}")
+            raise InputError(
+                study.path,
+                f"runs.{request.group}",
+                "is no group of this kind of study",
+                f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}",
+            )
     check_keys(study.path, "report", study.report, REPORT_KEYS)
     if not any(request.group == WAVES and request.method.name == MONOLITHIC for request in study.requests):
-        raise InputError(study.path, f"runs.{WAVES}", f"has no runs of a method '{MONOLITHIC}'",
-                         "the whole report stands on them")
+        raise InputError(
+            study.path, f"runs.{WAVES}", f"has no runs of a method '{MONOLITHIC}'", "the whole report stands on them"
+        )
     paper_linear.check(study)
 
 
@@ -50,9 +59,12 @@ def also_runs(study: Study) -> List[str]:
     if chosen is None:
         return []
     methods = ", ".join(chosen.methods)
-    return [f"linear systems: {material}, {mesh}{which}: {methods}"
-            for meshes, which in ((chosen.meshes, ""), (chosen.later_meshes, ", later ones")) for mesh in meshes
-            for material in study.cases]
+    return [
+        f"linear systems: {material}, {mesh}{which}: {methods}"
+        for meshes, which in ((chosen.meshes, ""), (chosen.later_meshes, ", later ones"))
+        for mesh in meshes
+        for material in study.cases
+    ]
 
 
 def evaluate(context: Context) -> int:
@@ -65,8 +77,11 @@ def evaluate(context: Context) -> int:
     speeds = paper_speeds.speeds(runs)
     costs = paper_cost.costs(runs, grid)
     cycles = paper_cost.cycles_per_iteration(grid, mesh_of(costs[-1].run)) if costs else None
-    claims = [*solver_claims(grid, later, meshes), *wave_claims(agreements, stopped, speeds),
-              *paper_cost.cost_claims(runs, costs, cycles)]
+    claims = [
+        *solver_claims(grid, later, meshes),
+        *wave_claims(agreements, stopped, speeds),
+        *paper_cost.cost_claims(runs, costs, cycles),
+    ]
     claims.sort(key=lambda claim: claim.section)  # keeps the order within a section
     claims += comparisons(grid)
 
@@ -87,8 +102,11 @@ def evaluate(context: Context) -> int:
     if stopped:
         report.section("Why a partitioned wave can differ")
         report.text("The same partitioned program, told to accept an interface that does not match yet:")
-        report.figure("stopped_early", lambda: paper_waves.stopped_figure(reference, runs),
-                      "The wave when the interface iteration is stopped early, beside the monolithic one.")
+        report.figure(
+            "stopped_early",
+            lambda: paper_waves.stopped_figure(reference, runs),
+            "The wave when the interface iteration is stopped early, beside the monolithic one.",
+        )
         report.table(paper_waves.stopped_table(reference, stopped))
     if speeds:
         _speeds(report, runs, speeds)
@@ -118,30 +136,39 @@ def _linear(report, grid: Grid) -> None:
     for path in solver_pictures.write_solver_pictures(report.folder, grid):
         report.written.append(path)
         if path.suffix == ".png":
-            what = ("Iterations of the linear solvers against the number of unknowns"
-                    if path.stem.startswith("iterations") else f"Cost of the linear solvers, timed once: differences "
-                    f"within a factor of {paper_cost.NOISE:g} say nothing")
+            what = (
+                "Iterations of the linear solvers against the number of unknowns"
+                if path.stem.startswith("iterations")
+                else f"Cost of the linear solvers, timed once: differences "
+                f"within a factor of {paper_cost.NOISE:g} say nothing"
+            )
             report.image(path, f"{what}; first Newton system from rest.")
 
 
 def _speeds(report, runs: PaperRuns, speeds) -> None:
     report.section("Speed of the wave")
     tubes: Dict[str, Tube] = {
-        material: read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials}
+        material: read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials
+    }
     levels = paper_speeds.levels_of(runs)
-    report.figure("wave_speed", lambda: paper_speeds.speed_figure(speeds, tubes, levels),
-                  "Left: phase speed in the thick wall against the wave number. Right: theory as lines, the crest's "
-                  "speed in the runs as marks; their bars are the difference of the two finest levels. "
-                  f"{paper_speeds.MEANING}")
+    report.figure(
+        "wave_speed",
+        lambda: paper_speeds.speed_figure(speeds, tubes, levels),
+        "Left: phase speed in the thick wall against the wave number. Right: theory as lines, the crest's "
+        "speed in the runs as marks; their bars are the difference of the two finest levels. "
+        f"{paper_speeds.MEANING}",
+    )
     report.table(paper_speeds.speed_table(speeds, levels))
 
 
 def _cost(report, costs) -> None:
     own = paper_cost.paper_rounds()
-    report.text(f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned "
-                f"approach (50 to 55 fixed-point iterations of 4 to 5 Newton iterations) and {own['monolithic']:.0f} "
-                "for the monolithic one (4 Newton iterations of 10 coupled iterations), and states a saving of "
-                "almost 50 %. It gives no seconds.")
+    report.text(
+        f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned "
+        f"approach (50 to 55 fixed-point iterations of 4 to 5 Newton iterations) and {own['monolithic']:.0f} "
+        "for the monolithic one (4 Newton iterations of 10 coupled iterations), and states a saving of "
+        "almost 50 %. It gives no seconds."
+    )
     report.table(paper_cost.cost_table(costs))
     saved = paper_cost.savings(costs)
     if saved:
@@ -157,11 +184,14 @@ def _phases(report, runs: PaperRuns, costs) -> None:
         by_mesh.setdefault(mesh_of(run), []).append(run)
     for mesh, group in by_mesh.items():
         labels = [run.request.method.label for run in group]
-        report.figure(f"phases_{mesh}", lambda: phase_figure(group, labels, f"Where the time goes, {mesh} mesh"),
-                      f"Wall time of a step by phase. {MEANING}")
+        report.figure(
+            f"phases_{mesh}",
+            lambda: phase_figure(group, labels, f"Where the time goes, {mesh} mesh"),
+            f"Wall time of a step by phase. {MEANING}",
+        )
         report.table(
-            phase_table(group, labels, stem=f"phases_{mesh}",
-                        title=f"Milliseconds per time step by phase, {mesh} mesh"))
+            phase_table(group, labels, stem=f"phases_{mesh}", title=f"Milliseconds per time step by phase, {mesh} mesh")
+        )
 
 
 def _missing(report, all_runs, grids: Sequence[Grid]) -> int:

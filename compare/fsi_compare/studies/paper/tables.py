@@ -16,26 +16,43 @@ UNITS = {"c10": "kPa", "c01": "kPa", "k1": "kPa", "k2": "", "alpha": "deg", "den
 
 
 def parameter_table(cases: Mapping[str, Path]) -> Table:
-    table = Table(stem="table1_parameters", title="Table 1: parameters of the walls, ours and the paper's", left=3,
-                  columns=[("", "material"), ("", "layer"), ("", "parameter"), ("", "ours"), ("", "paper")],
-                  csv_columns=["material", "layer", "parameter", "unit", "ours", "paper", "same"])
+    table = Table(
+        stem="table1_parameters",
+        title="Table 1: parameters of the walls, ours and the paper's",
+        left=3,
+        columns=[("", "material"), ("", "layer"), ("", "parameter"), ("", "ours"), ("", "paper")],
+        csv_columns=["material", "layer", "parameter", "unit", "ours", "paper", "same"],
+    )
     differing = set()
     for material in [name for name in MATERIALS if name in cases]:
         structure = _structure(cases[material])
-        rows = [(layer, name, structure.get("layers", {}).get(layer, {}).get(name), values[i])
-                for name, values in paper.parameters(material).items() for i, layer in enumerate(LAYERS)]
+        rows = [
+            (layer, name, structure.get("layers", {}).get(layer, {}).get(name), values[i])
+            for name, values in paper.parameters(material).items()
+            for i, layer in enumerate(LAYERS)
+        ]
         rows += [("both", name, structure.get(name), value) for name, value in paper.wall().items()]
         for i, (layer, name, ours, theirs) in enumerate(rows):
             same = ours is not None and abs(ours - theirs) <= 1e-12 * abs(theirs)
             if not same:
                 differing.add(name)
             unit = f" {UNITS[name]}" if UNITS[name] else ""
-            table.rows.append([MATERIALS[material] if i == 0 else "", layer, name.replace("_", " "),
-                               fixed(ours, "g") + unit + ("" if same else " !"), f"{theirs:g}{unit}"])
+            table.rows.append(
+                [
+                    MATERIALS[material] if i == 0 else "",
+                    layer,
+                    name.replace("_", " "),
+                    fixed(ours, "g") + unit + ("" if same else " !"),
+                    f"{theirs:g}{unit}",
+                ]
+            )
             table.csv_rows.append([material, layer, name, UNITS[name], ours, theirs, "yes" if same else "no"])
-    table.notes.append("!: differs from the paper: " + (", ".join(sorted(differing)) or "none") +
-                       ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
-                       "is 1.2 mg/mm^3 = 1200 kg/m^3, and the printed value is tried below.")
+    table.notes.append(
+        "!: differs from the paper: "
+        + (", ".join(sorted(differing)) or "none")
+        + ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
+        "is 1.2 mg/mm^3 = 1200 kg/m^3, and the printed value is tried below."
+    )
     return table
 
 
@@ -69,10 +86,13 @@ def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, in
 
 def mesh_table(counts: Mapping[str, Mapping[str, int]]) -> Table:
     names = ("nodes", "tetrahedra", "unknowns")
-    table = Table(stem="table2_meshes", title="Table 2: the meshes, ours and the paper's",
-                  columns=[("", "mesh"), *((name, who) for name in names for who in ("ours", "paper"))],
-                  csv_columns=["mesh", "quantity", "ours", "paper"],
-                  notes=["The paper's 6,959 unknowns of the coarse mesh do not fit its other rows."])
+    table = Table(
+        stem="table2_meshes",
+        title="Table 2: the meshes, ours and the paper's",
+        columns=[("", "mesh"), *((name, who) for name in names for who in ("ours", "paper"))],
+        csv_columns=["mesh", "quantity", "ours", "paper"],
+        notes=["The paper's 6,959 unknowns of the coarse mesh do not fit its other rows."],
+    )
     for mesh, ours in counts.items():
         theirs = paper.mesh_counts(mesh)
         cells: List[str] = [mesh]

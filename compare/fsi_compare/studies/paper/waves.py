@@ -23,6 +23,7 @@ def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional
 
 # ---- figures of the pressure along the centre line
 
+
 def wave_pictures(report, runs: PaperRuns) -> None:
     mesh = runs.finest
     for material in runs.materials:
@@ -32,23 +33,33 @@ def wave_pictures(report, runs: PaperRuns) -> None:
         times = [time for time in times_of(material) if all(run.pressure.covers(time) for run in pair)]
         report.figure(
             f"pressure_{material}",
-            lambda: pressure_figure([run.pressure for run in pair], ["monolithic", "partitioned"], times,
-                                    f"{MATERIALS[material]}, {mesh} mesh"),
+            lambda: pressure_figure(
+                [run.pressure for run in pair],
+                ["monolithic", "partitioned"],
+                times,
+                f"{MATERIALS[material]}, {mesh} mesh",
+            ),
             f"{MATERIALS[material]}: pressure along the centre line from both drivers, at the times of the paper's "
-            "figure. The curves lie on each other.")
+            "figure. The curves lie on each other.",
+        )
     together = [(material, runs.wave(material, mesh)) for material in runs.materials]
     together = [(material, run) for material, run in together if run]
     if len(together) > 1:
         times = [time for time in TIMES if all(run.pressure.covers(time) for _, run in together)]
         report.figure(
             "pressure_materials",
-            lambda: pressure_figure([run.pressure for _, run in together],
-                                    [MATERIALS[material] for material, _ in together], times,
-                                    f"The three walls, {mesh} mesh"),
-            "Pressure along the centre line in the three walls, at the times of the paper's figure.")
+            lambda: pressure_figure(
+                [run.pressure for _, run in together],
+                [MATERIALS[material] for material, _ in together],
+                times,
+                f"The three walls, {mesh} mesh",
+            ),
+            "Pressure along the centre line in the three walls, at the times of the paper's figure.",
+        )
 
 
 # ---- both drivers beside each other
+
 
 @dataclass(frozen=True)
 class Agreement:
@@ -66,8 +77,15 @@ def agreements(runs: PaperRuns) -> List[Agreement]:
             one, other = (runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED))
             if one and other:
                 heights = [b / a for a, b in zip(peaks(one.pressure), peaks(other.pressure)) if a and b is not None]
-                found.append(Agreement(material, mesh, _largest(one.pressure, other.pressure, 1.5),
-                                       _largest(one.pressure, other.pressure), max(heights, default=float("nan"))))
+                found.append(
+                    Agreement(
+                        material,
+                        mesh,
+                        _largest(one.pressure, other.pressure, 1.5),
+                        _largest(one.pressure, other.pressure),
+                        max(heights, default=float("nan")),
+                    )
+                )
     return found
 
 
@@ -79,11 +97,14 @@ def _largest(reference: PressureWaves, other: PressureWaves, until: float = np.i
 
 
 def agreement_table(found: Sequence[Agreement]) -> Table:
-    table = Table(stem="agreement", title="Partitioned against monolithic, largest relative difference of the "
-                                          "pressure", left=2,
-                  columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
-                  csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],
-                  notes=["Interface tolerance 1e-6. Relative to the largest pressure of the same time level."])
+    table = Table(
+        stem="agreement",
+        title="Partitioned against monolithic, largest relative difference of the " "pressure",
+        left=2,
+        columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
+        csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],
+        notes=["Interface tolerance 1e-6. Relative to the largest pressure of the same time level."],
+    )
     for a in found:
         table.rows.append([MATERIALS[a.material], a.mesh, f"{a.start:.1e}", f"{a.all:.1e}"])
         table.csv_rows.append([a.material, a.mesh, a.start, a.all])
@@ -91,6 +112,7 @@ def agreement_table(found: Sequence[Agreement]) -> Table:
 
 
 # ---- the interface iteration stopped early
+
 
 @dataclass(frozen=True)
 class Stopped:
@@ -116,8 +138,15 @@ def stopped_early(runs: PaperRuns) -> Tuple[Optional[StudyRun], List[Stopped]]:
     for run in loose:
         own = peaks(run.pressure)
         ratios = [None if a is None or b is None else a / b for a, b in zip(own, exact)]
-        found.append(Stopped(str(run.request.values.get("stop", run.request.label)), run.passes, own, ratios,
-                             _largest(reference.pressure, run.pressure)))
+        found.append(
+            Stopped(
+                str(run.request.values.get("stop", run.request.label)),
+                run.passes,
+                own,
+                ratios,
+                _largest(reference.pressure, run.pressure),
+            )
+        )
     return reference, found
 
 
@@ -125,21 +154,27 @@ def stopped_table(reference: StudyRun, found: Sequence[Stopped]) -> Table:
     table = Table(
         stem="stopped_early",
         title="The largest pressure in Pa when the interface iteration is stopped early",
-        columns=[("", "stopped at"), ("", "iterations per step"), *(("t in ms", f"{time:g}") for time in TIMES),
-                 ("", "largest relative difference")],
+        columns=[
+            ("", "stopped at"),
+            ("", "iterations per step"),
+            *(("t in ms", f"{time:g}") for time in TIMES),
+            ("", "largest relative difference"),
+        ],
         csv_columns=["stop", "iterations_per_step", "time_ms", "peak_Pa", "peak_over_monolithic", "max_relative"],
         notes=[
             "Largest difference: of the whole wave to the monolithic one, relative to the largest pressure of the "
             f"time level, over all levels. {MATERIALS[reference.request.case]}, coarse mesh. 'From the last step': "
             "the iteration starts from the last displacement, otherwise from its extrapolation."
-        ])
+        ],
+    )
     exact = peaks(reference.pressure)
     table.rows.append(["monolithic", "", *(fixed(p, ".1f") for p in exact), ""])
     table.csv_rows += [["monolithic", None, time, p, 1.0, None] for time, p in zip(TIMES, exact)]
     for s in found:
         table.rows.append([s.label, f"{s.passes:.1f}", *(fixed(p, ".1f") for p in s.peaks), f"{s.difference:.1e}"])
-        table.csv_rows += [[s.label, s.passes, time, p, ratio, s.difference]
-                           for time, p, ratio in zip(TIMES, s.peaks, s.ratios)]
+        table.csv_rows += [
+            [s.label, s.passes, time, p, ratio, s.difference] for time, p, ratio in zip(TIMES, s.peaks, s.ratios)
+        ]
     return table
 
 
@@ -148,11 +183,16 @@ def stopped_figure(reference: StudyRun, runs: PaperRuns) -> Figure:
     waves = [reference.pressure, *(run.pressure for run in shown)]
     labels = ["monolithic", *(str(run.request.values.get("stop", run.request.label)) for run in shown)]
     times = [time for time in TIMES if all(wave.covers(time) for wave in waves)]
-    return pressure_figure(waves, labels, times, "The interface iteration stopped early, "
-                                                 f"{MATERIALS[reference.request.case]}, coarse mesh")
+    return pressure_figure(
+        waves,
+        labels,
+        times,
+        "The interface iteration stopped early, " f"{MATERIALS[reference.request.case]}, coarse mesh",
+    )
 
 
 # ---- fields
+
 
 def tube_picture(report, runs: PaperRuns) -> None:
     """The three walls at 8 ms, all with one magnification."""
@@ -168,7 +208,10 @@ def tube_picture(report, runs: PaperRuns) -> None:
     factor = tube_pictures.round_factor(max(largest))
     cuts = [tube_pictures.tube_cut(one, factor) for one in media]
     shown = ", ".join(f"{name} {1e3 * size:.0f} um" for name, size in zip(names, largest))
-    report.figure("tube_8ms", lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
-                  f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
-                  f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
-                  "of the fluid by shade, its velocity by arrows, their scale above the first panel.")
+    report.figure(
+        "tube_8ms",
+        lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
+        f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
+        f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
+        "of the fluid by shade, its velocity by arrows, their scale above the first panel.",
+    )

@@ -26,5 +26,7 @@ class Builds:
         if not self._others:
             return ""
         count, programs = len(self._others), " and ".join(sorted(set(self._others)))
-        return (f"{count} of {self._taken_up} {self._runs} {'was' if count == 1 else 'were'} made by another build of "
-                f"{programs}: {self._remedy} makes {'it' if count == 1 else 'them'} again")
+        return (
+            f"{count} of {self._taken_up} {self._runs} {'was' if count == 1 else 'were'} made by another build of "
+            f"{programs}: {self._remedy} makes {'it' if count == 1 else 'them'} again"
+        )

@@ -22,10 +22,15 @@ class Context:
 
     def select(self, group: str = "", case: str = "", method: str = "", **values: Any) -> List[StudyRun]:
         """Runs by their place in the study; a value's name is given with _ for each dot."""
+
         def fits(run: StudyRun) -> bool:
             r = run.request
             own = {name.replace(".", "_"): value for name, value in r.values.items()}
-            return ((not group or r.group == group) and (not case or r.case == case)
-                    and (not method or r.method.name == method)
-                    and all(own.get(name) == value for name, value in values.items()))
+            return (
+                (not group or r.group == group)
+                and (not case or r.case == case)
+                and (not method or r.method.name == method)
+                and all(own.get(name) == value for name, value in values.items())
+            )
+
         return [run for run in self.runs if fits(run)]

@@ -19,8 +19,11 @@ def fingerprint(request: Request, program: Program, mesh_file: Optional[Path], t
     if mesh is not None and mesh.is_file():
         digest.update(mesh.read_bytes())
     level = request.mesh.name if request.mesh and not request.mesh.options else None
-    digest.update(json.dumps([program.path.name, program.version, level, dict(request.settings), threads],
-                             sort_keys=True, default=str).encode())
+    digest.update(
+        json.dumps(
+            [program.path.name, program.version, level, dict(request.settings), threads], sort_keys=True, default=str
+        ).encode()
+    )
     return digest.hexdigest()
 
 

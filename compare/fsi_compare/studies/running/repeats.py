@@ -28,8 +28,12 @@ def step_seconds(folder: Path) -> float:
 def same_results(folders: Sequence[Path]) -> bool:
     """Whether the repetitions have the first one's files, bit by bit; one that failed may lack them."""
     first = folders[0]
-    return all((other / file).is_file() and filecmp.cmp(first / file, other / file, shallow=False)
-               for other in folders[1:] for file in RESULTS if (first / file).is_file())
+    return all(
+        (other / file).is_file() and filecmp.cmp(first / file, other / file, shallow=False)
+        for other in folders[1:]
+        for file in RESULTS
+        if (first / file).is_file()
+    )
 
 
 def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
@@ -59,7 +63,9 @@ def timing_words(runs: Iterable[StudyRun]) -> str:
         return "Seconds are single timings."
     ratios = sorted(ratio for _, ratio in repeated)
     once = len(done) - len(repeated)
-    return (f"Seconds are medians of {max(count for count, _ in repeated)} timings" +
-            (f", those of the {once} longest runs single ones" if once else "") +
-            f"; slowest over fastest of the same run: {ratios[len(ratios) // 2]:.2f} in the middle, {ratios[-1]:.2f} "
-            "at most. Smaller differences mean nothing.")
+    return (
+        f"Seconds are medians of {max(count for count, _ in repeated)} timings"
+        + (f", those of the {once} longest runs single ones" if once else "")
+        + f"; slowest over fastest of the same run: {ratios[len(ratios) // 2]:.2f} in the middle, {ratios[-1]:.2f} "
+        "at most. Smaller differences mean nothing."
+    )

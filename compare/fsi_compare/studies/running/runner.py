@@ -30,8 +30,16 @@ NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.
 class Runner:
     """`folder` holds `runs/`, a folder per run, and `meshes/`."""
 
-    def __init__(self, study: Study, folder: Path, programs: Dict[str, Program], mesh_maker: Optional[Path],
-                 threads: Optional[int] = None, jobs: Optional[int] = None, quiet: bool = False):
+    def __init__(
+        self,
+        study: Study,
+        folder: Path,
+        programs: Dict[str, Program],
+        mesh_maker: Optional[Path],
+        threads: Optional[int] = None,
+        jobs: Optional[int] = None,
+        quiet: bool = False,
+    ):
         self.study, self.folder, self.programs, self.mesh_maker = study, folder, programs, mesh_maker
         self.threads = study.threads if threads is None else threads
         self.jobs = study.jobs if jobs is None else jobs
@@ -57,8 +65,9 @@ class Runner:
                 progress.known(request, known)
             else:
                 wanted[key] = request
-        order = sorted(wanted.items(),
-                       key=lambda item: progress.weight(item[1]))  # small ones first: they tell the time left
+        order = sorted(
+            wanted.items(), key=lambda item: progress.weight(item[1])
+        )  # small ones first: they tell the time left
         progress.plan([request for _, request in order])
         for i, (key, request) in enumerate(order):
             folder = self._place(key, request)
@@ -80,10 +89,19 @@ class Runner:
         """Times the short runs again, one round after the other, so that a disturbance does not meet all of a run's."""
         study = self.study
         known = self._known
-        short = {key: request for key, request in requests.items() if study.repeats > 1 and known[key].done
-                 and known[key].seconds < study.repeat_below and len(known[key].timings) < study.repeats}
-        again = [(key, request, repeats.place_of(self._place(key, request), n))
-                 for n in range(2, study.repeats + 1) for key, request in short.items()]
+        short = {
+            key: request
+            for key, request in requests.items()
+            if study.repeats > 1
+            and known[key].done
+            and known[key].seconds < study.repeat_below
+            and len(known[key].timings) < study.repeats
+        }
+        again = [
+            (key, request, repeats.place_of(self._place(key, request), n))
+            for n in range(2, study.repeats + 1)
+            for key, request in short.items()
+        ]
         places: Dict[str, List[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
@@ -97,9 +115,12 @@ class Runner:
             if len(places[key]) == study.repeats - 1:
                 self._settle(key, request, places[key])
 
-        run_jobs([Job(i, self._command(request, place), request.time_limit)
-                  for i, (_, request, place) in enumerate(again)],
-                 self.jobs, ended, lambda running: progress.tick([again[i][1] for i in running]))
+        run_jobs(
+            [Job(i, self._command(request, place), request.time_limit) for i, (_, request, place) in enumerate(again)],
+            self.jobs,
+            ended,
+            lambda running: progress.tick([again[i][1] for i in running]),
+        )
 
     def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
         """Of all repetitions the median stays, if they had the same results."""
@@ -110,8 +131,9 @@ class Runner:
         else:
             record.update(status=CRASHED, message=repeats.NOT_THE_SAME)
         write_record(folder, record)
-        self._known[key] = replace(run, status=record["status"], message=record["message"],
-                                   timings=tuple(record.get("timings", ())))
+        self._known[key] = replace(
+            run, status=record["status"], message=record["message"], timings=tuple(record.get("timings", ()))
+        )
 
     @property
     def warning(self) -> str:
@@ -144,8 +166,9 @@ class Runner:
         except (OSError, ValueError):
             pass
         if self.mesh_maker is None:
-            raise InputError("fsi-mesh", "", "is not beside the drivers",
-                             "build it with cmake --build --preset release")
+            raise InputError(
+                "fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release"
+            )
         make_folder(path.parent)
         end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", path])
         if end.code:
@@ -159,8 +182,15 @@ class Runner:
         return self.folder / "runs" / f"{name}-{key[:12]}"
 
     def _command(self, request: Request, folder: Path) -> List[str]:
-        words = [str(self._program(request).path), str(request.case_file), "-o", str(folder), "-q",
-                 "--threads", str(self.threads)]
+        words = [
+            str(self._program(request).path),
+            str(request.case_file),
+            "-o",
+            str(folder),
+            "-q",
+            "--threads",
+            str(self.threads),
+        ]
         mesh = self._mesh_file(request.mesh)
         settings = dict(request.settings)
         if mesh is not None:
@@ -175,13 +205,21 @@ class Runner:
         folder = self._place(key, request)
         try:
             record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-            if record["fingerprint"] != key or (record["status"] == OUT_OF_TIME
-                                                and record["seconds"] < request.time_limit):
+            if record["fingerprint"] != key or (
+                record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit
+            ):
                 return None
             if record["status"] == DONE:
                 read_summary(folder / "summary.json")
-            run = StudyRun(request, folder, record["status"], record["message"], float(record["seconds"]),
-                           record["command"], tuple(record.get("timings", ())))
+            run = StudyRun(
+                request,
+                folder,
+                record["status"],
+                record["message"],
+                float(record["seconds"]),
+                record["command"],
+                tuple(record.get("timings", ())),
+            )
             self._taken_up.count(self._program(request), record.get("executable", ""))
             return run
         except (OSError, ValueError, KeyError, TypeError, InputError):
@@ -192,9 +230,19 @@ class Runner:
         status, message = judge(folder, end)
         command = shlex.join(self._command(request, folder))
         make_folder(folder)
-        write_record(folder, {"fingerprint": key, "status": status, "message": message, "seconds": end.seconds,
-                              "command": command, "run": request.label, "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
-                              "executable": self._program(request).digest})
+        write_record(
+            folder,
+            {
+                "fingerprint": key,
+                "status": status,
+                "message": message,
+                "seconds": end.seconds,
+                "command": command,
+                "run": request.label,
+                "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
+                "executable": self._program(request).digest,
+            },
+        )
         return StudyRun(request, folder, status, message, end.seconds, command)
 
 

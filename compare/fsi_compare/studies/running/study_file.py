@@ -13,8 +13,21 @@ PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 LEVELS = ("coarse", "intermediate", "fine")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 
-TOP_KEYS = ("title", "kind", "threads", "jobs", "time_limit", "repeats", "repeat_below", "set", "cases", "methods",
-            "meshes", "runs", "report")
+TOP_KEYS = (
+    "title",
+    "kind",
+    "threads",
+    "jobs",
+    "time_limit",
+    "repeats",
+    "repeat_below",
+    "set",
+    "cases",
+    "methods",
+    "meshes",
+    "runs",
+    "report",
+)
 METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "set")
 MESH_KEYS = ("options", "label")
@@ -76,13 +89,28 @@ class Study:
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
     case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
 
-    def request(self, group: str, case: str, method: str, values: Mapping[str, Any], settings: Mapping[str, Any],
-                mesh: Optional[str] = None) -> Request:
+    def request(
+        self,
+        group: str,
+        case: str,
+        method: str,
+        values: Mapping[str, Any],
+        settings: Mapping[str, Any],
+        mesh: Optional[str] = None,
+    ) -> Request:
         """One more run, for kinds that decide on the next run from the last."""
         chosen = self.methods[method]
         merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
-        return Request(group, case, chosen, dict(values), self.cases[case], self.meshes[mesh] if mesh else None, merged,
-                       self.time_limit)
+        return Request(
+            group,
+            case,
+            chosen,
+            dict(values),
+            self.cases[case],
+            self.meshes[mesh] if mesh else None,
+            merged,
+            self.time_limit,
+        )
 
 
 def show(value: Any) -> str:
@@ -116,8 +144,11 @@ class _Reader:
         limit = self.number(data, "time_limit", 3600.0)
         entries = self.table(data, "cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
-        of_case = {name: self.settings(entry, "set", f"cases.{name}")
-                   for name, entry in entries.items() if isinstance(entry, dict)}
+        of_case = {
+            name: self.settings(entry, "set", f"cases.{name}")
+            for name, entry in entries.items()
+            if isinstance(entry, dict)
+        }
         methods = {name: self.method(name, entry) for name, entry in self.table(data, "methods", True).items()}
         meshes = {level: StudyMesh(level, level, ()) for level in LEVELS}
         for name, entry in self.table(data, "meshes").items():
@@ -127,11 +158,24 @@ class _Reader:
         requests: List[Request] = []
         for name, group in self.table(data, "runs").items():
             requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
-        return Study(path=self.path, title=self.text(data, "title"), kind=kind,
-                     threads=self.count(data, "threads", 1), jobs=self.count(data, "jobs", 1), time_limit=limit,
-                     repeats=1 if self.quick else repeats, repeat_below=self.number(data, "repeat_below", 60.0),
-                     cases=cases, methods=methods, meshes=meshes, requests=requests, report=self.table(data, "report"),
-                     quick=self.quick, settings=settings, case_settings=of_case)
+        return Study(
+            path=self.path,
+            title=self.text(data, "title"),
+            kind=kind,
+            threads=self.count(data, "threads", 1),
+            jobs=self.count(data, "jobs", 1),
+            time_limit=limit,
+            repeats=1 if self.quick else repeats,
+            repeat_below=self.number(data, "repeat_below", 60.0),
+            cases=cases,
+            methods=methods,
+            meshes=meshes,
+            requests=requests,
+            report=self.table(data, "report"),
+            quick=self.quick,
+            settings=settings,
+            case_settings=of_case,
+        )
 
     def case(self, name: str, entry: Any) -> Path:
         """A file name, or a section with `file` and `set`."""
@@ -159,8 +203,9 @@ class _Reader:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
         if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
-            raise self.wrong(f"{key}.options", "is not a list of words",
-                             'give options of fsi-mesh artery, e.g. ["--size", "0.5"]')
+            raise self.wrong(
+                f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
+            )
         return StudyMesh(name, str(entry.get("label", name)), tuple(options))
 
     def group(self, name: str, group: Any, cases, methods, meshes, settings, of_case, limit: float) -> List[Request]:
@@ -177,9 +222,13 @@ class _Reader:
         chosen = [methods[self.one_of(f"{key}.methods", m, methods)] for m in group.get("methods", list(methods))]
         own = self.settings(group, "set", key)
         vary = self.table(group, "vary", False, key)
-        axes = [[self.value(f"{key}.vary.{quantity}", quantity, value, meshes)
-                 for value in self.list(f"{key}.vary.{quantity}", values)]
-                for quantity, values in vary.items()]
+        axes = [
+            [
+                self.value(f"{key}.vary.{quantity}", quantity, value, meshes)
+                for value in self.list(f"{key}.vary.{quantity}", values)
+            ]
+            for quantity, values in vary.items()
+        ]
         requests = []
         for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
             merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
@@ -191,8 +240,9 @@ class _Reader:
             requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit))
         return requests
 
-    def value(self, key: str, quantity: str, value: Any,
-              meshes) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
+    def value(
+        self, key: str, quantity: str, value: Any, meshes
+    ) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
         """(quantity, what is shown, settings, mesh) of one value on an axis."""
         if quantity == MESH:
             return quantity, value, {}, meshes[self.one_of(key, value, meshes)]
@@ -202,8 +252,11 @@ class _Reader:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             return quantity, value["label"], self.settings(value, "set", key), None
         if "." not in quantity:
-            raise self.wrong(key, "is neither 'mesh' nor a key of the case file",
-                             'give a key such as "time.step", or values { label, set }')
+            raise self.wrong(
+                key,
+                "is neither 'mesh' nor a key of the case file",
+                'give a key such as "time.step", or values { label, set }',
+            )
         return quantity, value, {quantity: value}, None
 
     def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
@@ -213,8 +266,11 @@ class _Reader:
 
     def one_of(self, key: str, name: Any, names) -> str:
         if name not in names:
-            raise self.wrong(key, f"'{name}' is unknown",
-                             f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}")
+            raise self.wrong(
+                key,
+                f"'{name}' is unknown",
+                f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}",
+            )
         return name
 
     def text(self, entry: Dict[str, Any], name: str, section: str = "") -> str:

@@ -54,15 +54,22 @@ class StudyProgress:
         if run.done:
             self._learn(request, run.seconds)
         said = "" if run.done else f", {run.status}: {run.message}"
-        self._say(f"[{self._total - len(self._left)}/{self._total}] {request.label}: "
-                  f"{duration(run.seconds)}{said}{self._left_text()}")
+        self._say(
+            f"[{self._total - len(self._left)}/{self._total}] {request.label}: "
+            f"{duration(run.seconds)}{said}{self._left_text()}"
+        )
 
     def tick(self, running: Sequence[Request]) -> None:
         if self._terminal and not self._quiet and running:
             now = time.monotonic()
             began = self._began.setdefault(id(running[0]), now)
-            print(f"\r\033[K[{self._total - len(self._left)}/{self._total}] {running[0].label}: "
-                  f"{duration(now - began)}{self._left_text()}", end="", file=sys.stderr, flush=True)
+            print(
+                f"\r\033[K[{self._total - len(self._left)}/{self._total}] {running[0].label}: "
+                f"{duration(now - began)}{self._left_text()}",
+                end="",
+                file=sys.stderr,
+                flush=True,
+            )
 
     def _learn(self, request: Request, seconds: float) -> None:
         weight, known = self._rates.get(request.method.name, (0.0, 0.0))

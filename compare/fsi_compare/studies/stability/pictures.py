@@ -26,11 +26,13 @@ FAULT = {"facecolor": "#000000", "edgecolor": "#000000"}
 WORDS = {WRONG: "WRONG", NOT_FINITE: "NaN", CRASHED: "CRASH"}
 
 
-def map_figure(cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values: Sequence[Any], title: str, label: str,
-               paper: Any) -> Figure:
+def map_figure(
+    cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values: Sequence[Any], title: str, label: str, paper: Any
+) -> Figure:
     """`methods` are (name, label), from top to bottom; `paper` is the value of the paper's case."""
-    at: Dict[Tuple[str, Any], Cell] = {(cell.method, next(iter(cell.run.request.values.values()))): cell
-                                       for cell in cells}
+    at: Dict[Tuple[str, Any], Cell] = {
+        (cell.method, next(iter(cell.run.request.values.values()))): cell for cell in cells
+    }
     longest = max(len(text) for _, text in methods)
     heads = [_head(value) for value in values]
     width = 0.5 + 0.075 * longest + CELL_INCHES[0] * len(values)
@@ -85,22 +87,38 @@ def text_of(cell: Cell) -> str:
 
 
 def _draw(axes, column: int, row: int, cell: Cell) -> None:
-    look = FAULT if cell.outcome in FAULTS else LOOK.get(cell.outcome) or {"facecolor": shade(cell.run.passes),
-                                                                           "edgecolor": "none"}
+    look = (
+        FAULT
+        if cell.outcome in FAULTS
+        else LOOK.get(cell.outcome) or {"facecolor": shade(cell.run.passes), "edgecolor": "none"}
+    )
     axes.add_patch(Rectangle((column + 0.02, row + 0.04), 0.96, 0.92, linewidth=0, zorder=1, **look))
     hatched = bool(look.get("hatch"))
     box = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 1.2} if hatched else None
-    axes.text(column + 0.5, row + 0.5, text_of(cell), ha="center", va="center", fontsize=7.5, zorder=2, bbox=box,
-              color="#ffffff" if cell.outcome in FAULTS else "#000000",
-              fontweight="bold" if cell.outcome in FAULTS else "normal")
+    axes.text(
+        column + 0.5,
+        row + 0.5,
+        text_of(cell),
+        ha="center",
+        va="center",
+        fontsize=7.5,
+        zorder=2,
+        bbox=box,
+        color="#ffffff" if cell.outcome in FAULTS else "#000000",
+        fontweight="bold" if cell.outcome in FAULTS else "normal",
+    )
 
 
 def _legend(outcomes) -> Tuple[List[Patch], List[str]]:
     handles = [Patch(facecolor=shade(n), edgecolor="#aaaaaa", linewidth=0.5) for n in (1, 30, 500)]
     labels = ["converged, 1 iteration a step", "30", "500"]
-    names = {UNCHECKED: "converged, other driver did not", DEVIATES: "one pass: off by",
-             NOT_CONVERGED: "not converged in step",
-             OUT_OF_TIME: "out of time in step", REFUSED: "refused"}
+    names = {
+        UNCHECKED: "converged, other driver did not",
+        DEVIATES: "one pass: off by",
+        NOT_CONVERGED: "not converged in step",
+        OUT_OF_TIME: "out of time in step",
+        REFUSED: "refused",
+    }
     for outcome, name in names.items():
         if outcome in outcomes:
             handles.append(Patch(linewidth=0.5, **LOOK[outcome]))
