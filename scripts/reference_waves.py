@@ -9,6 +9,7 @@ import json
 import math
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -16,13 +17,9 @@ import numpy as np
 TOP = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOP / "compare"))
 
-from fsi_compare.studies.evidence.waves import (
-    QUANTITIES,
-    Waves,
-    extrapolated,
-    read_waves,
-    relative_difference,
-)  # noqa: E402
+from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
+from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated  # noqa: E402
+from fsi_compare.studies.evidence.waves import read_waves, relative_difference  # noqa: E402
 
 STABILISATION = 0.05
 REFINEMENT = 4  # cells of 0.125 mm along, 0.09 mm across the fluid, 0.03 mm across the wall
@@ -103,7 +100,9 @@ def write(folder: Path, material: str, found) -> None:
         f"grids of {36 * SPACE[1]} and {36 * SPACE[0]} cells along the axis extrapolated by second order"
     )
     with open(folder / "reference.json", "w", encoding="utf-8") as file:
-        json.dump({"description": description, "own_error": own_error, "estimates": facts}, file, indent=1)
+        case = tomllib.loads((TOP / "meshes" / "artery" / f"{material}.toml").read_text(encoding="utf-8"))
+        data = {"description": description, "case": physical(case), "own_error": own_error, "estimates": facts}
+        json.dump(data, file, indent=1)
         file.write("\n")
     print(material, json.dumps(own_error), json.dumps(facts))
 

@@ -26,6 +26,8 @@ th.l, td.l { text-align: left; } thead th { border-bottom: 1px solid #333; }
 thead tr.groups th { border-bottom: none; text-align: center; }
 figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; }
 figcaption, .note { font-size: .85rem; color: #333; }
+ol.answer { padding-left: 1.4rem; } ol.answer li { margin: .35rem 0; }
+details { margin: 1.2rem 0; } summary { cursor: pointer; font-weight: bold; }
 nav { font-size: .9rem; } code { font-family: "DejaVu Sans Mono", monospace; font-size: .85em; }
 @media print { body { max-width: none; margin: 0; } figure, table { break-inside: avoid; } }
 """
@@ -58,6 +60,21 @@ class Report:
         if items:
             self._body.append("<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>")
             self._markdown.append("\n".join(f"- {item}" for item in items))
+
+    def answer(self, lines: Sequence[str]) -> None:
+        """What was found, in words, one numbered sentence or two a line: the first section of a report."""
+        self.section("The answer")
+        self._body.append('<ol class="answer">' + "".join(f"<li>{_inline(line)}</li>" for line in lines) + "</ol>")
+        self._markdown.append("\n".join(f"{number}. {line}" for number, line in enumerate(lines, 1)))
+
+    def folded(self, heading: str, tables: Sequence[Table]) -> None:
+        """Tables to look things up in: shut until the reader opens them."""
+        self._body.append(f"<details><summary>{_inline(heading)}</summary>")
+        self._markdown.append(f"<details><summary>{html.escape(heading, quote=False)}</summary>")
+        for table in tables:
+            self.table(table)
+        self._body.append("</details>")
+        self._markdown.append("</details>")
 
     def table(self, table: Table) -> None:
         self.written.append(table.write_csv(self.folder))

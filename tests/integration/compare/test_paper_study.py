@@ -1,8 +1,10 @@
 """The kind `paper`: cuts, energy, phases, claims, and the whole study with drivers that answer at once."""
 
 import json
+import re
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
@@ -17,6 +19,8 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies import kinds
 from fsi_compare.base.names import MATERIALS
+from fsi_compare.linear.solver_tables import Grid
+from fsi_compare.linear.study import Outcome, Request as LinearRequest
 from fsi_compare.studies.paper import cost as paper_cost
 from fsi_compare.studies.paper.claims import (
     FEWER,
@@ -33,7 +37,7 @@ from fsi_compare.studies.paper.claims import (
     unexamined,
 )
 from fsi_compare.studies.paper.energy import remainders
-from fsi_compare.studies.paper.solver_claims import best_order
+from fsi_compare.studies.paper.solver_claims import observed_orders, solver_claims
 from fsi_compare.studies.paper.speeds import Measured, Speeds, speed_table
 from fsi_compare.studies.paper.wave_claims import wave_claims
 from fsi_compare.studies.command import READY
@@ -184,9 +188,46 @@ class Verdicts(unittest.TestCase):
         self.assertEqual([compared(3, 0), compared(0, 0), compared(0, 2), compared(3, 2)], [FEWER, FEWER, MORE, MIXED])
 
     def test_order_of_newtons_increments(self):
-        self.assertAlmostEqual(best_order([1.0, 1e-1, 1e-2, 1e-4, 1e-8]), 2.0)
-        self.assertAlmostEqual(best_order([1.0, 1e-1, 1e-2, 1e-13]), 1.0)  # the last one is rounding
-        self.assertIsNone(best_order([1.0, 1e-5]))
+        np.testing.assert_allclose(observed_orders([1.0, 1e-1, 1e-2, 1e-4, 1e-8]), [1.0, 2.0, 2.0])
+        np.testing.assert_allclose(observed_orders([1.0, 1e-1, 1e-2, 1e-15]), [1.0])  # the last one is round-off
+        # what follows round-off is round-off too
+        np.testing.assert_allclose(observed_orders([1.0, 1e-1, 1e-2, 1e-15, 1e-13]), [1.0])
+        self.assertEqual(observed_orders([1.0, 1e-5]), [])
+        self.assertEqual(observed_orders([]), [])
+        self.assertEqual(observed_orders([1.0, 2.0, 0.5]), [])  # not converging yet
+        self.assertLess(observed_orders([1.0, 0.1, 0.2])[-1], 0)  # not any more
+        # the coarse mesh's: the fourth is above round-off, and shows the order
+        first, last = observed_orders([2.2, 1.7e-2, 6.4e-6, 4.9e-13])
+        self.assertAlmostEqual(first, 1.62, 2)
+        self.assertAlmostEqual(last, 2.08, 2)
+
+    def newton_claim(self, **increments):
+        """Of a grid whose coarse mesh has these increments by material, _ for -."""
+        steps = {name.replace("_", "-"): [SimpleNamespace(step=1, increments=e)] for name, e in increments.items()}
+        outcomes = [
+            Outcome(
+                LinearRequest(material, Path(), material, "coarse", (), (), ((1, 1),), 1e-9, 1),
+                SimpleNamespace(newton=newton, systems={(1, 1): None}, mesh={}),
+            )
+            for material, newton in steps.items()
+        ]
+        return next(c for c in solver_claims(Grid(outcomes), None, {}) if "quadratically" in c.claim)
+
+    def test_newton_is_judged_by_the_last_order_above_round_off(self):
+        quadratic = [2.2, 1.7e-2, 6.4e-6, 4.9e-13]
+        claim = self.newton_claim(neo_hookean=quadratic)
+        self.assertEqual(claim.verdict, "reproduced")
+        self.assertIn("observed order 2.08, at least 1.8 in 1 of 1 cells; 4 iterations", claim.ours)
+        for text in (claim.why, claim.rule):  # the rule stands beside the claim too
+            self.assertIn("ln(e3/e2) / ln(e2/e1) of the last three increments above 2e-14 of the first", text)
+        linear = [2.2, 2.2e-2, 2.2e-4, 2.2e-6]
+        claim = self.newton_claim(neo_hookean=quadratic, mooney_rivlin=linear)
+        self.assertEqual(claim.verdict, "in part")
+        self.assertIn("below it: Mooney-Rivlin C 1.00", claim.why)
+        self.assertNotIn("fibres", claim.why)
+        # quadratic at first and linear in the end is not quadratic
+        stalled = [2.2, 1.7e-2, 6.4e-6, 4.9e-10, 4e-13]
+        self.assertEqual(self.newton_claim(neo_hookean=stalled).verdict, "not reproduced")
 
 
 class Levels(unittest.TestCase):
@@ -326,6 +367,19 @@ class WholeStudy(StudyCase):
         ):
             self.assertTrue((self.out / f"{name}.png").is_file() and (self.out / f"{name}.svg").is_file(), name)
         self.assertIn("The runs hold no <code>energy.csv</code>", page)
+        headings = re.findall(r"<h2[^>]*>([^<]*)</h2>", page)
+        self.assertEqual(headings[:3], ["The answer", "The waves", "Claims"])
+        self.assertEqual(headings[-2:], ["Rules", "About this report"])
+        self.assertEqual(re.search(r'<ol class="answer">(.*?)</ol>', page).group(1).count("<li>"), 5)
+        self.assertLess(page.index("<caption>The paper's claims, one by one"), page.index("<details>"))
+        self.assertLess(page.index("<details>"), page.index("<caption>What each verdict asks for"))
+        self.assertLess(page.index("<caption>What each verdict asks for"), page.index("</details>"))
+        self.assertIn("find the same wave", page)
+        self.assertIn("The curves lie on each other: the largest difference is 0.0e+00 of", page)
+        # no caption of what is not there: one level has no error bars, one material's density is not tried
+        self.assertNotIn("their bars", page)
+        self.assertNotIn("the printed value is tried", page)
+        self.assertNotIn("Deformed wall and velocity", page)
         self.assertEqual(self.verdict("conform very well"), "reproduced")
         self.assertEqual(self.verdict("smaller magnitude than the monolithic one"), "not reproduced")
         self.assertEqual(self.verdict("artery's wave is slower"), "not reproduced")
@@ -372,7 +426,7 @@ class WholeStudy(StudyCase):
     def test_full_form(self):
         with mock.patch("fsi_compare.reporting.pictures.Figure.savefig"), mock.patch(
             "fsi_compare.reporting.report.Report.image"
-        ):
+        ) as image:
             code, _, err = self.call("-q")
         self.assertEqual(code, 0, err)
         verdicts = {row["verdict"] for row in self.claims().values()}
@@ -387,6 +441,10 @@ class WholeStudy(StudyCase):
         examined = [row for row in self.claims().values() if "Table" not in row["claim"].split(",")[0]]
         self.assertIn(f"Of {len(examined)} claims: ", page)
         self.assertTrue(all(row["rule"] for row in examined))
+        captions = " ".join(call.args[1] for call in image.call_args_list)
+        self.assertIn("their bars are the difference of the two finest levels", captions)
+        self.assertIn("Error of mesh and step: unknown (wall_displacement.csv is missing or incomplete).", captions)
+        self.assertIn("the printed value is tried above", page)
         self.assertIn("fine, 0.05", {row["level"] for row in self.csv("wave_speed.csv")})
         meshes = [row["mesh"] for row in self.csv("table2_meshes.csv")]
         self.assertEqual(meshes[::3], ["coarse", "intermediate", "fine"])

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict
+from typing import Any, Dict
 
 from ...base.errors import InputError
 from .waves import QUANTITIES, Quantity, Waves, read_waves
@@ -19,6 +19,7 @@ class WaveReference:
     description: str  # how it was computed
     own_error: Dict[str, float]  # by quantity's column, relative L2
     waves: Dict[str, Waves]  # by quantity's column
+    case: Dict[str, Any]  # the physical entries of the case that it solves, by dotted key; empty: not recorded
 
     def of(self, quantity: Quantity) -> Waves:
         return self.waves[quantity.column]
@@ -31,10 +32,10 @@ def read_reference(folder: Path) -> WaveReference:
         data = json.loads(path.read_text(encoding="utf-8"))
         own = {q.column: float(data["own_error"][q.column]) for q in QUANTITIES}
         description = str(data["description"])
+        case = dict(data.get("case", {}))
     except OSError as error:
         raise InputError(path, "", f"cannot be read: {error.strerror}", REMEDY) from None
     except (ValueError, KeyError, TypeError):
         raise InputError(path, "own_error", "is not a reference's description", REMEDY) from None
-    return WaveReference(
-        folder, description, own, {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
-    )
+    waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    return WaveReference(folder, description, own, waves, case)

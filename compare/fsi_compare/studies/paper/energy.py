@@ -27,8 +27,12 @@ class Remainder:
 
 
 def write_energy(report, runs: PaperRuns) -> None:
-    shown = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
-    shown = [(material, run) for material, run in shown if run]
+    """A section; none where the waves have no run."""
+    waves = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
+    shown = [(material, run) for material, run in waves if run]
+    if not shown:
+        return
+    report.section("Energy")
     found = energy_section(
         report, [run for _, run in shown], [f"{MATERIALS[material]}, {runs.finest}" for material, _ in shown]
     )

@@ -4,7 +4,8 @@ Groups of runs by name, all but `waves` may be missing: waves, resolved, newton,
 fibres, printed-density (see paper.runs). `[report.linear]`: meshes and methods of the linear-solver tables (see
 paper.linear)."""
 
-from typing import Dict, List, Sequence
+from pathlib import Path
+from typing import Dict, List, Mapping, Sequence
 
 from ...base import paper
 from ...base.errors import InputError
@@ -12,6 +13,7 @@ from ...base.names import MATERIALS
 from ...base.suggestions import check_keys, nearest
 from ...linear import solver_pictures
 from ...linear.solver_tables import Grid, solver_tables
+from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
 from ..evidence.tube import Tube, read_tube
 from ..running.context import Context
@@ -19,9 +21,11 @@ from ..running.study_file import Study
 from ..running.study_run import StudyRun
 from . import cost as paper_cost, linear as paper_linear, speeds as paper_speeds, tables as paper_tables
 from . import waves as paper_waves
-from .claims import Claim, claims_table, rules_table, tally
+from .answer import Found, answer
+from .claims import claims_table, rules_table, tally
 from .energy import write_energy
-from .runs import GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
+from .runs import DENSITY, GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
+from .speeds import Speeds
 from .solver_claims import comparisons, solver_claims
 from .wave_claims import wave_claims
 
@@ -85,47 +89,57 @@ def evaluate(context: Context) -> int:
     claims.sort(key=lambda claim: claim.section)  # keeps the order within a section
     claims += comparisons(grid)
 
-    report = context.report
-    _claims(report, claims)
-    report.section("Parameters, meshes, solvers: the paper's tables")
-    report.table(paper_tables.parameter_table(context.study.cases))
-    report.table(paper_tables.mesh_table(meshes))
-    if grid:
-        _linear(report, grid)
+    grids = [one for one in (grid, later) if one]
+    missing = _missing(context.runs, grids)
+    errors = paper_waves.wave_errors(runs)
 
-    report.section("Pressure waves")
-    paper_waves.wave_pictures(report, runs)
+    report = context.report
+    report.answer(answer(Found(runs, claims, agreements, speeds, errors, costs, missing)))
+    report.section("The waves")
+    paper_waves.three_walls(report, runs, errors)
+    report.section("Claims")
+    report.text(
+        f"{paper.source().split(', section')[0]}. {tally(claims)} What each verdict asks for stands at the end."
+    )
+    report.table(claims_table(claims))
     if agreements:
+        report.section("Both drivers beside each other")
+        paper_waves.driver_pictures(report, runs, errors)
         report.table(paper_waves.agreement_table(agreements))
-    report.section("Deformed wall and velocity")
-    paper_waves.tube_picture(report, runs)
-    if stopped:
-        report.section("Why a partitioned wave can differ")
-        report.text("The same partitioned program, told to accept an interface that does not match yet:")
-        report.figure(
-            "stopped_early",
-            lambda: paper_waves.stopped_figure(reference, runs),
-            "The wave when the interface iteration is stopped early, beside the monolithic one.",
-        )
-        report.table(paper_waves.stopped_table(reference, stopped))
+    paper_waves.tube_picture(report, runs, errors)
+    if reference and stopped:
+        _stopped(report, runs, reference, stopped, errors)
     if speeds:
         _speeds(report, runs, speeds)
-
-    report.section("Energy")
     write_energy(report, runs)
-
-    report.section("Cost")
     if costs:
         _cost(report, costs)
     _phases(report, runs, costs)
-    return _missing(report, context.runs, [one for one in (grid, later) if one])
+    report.section("Parameters, meshes, solvers: the paper's tables")
+    report.table(paper_tables.parameter_table(context.study.cases, printed_density=bool(runs.all(DENSITY))))
+    if meshes:
+        report.table(paper_tables.mesh_table(meshes))
+    if grid:
+        _linear(report, grid)
+    if missing:
+        report.section("Missing")
+        report.list(missing)
+    report.section("Rules")
+    report.folded("What each verdict asks for", [rules_table(claims)])
+    return 2 if missing else 0
 
 
-def _claims(report, claims: List[Claim]) -> None:
-    report.section("Claims")
-    report.text(f"{paper.source().split(', section')[0]}. {tally(claims)}")
-    report.table(claims_table(claims))
-    report.table(rules_table(claims))
+def _stopped(report, runs: PaperRuns, reference: StudyRun, stopped, errors: Mapping[Path, MeshError]) -> None:
+    report.section("Why a partitioned wave can differ")
+    report.text("The same partitioned program, told to accept an interface that does not match yet:")
+    error = errors.get(reference.folder)
+    report.figure(
+        "stopped_early",
+        lambda: paper_waves.stopped_figure(reference, runs),
+        "The wave when the interface iteration is stopped early, beside the monolithic one."
+        + (f" {error_words([('', error)])[:-1]}, of the monolithic one." if error else ""),
+    )
+    report.table(paper_waves.stopped_table(reference, stopped))
 
 
 def _linear(report, grid: Grid) -> None:
@@ -145,23 +159,27 @@ def _linear(report, grid: Grid) -> None:
             report.image(path, f"{what}; first Newton system from rest.")
 
 
-def _speeds(report, runs: PaperRuns, speeds) -> None:
+def _speeds(report, runs: PaperRuns, speeds: Sequence[Speeds]) -> None:
     report.section("Speed of the wave")
     tubes: Dict[str, Tube] = {
         material: read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials
     }
     levels = paper_speeds.levels_of(runs)
+    bars = any(s.finest and s.finest.speed_error is not None for s in speeds)
+    crests = any(m.speed is not None for s in speeds for m in s.measured.values())
     report.figure(
         "wave_speed",
         lambda: paper_speeds.speed_figure(speeds, tubes, levels),
-        "Left: phase speed in the thick wall against the wave number. Right: theory as lines, the crest's "
-        "speed in the runs as marks; their bars are the difference of the two finest levels. "
-        f"{paper_speeds.MEANING}",
+        "Left: phase speed in the thick wall against the wave number. Right: theory as lines"
+        + (", the crest's speed in the runs as marks" if crests else "")
+        + ("; their bars are the difference of the two finest levels" if bars else "")
+        + f". {paper_speeds.MEANING} The error of mesh and step of these waves: table `mesh_error`.",
     )
     report.table(paper_speeds.speed_table(speeds, levels))
 
 
 def _cost(report, costs) -> None:
+    report.section("Cost")
     own = paper_cost.paper_rounds()
     report.text(
         f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned "
@@ -179,6 +197,8 @@ def _phases(report, runs: PaperRuns, costs) -> None:
     shown: List[StudyRun] = [c.run for c in costs]
     if not shown:
         shown = [run for method in (MONOLITHIC, PARTITIONED) for run in runs.all(WAVES, method=method)]
+    if shown and not costs:
+        report.section("Cost")
     by_mesh: Dict[str, List[StudyRun]] = {}
     for run in shown:
         by_mesh.setdefault(mesh_of(run), []).append(run)
@@ -194,7 +214,8 @@ def _phases(report, runs: PaperRuns, costs) -> None:
         )
 
 
-def _missing(report, all_runs, grids: Sequence[Grid]) -> int:
+def _missing(all_runs: Sequence[StudyRun], grids: Sequence[Grid]) -> List[str]:
+    """What did not come to its end, one line each."""
     lines = [
         f"{run.request.group}, {run.request.label}: {run.status}: {run.message}" for run in all_runs if not run.done
     ]
@@ -204,7 +225,4 @@ def _missing(report, all_runs, grids: Sequence[Grid]) -> int:
                 outcome = grid.outcome(material, mesh)
                 if outcome and not outcome.results:
                     lines.append(f"linear systems, {material}, {mesh}: {outcome.failure}")
-    if lines:
-        report.section("Missing")
-        report.list(lines)
-    return 2 if lines else 0
+    return lines

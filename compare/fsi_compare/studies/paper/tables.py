@@ -15,7 +15,8 @@ LAYERS = ("media", "adventitia")
 UNITS = {"c10": "kPa", "c01": "kPa", "k1": "kPa", "k2": "", "alpha": "deg", "density": "mg/mm^3", "bulk_modulus": "kPa"}
 
 
-def parameter_table(cases: Mapping[str, Path]) -> Table:
+def parameter_table(cases: Mapping[str, Path], printed_density: bool) -> Table:
+    """`printed_density`: the study has runs with the wall's density as the paper prints it."""
     table = Table(
         stem="table1_parameters",
         title="Table 1: parameters of the walls, ours and the paper's",
@@ -51,7 +52,7 @@ def parameter_table(cases: Mapping[str, Path]) -> Table:
         "!: differs from the paper: "
         + (", ".join(sorted(differing)) or "none")
         + ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
-        "is 1.2 mg/mm^3 = 1200 kg/m^3, and the printed value is tried below."
+        "is 1.2 mg/mm^3 = 1200 kg/m^3" + (", and the printed value is tried above." if printed_density else ".")
     )
     return table
 

@@ -1,7 +1,8 @@
 """Pressure waves and cut tubes of the paper's study, in tables and pictures."""
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Tuple
+from pathlib import Path
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,8 +13,11 @@ from ...reporting.pictures import pressure_figure
 from ...runs.differences import largest_difference
 from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
+from ..evidence.mesh_error import MeshError, error_table, error_words, mesh_error
 from ..running.study_run import StudyRun
-from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
+from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, RESOLVED, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
+
+SEEN_APART = 1e-2  # of the largest pressure: curves nearer than this lie on each other in a picture
 
 
 def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional[float]]:
@@ -24,13 +28,48 @@ def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional
 # ---- figures of the pressure along the centre line
 
 
-def wave_pictures(report, runs: PaperRuns) -> None:
+def wave_errors(runs: PaperRuns) -> Dict[Path, MeshError]:
+    """Of each run that shows the wave of a wall as it is, by its folder."""
+    return {run.folder: mesh_error(run) for run in shown_waves(runs)}
+
+
+def shown_waves(runs: PaperRuns) -> List[StudyRun]:
+    """One run for each wall and level of resolution: the drivers' waves are one wave where both are there."""
+    waves = [runs.wave(material, mesh) for material in runs.materials for mesh in runs.meshes]
+    return [run for run in waves if run] + runs.all(RESOLVED)
+
+
+def three_walls(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """The picture that the report opens with, and how far its waves are from the reference."""
+    mesh = runs.finest
+    found = [(material, runs.wave(material, mesh)) for material in runs.materials]
+    together = [(material, run) for material, run in found if run]
+    times = [time for time in TIMES if all(run.pressure.covers(time) for _, run in together)]
+    if together and times:
+        names = [MATERIALS[material] for material, _ in together]
+        report.figure(
+            "pressure_materials",
+            lambda: pressure_figure([run.pressure for _, run in together], names, times, f"The walls, {mesh} mesh"),
+            f"Pressure along the centre line of the tube, {mesh} mesh, at the times of the paper's figure. "
+            + error_words([(name, errors[run.folder]) for name, (_, run) in zip(names, together)]),
+        )
+    waves = [run for run in shown_waves(runs) if run.folder in errors]
+    if waves:
+        report.table(error_table(waves, [errors[run.folder] for run in waves]))
+
+
+def driver_pictures(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """A picture for each wall whose waves both drivers have; the caption says how far they are apart."""
     mesh = runs.finest
     for material in runs.materials:
-        pair = [runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED)]
-        if None in pair:
-            continue
+        found = [runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED)]
+        pair = [run for run in found if run]
         times = [time for time in times_of(material) if all(run.pressure.covers(time) for run in pair)]
+        if len(pair) < 2 or not times:
+            continue
+        apart = _largest(pair[0].pressure, pair[1].pressure)
+        lie = "The curves lie on each other" if apart < SEEN_APART else "The curves are apart"
+        error = errors.get(pair[0].folder)
         report.figure(
             f"pressure_{material}",
             lambda: pressure_figure(
@@ -40,21 +79,8 @@ def wave_pictures(report, runs: PaperRuns) -> None:
                 f"{MATERIALS[material]}, {mesh} mesh",
             ),
             f"{MATERIALS[material]}: pressure along the centre line from both drivers, at the times of the paper's "
-            "figure. The curves lie on each other.",
-        )
-    together = [(material, runs.wave(material, mesh)) for material in runs.materials]
-    together = [(material, run) for material, run in together if run]
-    if len(together) > 1:
-        times = [time for time in TIMES if all(run.pressure.covers(time) for _, run in together)]
-        report.figure(
-            "pressure_materials",
-            lambda: pressure_figure(
-                [run.pressure for _, run in together],
-                [MATERIALS[material] for material, _ in together],
-                times,
-                f"The three walls, {mesh} mesh",
-            ),
-            "Pressure along the centre line in the three walls, at the times of the paper's figure.",
+            f"figure. {lie}: the largest difference is {apart:.1e} of the largest pressure of a time level."
+            + (f" {error_words([('', error)])}" if error else ""),
         )
 
 
@@ -163,10 +189,13 @@ def stopped_table(reference: StudyRun, found: Sequence[Stopped]) -> Table:
         csv_columns=["stop", "iterations_per_step", "time_ms", "peak_Pa", "peak_over_monolithic", "max_relative"],
         notes=[
             "Largest difference: of the whole wave to the monolithic one, relative to the largest pressure of the "
-            f"time level, over all levels. {MATERIALS[reference.request.case]}, coarse mesh. 'From the last step': "
-            "the iteration starts from the last displacement, otherwise from its extrapolation."
+            f"time level, over all levels. {MATERIALS[reference.request.case]}, {mesh_of(reference)} mesh."
         ],
     )
+    if any("from the last step" in s.label for s in found):
+        table.notes.append(
+            "'From the last step': the iteration starts from the last displacement, otherwise from its extrapolation."
+        )
     exact = peaks(reference.pressure)
     table.rows.append(["monolithic", "", *(fixed(p, ".1f") for p in exact), ""])
     table.csv_rows += [["monolithic", None, time, p, 1.0, None] for time, p in zip(TIMES, exact)]
@@ -187,23 +216,25 @@ def stopped_figure(reference: StudyRun, runs: PaperRuns) -> Figure:
         waves,
         labels,
         times,
-        "The interface iteration stopped early, " f"{MATERIALS[reference.request.case]}, coarse mesh",
+        f"The interface iteration stopped early, {MATERIALS[reference.request.case]}, {mesh_of(reference)} mesh",
     )
 
 
 # ---- fields
 
 
-def tube_picture(report, runs: PaperRuns) -> None:
-    """The three walls at 8 ms, all with one magnification."""
-    media, names = [], []
+def tube_picture(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """A section with the three walls at 8 ms, all with one magnification; none where no run holds fields."""
+    media, names, own = [], [], []
     for material in runs.materials:
         run = runs.wave(material, runs.finest)
         if run and run.has(fields.FILE):
             media.append(fields.read_fields(run.folder, PICTURE_TIME))
             names.append(MATERIALS[material])
+            own.append((MATERIALS[material], errors[run.folder]))
     if not media:
         return
+    report.section("Deformed wall and velocity")
     largest = [tube_pictures.largest_displacement(one) for one in media]
     factor = tube_pictures.round_factor(max(largest))
     cuts = [tube_pictures.tube_cut(one, factor) for one in media]
@@ -213,5 +244,5 @@ def tube_picture(report, runs: PaperRuns) -> None:
         lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
         f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
         f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
-        "of the fluid by shade, its velocity by arrows, their scale above the first panel.",
+        f"of the fluid by shade, its velocity by arrows, their scale above the first panel. {error_words(own)}",
     )
