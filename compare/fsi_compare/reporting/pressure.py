@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import sys
 from pathlib import Path
 from typing import List, Sequence
 
@@ -30,7 +31,8 @@ def add_parser(commands, version: str) -> None:
         "Prints differences, peaks and peak speeds, and writes to OUTDIR:\n"
         "  pressure_waves.csv         all runs at the selected times\n"
         "  pressure_waves.png, .svg   one panel per time\n"
-        "  pressure_waves.json        the printed numbers in full precision",
+        "  pressure_waves.json        the printed numbers in full precision\n"
+        "Runs whose meshes, time steps or lengths differ are compared with a warning.",
     )
     pressure.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
     pressure.add_argument(
@@ -77,6 +79,8 @@ def pressure(options: argparse.Namespace) -> int:
     title = options.title if options.title is not None else default_title(runs)
     written += pictures.write_pressure_waves(options.output, [run.pressure for run in runs], labels, times, title)
     if not options.quiet:
+        for warning in comparison.warnings:
+            print(f"fsi-compare: warning: {warning}", file=sys.stderr)
         print(tables.text(runs, comparison))
         print("Written: " + ", ".join(str(path) for path in written))
     return 0

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import List, Optional, Sequence
 
 from ..base.files import replacing
+from ..runs.conditions import Conditions, conditions, departures
 from ..runs.differences import Difference, OverTime, differences_at, largest_difference
 from ..runs.pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
 from ..runs.run_folder import Run
@@ -22,12 +23,15 @@ class Comparison:
     over_time: List[OverTime]  # [run after the first]
     peaks: List[List[Crest]]  # [run][time]
     speeds: List[Optional[float]]  # [run], mm/ms
+    conditions: List[Conditions]  # [run]
+    warnings: List[str]  # in what the runs' meshes, steps and lengths differ
 
 
 def compare_pressure(runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> Comparison:
     """Differences from the first run, peaks and speeds. All times must be covered by all runs, and the first run's
     centre line by the others'."""
     reference = runs[0].pressure
+    found = [conditions(run) for run in runs]
     return Comparison(
         labels=labels,
         times=times,
@@ -35,6 +39,8 @@ def compare_pressure(runs: Sequence[Run], labels: Sequence[str], times: Sequence
         over_time=[largest_difference(reference, run.pressure) for run in runs[1:]],
         peaks=[[peak(run.pressure.z, run.pressure.at(time)) for time in times] for run in runs],
         speeds=[crest_speed(run.pressure) for run in runs],
+        conditions=found,
+        warnings=departures(found, labels),
     )
 
 
@@ -42,13 +48,15 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
     """The tables that the program prints."""
     lines = ["Runs"]
     width = max(len(label) for label in comparison.labels)
-    for label, run in zip(comparison.labels, runs):
+    for label, run, made in zip(comparison.labels, runs, comparison.conditions):
         waves = run.pressure
         program = f"{run.program} {run.version}".strip()
+        mesh = f"mesh {made.mesh}, " if made.mesh else ""
         lines.append(
-            f"  {label:<{width}}  {run.folder}: {program}, {len(waves.times)} time levels "
+            f"  {label:<{width}}  {run.folder}: {program}, {mesh}{made.step_words}, {len(waves.times)} time levels "
             f"from {waves.times[0]:g} to {waves.times[-1]:g} ms, {len(waves.z)} points"
         )
+    lines += [f"  Note: {warning}." for warning in comparison.warnings]
 
     for label, at_times, over_time in zip(comparison.labels[1:], comparison.at_times, comparison.over_time):
         lines += [
@@ -106,6 +114,9 @@ def write_json(path: Path, comparison: Comparison) -> None:
     for i, label in enumerate(comparison.labels):
         run = {
             "run": label,
+            "mesh": comparison.conditions[i].mesh or None,
+            "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],
+            "end_ms": comparison.conditions[i].end,
             "speed_mm_per_ms": comparison.speeds[i],
             "peaks": [
                 {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
@@ -123,7 +134,12 @@ def write_json(path: Path, comparison: Comparison) -> None:
                 **(_named(over_time.largest) if over_time.largest else {}),
             }
         runs.append(run)
-    data = {"reference": comparison.labels[0], "speed_window_ms": SPEED_WINDOW_MS, "runs": runs}
+    data = {
+        "reference": comparison.labels[0],
+        "speed_window_ms": SPEED_WINDOW_MS,
+        "warnings": comparison.warnings,
+        "runs": runs,
+    }
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 

@@ -84,6 +84,13 @@ def read_summary(path: Path) -> dict:
             "the run is not finished",
             f"wait for its end or resume it with {program} --restart {path.parent}",
         )
+    if status == "interrupted":
+        raise InputError(
+            path,
+            "status",
+            "the run was interrupted",
+            f"resume it with {program} --restart {path.parent}, or run it again",
+        )
     if status == "not converged":
         raise InputError(
             path,

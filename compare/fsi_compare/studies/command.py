@@ -6,14 +6,15 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import List
+from typing import Dict, List, Optional
 
 from ..base.errors import InputError
 from ..base.files import make_folder
 from ..base.progress import duration
 from ..base.suggestions import nearest
-from ..runs.programs import find_mesh_maker, find_program
+from ..runs.programs import Program, find_mesh_maker, find_program
 from . import kinds
+from .overview import default_output, overview
 from .running.study_file import Study, read_study
 
 READY = Path(__file__).resolve().parents[2] / "studies"
@@ -33,6 +34,7 @@ Exit code 2: a run that the report needs is missing; the report says which."""
 
 EXAMPLES = """\
 examples:
+  fsi-compare study --list
   fsi-compare study paper --quick
   fsi-compare study compare/studies/stability.toml -o results/stability
 """
@@ -47,10 +49,16 @@ def add_parser(commands, version: str) -> None:
         help="a whole study: runs what is missing, writes an HTML report",
         description=DESCRIPTION,
     )
-    study.add_argument("study", metavar="STUDY", help=f"study file (TOML), or a ready one: {', '.join(ready())}")
+    study.add_argument(
+        "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
+    )
     study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
-    study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
+    study.add_argument(
+        "--list",
+        action="store_true",
+        help="say what would be run, and run nothing; without STUDY: the ready studies and what each still has to run",
+    )
     study.add_argument(
         "--fresh",
         action="store_true",
@@ -85,6 +93,8 @@ def study(options: argparse.Namespace) -> int:
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
         if value is not None and value < 1:
             raise InputError("", name, f"{value} is not positive", "give 1 or more")
+    if options.study is None:
+        return list_ready(options)
     asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
     if not asked.requests:
         raise InputError(
@@ -95,15 +105,12 @@ def study(options: argparse.Namespace) -> int:
         )
     kind = kinds.kind(asked.kind)
     kind.check(asked)
-    programs = {
-        "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
-        "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
-    }
+    programs = find_programs(options)
     if options.list:
         lines = [f"{request.group}: {request.label}" for request in asked.requests]
         print("\n".join([*lines, *getattr(kind, "also_runs", lambda study: [])(asked)]))
         return 0
-    folder = options.output or Path("results/studies") / (asked.path.stem + ("-quick" if options.quick else ""))
+    folder = options.output or default_output(asked.path, options.quick)
     if options.fresh:
         remove_runs(folder)
     make_folder(folder)
@@ -134,6 +141,33 @@ def study(options: argparse.Namespace) -> int:
         print(f"Runs took {duration(runner.seconds)} in all, this call {duration(time.monotonic() - begin)}.")
         print(f"Report: {path.resolve()}")
     return code
+
+
+def list_ready(options: argparse.Namespace) -> int:
+    """Each ready study in a line, with what its default output folder lacks."""
+    if not options.list:
+        raise InputError("", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(ready())}")
+    if options.output is not None:
+        raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
+    try:
+        programs: Optional[Dict[str, Program]] = find_programs(options)
+    except InputError as error:
+        if options.monolithic or options.partitioned:
+            raise
+        print(f"fsi-compare: warning: finished runs cannot be counted: {error}", file=sys.stderr)
+        programs = None
+    maker = find_mesh_maker(programs["fsi-monolithic"]) if programs else None
+    paths = [READY / f"{name}.toml" for name in ready()]
+    print("\n".join(overview(paths, options.quick, programs, options.threads, maker)))
+    return 0
+
+
+def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
+    """Both drivers by name."""
+    return {
+        "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
+        "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
+    }
 
 
 def study_path(text: str) -> Path:

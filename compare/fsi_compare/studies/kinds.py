@@ -1,6 +1,7 @@
 """The kinds of study by name. A kind is a module with `check(study)`, which raises InputError before the first run when
 the study lacks something, and `evaluate(context)`, which fills the report and returns the exit code, 0 where it returns
-nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list."""
+nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list, and
+`also_standing(study, runner)`, how many of those are there."""
 
 import importlib
 from typing import Tuple

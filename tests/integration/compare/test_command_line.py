@@ -96,6 +96,59 @@ class CommandLine(FolderCase):
         data = json.loads((self.out / "pressure_waves.json").read_text())
         self.assertLess(data["runs"][1]["largest_difference"]["max_norm_Pa"], 1e-12)
 
+    def made(self, name, mesh, times=TIMES, **more):
+        return write_run(self.base / name, parabola(0.66), times, mesh=mesh, **more)
+
+    def compared(self, *runs, words=("--times", "1,2", "--labels", "one,two")):
+        """(printed, error output, warnings of the JSON file) of runs that can be compared."""
+        code, out, err = self.call("pressure", *runs, "-o", self.out, *words)
+        self.assertEqual(code, 0, err)
+        return out, err, json.loads((self.out / "pressure_waves.json").read_text())
+
+    def test_different_meshes_are_named_with_a_warning(self):
+        coarse = self.made("coarse", {"name": "level coarse", "nodes": 1032, "hash": "03"})
+        fine = self.made("fine", {"name": "level fine", "nodes": 54540, "hash": "04"})
+        out, err, data = self.compared(coarse, fine)
+        expected = "the runs' meshes differ (one: level coarse, 1032 nodes; two: level fine, 54540 nodes)"
+        self.assertEqual(err.count("\n"), 1)
+        self.assertTrue(err.startswith(f"fsi-compare: warning: {expected}"), err)
+        self.assertIn(f"Note: {expected}", out)
+        self.assertIn("mesh level fine, 54540 nodes, step 0.125 ms", out)
+        self.assertEqual(len(data["warnings"]), 1)
+        self.assertTrue(data["warnings"][0].startswith(expected))
+        self.assertEqual(
+            [(run["mesh"], run["step_ms"], run["end_ms"]) for run in data["runs"]],
+            [("level coarse, 1032 nodes", [0.125, 0.125], 12.0), ("level fine, 54540 nodes", [0.125, 0.125], 12.0)],
+        )
+        _, err, data = self.compared(coarse, fine, words=("--times", "1", "-q"))
+        self.assertEqual((err, len(data["warnings"])), ("", 1))
+
+    def test_meshes_of_one_name_that_are_not_the_same(self):
+        one, two = ({"name": "tube.msh", "nodes": 99, "hash": key} for key in ("03", "04"))
+        _, err, _ = self.compared(self.made("a", one), self.made("b", two))
+        self.assertIn("meshes differ", err)
+
+    def test_different_steps_and_lengths_are_named_with_a_warning(self):
+        mesh = {"name": "level coarse", "nodes": 1032, "hash": "03"}
+        whole, half = self.made("whole", mesh), self.made("half", mesh, TIMES[:48] / 2)
+        _, err, data = self.compared(whole, half)
+        self.assertIn("the runs' time steps differ (one: step 0.125 ms; two: step 0.0625 ms)", err)
+        self.assertIn("the runs' lengths differ (one: 12 ms; two: 3 ms)", err)
+        self.assertEqual((err.count("\n"), len(data["warnings"])), (2, 2))
+        changed = self.made("changed", mesh, np.concatenate([TIMES[:48], TIMES[47] + TIMES[:96] / 2]))
+        _, err, _ = self.compared(whole, changed)
+        self.assertIn("(one: step 0.125 ms; two: steps of 0.0625 to 0.125 ms)", err)
+        self.assertNotIn("lengths", err)
+
+    def test_nothing_is_said_of_equal_or_unknown_conditions(self):
+        mesh = {"name": "level coarse", "nodes": 1032, "hash": "03"}
+        a, b = self.made("a", mesh), self.made("b", mesh, program="fsi-partitioned")
+        out, err, data = self.compared(a, b)
+        self.assertEqual((err, data["warnings"]), ("", []))
+        self.assertNotIn("Note:", out)
+        _, err, data = self.compared(a, self.one)  # whose summary holds no mesh
+        self.assertEqual((err, data["runs"][1]["mesh"]), ("", None))
+
     def test_title(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "-q")
         self.assertIn("Synthetic tube", (self.out / "pressure_waves.svg").read_text())

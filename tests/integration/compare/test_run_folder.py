@@ -111,6 +111,8 @@ class RefusesBadFolder(FolderCase):
         self.assert_refused("status: the run stopped without converging; see", "run.log")
 
     def test_failed(self):
+        self.change_summary(status="interrupted")
+        self.assert_refused("status: the run was interrupted; resume it with", "--restart " + str(self.folder))
         self.change_summary(status="failed")
         self.assert_refused("status: the run failed; see", "run.log")
 

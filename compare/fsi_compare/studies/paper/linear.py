@@ -11,10 +11,11 @@ from ...base.names import MATERIALS, MESHES, METHODS
 from ...base.suggestions import check_keys, nearest
 from ...linear.results import System
 from ...linear.solver_tables import Grid
-from ...linear.study import Request, run_study
+from ...linear.study import Request, finished, run_study
 from ...runs.programs import require_linear_systems
 from ..running.builds import Builds
 from ..running.context import Context
+from ..running.runner import Runner, Standing
 from ..running.study_file import Study
 
 FOLDER = "linear"
@@ -83,8 +84,7 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
     require_linear_systems(program)
     folder = runner.folder / FOLDER / "runs"
     make_folder(folder)
-    first = _requests(context, wanted.meshes, wanted.methods, (FIRST_SYSTEM,))
-    later = _requests(context, wanted.later_meshes, wanted.methods, LATER_SYSTEMS, "-later")
+    first, later = _requests(context.study, wanted, runner.threads)
     outcomes = run_study(program, folder, [*first, *later], runner.quiet)
     builds = Builds("runs of linear systems", f"removing `{FOLDER}/runs`")
     for outcome in outcomes:
@@ -94,21 +94,36 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
     return Grid(outcomes[: len(first)]), Grid(outcomes[len(first) :]) if later else None
 
 
-def _requests(
-    context: Context, meshes: Sequence[str], methods: Sequence[str], systems: Sequence[System], ending: str = ""
-) -> List[Request]:
-    return [
-        Request(
-            name=f"{material}-{mesh}{ending}",
-            case=case,
-            material=material,
-            mesh=mesh,
-            settings=(f"mesh.level={mesh}",),
-            solvers=tuple(methods),
-            systems=tuple(systems),
-            tolerance=TOLERANCE,
-            threads=context.runner.threads,
-        )
-        for mesh in sorted(meshes, key=list(MESHES).index)
-        for material, case in context.study.cases.items()
-    ]
+def standing(study: Study, runner: Runner) -> Standing:
+    """How many of these runs are there, without making any."""
+    wanted = chosen(study)
+    if wanted is None:
+        return Standing(0, 0, 0)
+    folder = runner.folder / FOLDER / "runs"
+    version = runner.programs["fsi-monolithic"].version
+    first, later = _requests(study, wanted, runner.threads)
+    there = [finished(folder / request.name, request, version) for request in (*first, *later)]
+    return Standing(len(there), sum(one is not None for one in there), 0)
+
+
+def _requests(study: Study, wanted: Chosen, threads: Optional[int]) -> Tuple[List[Request], List[Request]]:
+    """Of the first systems, and of the later ones."""
+
+    def of(meshes: Sequence[str], systems: Sequence[System], ending: str) -> List[Request]:
+        return [
+            Request(
+                name=f"{material}-{mesh}{ending}",
+                case=case,
+                material=material,
+                mesh=mesh,
+                settings=(f"mesh.level={mesh}",),
+                solvers=tuple(wanted.methods),
+                systems=tuple(systems),
+                tolerance=TOLERANCE,
+                threads=threads,
+            )
+            for mesh in sorted(meshes, key=list(MESHES).index)
+            for material, case in study.cases.items()
+        ]
+
+    return of(wanted.meshes, (FIRST_SYSTEM,), ""), of(wanted.later_meshes, LATER_SYSTEMS, "-later")

@@ -17,6 +17,7 @@ from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
 from ..evidence.tube import Tube, read_tube
 from ..running.context import Context
+from ..running.runner import Runner, Standing
 from ..running.study_file import Study
 from ..running.study_run import StudyRun
 from . import cost as paper_cost, linear as paper_linear, speeds as paper_speeds, tables as paper_tables
@@ -69,6 +70,11 @@ def also_runs(study: Study) -> List[str]:
         for mesh in meshes
         for material in study.cases
     ]
+
+
+def also_standing(study: Study, runner: Runner) -> Standing:
+    """The same for the list of studies: how many of them are there."""
+    return paper_linear.standing(study, runner)
 
 
 def evaluate(context: Context) -> int:

@@ -6,7 +6,7 @@ import re
 import shlex
 import shutil
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
@@ -25,6 +25,15 @@ from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
 RECORD = "study_run.json"  # written last: a folder without it is not finished
 OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a repetition of it
 NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Of the runs that a study lists."""
+
+    asked: int
+    finished: int  # the failed ones too: they are not made again
+    failed: int
 
 
 class Runner:
@@ -158,13 +167,9 @@ class Runner:
         """The mesh made for the study; None: the driver makes it, or the case names it."""
         if mesh is None or not mesh.options:
             return None
-        path = self.folder / "meshes" / f"{mesh.name}.msh"
-        record = path.with_suffix(".options.json")
-        try:
-            if path.is_file() and json.loads(record.read_text(encoding="utf-8")) == list(mesh.options):
-                return path
-        except (OSError, ValueError):
-            pass
+        path = self._mesh_path(mesh)
+        if self._mesh_is_made(mesh):
+            return path
         if self.mesh_maker is None:
             raise InputError(
                 "fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release"
@@ -173,9 +178,34 @@ class Runner:
         end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", path])
         if end.code:
             raise InputError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
-        with replacing(record) as temporary:
+        with replacing(path.with_suffix(".options.json")) as temporary:
             temporary.write_text(json.dumps(list(mesh.options)), encoding="utf-8")
         return path
+
+    def _mesh_path(self, mesh: StudyMesh) -> Path:
+        return self.folder / "meshes" / f"{mesh.name}.msh"
+
+    def _mesh_is_made(self, mesh: StudyMesh) -> bool:
+        path = self._mesh_path(mesh)
+        try:
+            made = json.loads(path.with_suffix(".options.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return False
+        return path.is_file() and made == list(mesh.options)
+
+    def standing(self, requests: Sequence[Request]) -> "Standing":
+        """How many of the runs are there, without making any. The same run asked for twice counts once."""
+        found: Dict[str, Optional[StudyRun]] = {}
+        for request in requests:
+            mesh = request.mesh
+            if mesh is not None and mesh.options and not self._mesh_is_made(mesh):
+                words = [str(request.case_file), request.method.name, mesh.name, *map(str, request.settings.items())]
+                found["; ".join(words)] = None
+            else:
+                key = fingerprint(*self._what_decides(request))
+                found[key] = self._finished(key, request)
+        there = [run for run in found.values() if run is not None]
+        return Standing(len(found), len(there), sum(not run.done for run in there))
 
     def _place(self, key: str, request: Request) -> Path:
         name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")
