@@ -34,8 +34,9 @@ class Solve:
 
     @property
     def total_seconds(self) -> Optional[float]:
-        known = self.set_up_seconds is not None and self.solve_seconds is not None
-        return self.set_up_seconds + self.solve_seconds if known else None
+        if self.set_up_seconds is None or self.solve_seconds is None:
+            return None
+        return self.set_up_seconds + self.solve_seconds
 
 
 @dataclass(frozen=True)
@@ -222,7 +223,10 @@ def _solve(entry: _Object, tolerance: float) -> Solve:
 
 def _sub_problem(entry: _Object) -> SubProblem:
     return SubProblem(
-        *(entry.text(name) for name in ("problem", "coarsening", "smoother", "cycle")),
+        problem=entry.text("problem"),
+        coarsening=entry.text("coarsening"),
+        smoother=entry.text("smoother"),
+        cycle=entry.text("cycle"),
         levels=entry.count("levels"),
         factor=entry.optional("factor"),
         iterations=entry.optional("iterations", entry.count),

@@ -1,7 +1,7 @@
 """Iterations and cost against the number of unknowns."""
 
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -15,14 +15,14 @@ from .solver_tables import Grid, suffix
 
 # By material: dash pattern, marker and lightness differ, so that they are told apart in grey. Later ones are narrower,
 # so that curves that coincide are all seen.
-MATERIAL_LINES = {
+MATERIAL_LINES: Dict[str, Dict[str, Any]] = {
     "neo-hookean": {"linestyle": "-", "marker": "o", "color": "#000000", "linewidth": 2.4, "markersize": 7},
     "mooney-rivlin": {"linestyle": "--", "marker": "s", "color": "#e8871e", "linewidth": 1.6, "markersize": 4.5},
     "artery": {"linestyle": "-.", "marker": "^", "color": "#2c6fbb", "linewidth": 1.0, "markersize": 3},
 }
-PAPER_LINE = {"linestyle": (0, (1, 2)), "linewidth": 0.8, "markerfacecolor": "none", "markersize": 9}
+PAPER_LINE: Dict[str, Any] = {"linestyle": (0, (1, 2)), "linewidth": 0.8, "markerfacecolor": "none", "markersize": 9}
 # By mesh, from light to dark.
-MESH_MARKS = {
+MESH_MARKS: Dict[str, Dict[str, Any]] = {
     "coarse": {"marker": "o", "markerfacecolor": "#ffffff"},
     "intermediate": {"marker": "s", "markerfacecolor": "#a9cbe8"},
     "fine": {"marker": "D", "markerfacecolor": "#2c4a6e"},
@@ -58,8 +58,7 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     for axes, method in zip(panels.flat, methods):
         for material in grid.materials:
             axes.plot(*_columns(_curve(grid, material, key, method, "iterations")), **MATERIAL_LINES[material])
-            theirs = [(paper.unknowns(mesh), paper.iterations(method, material, mesh)) for mesh in grid.meshes]
-            axes.plot(*_columns([point for point in theirs if None not in point]), **_paper_line(material))
+            axes.plot(*_columns(_paper_points(grid.meshes, material, method)), **_paper_line(material))
         axes.set_title(method)
         _log_axes(axes)
         axes.set_xlabel("unknowns")
@@ -130,15 +129,22 @@ def _counted(grid: Grid) -> List[str]:
 
 def _curve(grid: Grid, material: str, key: System, method: str, quantity: str) -> List[Tuple[float, float]]:
     """(unknowns, value) of the meshes where the method has converged."""
-    points = []
+    points: List[Tuple[float, float]] = []
     for mesh in grid.meshes:
         solve = grid.entry(material, mesh, key, method).solve
-        if solve is None:
+        system = grid.system(material, mesh, key)
+        if solve is None or system is None:
             continue
         value = getattr(solve, quantity)
         if value is not None and value > 0:  # the axes are logarithmic
-            points.append((grid.system(material, mesh, key).unknowns["total"], value))
+            points.append((system.unknowns["total"], value))
     return points
+
+
+def _paper_points(meshes: Sequence[str], material: str, method: str) -> List[Tuple[float, float]]:
+    """(unknowns, iterations) of the meshes for which the paper has both."""
+    points = [(paper.unknowns(mesh), paper.iterations(method, material, mesh)) for mesh in meshes]
+    return [(unknowns, count) for unknowns, count in points if unknowns is not None and count is not None]
 
 
 def _columns(points: Sequence[Tuple[float, float]]):
@@ -151,8 +157,8 @@ def _log_axes(axes) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(x=0.12, y=0.15)
-    axes.set_xlim(_widened(*axes.get_xlim(), 12))
-    low, high = _widened(*axes.get_ylim(), 4)
+    axes.set_xlim(_widened(axes.get_xlim(), 12))
+    low, high = _widened(axes.get_ylim(), 4)
     axes.set_ylim(low, high)
     subs = (1, 2, 3, 5, 7) if high < 12 * low else (1, 2, 5) if high < 150 * low else (1,)
     axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=20))
@@ -161,6 +167,7 @@ def _log_axes(axes) -> None:
         axis.set_minor_locator(NullLocator())
 
 
-def _widened(low: float, high: float, factor: float) -> Tuple[float, float]:
+def _widened(limits: Tuple[float, float], factor: float) -> Tuple[float, float]:
+    low, high = limits
     middle = (low * high) ** 0.5
     return (low, high) if high >= factor * low else (middle / factor**0.5, middle * factor**0.5)

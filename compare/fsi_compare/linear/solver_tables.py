@@ -171,8 +171,7 @@ def block_table(grid: Grid, key: System) -> Table:
             for mesh in grid.meshes:
                 entry = grid.entry(material, mesh, key, method)
                 exact = grid.entry(material, mesh, key, EXACT[method])
-                both = entry.solve and exact.solve and exact.iterations
-                ratio = entry.iterations / exact.iterations if both else None
+                ratio = _ratio(entry.iterations, exact.iterations)
                 above_ratio = ratio is not None and ratio > EXACT_RATIO
                 wide += above_ratio
                 row.append(marks.count(material, mesh, method, label, entry))
@@ -198,6 +197,10 @@ def block_table(grid: Grid, key: System) -> Table:
         )
     table.notes.append(_order_note(grid, key))
     return table
+
+
+def _ratio(one: Optional[int], other: Optional[int]) -> Optional[float]:
+    return one / other if one is not None and other else None
 
 
 def multilevel_table(grid: Grid, key: System) -> Table:
@@ -302,9 +305,11 @@ def _order_note(grid: Grid, key: System) -> str:
         for mesh in grid.meshes:
             for worse in names:
                 for better in names:
-                    theirs = [paper.limit(name, material, mesh, key == (1, 1)) for name in (worse, better)]
-                    ours = [grid.entry(material, mesh, key, name).iterations for name in (worse, better)]
-                    if None in theirs or None in ours or theirs[0] <= theirs[1]:
+                    limits = [paper.limit(name, material, mesh, key == (1, 1)) for name in (worse, better)]
+                    counts = [grid.entry(material, mesh, key, name).iterations for name in (worse, better)]
+                    theirs = [count for count in limits if count is not None]
+                    ours = [count for count in counts if count is not None]
+                    if len(theirs) < 2 or len(ours) < 2 or theirs[0] <= theirs[1]:
                         continue
                     compared += 1
                     if ours[0] < ours[1]:
@@ -379,11 +384,11 @@ def cost_table(grid: Grid, key: System) -> Table:
                 shown = [fixed(value, form) for value, (_, _, _, form, _) in zip(values, COSTS)]
                 if entry.solve is None:
                     shown[0] = entry.short
-                    where = f"{MATERIALS[material]} {MESHES[mesh]}"
+                    cell = f"{MATERIALS[material]} {MESHES[mesh]}"
                     messages.append(
-                        f"{entry.short}: {where}: {entry.message}"
+                        f"{entry.short}: {cell}: {entry.message}"
                         if entry.status == "failed"
-                        else f"{entry.short}: {method}, {where}: {entry.message}"
+                        else f"{entry.short}: {method}, {cell}: {entry.message}"
                     )
                 elif entry.solve.difference is not None and entry.solve.difference > SAME_SOLUTION:
                     apart += 1
@@ -397,7 +402,7 @@ def cost_table(grid: Grid, key: System) -> Table:
                         material,
                         mesh,
                         *(unknowns.get(name) for name in ("total", "mesh", "flow", "wall")),
-                        outcome.results.threads if outcome.results else None,
+                        outcome.results.threads if outcome and outcome.results else None,
                         system.product_seconds if system else None,
                         method,
                         entry.status,

@@ -78,7 +78,8 @@ def plan(
     for material in materials:
         for mesh in meshes:
             for row in rows():
-                settings, files, failure = (f"mesh.level={mesh}",), (), ""
+                settings, failure = (f"mesh.level={mesh}",), ""
+                files: Tuple[Path, ...] = ()
                 if row.axial_stretch is not None:
                     file = folder / "runs" / "meshes" / f"{mesh}-{row.axial_stretch:g}.msh"
                     failure = make_stretched_mesh(program, file, mesh, row.axial_stretch)
@@ -183,17 +184,17 @@ def stress_table(planned: Sequence[Planned], outcomes: Sequence[Outcome], method
         ]
         for method in methods:
             solve: Optional[Solve] = system.solves[method] if system else None
-            good = solve is not None and solve.converged
+            good = solve if solve is not None and solve.converged else None
             status = "converged" if good else "not converged" if solve else "failed"
             message = "" if good else solve.message if solve else outcome.failure
             if good:
-                line += [str(solve.iterations), fixed(solve.total_seconds, ".3g"), "yes"]
+                line += [str(good.iterations), fixed(good.total_seconds, ".3g"), "yes"]
             else:
                 line += ["n.c." if solve else "failed", "-", "no"]
                 where = f"{row.quantity} {row.value:g}".strip()
                 failures.append(f"n.c.: {method}, {where}: {message}" if solve else f"failed: {where}: {message}")
             numbers = (
-                (solve.iterations, solve.set_up_seconds, solve.solve_seconds, solve.work_units, solve.relative_residual)
+                (good.iterations, good.set_up_seconds, good.solve_seconds, good.work_units, good.relative_residual)
                 if good
                 else (None,) * 5
             )

@@ -25,12 +25,12 @@ class Table:
     def text(self) -> str:
         names = [name for _, name in self.columns]
         widths = [max([len(name), *(len(row[i]) for row in self.rows)]) for i, name in enumerate(names)]
-        spans = []  # [group, first column, end]
+        spans: List[Tuple[str, int, int]] = []  # group, first column, end
         for i, (group, _) in enumerate(self.columns):
             if spans and group and spans[-1][0] == group:
-                spans[-1][2] = i + 1
+                spans[-1] = (group, spans[-1][1], i + 1)
             else:
-                spans.append([group, i, i + 1])
+                spans.append((group, i, i + 1))
         for group, first, end in spans:
             widths[first] += max(0, len(group) - sum(widths[first:end]) - 2 * (end - first - 1))
         lines = [self.title]

@@ -4,7 +4,7 @@ import csv
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 from ..base.files import replacing
 from ..runs.conditions import Conditions, conditions, departures
@@ -112,7 +112,7 @@ def write_json(path: Path, comparison: Comparison) -> None:
     """The printed numbers in full precision; null where the table says n/a."""
     runs = []
     for i, label in enumerate(comparison.labels):
-        run = {
+        run: Dict[str, Any] = {
             "run": label,
             "mesh": comparison.conditions[i].mesh or None,
             "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],

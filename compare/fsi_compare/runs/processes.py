@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import time
 from dataclasses import dataclass
-from typing import Callable, Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import IO, Callable, Dict, Iterable, List, Optional, Sequence, Tuple
 
 POLL = 0.1  # s
 
@@ -45,7 +45,7 @@ def run_jobs(
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGTERM, stop)
-    running: Dict[int, Tuple[Job, subprocess.Popen, object, float]] = {}
+    running: Dict[int, Tuple[Job, subprocess.Popen, IO[bytes], float]] = {}
     waiting = iter(jobs)
     try:
         job: Optional[Job] = next(waiting, None)
@@ -53,7 +53,8 @@ def run_jobs(
         while running or job is not None:
             while job is not None and len(running) < at_once:
                 try:
-                    running[job.key] = (job, *_start(job))
+                    process, said, start = _start(job)
+                    running[job.key] = (job, process, said, start)
                 except OSError as error:
                     ended(job.key, End(1, f"{job.command[0]} cannot be started: {error.strerror}", 0.0))
                 job = next(waiting, None)
@@ -82,7 +83,8 @@ def run_jobs(
         signal.signal(signal.SIGTERM, before)
 
 
-def _start(job: Job):
+def _start(job: Job) -> Tuple[subprocess.Popen, IO[bytes], float]:
+    """The process, what it says on its error output, and when it began."""
     said = tempfile.TemporaryFile()
     try:
         process = subprocess.Popen(

@@ -154,7 +154,7 @@ def read_pressure(path: Path) -> PressureWaves:
 
 def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -> PressureWaves:
     """The lines cut into time levels, each checked against the first one."""
-    starts = np.concatenate(([0], np.flatnonzero(np.diff(time)) + 1, [len(time)]))
+    starts = np.array([0, *(np.flatnonzero(np.diff(time)) + 1), len(time)])
     points = int(starts[1])
     if points < 2:
         raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")

@@ -47,7 +47,7 @@ def read_plan(study: Study) -> Plan:
 
     def method(key: str) -> str:
         name = report.get(key)
-        if name not in study.methods:
+        if not isinstance(name, str) or name not in study.methods:
             raise wrong(
                 key,
                 "is missing" if name is None else f"'{name}' is no method of this study",

@@ -82,6 +82,7 @@ def _balance(found: Sequence[Series], case: str, quantity: Quantity) -> str:
     parts = []
     for one in chosen:
         left, total = one.last(quantity.column), one.finest.total[quantity.column]
+        assert left.order is not None and left.remaining is not None, "chosen for having an order"
         where = (
             f"the elements of the {one.finest.mesh_label} mesh"
             if one.what == SPACE

@@ -182,6 +182,6 @@ def constant(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
 
 
 def text(bracket: Bracket) -> str:
-    if bracket.value is not None:
+    if bracket.value is not None and bracket.width is not None:
         return f"{bracket.value:.3g} ± {bracket.width / 2:.0%}"
     return f"none: all fail up to {bracket.fails:g}" if bracket.fails else f"none: all hold from {bracket.holds:g}"

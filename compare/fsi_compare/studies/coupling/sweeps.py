@@ -172,7 +172,8 @@ def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Setting
 def cell_text(cell: Cell) -> str:
     if not cell.run.done:
         return cell.run.status
-    return f"{cell.run.passes:.1f}" + (f" (off {100 * cell.difference:.2g} %)" if off(cell) else "")
+    shown = f" (off {100 * cell.difference:.2g} %)" if cell.difference is not None and off(cell) else ""
+    return f"{cell.run.passes:.1f}{shown}"
 
 
 def faults(found: Sequence[Cell]) -> List[Cell]:

@@ -110,7 +110,7 @@ def _cell(run, reference, by_name, waves, one_pass, bound) -> Cell:
 
 def _confirmed_by(run, by_name, waves, one_pass):
     """The run of the other driver that bears this one out best: over most time levels, then most closely."""
-    best = None
+    best: Optional[Tuple[StudyRun, float, int]] = None
     for name, other in by_name.items():
         if waves[name] is None or name in one_pass or other.request.method.program == run.request.method.program:
             continue

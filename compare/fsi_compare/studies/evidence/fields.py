@@ -34,8 +34,9 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
         if collection.get("CollectionType") != "Temporal":
             continue
         for grid in collection.findall("Grid"):
-            if abs(float(grid.find("Time").get("Value")) - time) < 1e-6:
-                media[collection.get("Name")] = _medium(folder, grid)
+            written = grid.find("Time")
+            if written is not None and abs(float(written.get("Value", "nan")) - time) < 1e-6:
+                media[collection.get("Name", "")] = _medium(folder, grid)
     if not media:
         raise InputError(
             path, f"time {time:g} ms", "is not among the times written", "choose output.every so that it is"

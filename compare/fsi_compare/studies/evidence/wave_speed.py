@@ -4,6 +4,8 @@ of fluid and wall. Units: mm, ms, mg, kPa; so speeds are in mm/ms."""
 import math
 from typing import Sequence, Tuple
 
+import numpy as np
+
 from .tube import Tube
 
 
@@ -26,7 +28,7 @@ def moens_korteweg(tube: Tube, restrained: bool = False) -> float:
 
 
 def _sums(tube: Tube, active: Sequence[bool]) -> Tuple[float, float, float]:
-    total = sum(layer.thickness * layer.stiffness(on) for layer, on in zip(tube.layers, active))
+    total = np.sum([layer.thickness * layer.stiffness(on) for layer, on in zip(tube.layers, active)], axis=0)
     return float(total[0, 0]), float(total[0, 1]), float(total[1, 1])
 
 

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
+from typing import Sequence, Union
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Waves:
     def covers(self, time: float) -> bool:
         return self.times[0] - 1e-6 <= time <= self.times[-1] + 1e-6
 
-    def at(self, times: Sequence[float], z: np.ndarray) -> np.ndarray:
+    def at(self, times: Union[Sequence[float], np.ndarray], z: np.ndarray) -> np.ndarray:
         """(times, z), linear between levels and points; a level nearer than 1e-6 ms is taken as it is."""
         rows = []
         for time in times:

@@ -259,7 +259,9 @@ def saving_table(found: Sequence[Saving]) -> Table:
 def cycles_per_iteration(grid: Optional[Grid], mesh: str, method: str = "amg_fgmres") -> Optional[float]:
     """Cycles of a sub-problem's AMG in an iteration of the coupled one: each smoothing step on each level takes
     one."""
-    for material in grid.materials if grid else ():
+    if grid is None:
+        return None
+    for material in grid.materials:
         solve = grid.entry(material, mesh, FIRST_SYSTEM, method).solve
         if solve and solve.iterations and "flow" in solve.cycles:
             return solve.cycles["flow"] / solve.iterations
@@ -280,14 +282,14 @@ def cost_claims(runs: PaperRuns, found: Sequence[StepCost], cycles: Optional[flo
 
 def _sub_newton_claim(found: Sequence[StepCost]) -> Claim:
     text = "In each of them, fluid and structure take 4 to 5 Newton iterations"
-    partitioned = [c for c in found if c.method == PAPER_PARTITIONED and c.passes]
-    if not partitioned:
+    newton = [(c.rounds / c.passes, mesh_of(c.run)) for c in found if c.method == PAPER_PARTITIONED and c.passes]
+    if not newton:
         return unexamined("5.6", text, SUB_NEWTON_RULE)
     return Claim(
         "5.6",
         text,
         NOT_COMPARABLE,
-        "; ".join(f"{c.rounds / c.passes:.1f} ({mesh_of(c.run)})" for c in partitioned),
+        "; ".join(f"{count:.1f} ({mesh})" for count, mesh in newton),
         "sub-problems are solved no further than a hundredth of the interface's residual, with Jacobians kept",
         SUB_NEWTON_RULE,
     )

@@ -319,7 +319,7 @@ def _smoothing_steps(grid: Grid) -> Finding:
         for mesh in grid.meshes:
             for name in ("amg", "amli"):
                 solve = grid.entry(material, mesh, FIRST_SYSTEM, name).solve
-                if solve and solve.iterations and solve.cycles and (solve.levels or 0) > 1:
+                if solve and solve.iterations and solve.cycles and solve.levels and solve.levels > 1:
                     visits = 2 ** (solve.levels - 1) - 1
                     equal = equal and len(set(solve.cycles.values())) == 1
                     steps.append(max(solve.cycles.values()) / (solve.iterations * visits))
@@ -341,9 +341,10 @@ def _later_systems(grid: Grid, later: Grid, names: Sequence[str]) -> Finding:
     for material in later.materials:
         for mesh in later.meshes:
             for name in names:
-                counts = [grid.entry(material, mesh, FIRST_SYSTEM, name).iterations]
-                counts += [later.entry(material, mesh, key, name).iterations for key in later.systems]
-                if None in counts or min(counts) == 0:
+                entries = [grid.entry(material, mesh, FIRST_SYSTEM, name)]
+                entries += [later.entry(material, mesh, key, name) for key in later.systems]
+                counts = [entry.iterations for entry in entries if entry.iterations]
+                if len(counts) < len(entries):
                     continue
                 counted += 1
                 systems.update(later.systems)

@@ -1,7 +1,7 @@
 """Speed and height of the pressure wave: theory, and what the runs show on meshes side by side."""
 
 from dataclasses import dataclass, replace
-from typing import Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -20,7 +20,7 @@ from .waves import peaks
 STABILISATION = "structure.stabilisation"
 MARKERS = ("o", "s", "D", "^")  # of the levels, coarse first
 # Greys for theory: the materials have the colours.
-THEORY = {
+THEORY: Dict[str, Tuple[str, Dict[str, Any]]] = {
     "long": ("thick wall held at its length, long waves", {"color": "#c4c4c4", "linewidth": 5, "linestyle": "-"}),
     "held": ("Moens-Korteweg, held at its length", {"color": "#333333", "linewidth": 1.6, "linestyle": (0, (3, 1))}),
     "free": ("Moens-Korteweg, free to shorten", {"color": "#333333", "linewidth": 1.6, "linestyle": (0, (1, 1))}),
@@ -156,7 +156,8 @@ def finest_common(found: Sequence[Speeds]) -> Optional[str]:
 def mean_peak(values: Optional[Sequence[Optional[float]]]) -> Optional[float]:
     """Over the paper's times from 4.5 to 9 ms."""
     late = [p for time, p in zip(TIMES, values or ()) if time >= 4.5]
-    return None if not late or None in late else sum(late) / len(late)
+    known = [p for p in late if p is not None]
+    return sum(known) / len(known) if known and len(known) == len(late) else None
 
 
 def with_error(value: float, error: Optional[float], form: str) -> str:
@@ -244,7 +245,7 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
     handles, labels = [], []
     products = np.linspace(0.02, 3, 60)
     for material, tube in tubes.items():
-        style = {**MATERIAL_LINES[material], "marker": "", "linewidth": 1.8}
+        style: Dict[str, Any] = {**MATERIAL_LINES[material], "marker": "", "linewidth": 1.8}
         handles += left.plot(products, [wave_speed.phase_speed(tube, x / tube.radius) for x in products], **style)
         labels.append(MATERIALS[material])
     left.axvline(1, **{**THEORY["dispersed"][1], "linewidth": 1.0})
@@ -254,8 +255,8 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
     left.set_xlim(0, 3)
     left.set_ylim(0, None)
     for y, s in enumerate(found):
-        for name, (_, style) in THEORY.items():
-            right.plot([getattr(s, name)] * 2, [y - 0.36, y + 0.36], zorder=2, **style)
+        for name, (_, line) in THEORY.items():
+            right.plot([getattr(s, name)] * 2, [y - 0.36, y + 0.36], zorder=2, **line)
         for i, level in enumerate(levels):
             m = s.measured.get(level)
             if m and m.speed is not None:
@@ -277,8 +278,8 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
                 fmt="none",
                 zorder=2.5,
             )
-    for label, style in THEORY.values():
-        handles += right.plot([], [], **style)
+    for label, line in THEORY.values():
+        handles += right.plot([], [], **line)
         labels.append(label)
     for i, level in enumerate(levels):
         handles += right.plot([], [], **_crest(i, "#000000"))

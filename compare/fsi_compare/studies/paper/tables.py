@@ -73,7 +73,9 @@ def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, in
         mesh = run.summary.get("mesh", {})
         if mesh_of(run) in MESHES and "nodes" in mesh:
             found[mesh_of(run)] = {name: mesh[name] for name in ("nodes", "tetrahedra") if name in mesh}
-    for mesh in grid.meshes if grid else ():
+    if grid is None:
+        return {mesh: found[mesh] for mesh in MESHES if mesh in found}
+    for mesh in grid.meshes:
         for material in grid.materials:
             outcome = grid.outcome(material, mesh)
             if outcome and outcome.results:

@@ -130,7 +130,7 @@ def _materials(speeds: Sequence[Speeds]) -> List[Claim]:
         ]
     theory = [plain[name].long for name in MATERIALS]
     nh, mr, artery = (plain[name].measured[level] for name in MATERIALS)
-    by_speed, by_height = mr.speed / nh.speed - 1, mr.height / nh.height - 1
+    by_speed, by_height = (_of(mr, name) / _of(nh, name) - 1 for name in ("speed", "height"))
 
     def shown(name: str, form: str) -> str:
         return ", ".join(
@@ -141,15 +141,14 @@ def _materials(speeds: Sequence[Speeds]) -> List[Claim]:
     def below(name: str) -> str:
         return verdict(
             all(_clearly_below(artery, m, name) for m in (nh, mr)),
-            partly=all(getattr(artery, name) < getattr(m, name) for m in (nh, mr)),
+            partly=all(_of(artery, name) < _of(m, name) for m in (nh, mr)),
         )
 
-    slowest = min((s for s in speeds if s.material == "artery" and s.finest), key=lambda s: s.finest.speed)
-    others = (
-        f"; its slowest other reading: {slowest.finest.speed:.2f} ({slowest.reading}, {slowest.finest.level})"
-        if slowest.reading
-        else ""
-    )
+    readings = [
+        (_of(s.finest, "speed"), s.reading, s.finest.level) for s in speeds if s.material == "artery" and s.finest
+    ]
+    speed, reading, where = min(readings)
+    others = f"; its slowest other reading: {speed:.2f} ({reading}, {where})" if reading else ""
     return [
         Claim(
             "5.6",
@@ -167,7 +166,7 @@ def _materials(speeds: Sequence[Speeds]) -> List[Claim]:
             f"crest in mm/ms ({level}): {shown('speed', '.2f')}; theory, long waves: "
             f"{', '.join(format(speed, '.2f') for speed in theory)}{others}; all: table wave_speed",
             ""
-            if artery.speed < nh.speed
+            if _of(artery, "speed") < _of(nh, "speed")
             else "c10 is the same as in the neo-Hookean wall, and fibres that act in extension can only stiffen it; no "
             "reading of the printed fibre term makes it slower",
             SLOWER_RULE,
@@ -179,8 +178,8 @@ def _materials(speeds: Sequence[Speeds]) -> List[Claim]:
             f"mean of the largest pressures from {TIMES[2]:g} to {TIMES[-1]:g} ms in Pa ({level}): "
             f"{shown('height', '.1f')}",
             ""
-            if artery.height < nh.height
-            else "a stiffer wall carries the same impulse in a higher and faster " "wave",
+            if _of(artery, "height") < _of(nh, "height")
+            else "a stiffer wall carries the same impulse in a higher and faster wave",
             LOWER_RULE,
         ),
     ]
@@ -188,4 +187,11 @@ def _materials(speeds: Sequence[Speeds]) -> List[Claim]:
 
 def _clearly_below(one: Measured, other: Measured, name: str) -> bool:
     errors = sum(getattr(m, f"{name}_error") or 0.0 for m in (one, other))
-    return getattr(other, name) - getattr(one, name) > errors
+    return _of(other, name) - _of(one, name) > errors
+
+
+def _of(measured: Measured, name: str) -> float:
+    """Speed or height of a level that has both."""
+    value = getattr(measured, name)
+    assert value is not None, f"level {measured.level} is not complete"
+    return value

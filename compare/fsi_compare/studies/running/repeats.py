@@ -58,7 +58,8 @@ def spread(timings: Sequence[float]) -> Optional[float]:
 def timing_words(runs: Iterable[StudyRun]) -> str:
     """How far seconds of these runs can be trusted, in a sentence."""
     done = {run.folder: run for run in runs if run.done}.values()
-    repeated = [(len(run.timings), spread(run.timings)) for run in done if spread(run.timings)]
+    spreads = [(len(run.timings), spread(run.timings)) for run in done]
+    repeated = [(count, ratio) for count, ratio in spreads if ratio is not None]
     if not repeated:
         return "Seconds are single timings."
     ratios = sorted(ratio for _, ratio in repeated)

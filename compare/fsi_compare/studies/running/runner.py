@@ -119,7 +119,8 @@ class Runner:
         def ended(i: int, end: End) -> None:
             key, request, place = again[i]
             self.seconds += end.seconds
-            progress.end(request, StudyRun(request, place, *judge(place, end), end.seconds, ""))
+            status, message = judge(place, end)
+            progress.end(request, StudyRun(request, place, status, message, end.seconds, ""))
             places[key].append(place)
             if len(places[key]) == study.repeats - 1:
                 self._settle(key, request, places[key])
@@ -288,7 +289,7 @@ def remove_runs(folder: Path) -> None:
             shutil.rmtree(place, ignore_errors=True)
 
 
-def judge(folder: Path, end: End):
+def judge(folder: Path, end: End) -> Tuple[str, str]:
     """(status, message) of a run that has ended."""
     if end.out_of_time:
         return OUT_OF_TIME, end.message

@@ -159,16 +159,18 @@ def evaluate(context: Context) -> int:
 def measure(economy: Economy) -> Measured:
     """Noise: the largest over the smallest seconds among the repetitions of one form."""
     seconds = [[run.wall_s for run in runs] for runs in (economy.on, economy.off)]
-    waves = [waves_of(runs[0]) for runs in (economy.on, economy.off)]
+    one, other = (waves_of(runs[0]) for runs in (economy.on, economy.off))
     difference = None
-    if all(wave is not None for wave in waves):
-        largest = largest_difference(*waves).largest
+    if one is not None and other is not None:
+        largest = largest_difference(one, other).largest
         difference = largest.max_relative if largest else None
     return Measured(
         economy,
-        *(statistics.median(s) for s in seconds),
+        statistics.median(seconds[0]),
+        statistics.median(seconds[1]),
         max(max(s) / min(s) for s in seconds),
-        *(counter(runs[0], economy.counter) for runs in (economy.on, economy.off)),
+        counter(economy.on[0], economy.counter),
+        counter(economy.off[0], economy.counter),
         difference,
     )
 

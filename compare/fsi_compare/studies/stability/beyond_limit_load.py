@@ -65,9 +65,9 @@ class Inflated:
 
 
 def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings) -> None:
-    wall = settings.wall
-    if wall is None:
+    if settings.wall is None:
         return
+    wall: Wall = settings.wall
     runs = [_inflated(cell, True, wall) for cell in found if settings.at_rest(cell.run)]
     runs += [_inflated(cell, False, wall) for cell in found if settings.pulse and quantity(cell.run) == settings.pulse]
     if not runs:
@@ -80,6 +80,7 @@ def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings)
         curves = [
             Curve(f"run on {run.mesh} nodes, to {run.pressure:.3f} kPa", run.load, run.cell.run.done, run.levels)
             for run in furthest
+            if run.levels is not None
         ]
         report.figure(
             "limit_load",
@@ -90,7 +91,7 @@ def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings)
     waves = [
         Curve(run.label, run.load, run.cell.run.done, run.levels)
         for run in own
-        if not run.at_rest and run.cell.method == settings.references[0]
+        if run.levels is not None and not run.at_rest and run.cell.method == settings.references[0]
     ]
     if waves:
         report.figure(

@@ -80,6 +80,7 @@ def text_of(cell: Cell) -> str:
     if cell.outcome in (AGREES, UNCHECKED):
         return f"{cell.run.passes:.1f}"
     if cell.outcome == DEVIATES:
+        assert cell.difference is not None, "it deviates by what was measured"
         return f"off {100 * cell.difference:.2g} %"
     if cell.outcome == NOT_CONVERGED:
         return f"\N{MULTIPLICATION SIGN} step {cell.levels + 1}"

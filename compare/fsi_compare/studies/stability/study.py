@@ -72,6 +72,7 @@ def _summary(context: Context, found: Sequence[Cell], settings: Settings) -> Non
 def _detail(cell: Cell) -> str:
     command = with_name(cell.run.command)
     if cell.outcome == WRONG:
+        assert cell.against is not None, "a wrong run was held against another"
         return f", off by {cell.difference:.1e} from {cell.against.request.method.label}; `{command}`"
     return f": {without_folder(cell.run.message)}; `{command}`"
 
