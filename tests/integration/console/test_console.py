@@ -7,8 +7,17 @@ import subprocess
 import time
 import unittest
 
-from programs import (DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute,
-                      make_small_mesh)
+from programs import (
+    DRIVERS,
+    MESH,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    FolderTest,
+    attempt,
+    driver_command,
+    execute,
+    make_small_mesh,
+)
 
 VERSION = os.environ["FSI_VERSION"]
 STEPS = 3
@@ -79,20 +88,28 @@ class Console(FolderTest):
         folder = self.base / "wrong"
         case = str(NEO_HOOKEAN)
         for program in DRIVERS:
-            for words, shown in ((["--treads", "2", case, "-o", folder], "--threads"),
-                                 ([case, "-o", folder, "--threads", "two"], "two"),
-                                 ([case, case, "-o", folder], "one argument too many"),
-                                 ([case, "-o", folder, "--set", "time.end"], "time.end"),
-                                 ([case, "-o", folder, "-x"], "-x"),
-                                 ([case], "-o"),
-                                 (["-o", folder], "no case file"),
-                                 ([], "no case file")):
+            for words, shown in (
+                (["--treads", "2", case, "-o", folder], "--threads"),
+                ([case, "-o", folder, "--threads", "two"], "two"),
+                ([case, case, "-o", folder], "one argument too many"),
+                ([case, "-o", folder, "--set", "time.end"], "time.end"),
+                ([case, "-o", folder, "-x"], "-x"),
+                ([case], "-o"),
+                (["-o", folder], "no case file"),
+                ([], "no case file"),
+            ):
                 process = execute(program, *words)
                 with self.subTest(program=program, words=words):
                     self.assertRefused(process, shown)
                     self.assertFalse(folder.exists())
-        for words in (["artery", "--levl", "coarse", "-o", "x.msh"], ["artery"], [], ["vein", "-o", "x.msh"],
-                      ["artery", "--level", "huge", "-o", "x.msh"], ["artery", "--format", "3", "-o", "x.msh"]):
+        for words in (
+            ["artery", "--levl", "coarse", "-o", "x.msh"],
+            ["artery"],
+            [],
+            ["vein", "-o", "x.msh"],
+            ["artery", "--level", "huge", "-o", "x.msh"],
+            ["artery", "--format", "3", "-o", "x.msh"],
+        ):
             process = execute(MESH, *words, cwd=self.base)
             with self.subTest(words=words):
                 self.assertEqual((process.returncode, process.stdout), (1, ""))
