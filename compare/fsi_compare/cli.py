@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from typing import Sequence
+from typing import NoReturn, Sequence
 
 from .base.errors import InputError
 from .linear.command import add_parser as add_solvers, solvers
@@ -15,7 +15,7 @@ from .studies.command import add_parser as add_study, study
 class _Parser(argparse.ArgumentParser):
     """Wrong use is reported in one line with exit code 1, as by the other programs."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         raise InputError("", "", message, f"see {self.prog} --help")
 
 

@@ -4,6 +4,7 @@ import os
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Iterator
 
 from .errors import InputError
 
@@ -19,7 +20,7 @@ def make_folder(folder: Path) -> None:
 
 
 @contextmanager
-def replacing(path: Path):
+def replacing(path: Path) -> Iterator[Path]:
     """Yields the path of a temporary file beside `path`, which takes its place once the block has ended without error,
     so that a reader never meets half a file."""
     temporary = None

@@ -4,13 +4,13 @@ import argparse
 import math
 import os
 from pathlib import Path
-from typing import Dict, List, Optional, Set, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 from ..base.errors import InputError
 from ..base.files import make_folder, replacing
 from ..base.names import MATERIALS, MESHES, METHODS, pick
-from ..reporting.layout import write_markdown
-from ..runs.programs import find_monolithic
+from ..reporting.layout import Table, write_markdown
+from ..runs.programs import Program, find_monolithic
 from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study
@@ -40,7 +40,7 @@ examples:
 """
 
 
-def add_parser(commands, default_output: str, version: str) -> None:
+def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str, version: str) -> None:
     solvers = commands.add_parser(
         "solvers",
         allow_abbrev=False,
@@ -183,7 +183,9 @@ def solvers(options: argparse.Namespace) -> int:
     return exit_code(outcomes)
 
 
-def stress(options, program, base: Request, materials, meshes) -> int:
+def stress(
+    options: argparse.Namespace, program: Program, base: Request, materials: Sequence[str], meshes: Sequence[str]
+) -> int:
     planned = stress_study.plan(options.output, program, base, materials, meshes, options.case_dir)
     requests = [p.request for p in planned if not p.failure]
     runs = iter(run_study(program, options.output / "runs", requests, options.quiet))
@@ -197,14 +199,14 @@ def exit_code(outcomes: List[Outcome]) -> int:
     return 0 if all(outcome.converged for outcome in outcomes) else 2
 
 
-def write(options, tables, markdown: str, heading: str) -> List[Path]:
+def write(options: argparse.Namespace, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
     return [
         *(table.write_csv(options.output) for table in tables),
         write_markdown(options.output / markdown, heading, tables),
     ]
 
 
-def report(options, tables, written) -> None:
+def report(options: argparse.Namespace, tables: Sequence[Table], written: Sequence[Path]) -> None:
     if not options.quiet:
         for table in tables:
             print(table.text())
@@ -258,7 +260,7 @@ def read_settings(settings: List[str], stressed: bool) -> Tuple[str, ...]:
     return tuple(seen.values())
 
 
-def check_stress(options, systems: List[System]) -> None:
+def check_stress(options: argparse.Namespace, systems: List[System]) -> None:
     if systems != [(1, 1)]:
         raise InputError("", "--systems", "--stress is about the first system", "leave --systems out")
     for given, name in ((options.without, "--without"), (options.sub_problems, "--sub-problems")):

@@ -4,7 +4,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Union
 
 from ..base.errors import InputError
 
@@ -124,15 +124,15 @@ def read_linear_solvers(path: Path) -> LinearSolvers:
 class _Object:
     """A JSON object that says which key is wrong."""
 
-    def __init__(self, path: Path, key: str, values):
+    def __init__(self, path: Path, key: str, values: Any) -> None:
         self.path, self.key, self.values = path, key, values
         if not isinstance(values, dict):
             raise InputError(path, key, "is not a JSON object")
 
-    def refuse(self, key: str, problem: str):
+    def refuse(self, key: str, problem: str) -> NoReturn:
         raise InputError(self.path, f"{self.key}.{key}".lstrip("."), problem)
 
-    def _value(self, key: str, kinds, expected: str):
+    def _value(self, key: str, kinds: Union[type, Tuple[type, ...]], expected: str) -> Any:
         if key not in self.values:
             self.refuse(key, "is missing")
         value = self.values[key]
@@ -155,7 +155,7 @@ class _Object:
             self.refuse(key, f"is {value}")
         return value
 
-    def optional(self, key: str, read=None):
+    def optional(self, key: str, read: Optional[Callable[[str], Any]] = None) -> Any:
         """None where the entry is absent, null or not finite."""
         value = self.values.get(key)
         if value is None or (isinstance(value, float) and not math.isfinite(value)):

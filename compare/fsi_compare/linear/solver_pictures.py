@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
@@ -33,7 +34,7 @@ PANEL_INCHES = (2.9, 2.2)
 def write_solver_pictures(folder: Path, grid: Grid) -> List[Path]:
     """For each system `iterations_*` and `cost_*` as PNG and SVG; none for which nothing has converged."""
 
-    def anything(key, methods, quantity):
+    def anything(key: System, methods: Sequence[str], quantity: str) -> bool:
         return any(_curve(grid, material, key, method, quantity) for material in grid.materials for method in methods)
 
     written = []
@@ -147,11 +148,11 @@ def _paper_points(meshes: Sequence[str], material: str, method: str) -> List[Tup
     return [(unknowns, count) for unknowns, count in points if unknowns is not None and count is not None]
 
 
-def _columns(points: Sequence[Tuple[float, float]]):
+def _columns(points: Sequence[Tuple[float, float]]) -> Tuple[List[float], List[float]]:
     return [x for x, _ in points], [y for _, y in points]
 
 
-def _log_axes(axes) -> None:
+def _log_axes(axes: Axes) -> None:
     """Logarithmic axes: at least one decade of unknowns, so that there is a tick, and a factor of 4 of values, so that
     one iteration more looks like no more."""
     axes.set_xscale("log")

@@ -1,7 +1,7 @@
 """The paper's Tables 3, 4 and 5 with its numbers beside ours, and what it lacks: seconds, cycles, work, memory."""
 
 from dataclasses import dataclass
-from typing import Callable, List, Optional, Sequence, Tuple
+from typing import Callable, Iterable, List, Optional, Sequence, Tuple
 
 from ..base import paper
 from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, METHODS, MULTILEVEL
@@ -78,7 +78,7 @@ class Grid:
         return f"Newton system {key[1]} of step {key[0]}" + ("" if time is None else f" (t = {time:g} ms)")
 
 
-def _ordered(names, known) -> List[str]:
+def _ordered(names: Iterable[str], known: Iterable[str]) -> List[str]:
     present = set(names)
     return [name for name in known if name in present]
 

@@ -12,7 +12,7 @@ from ..base.errors import InputError
 from ..base.files import make_folder, replacing
 from ..base.progress import Progress
 from ..runs.case_digest import case_digest
-from ..runs.processes import execute
+from ..runs.processes import End, execute
 from ..runs.programs import Program
 from .results import FILE, LinearSolvers, System, read_linear_solvers
 
@@ -163,7 +163,7 @@ def _run(program: Program, place: Path, request: Request, progress: Progress) ->
     return outcome
 
 
-def _outcome(place: Path, request: Request, ended, version: str) -> Outcome:
+def _outcome(place: Path, request: Request, ended: End, version: str) -> Outcome:
     # Code 2 says that something did not converge; what did is in the file all the same.
     if ended.code not in (0, 2) or (ended.code == 2 and not (place / FILE).exists()):
         return Outcome(request, None, ended.message, refused=ended.code == 1)

@@ -3,7 +3,7 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Optional, Sequence
+from typing import Any, Dict, Optional, Sequence
 
 from ..base.errors import InputError
 from ..base.files import make_folder
@@ -60,7 +60,7 @@ class Cost:
         return self.seconds / self.steps
 
 
-def add_parser(commands, version: str) -> None:
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
     cost = commands.add_parser(
         "cost",
         allow_abbrev=False,

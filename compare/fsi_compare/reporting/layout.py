@@ -3,7 +3,7 @@
 import csv
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Any, List, Sequence, Tuple
 
 from ..base.files import replacing
 
@@ -81,6 +81,6 @@ def _markdown_row(cells: Sequence[str]) -> str:
     return "| " + " | ".join(cell.replace("|", r"\|").replace("*", r"\*").replace("_", r"\_") for cell in cells) + " |"
 
 
-def fixed(value, form: str, missing: str = "-") -> str:
+def fixed(value: Any, form: str, missing: str = "-") -> str:
     """A number in the given format; a dash for what there is not."""
     return missing if value is None else format(value, form)

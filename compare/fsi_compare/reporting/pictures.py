@@ -3,8 +3,9 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, List, Sequence
+from typing import Callable, List, Sequence, Tuple
 
+from matplotlib.artist import Artist
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -93,7 +94,9 @@ def pressure_figure(
     return figure
 
 
-def finish(figure: Figure, handles, labels: Sequence[str], title: str, panels) -> None:
+def finish(
+    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], title: str, panels: Tuple[float, float]
+) -> None:
     """Puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
     curve, and sets the figure's size; `panels` are width and height of the panels together, in inches."""
     width, panels_inches = panels
@@ -127,7 +130,7 @@ def _share_scales(grid: np.ndarray, panels: int) -> None:
                 axes.set_ylim(low, high)
 
 
-def _place_legend(figure: Figure, handles, labels: Sequence[str], width: float) -> float:
+def _place_legend(figure: Figure, handles: Sequence[Artist], labels: Sequence[str], width: float) -> float:
     """Puts the legend at the bottom with as many columns as fit the width; returns the strip's height in inches."""
     renderer = FigureCanvasAgg(figure).get_renderer()
     labels = ["\n".join(textwrap.wrap(_plain(label), int(12 * width))) for label in labels]

@@ -4,7 +4,7 @@ import argparse
 import math
 import sys
 from pathlib import Path
-from typing import List, Sequence
+from typing import Any, List, Sequence
 
 from ..base.errors import InputError
 from ..base.files import make_folder
@@ -20,7 +20,7 @@ examples:
 """
 
 
-def add_parser(commands, version: str) -> None:
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
     pressure = commands.add_parser(
         "pressure",
         allow_abbrev=False,

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import List, Optional
+from typing import Any, List, Optional, Sequence
 
 import numpy as np
 
@@ -39,7 +39,7 @@ def difference(z: np.ndarray, reference: np.ndarray, other: np.ndarray) -> Diffe
     )
 
 
-def differences_at(reference: PressureWaves, other: PressureWaves, times) -> List[Difference]:
+def differences_at(reference: PressureWaves, other: PressureWaves, times: Sequence[float]) -> List[Difference]:
     """Differences at the given times, in ms, on the reference's points."""
     other = other.on(reference.z)
     return [difference(reference.z, reference.at(time), other.at(time)) for time in times]
@@ -61,7 +61,7 @@ def largest_difference(reference: PressureWaves, other: PressureWaves) -> OverTi
         return OverTime(0, None)
     all_levels = differences_at(reference, other, common)
 
-    def largest(name):
+    def largest(name: str) -> Any:
         values = [getattr(d, name) for d in all_levels if getattr(d, name) is not None]
         return max(values) if values else None
 

@@ -1,7 +1,7 @@
 """The pressure along the centre line over time, and the wave in it: crests and their speed."""
 
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Tuple
 
 import numpy as np
 
@@ -81,7 +81,7 @@ def peak(z: np.ndarray, pressure: np.ndarray) -> Crest:
     return crest_at(z, pressure, int(np.argmax(pressure)))
 
 
-def crest_speed(waves: PressureWaves, window=SPEED_WINDOW_MS) -> Optional[float]:
+def crest_speed(waves: PressureWaves, window: Tuple[float, float] = SPEED_WINDOW_MS) -> Optional[float]:
     """Speed in mm/ms of the main crest: slope of the least-squares line through its positions at the levels of
     `window`.
 

@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import time
 from dataclasses import dataclass
-from typing import IO, Callable, Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, IO, Iterable, List, NoReturn, Optional, Sequence, Tuple
 
 POLL = 0.1  # s
 
@@ -41,7 +41,7 @@ def run_jobs(
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
     fsi-compare is interrupted or asked to end, so are they. A program that cannot be started ends with code 1."""
 
-    def stop(*_):
+    def stop(*_: object) -> NoReturn:
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGTERM, stop)

@@ -34,10 +34,9 @@ class Run:
         return PROGRAMS[self.program]
 
 
-def read_run(folder) -> Run:
+def read_run(folder: Path) -> Run:
     """Reads `summary.json` and `centerline_pressure.csv`. Raises InputError naming file, key and problem unless the run
     is finished and both files are complete."""
-    folder = Path(folder)
     if not folder.exists():
         raise InputError(folder, "", "no such folder", "give the folder that a run wrote with -o")
     if not folder.is_dir():

@@ -6,7 +6,7 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import Dict, List, Optional
+from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
 from ..base.errors import InputError
 from ..base.files import make_folder
@@ -15,7 +15,11 @@ from ..base.suggestions import nearest
 from ..runs.programs import Program, find_mesh_maker, find_program
 from . import kinds
 from .overview import default_output, overview
+from .running.runner import Runner, remove_runs
 from .running.study_file import Study, read_study
+
+if TYPE_CHECKING:
+    from ..reporting.report import Report  # matplotlib takes a second to load
 
 READY = Path(__file__).resolve().parents[2] / "studies"
 
@@ -40,7 +44,7 @@ examples:
 """
 
 
-def add_parser(commands, version: str) -> None:
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
     study = commands.add_parser(
         "study",
         allow_abbrev=False,
@@ -88,8 +92,6 @@ def ready() -> List[str]:
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    from .running.runner import Runner, remove_runs
-
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
         if value is not None and value < 1:
             raise InputError("", name, f"{value} is not positive", "give 1 or more")
@@ -184,7 +186,7 @@ def study_path(text: str) -> Path:
     )
 
 
-def about(report, asked: Study, runner, programs) -> None:
+def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
     if runner.warning:

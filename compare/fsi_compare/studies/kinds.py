@@ -4,7 +4,7 @@ nothing. A kind that runs more than the study lists may have `also_runs(study)`,
 `also_standing(study, runner)`, how many of those are there."""
 
 import importlib
-from typing import Tuple
+from typing import Any, Tuple
 
 MODULES = {
     "paper": "paper.study",
@@ -17,6 +17,6 @@ MODULES = {
 NAMES: Tuple[str, ...] = tuple(MODULES)
 
 
-def kind(name: str):
+def kind(name: str) -> Any:
     """Loaded on demand: the pictures' library takes a second."""
     return importlib.import_module(f".{MODULES[name]}", __package__)

@@ -264,6 +264,14 @@ class Levels(unittest.TestCase):
         )
         self.assertEqual(table.rows[0][5:9], ["0.870", "0.820", "1.000", "0.180"])
         self.assertEqual(table.rows[1][5:9], ["0.670", "0.630", "-", "0.040"])
+        self.assertIn("Error: estimated by the difference of the two finest levels", table.notes[-1])
+
+    def test_one_level_has_no_error(self):
+        table = speed_table([self.wall("artery", 0.87)], ["coarse"])
+        self.assertEqual(table.rows[0][5:], ["0.870", "8.7"])
+        self.assertNotIn("error", [name for _, name in table.columns])
+        self.assertEqual(len(table.columns), len(table.rows[0]))
+        self.assertNotIn("Error: estimated", " ".join(table.notes))
 
 
 class PaperNumbers(unittest.TestCase):

@@ -1,13 +1,15 @@
 """Pictures of the accuracy-cost study: work against precision, and errors against element size and time step."""
 
-from typing import Dict, List, Mapping, Sequence
+from typing import Callable, Dict, List, Mapping, Sequence, Tuple
 
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ...reporting.pictures import finish
-from ..evidence.waves import QUANTITIES
+from ..evidence.waves import QUANTITIES, Quantity
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
@@ -52,7 +54,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
     return figure
 
 
-def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity, title: str) -> Figure:
+def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
     """Error of stopping early against seconds, a panel per mesh and step: shape by method, a line along tolerances."""
     everyone = [m for group in groups.values() for m in group]
     methods = _named(everyone, lambda m: (m.partitioned, m.run.request.method.label))
@@ -120,7 +122,7 @@ def _size(one: Series, j: int) -> float:
     return one.sizes[j] / one.sizes[-1] if one.what == SPACE else one.sizes[j]
 
 
-def _slopes(axes) -> None:
+def _slopes(axes: Axes) -> None:
     """Lines of first and second order through the picture's middle, for the eye."""
     xs = [x for line in axes.get_lines() for x in line.get_xdata() if x > 0]
     ys = [y for line in axes.get_lines() for y in line.get_ydata() if y > 0]
@@ -134,7 +136,7 @@ def _slopes(axes) -> None:
         )
 
 
-def _panels(count: int):
+def _panels(count: int) -> Tuple[Figure, List[Axes]]:
     columns = min(2, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
@@ -144,13 +146,20 @@ def _panels(count: int):
     return figure, list(panels.flat[:count])
 
 
-def _named(measured: Sequence[Measured], key) -> Dict[str, str]:
+def _named(measured: Sequence[Measured], key: Callable[[Measured], Tuple]) -> Dict[str, str]:
     """Name -> marker, in the order of the key, whose last part is the name."""
     names = list(dict.fromkeys(k[-1] for k in sorted({key(m) for m in measured})))
     return {name: MARKERS[i % len(MARKERS)] for i, name in enumerate(names)}
 
 
-def _scatter(axes, points, measured: Sequence[Measured], marker, size, gain: float) -> None:
+def _scatter(
+    axes: Axes,
+    points: Sequence[Tuple[float, float]],
+    measured: Sequence[Measured],
+    marker: Callable[[Measured], str],
+    size: Callable[[Measured], float],
+    gain: float,
+) -> None:
     """The frontier is numbered from the left, as its table is; dominated settings are grey and lie below."""
     best = frontier(points, gain)
     for i, ((x, y), m) in enumerate(zip(points, measured)):
@@ -180,14 +189,21 @@ def _scatter(axes, points, measured: Sequence[Measured], marker, size, gain: flo
         )
 
 
-def _mesh_handles(meshes: Mapping[str, str]):
+def _mesh_handles(meshes: Mapping[str, str]) -> Tuple[List[Artist], List[str]]:
     handles = [
         Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6) for marker in meshes.values()
     ]
     return handles, [f"{name} mesh" for name in meshes]
 
 
-def _finish(figure: Figure, handles, labels, measured: Sequence[Measured], title: str, drivers: bool = True) -> None:
+def _finish(
+    figure: Figure,
+    handles: List[Artist],
+    labels: List[str],
+    measured: Sequence[Measured],
+    title: str,
+    drivers: bool = True,
+) -> None:
     if drivers:
         handles.append(Line2D([], [], color=ON_FRONTIER, linewidth=1.0, marker="o", markersize=5))
         labels.append("on the frontier")
@@ -210,7 +226,7 @@ def _finish(figure: Figure, handles, labels, measured: Sequence[Measured], title
     finish(figure, handles, labels, title, (width, height))
 
 
-def _log(axes, name: str) -> None:
+def _log(axes: Axes, name: str) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(x=0.1, y=0.12)

@@ -1,12 +1,14 @@
 """The section [report] of an accuracy-cost study."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Tuple
 
 from ...base.errors import InputError
 from ...base.suggestions import check_keys, nearest
 from ..evidence.reference import WaveReference, read_reference
 from ..running.study_file import Study
+
+Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
 
 KEYS = ("references", "times", "targets", "method", "tight", "family")
 
@@ -69,7 +71,7 @@ def read_plan(study: Study) -> Plan:
     return plan
 
 
-def _references(study: Study, wrong) -> Dict[str, WaveReference]:
+def _references(study: Study, wrong: Wrong) -> Dict[str, WaveReference]:
     folders = study.report.get("references")
     if not isinstance(folders, dict) or not folders:
         raise wrong(
@@ -85,7 +87,7 @@ def _references(study: Study, wrong) -> Dict[str, WaveReference]:
     return {case: read_reference((study.path.parent / folder).resolve()) for case, folder in folders.items()}
 
 
-def _check_runs(study: Study, plan: Plan, wrong) -> None:
+def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
     low, high = plan.window
     for case, reference in plan.references.items():
         for waves in reference.waves.values():

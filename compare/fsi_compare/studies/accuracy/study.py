@@ -8,6 +8,7 @@ from typing import Dict, List, Optional, Sequence
 from ...base.names import MATERIALS
 from ...base.progress import duration
 from ...reporting.layout import Table, fixed
+from ...reporting.report import Report
 from ..evidence.runs_table import runs_table
 from ..evidence.waves import QUANTITIES, Quantity
 from ..running.context import Context
@@ -48,7 +49,14 @@ def evaluate(context: Context) -> int:
     return 0 if measured else 2
 
 
-def _summary(context: Context, plan: Plan, measured, found, cases, groups) -> None:
+def _summary(
+    context: Context,
+    plan: Plan,
+    measured: Sequence[Measured],
+    found: Sequence[Series],
+    cases: Sequence[str],
+    groups: Dict[str, dict],
+) -> None:
     report = context.report
     report.section("What to use")
     if not measured:
@@ -101,7 +109,7 @@ def _balance(found: Sequence[Series], case: str, quantity: Quantity) -> str:
     )
 
 
-def _method(report, plan: Plan, cases, timing: str) -> None:
+def _method(report: Report, plan: Plan, cases: Sequence[str], timing: str) -> None:
     report.section("How it is measured")
     for case in cases:
         reference = plan.references[case]
@@ -123,7 +131,7 @@ def _method(report, plan: Plan, cases, timing: str) -> None:
     )
 
 
-def _total(report, case: str, measured: Sequence[Measured], several: bool) -> None:
+def _total(report: Report, case: str, measured: Sequence[Measured], several: bool) -> None:
     name = f", {MATERIALS.get(case, case)}" if several else ""
     stem = f"_{case}" if several else ""
     report.section(f"Total error against seconds{name}")
@@ -152,7 +160,7 @@ def _total(report, case: str, measured: Sequence[Measured], several: bool) -> No
         report.table(table)
 
 
-def _orders(report, found: Sequence[Series], cases) -> None:
+def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> None:
     report.section("Observed orders")
     if not found:
         report.text("No three runs differ in mesh or time step alone.")
@@ -241,7 +249,7 @@ def _same_equations(measured: Sequence[Measured], plan: Plan) -> Dict[str, dict]
     return found
 
 
-def _algebraic(report, groups: Dict[str, dict], plan: Plan) -> None:
+def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
     report.section("The solver's error alone")
     if not groups:
         report.text("No tight solution to compare with.")

@@ -8,12 +8,12 @@ Groups by name, or by name and a suffix (passes, passes-fine), each of which may
   cost       the schemes and the monolithic driver; the first method is the reference
 `[report]`: `sweeps` (see sweeps); `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
 
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.names import MATERIALS
 from ...base.suggestions import check_keys
-from ...reporting.cost import cost_table, read_cost
+from ...reporting.cost import Cost, cost_table, read_cost
 from ...reporting.layout import Table, fixed
 from ...runs.differences import largest_difference
 from ..evidence.cross_check import WRONG, Cell
@@ -144,7 +144,8 @@ def mesh_name(run: StudyRun) -> str:
     return run.request.mesh.name if run.request.mesh else ""
 
 
-def step_range(run: StudyRun):
+def step_range(run: StudyRun) -> Tuple[float, int, int, int]:
+    """Mean, least and most coupling iterations of a step, and the number of steps."""
     outer = run.columns("iterations.csv")["outer_iterations"]
     return float(outer.mean()), int(outer.min()), int(outer.max()), len(outer)
 
@@ -324,7 +325,7 @@ def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
                 context.report.table(saving)
 
 
-def saving_table(runs: Sequence[StudyRun], costs, stem: str, title: str) -> Optional[Table]:
+def saving_table(runs: Sequence[StudyRun], costs: Sequence[Cost], stem: str, title: str) -> Optional[Table]:
     """What the cheapest monolithic run saves of each partitioned one: 1 - monolithic/partitioned, per step. The paper
     counts "almost 50 %"."""
     whole = [cost for run, cost in zip(runs, costs) if run.request.method.program == MONOLITHIC]

@@ -1,7 +1,7 @@
 """How each run ended, and whether what it says it solved is what the other driver finds."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...runs.differences import largest_difference
@@ -77,24 +77,36 @@ def cells(runs: Sequence[StudyRun], references: Sequence[str], one_pass: Sequenc
     return [found[id(run)] for run in runs]
 
 
-def _at_point(runs, references, one_pass, bound) -> List[Tuple[StudyRun, Cell]]:
+def _at_point(
+    runs: Sequence[StudyRun], references: Sequence[str], one_pass: Sequence[str], bound: float
+) -> List[Tuple[StudyRun, Cell]]:
     waves = {run.request.method.name: waves_of(run) for run in runs}
     by_name = {run.request.method.name: run for run in runs}
     reference = next((by_name[name] for name in references if waves.get(name) is not None), None)
     return [(run, _cell(run, reference, by_name, waves, one_pass, bound)) for run in runs]
 
 
-def _cell(run, reference, by_name, waves, one_pass, bound) -> Cell:
+def _cell(
+    run: StudyRun,
+    reference: Optional[StudyRun],
+    by_name: Mapping[str, StudyRun],
+    waves: Mapping[str, Optional[PressureWaves]],
+    one_pass: Sequence[str],
+    bound: float,
+) -> Cell:
     name = run.request.method.name
     own = waves[name]
     levels = 0 if own is None else len(own.times)
-    against, difference, common = None, None, 0
+    against: Optional[StudyRun] = None
+    difference: Optional[float] = None
+    common = 0
     if own is not None and reference is not None:
         if run is reference:
-            against, difference, common = _confirmed_by(run, by_name, waves, one_pass)
+            against, difference, common = _confirmed_by(run, own, by_name, waves, one_pass)
         else:
-            against = reference
-            difference, common = difference_of(waves[reference.request.method.name], own, of_all=name in one_pass)
+            against, expected = reference, waves[reference.request.method.name]
+            assert expected is not None, "a reference has waves"
+            difference, common = difference_of(expected, own, of_all=name in one_pass)
     outcome = run.status if run.status != DONE else AGREES
     if run.status == NOT_FINITE:
         outcome = NOT_FINITE
@@ -108,13 +120,20 @@ def _cell(run, reference, by_name, waves, one_pass, bound) -> Cell:
     return Cell(run, outcome, levels, difference, against)
 
 
-def _confirmed_by(run, by_name, waves, one_pass):
+def _confirmed_by(
+    run: StudyRun,
+    own: PressureWaves,
+    by_name: Mapping[str, StudyRun],
+    waves: Mapping[str, Optional[PressureWaves]],
+    one_pass: Sequence[str],
+) -> Tuple[Optional[StudyRun], Optional[float], int]:
     """The run of the other driver that bears this one out best: over most time levels, then most closely."""
     best: Optional[Tuple[StudyRun, float, int]] = None
     for name, other in by_name.items():
-        if waves[name] is None or name in one_pass or other.request.method.program == run.request.method.program:
+        theirs = waves[name]
+        if theirs is None or name in one_pass or other.request.method.program == run.request.method.program:
             continue
-        difference, common = difference_of(waves[run.request.method.name], waves[name])
+        difference, common = difference_of(own, theirs)
         if difference is not None and (best is None or (-common, difference) < (-best[2], best[1])):
             best = other, difference, common
     return best or (None, None, 0)

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from ...reporting.layout import Table
 from ...reporting.pictures import PANEL_INCHES, finish
+from ...reporting.report import Report
 from ..running.study_run import StudyRun
 
 FILE = "energy.csv"
@@ -157,7 +158,9 @@ def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str =
     return table
 
 
-def energy_section(report, runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "energy") -> List[Balance]:
+def energy_section(
+    report: Report, runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "energy"
+) -> List[Balance]:
     """Table and picture of the runs that have a balance; a sentence where none has."""
     found = [(balance(run), label) for run, label in zip(runs, labels)]
     balances = [one for one, _ in found if one is not None]

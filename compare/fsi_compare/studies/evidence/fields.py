@@ -3,7 +3,7 @@
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict
+from typing import Any, Dict
 
 import h5py
 import numpy as np
@@ -44,12 +44,12 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
     return media
 
 
-def _medium(folder: Path, grid) -> Medium:
+def _medium(folder: Path, grid: Any) -> Medium:
     data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
     return Medium(_item(folder, grid.find("Geometry")), _item(folder, grid.find("Topology")).astype(np.int64), data)
 
 
-def _item(folder: Path, element) -> np.ndarray:
+def _item(folder: Path, element: Any) -> np.ndarray:
     """The data set named by the element, `FILE:/PATH`."""
     file, _, name = element.find("DataItem").text.strip().partition(":")
     try:

@@ -1,9 +1,10 @@
 """Pictures of a tube cut along its axis: the deformed wall, and the velocity of the fluid in it."""
 
 from dataclasses import dataclass
-from typing import Mapping, Optional, Sequence
+from typing import List, Mapping, Optional, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -79,11 +80,11 @@ def _in_plane(vectors: np.ndarray) -> np.ndarray:
     return np.column_stack((vectors[:, 2], vectors @ np.array([np.cos(ANGLE), np.sin(ANGLE), 0.0])))
 
 
-def _from_inside(wall: Medium):
+def _from_inside(wall: Medium) -> List[int]:
     """The layers' numbers, innermost first."""
     radius = np.linalg.norm(wall.points[:, :2], axis=1)[wall.cells].mean(axis=1)
     layers = np.unique(wall.data["layer"])
-    return sorted(layers, key=lambda layer: radius[wall.data["layer"] == layer].mean())
+    return sorted(layers.tolist(), key=lambda layer: float(radius[wall.data["layer"] == layer].mean()))
 
 
 def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, factor: float) -> Figure:
@@ -147,7 +148,7 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     return figure
 
 
-def _arrows(axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
+def _arrows(axes: Axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
     """Direction and size of the velocity on a regular grid of points."""
     z, x = one.fluid.reshape(-1, 2).T
     points, index = np.unique(np.round(one.fluid.reshape(-1, 2), 9), axis=0, return_inverse=True)

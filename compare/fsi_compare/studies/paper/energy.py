@@ -5,6 +5,7 @@ from typing import Dict, List, Sequence, Tuple
 
 from ...base.names import MATERIALS
 from ...reporting.layout import Table
+from ...reporting.report import Report
 from ..evidence.energy_plots import Balance, balance, energy_section
 from ..running.study_run import StudyRun
 from .runs import GROUPS, MONOLITHIC, RESOLVED, STOPPED_EARLY, WAVES, PaperRuns
@@ -26,7 +27,7 @@ class Remainder:
     run: str  # which
 
 
-def write_energy(report, runs: PaperRuns) -> None:
+def write_energy(report: Report, runs: PaperRuns) -> None:
     """A section; none where the waves have no run."""
     waves = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
     shown = [(material, run) for material, run in waves if run]

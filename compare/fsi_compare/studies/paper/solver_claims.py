@@ -3,7 +3,7 @@
 import itertools
 import math
 import sys
-from typing import Callable, Collection, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Collection, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
 from ...base import paper
 from ...base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
@@ -119,7 +119,7 @@ def _mesh_claim(meshes: Mapping[str, Mapping[str, int]]) -> Claim:
 Finding = Optional[Tuple[str, str, str]]  # verdict, numbers, why
 
 
-def _first_steps(grid: Grid):
+def _first_steps(grid: Grid) -> Iterator[Tuple[str, str, List[float]]]:
     """(material, mesh, norms of the increments) in the first time step."""
     for material in grid.materials:
         for mesh in grid.meshes:
@@ -177,12 +177,13 @@ def _same_newton(grid: Grid) -> Finding:
     return verdict(spread <= SAME_NEWTON, partly=spread <= ABOUT_SAME_NEWTON), numbers, ""
 
 
-def _cells(grid: Grid, names: Sequence[str]):
+def _cells(grid: Grid, names: Sequence[str]) -> Iterator[Tuple[str, str, Dict[str, int]]]:
     """(material, mesh, counts by name) of the cells where all of them converged, at the first system."""
     for material in grid.materials:
         for mesh in grid.meshes:
-            counts = {name: grid.entry(material, mesh, FIRST_SYSTEM, name).iterations for name in names}
-            if None not in counts.values():
+            entries = {name: grid.entry(material, mesh, FIRST_SYSTEM, name).iterations for name in names}
+            counts = {name: count for name, count in entries.items() if count is not None}
+            if len(counts) == len(entries):
                 yield material, mesh, counts
 
 

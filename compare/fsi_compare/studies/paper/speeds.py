@@ -166,6 +166,7 @@ def with_error(value: float, error: Optional[float], form: str) -> str:
 
 def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
     crest, height = "crest, 4.5 to 9 ms", "mean peak in Pa, 4.5 to 9 ms"
+    errors = ("error",) if len(levels) > 1 else ()  # one level tells none
     table = Table(
         stem="wave_speed",
         title="Speed of the pressure wave in mm/ms (m/s)",
@@ -176,9 +177,9 @@ def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
             ("thick wall, held", "long waves"),
             ("thick wall, held", "kR = 1"),
             *((crest, level) for level in levels),
-            (crest, "error"),
+            *((crest, error) for error in errors),
             *((height, level) for level in levels),
-            (height, "error"),
+            *((height, error) for error in errors),
         ],
         csv_columns=[
             "material",
@@ -197,7 +198,9 @@ def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
             "Moens-Korteweg: c^2 = E h / (2 rho R) with the hoop modulus E of both layers together, inner radius R. "
             "Thick wall: c^2 = R/(2 rho) dp/du from the closed-form inflation of the two layers; kR: wave number "
             "times radius, with the fluid's added mass and the wall's mass.",
-            "Error: estimated by the difference of the two finest levels of the row." + _resolved_note(levels),
+            "Error: estimated by the difference of the two finest levels of the row." + _resolved_note(levels)
+            if errors
+            else "The study has one level of resolution, which tells no error of its own: see table `mesh_error`.",
         ],
     )
     for s in found:
@@ -205,7 +208,7 @@ def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
         row = [s.label, *(f"{v:.3f}" for v in (s.free, s.held, s.long, s.dispersed))]
         for name, form in (("speed", ".3f"), ("height", ".1f")):
             row += [fixed(getattr(s.measured[level], name) if level in s.measured else None, form) for level in levels]
-            row.append(fixed(getattr(last, f"{name}_error") if last else None, form))
+            row += [fixed(getattr(last, f"{name}_error") if last else None, form) for _ in errors]
         table.rows.append(row)
         table.csv_rows += [
             [

@@ -13,6 +13,7 @@ from ...base.names import MATERIALS
 from ...base.suggestions import check_keys, nearest
 from ...linear import solver_pictures
 from ...linear.solver_tables import Grid, solver_tables
+from ...reporting.report import Report
 from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
 from ..evidence.tube import Tube, read_tube
@@ -26,9 +27,10 @@ from .answer import Found, answer
 from .claims import claims_table, rules_table, tally
 from .energy import write_energy
 from .runs import DENSITY, GROUPS, MONOLITHIC, PARTITIONED, WAVES, PaperRuns, mesh_of
-from .speeds import Speeds
 from .solver_claims import comparisons, solver_claims
+from .speeds import Speeds
 from .wave_claims import wave_claims
+from .waves import Stopped
 
 REPORT_KEYS = ("linear",)
 
@@ -135,7 +137,9 @@ def evaluate(context: Context) -> int:
     return 2 if missing else 0
 
 
-def _stopped(report, runs: PaperRuns, reference: StudyRun, stopped, errors: Mapping[Path, MeshError]) -> None:
+def _stopped(
+    report: Report, runs: PaperRuns, reference: StudyRun, stopped: Sequence[Stopped], errors: Mapping[Path, MeshError]
+) -> None:
     report.section("Why a partitioned wave can differ")
     report.text("The same partitioned program, told to accept an interface that does not match yet:")
     error = errors.get(reference.folder)
@@ -148,7 +152,7 @@ def _stopped(report, runs: PaperRuns, reference: StudyRun, stopped, errors: Mapp
     report.table(paper_waves.stopped_table(reference, stopped))
 
 
-def _linear(report, grid: Grid) -> None:
+def _linear(report: Report, grid: Grid) -> None:
     for table in solver_tables(grid):
         report.table(table)
     if len(grid.meshes) < 2:
@@ -165,7 +169,7 @@ def _linear(report, grid: Grid) -> None:
             report.image(path, f"{what}; first Newton system from rest.")
 
 
-def _speeds(report, runs: PaperRuns, speeds: Sequence[Speeds]) -> None:
+def _speeds(report: Report, runs: PaperRuns, speeds: Sequence[Speeds]) -> None:
     report.section("Speed of the wave")
     tubes: Dict[str, Tube] = {
         material: read_tube(runs.all(WAVES, material)[0].request.case_file) for material in runs.materials
@@ -184,7 +188,7 @@ def _speeds(report, runs: PaperRuns, speeds: Sequence[Speeds]) -> None:
     report.table(paper_speeds.speed_table(speeds, levels))
 
 
-def _cost(report, costs) -> None:
+def _cost(report: Report, costs: Sequence[paper_cost.StepCost]) -> None:
     report.section("Cost")
     own = paper_cost.paper_rounds()
     report.text(
@@ -199,7 +203,7 @@ def _cost(report, costs) -> None:
         report.table(paper_cost.saving_table(saved))
 
 
-def _phases(report, runs: PaperRuns, costs) -> None:
+def _phases(report: Report, runs: PaperRuns, costs: Sequence[paper_cost.StepCost]) -> None:
     shown: List[StudyRun] = [c.run for c in costs]
     if not shown:
         shown = [run for method in (MONOLITHIC, PARTITIONED) for run in runs.all(WAVES, method=method)]

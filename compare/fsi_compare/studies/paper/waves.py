@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from ...base.names import MATERIALS, MESHES
 from ...reporting.layout import Table, fixed
 from ...reporting.pictures import pressure_figure
+from ...reporting.report import Report
 from ...runs.differences import largest_difference
 from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
@@ -39,7 +40,7 @@ def shown_waves(runs: PaperRuns) -> List[StudyRun]:
     return [run for run in waves if run] + runs.all(RESOLVED)
 
 
-def three_walls(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+def three_walls(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
     """The picture that the report opens with, and how far its waves are from the reference."""
     mesh = runs.finest
     found = [(material, runs.wave(material, mesh)) for material in runs.materials]
@@ -58,7 +59,7 @@ def three_walls(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> No
         report.table(error_table(waves, [errors[run.folder] for run in waves]))
 
 
-def driver_pictures(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+def driver_pictures(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
     """A picture for each wall whose waves both drivers have; the caption says how far they are apart."""
     mesh = runs.finest
     for material in runs.materials:
@@ -223,7 +224,7 @@ def stopped_figure(reference: StudyRun, runs: PaperRuns) -> Figure:
 # ---- fields
 
 
-def tube_picture(report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+def tube_picture(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
     """A section with the three walls at 8 ms, all with one magnification; none where no run holds fields."""
     media, names, own = [], [], []
     for material in runs.materials:

@@ -4,7 +4,7 @@ import itertools
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.suggestions import check_keys, nearest
@@ -208,7 +208,17 @@ class _Reader:
             )
         return StudyMesh(name, str(entry.get("label", name)), tuple(options))
 
-    def group(self, name: str, group: Any, cases, methods, meshes, settings, of_case, limit: float) -> List[Request]:
+    def group(
+        self,
+        name: str,
+        group: Any,
+        cases: Mapping[str, Path],
+        methods: Mapping[str, Method],
+        meshes: Mapping[str, StudyMesh],
+        settings: Mapping[str, Any],
+        of_case: Mapping[str, Mapping[str, Any]],
+        limit: float,
+    ) -> List[Request]:
         key = f"runs.{name}"
         self.known(key, group, GROUP_KEYS)
         if self.quick:
@@ -241,7 +251,7 @@ class _Reader:
         return requests
 
     def value(
-        self, key: str, quantity: str, value: Any, meshes
+        self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]
     ) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
         """(quantity, what is shown, settings, mesh) of one value on an axis."""
         if quantity == MESH:
@@ -264,7 +274,7 @@ class _Reader:
             raise self.wrong(key, "is not a section", f"its keys are {', '.join(keys)}")
         check_keys(self.path, key, entry, keys)
 
-    def one_of(self, key: str, name: Any, names) -> str:
+    def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
         if name not in names:
             raise self.wrong(
                 key,

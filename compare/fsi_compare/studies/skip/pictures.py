@@ -3,6 +3,7 @@
 import math
 from typing import Sequence
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter
@@ -42,7 +43,7 @@ def bars_figure(measured: Sequence) -> Figure:
     return figure
 
 
-def _bars(axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
+def _bars(axes: Axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
     shown = [value for pair in pairs for value in pair if value > 0]
     low = 10 ** math.floor(math.log10(min(shown)) - 0.3) if shown else 0.1
     high = max(shown) if shown else 1.0

@@ -4,7 +4,7 @@ They also tell the noise of the seconds, and a ratio inside it is marked as such
 
 import statistics
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.suggestions import check_keys, nearest
@@ -36,7 +36,7 @@ def check(study: Study) -> None:
     economies(study, study.requests, lambda request: request)
 
 
-def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
+def economies(study: Study, items: Sequence[Any], request_of: Callable[[Any], Request]) -> List[Economy]:
     """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are left
     out."""
     repeat = study.report.get("repeat", "repeat")
@@ -66,7 +66,14 @@ def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
     return found
 
 
-def _economy(study: Study, name: str, entry: Mapping[str, str], groups, repeat: str, request_of) -> Economy:
+def _economy(
+    study: Study,
+    name: str,
+    entry: Mapping[str, str],
+    groups: Mapping[str, Mapping[Tuple, List[Any]]],
+    repeat: str,
+    request_of: Callable[[Any], Request],
+) -> Economy:
     forms = list(groups[name].items())
     if "off" in entry:
         if entry["off"] not in groups:
@@ -85,7 +92,7 @@ def _economy(study: Study, name: str, entry: Mapping[str, str], groups, repeat: 
             "give two: first with the economy, then without",
         )
 
-    def label(items) -> str:
+    def label(items: Sequence[Any]) -> str:
         request = request_of(items[0])
         return ", ".join(show(v) for k, v in request.values.items() if k != repeat) or request.case
 

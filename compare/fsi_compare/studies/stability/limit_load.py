@@ -11,7 +11,7 @@ a bulge sets in [Fu2016], which lengthens where it widens.
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -96,10 +96,10 @@ class Wall:
         return 0.5 * (low + high)
 
 
-def read_wall(settings: Mapping, wrong) -> Wall:
+def read_wall(settings: Mapping, wrong: Callable[[str, str, str], InputError]) -> Wall:
     """From the study's [report.tube]. `wrong(key, problem, remedy)` makes the error."""
 
-    def positive(value) -> bool:
+    def positive(value: Any) -> bool:
         return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
 
     def numbers(name: str) -> List[float]:

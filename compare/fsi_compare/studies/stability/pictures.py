@@ -2,8 +2,9 @@
 
 import math
 import textwrap
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Set, Tuple
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
@@ -87,7 +88,7 @@ def text_of(cell: Cell) -> str:
     return f"time, step {cell.levels + 1}" if cell.outcome == OUT_OF_TIME else "refused"
 
 
-def _draw(axes, column: int, row: int, cell: Cell) -> None:
+def _draw(axes: Axes, column: int, row: int, cell: Cell) -> None:
     look = (
         FAULT
         if cell.outcome in FAULTS
@@ -110,7 +111,7 @@ def _draw(axes, column: int, row: int, cell: Cell) -> None:
     )
 
 
-def _legend(outcomes) -> Tuple[List[Patch], List[str]]:
+def _legend(outcomes: Set[str]) -> Tuple[List[Patch], List[str]]:
     handles = [Patch(facecolor=shade(n), edgecolor="#aaaaaa", linewidth=0.5) for n in (1, 30, 500)]
     labels = ["converged, 1 iteration a step", "30", "500"]
     names = {
