@@ -139,8 +139,8 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
     report.figure(
         f"work_precision{stem}",
         lambda: pictures.work_precision(measured, title),
-        "Each mark is a run: shape by mesh, size by time step, hollow for the partitioned driver. **Black**: "
-        "on the frontier, numbered as in the tables; **grey**: dominated.",
+        f"Each mark is a run: shape by mesh, size by time step{_hollow(measured)}. **Black**: on the frontier, numbered as "
+        "in the tables; **grey**: dominated.",
     )
     for quantity in QUANTITIES:
         best = frontier([(m.seconds, m.total[quantity.column]) for m in measured], GAIN)
@@ -158,6 +158,10 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
             )
             table.csv_rows.append([number, m.equations, m.solving, m.total[quantity.column], m.seconds])
         report.table(table)
+
+
+def _hollow(measured: Sequence[Measured]) -> str:
+    return ", hollow for the partitioned driver" if any(m.partitioned for m in measured) else ""
 
 
 def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> None:
@@ -255,13 +259,13 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
         report.text("No tight solution to compare with.")
         return
     runs_by_name = {name: group["runs"] for name, group in groups.items()}
+    everyone = [m for runs in runs_by_name.values() for m in runs]
     for quantity in QUANTITIES:
         title = f"Solver's error in {quantity.name} against seconds"
         report.figure(
             f"algebraic_{quantity.file.split('.')[0]}",
             lambda: pictures.algebraic_work_precision(runs_by_name, quantity, title),
-            "Shape by method, a thin line along its tolerances; hollow: partitioned. Black and numbered: the "
-            "frontier.",
+            f"Shape by method, a thin line along its tolerances{_hollow(everyone)}. Black and numbered: the frontier.",
         )
     for i, (name, group) in enumerate(groups.items(), 1):
         runs = group["runs"]

@@ -8,7 +8,8 @@ Groups by name, or by name and a suffix (passes, passes-fine), each of which may
   cost       the schemes and the monolithic driver; the first method is the reference
 `[report]`: `sweeps` (see sweeps); `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
 
-from typing import List, Optional, Sequence, Tuple
+from collections import Counter
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.names import MATERIALS
@@ -19,13 +20,14 @@ from ...runs.differences import largest_difference
 from ..evidence.cross_check import WRONG, Cell
 from ..running.context import Context
 from ..running.study_file import Study, show
-from ..running.study_run import StudyRun
+from ..running.study_run import DONE, StudyRun
 from . import added_mass_runs, sweeps
 from .pictures import passes_figure
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
 REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)
 MONOLITHIC = sweeps.MONOLITHIC
+AGREE = 1e-3  # relative difference of pressures that no picture shows
 
 
 def check(study: Study) -> None:
@@ -50,8 +52,10 @@ def also_runs(study: Study) -> List[str]:
 
 def evaluate(context: Context) -> int:
     report = context.report
+    passes, agreement = chosen(context, "passes"), chosen(context, "agreement")
+    report.section("In short")
+    report.list(in_short(passes, agreement_table(agreement) if agreement else None, context.runs))
     report.section("Coupling iterations")
-    passes = chosen(context, "passes")
     if passes:
         report.text(
             "Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; "
@@ -61,7 +65,6 @@ def evaluate(context: Context) -> int:
         growth = growth_table(passes)
         if growth.rows:
             report.table(growth)
-    agreement = chosen(context, "agreement")
     if agreement:
         report.text(
             "The converged partitioned step and the monolithic step solve the same equations. Largest "
@@ -95,6 +98,43 @@ def evaluate(context: Context) -> int:
     return 2 if missing or wrong else 0
 
 
+def in_short(passes: Sequence[StudyRun], agreement: Optional[Table], runs: Sequence[StudyRun]) -> List[str]:
+    """The findings in words; of what was not run nothing is said. `agreement`: see agreement_table."""
+    lines = []
+    means: Dict[str, List[float]] = {}
+    for run in passes:
+        if run.done:
+            means.setdefault(run.request.method.label, []).append(run.passes)
+    if means:
+        best, worst = (pick(means, key=lambda label: max(means[label])) for pick in (min, max))
+        line = f"Fewest coupling iterations a step: {best}, {_span(means[best])} over walls and meshes"
+        lines.append(line + (f"; most: {worst}, {_span(means[worst])}." if worst != best else "."))
+    column = agreement.csv_columns.index("largest_relative_difference") if agreement else 0
+    differences = [row[column] for row in agreement.csv_rows if row[column] is not None] if agreement else []
+    if differences:
+        lines.append(
+            f"Converged steps and monolithic ones agree: the pressure differs by at most {max(differences):.1e} of the "
+            f"largest pressure of a time level, in {len(differences)} runs."
+            if max(differences) < AGREE
+            else f"Converged steps and monolithic ones do not agree: the pressure differs by up to {max(differences):.1e} "
+            "of the largest pressure of a time level."
+        )
+    statuses = {run.folder: run.status for run in runs}  # the same run asked for twice is one
+    failed = Counter(status for status in statuses.values() if status != DONE)
+    shown = ", ".join(f"{count} {status}" for status, count in failed.items())
+    lines.append(
+        f"{failed.total()} of {len(statuses)} runs did not come to their end: {shown}."
+        if failed
+        else f"All {len(statuses)} runs came to their end."
+    )
+    return lines
+
+
+def _span(values: Sequence[float]) -> str:
+    low, high = f"{min(values):.1f}", f"{max(values):.1f}"
+    return low if low == high else f"{low} to {high}"
+
+
 def sweep_section(context: Context, group: str, label: str, heading: str) -> List[Cell]:
     """The runs at fault."""
     runs = chosen(context, group)
@@ -107,8 +147,13 @@ def sweep_section(context: Context, group: str, label: str, heading: str) -> Lis
     context.report.figure(
         f"passes_{group}",
         lambda: passes_figure(sweeps.series(found), label, runs[0].request.settings, settings.bound),
-        f"Mean coupling iterations per step against the {label}. In the strip above, a mark per scheme: the run failed "
-        "there, i.e. it diverged or reached its limit of iterations, and said so."
+        f"Mean coupling iterations per step against the {label}."
+        + (
+            " In the strip above, a mark per scheme: the run failed there, i.e. it diverged or reached its limit of "
+            "iterations, and said so."
+            if any(value is None for line in sweeps.series(found) for value in line.passes)
+            else ""
+        )
         + (
             " Crossed out: the run came to its end with another answer than the monolithic one."
             if any(sweeps.off(cell) for cell in found)

@@ -157,7 +157,7 @@ def evaluate(context: Context) -> int:
         "skip",
         lambda: bars_figure(measured),
         "Seconds of a run and the work that the economy is about, each on its own logarithmic scale. Behind "
-        "the bars: without over with. Grey: the seconds differ by no more than their noise.",
+        "the bars: without over with." + (" Grey: the seconds differ by no more than their noise." if silent else ""),
     )
     report.table(_table(measured))
     return 2 if broken else 0

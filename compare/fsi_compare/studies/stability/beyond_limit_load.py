@@ -93,13 +93,23 @@ def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings)
         for run in own
         if run.levels is not None and not run.at_rest and run.cell.method == settings.references[0]
     ]
-    if waves:
+    shown = waves[:CURVES]
+    if shown:
         report.figure(
             "long_pulses",
-            lambda: pulse_figure(waves[:CURVES], "Inflation by pulses of different length"),
-            "Largest radial displacement of the inner face. A dot: the run reached its end, which is later "
-            "for longer pulses. A cross: it ended with a message, for want of a solution of the next step. "
-            "Curves of longer pulses coincide until the shorter one ends.",
+            lambda: pulse_figure(shown, "Inflation by pulses of different length"),
+            "Largest radial displacement of the inner face."
+            + (
+                " A dot: the run reached its end, which is later for longer pulses."
+                if any(w.done for w in shown)
+                else ""
+            )
+            + (
+                " A cross: it ended with a message, for want of a solution of the next step."
+                if not all(w.done for w in shown)
+                else ""
+            )
+            + (" Curves of longer pulses coincide until the shorter one ends." if len(shown) > 1 else ""),
         )
     report.table(limit_load_table(runs, settings))
 
