@@ -104,7 +104,7 @@ class Layering(unittest.TestCase):
         self.write("common/mesh/a.hpp", '#include "mesh/b.hpp"\n')
         self.write("common/mesh/b.hpp", '\n#include "a.hpp"\n')
         self.assert_problem(
-            "common/mesh/b.hpp:2: include cycle: common/mesh/a.hpp -> common/mesh/b.hpp -> " "common/mesh/a.hpp"
+            "common/mesh/b.hpp:2: include cycle: common/mesh/a.hpp -> common/mesh/b.hpp -> common/mesh/a.hpp"
         )
 
     def test_cycle_of_three(self):

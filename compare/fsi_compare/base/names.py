@@ -3,9 +3,11 @@
 from typing import List, Sequence
 
 from .errors import InputError
+from .suggestions import nearest
 
 MATERIALS = {"neo-hookean": "neo-Hookean", "mooney-rivlin": "Mooney-Rivlin", "artery": "artery"}
 MESHES = {"coarse": "C", "intermediate": "I", "fine": "F"}
+MESH_NODES = {"coarse": 1e3, "intermediate": 7e3, "fine": 55e3}  # about, to weigh the work of runs
 
 # The paper's block preconditioners of GMRES (its Table 4); each also with exact sub-solves.
 BLOCK_PRECONDITIONERS = {"diagonal": "P_D", "lower": "P_L", "upper": "P_U", "ssor": "P_SSOR", "ilu": "P_ILU"}
@@ -29,22 +31,8 @@ def pick(option: str, text: str, known: Sequence[str]) -> List[str]:
     for name in names:
         if name not in known:
             raise InputError(
-                "", option, f"'{name}' is unknown", f"nearest: {nearest(name, known)}; names are " f"{', '.join(known)}"
+                "", option, f"'{name}' is unknown", f"nearest: {nearest(name, known)}; names are {', '.join(known)}"
             )
         if names.count(name) > 1:
             raise InputError("", option, f"'{name}' is given twice", "give each name once")
     return names
-
-
-def nearest(name: str, known: Sequence[str]) -> str:
-    """The known name with the smallest edit distance; of equals the first."""
-    return min(known, key=lambda candidate: _edit_distance(name, candidate))
-
-
-def _edit_distance(a: str, b: str) -> int:
-    row = list(range(len(b) + 1))
-    for i, x in enumerate(a, 1):
-        diagonal, row[0] = row[0], i
-        for j, y in enumerate(b, 1):
-            diagonal, row[j] = row[j], min(row[j] + 1, row[j - 1] + 1, diagonal + (x != y))
-    return row[len(b)]

@@ -102,7 +102,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str,
         metavar="DIR",
         type=Path,
         default=CASES,
-        help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of " "the sources)",
+        help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of the sources)",
     )
     solvers.add_argument(
         "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"

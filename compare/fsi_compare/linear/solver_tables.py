@@ -193,7 +193,7 @@ def block_table(grid: Grid, key: System) -> Table:
     table.notes = marks.notes()
     if with_exact:
         table.notes.append(
-            f"!: more than {EXACT_RATIO:g} times the count with exact sub-solves: " f"{wide if wide else 'none'}"
+            f"!: more than {EXACT_RATIO:g} times the count with exact sub-solves: {wide if wide else 'none'}"
         )
     table.notes.append(_order_note(grid, key))
     return table

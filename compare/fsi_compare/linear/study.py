@@ -10,6 +10,7 @@ from typing import List, Optional, Sequence, Tuple
 
 from ..base.errors import InputError
 from ..base.files import make_folder, replacing
+from ..base.names import MESH_NODES
 from ..base.progress import Progress
 from ..runs.case_digest import case_digest
 from ..runs.processes import End, execute
@@ -67,9 +68,6 @@ class Request:
         for file in self.files:
             digest.update(file.read_bytes())
         return {"inputs": digest.hexdigest(), "settings": list(self.settings), "threads": self.threads}
-
-
-MESH_NODES = {"coarse": 1e3, "intermediate": 7e3, "fine": 55e3}
 
 
 @dataclass(frozen=True)

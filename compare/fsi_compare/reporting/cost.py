@@ -258,13 +258,13 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
         table.notes.append(
-            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do " "not compare."
+            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
         )
     if len({(c.mesh, c.steps) for c in costs}) > 1:
         table.notes.append("The runs differ in mesh or number of steps.")
     parts = [c.label for c in costs if c.restarted_from is not None]
     if parts:
         table.notes.append(
-            f"Restarted, so that solves, factorisations and memory are those of the last part: " f"{', '.join(parts)}."
+            f"Restarted, so that solves, factorisations and memory are those of the last part: {', '.join(parts)}."
         )
     return table

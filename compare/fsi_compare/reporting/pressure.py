@@ -122,7 +122,7 @@ def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
             raise InputError(
                 path,
                 "z_mm",
-                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from " f"{z[0]:g} to {z[-1]:g} mm",
+                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm",
                 "compare runs on the same geometry",
             )
 

@@ -23,7 +23,7 @@ def read_columns(path: Path, needed: Sequence[str] = ()) -> Dict[str, np.ndarray
         raise InputError(path, "", "is empty", "run it again")
     if not text.endswith("\n"):
         raise InputError(
-            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it " "again"
+            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it again"
         )
     names = [name.strip() for name in lines[0].split(",")]
     for name in needed:

@@ -158,7 +158,7 @@ class CommandLine(FolderCase):
     def test_time_outside_names_the_range(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES[:24])
         self.assert_refused(
-            "short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between " "0.125 and 3 ms",
+            "short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between 0.125 and 3 ms",
             "pressure",
             self.one,
             short,
@@ -230,7 +230,7 @@ class BuiltProgram(unittest.TestCase):
         done = self.call("pressure", "/nowhere")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertEqual(
-            done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote " "with -o\n"
+            done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote with -o\n"
         )
 
 

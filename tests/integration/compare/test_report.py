@@ -78,8 +78,7 @@ class OneFile(FolderCase):
         text = (self.base / "report.md").read_text()
         self.assertIn("# A <title> & more\n\n## Numbers with `code`\n\nSome **bold** text, 1 < 2 & so on.\n\n**N", text)
         self.assertIn(
-            "| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\n" "a note\n",
-            text,
+            "| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\na note\n", text
         )
         self.assertIn("![line](line.png)\n\nA line, in `mm`\n", text)
 

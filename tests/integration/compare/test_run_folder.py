@@ -139,7 +139,7 @@ class RefusesBadFolder(FolderCase):
     def test_wrong_column(self):
         self.change_line(1, "time_ms,z_mm,pressure_kPa")
         self.assert_refused(
-            "line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm," "pressure_Pa"
+            "line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,pressure_Pa"
         )
 
     def test_last_line_cut_off(self):

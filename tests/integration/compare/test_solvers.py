@@ -134,7 +134,7 @@ class Tables(StudyTest):
         self.assertEqual(len(calls(self.program)), 9)
         for part in (
             "Table 3",
-            "Table 4: iterations of GMRES with block preconditioners, Newton system 1 of step 1 " "(t = 0.125 ms)",
+            "Table 4: iterations of GMRES with block preconditioners, Newton system 1 of step 1 (t = 0.125 ms)",
             "Newton system 2 of step 12 (t = 1.5 ms)",
             "Cost of the methods",
         ):
@@ -147,8 +147,7 @@ class Tables(StudyTest):
         self.assertEqual(self.line(out, "P_U")[:5], ["P_U", "30*", "20", "1.50!", "28"])
         self.assertEqual(self.line(out, "AMG")[:7], ["AMG", "7", "(7)", "8", "(8)", "13*", "(12)"])
         self.assertIn(
-            "more than 3 iterations above the coarse mesh on the fine one: AMG neo-Hookean (6), AMG " "Mooney-Rivlin",
-            out,
+            "more than 3 iterations above the coarse mesh on the fine one: AMG neo-Hookean (6), AMG Mooney-Rivlin", out
         )
         self.assertIn("At rest the fibres do nothing", out)
 

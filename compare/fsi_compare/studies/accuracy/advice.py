@@ -41,7 +41,7 @@ def total_advice(measured: Sequence[Measured], plan: Plan, case: str) -> List[st
             missed = True
         if own > target / 3:
             line += (
-                f" The reference is itself uncertain by about {percent(own)}, which is not small beside this " "target."
+                f" The reference is itself uncertain by about {percent(own)}, which is not small beside this target."
             )
         lines.append(line)
     return lines

@@ -36,7 +36,7 @@ DIAGONAL_RULE = "reproduced: more in every cell"
 
 ALMOST_SAME = 0.15  # relative spread of counts
 ALMOST_SAME_RULE = (
-    f"reproduced: the four differ by at most {100 * ALMOST_SAME:.0f} % in every cell; in part: in " "some cell"
+    f"reproduced: the four differ by at most {100 * ALMOST_SAME:.0f} % in every cell; in part: in some cell"
 )
 
 GROWS = 1.2  # factor from the coarsest to the finest mesh
@@ -282,7 +282,7 @@ def _more_robust(grid: Grid) -> Finding:
         f"{_growth_text(grid, _all(block), list(BLOCK_PRECONDITIONERS))}",
         ""
         if less and inside
-        else "in numbers of iterations the multilevel methods are far ahead, in their growth " "they are not",
+        else "in numbers of iterations the multilevel methods are far ahead, in their growth they are not",
     )
 
 

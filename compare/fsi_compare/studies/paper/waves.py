@@ -126,7 +126,7 @@ def _largest(reference: PressureWaves, other: PressureWaves, until: float = np.i
 def agreement_table(found: Sequence[Agreement]) -> Table:
     table = Table(
         stem="agreement",
-        title="Partitioned against monolithic, largest relative difference of the " "pressure",
+        title="Partitioned against monolithic, largest relative difference of the pressure",
         left=2,
         columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
         csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],

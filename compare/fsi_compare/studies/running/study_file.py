@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
+from ...base.names import MESHES
 from ...base.suggestions import check_keys, nearest
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
-LEVELS = ("coarse", "intermediate", "fine")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
 
 TOP_KEYS = (
@@ -150,7 +150,7 @@ class _Reader:
             if isinstance(entry, dict)
         }
         methods = {name: self.method(name, entry) for name, entry in self.table(data, "methods", True).items()}
-        meshes = {level: StudyMesh(level, level, ()) for level in LEVELS}
+        meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
         for name, entry in self.table(data, "meshes").items():
             meshes[name] = self.mesh(name, entry)
         settings = self.settings(data, "set")
@@ -199,7 +199,7 @@ class _Reader:
     def mesh(self, name: str, entry: Any) -> StudyMesh:
         key = f"meshes.{name}"
         self.known(key, entry, MESH_KEYS)
-        if name in LEVELS:
+        if name in MESHES:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
         if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):

@@ -4,11 +4,10 @@ import sys
 import time
 from typing import Dict, List, Sequence, Tuple
 
+from ...base.names import MESH_NODES
 from ...base.progress import duration
 from .study_file import Request
 from .study_run import StudyRun
-
-MESH_NODES = {"coarse": 1e3, "intermediate": 7e3, "fine": 55e3}
 
 
 class StudyProgress:

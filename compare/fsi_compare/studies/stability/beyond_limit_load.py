@@ -225,7 +225,7 @@ def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
     table.notes.append(
         "Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
         + (
-            f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other " "reasons."
+            f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other reasons."
             if settings.one_pass
             else ""
         )
