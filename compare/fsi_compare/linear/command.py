@@ -15,7 +15,7 @@ from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study
 
-CASES = Path(__file__).resolve().parents[2] / "meshes" / "artery"
+CASES = Path(__file__).resolve().parents[3] / "meshes" / "artery"
 STRESS_METHODS = "fast,amg_fgmres"
 STUDY_OWN = ("mesh.level", "mesh.file")  # chosen by --meshes
 

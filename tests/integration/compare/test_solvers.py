@@ -15,6 +15,7 @@ from folder_case import FolderCase
 from fsi_compare import cli
 from fsi_compare.base import paper
 from fsi_compare.base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare.linear.command import CASES
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")
 
@@ -397,6 +398,10 @@ class Restart(StudyTest):
             os.kill(int(pid.read_text()), 0)
         behave(self.program)
         self.assertEqual(self.runs(*SMALL), 1)
+
+    def test_the_default_cases_are_there(self):
+        for material in MATERIALS:
+            self.assertTrue((CASES / f"{material}.toml").is_file(), CASES)
 
     def test_time_left(self):
         _, _, err = self.call(*SMALL[:2], "--meshes", "coarse,intermediate", *SMALL[4:])
