@@ -41,6 +41,9 @@ class Lines(unittest.TestCase):
         self.assertIn("find different waves", drivers([*near, Agreement("artery", "fine", 1e-6, 2e-3, 1.0)]))
         self.assertIn("coarse and fine mesh", drivers([*near, Agreement("artery", "fine", 1e-6, 2e-3, 1.0)]))
         self.assertIn("not compared", drivers([]))
+        unknown = Agreement("artery", "fine", 1e-6, float("nan"), 1.0)  # no common time level
+        self.assertIn("not compared", drivers([unknown]))
+        self.assertEqual(drivers([*near, unknown]), line)
 
     def test_wave(self):
         slow, fast = speeds_of("neo-hookean", 0.67, 32.6), speeds_of("artery", 0.87, 34.7)
