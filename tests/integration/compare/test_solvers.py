@@ -196,6 +196,13 @@ class Tables(StudyTest):
         self.assertAlmostEqual(float(amg["work_units"]), 4662e-3 * 7)
         self.assertEqual((rows[0]["operator_complexity"], rows[0]["difference_to_direct"]), ("", ""))
 
+    def test_without_a_direct_solve_nothing_is_compared_with_it(self):
+        words = ("--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1")
+        with_direct, without = (self.call(*words, "--methods", m)[1] for m in ("amg,direct", "amg"))
+        for text in ("to direct", "relative difference to the direct solver's solution above 1e-07: none"):
+            self.assertIn(text, with_direct)
+            self.assertNotIn(text, without)
+
     def test_order_of_the_preconditioners(self):
         blocks = (
             "--materials",
