@@ -9,6 +9,7 @@ import json
 import math
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,9 @@ import numpy as np
 TOP = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOP / "compare"))
 
-from fsi_compare.studies.accuracy.waves import QUANTITIES, Waves, extrapolated, read_waves, relative_difference  # noqa: E402
+from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
+from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated  # noqa: E402
+from fsi_compare.studies.evidence.waves import read_waves, relative_difference  # noqa: E402
 
 STABILISATION = 0.05
 REFINEMENT = 4  # cells of 0.125 mm along, 0.09 mm across the fluid, 0.03 mm across the wall
@@ -33,8 +36,18 @@ def runs(programs: Path, work: Path, material: str):
         files = [work / f"{material}-{refinement}-{step}{end}.csv" for end in ("", "-wall")]
         done = files[0].with_suffix(".done")
         if not done.exists():
-            subprocess.run([programs / "axisymmetric_wave", material, str(refinement), files[0], str(step),
-                            str(STABILISATION), files[1]], check=True)
+            subprocess.run(
+                [
+                    programs / "axisymmetric_wave",
+                    material,
+                    str(refinement),
+                    files[0],
+                    str(step),
+                    str(STABILISATION),
+                    files[1],
+                ],
+                check=True,
+            )
             done.touch()
         found[refinement, step] = {q.column: read_waves(file, q.column) for q, file in zip(QUANTITIES, files)}
     return found
@@ -53,9 +66,13 @@ def reference(found, column: str):
     left_in_time = relative_difference(earlier, in_time, TIMES)  # of the extrapolation one step coarser: an upper bound
     # Second order may be 3/2 (1/(1 - 2^-1.5) in place of 4/3), and the correction differ by a quarter at small steps.
     size = relative_difference(fine, middle, TIMES) * 4 / 3
-    left_in_space = size * (1 / (1 - 2 ** -1.5) / (4 / 3) - 1 + 0.25)
-    facts = {"space_order": order(fine, middle, coarse), "time_order": order(*solutions[:3]),
-             "left_in_time": left_in_time, "left_in_space": left_in_space}
+    left_in_space = size * (1 / (1 - 2**-1.5) / (4 / 3) - 1 + 0.25)
+    facts = {
+        "space_order": order(fine, middle, coarse),
+        "time_order": order(*solutions[:3]),
+        "left_in_time": left_in_time,
+        "left_in_space": left_in_space,
+    }
     return kept, left_in_time + left_in_space, facts
 
 
@@ -77,11 +94,15 @@ def write(folder: Path, material: str, found) -> None:
             file.write(f"time_ms,z_mm,{quantity.column}\n")
             for time, row in zip(waves.times, waves.values):
                 file.writelines(f"{time:g},{z:g},{value:.6g}\n" for z, value in zip(waves.z, row))
-    description = (f"the artery as a body of revolution ({material}), linear triangles, stabilisation {STABILISATION}: "
-                   f"time steps of 1/256, 1/128 and 1/64 ms extrapolated to zero, "
-                   f"grids of {36 * SPACE[1]} and {36 * SPACE[0]} cells along the axis extrapolated by second order")
+    description = (
+        f"the artery as a body of revolution ({material}), linear triangles, stabilisation {STABILISATION}: "
+        f"time steps of 1/256, 1/128 and 1/64 ms extrapolated to zero, "
+        f"grids of {36 * SPACE[1]} and {36 * SPACE[0]} cells along the axis extrapolated by second order"
+    )
     with open(folder / "reference.json", "w", encoding="utf-8") as file:
-        json.dump({"description": description, "own_error": own_error, "estimates": facts}, file, indent=1)
+        case = tomllib.loads((TOP / "meshes" / "artery" / f"{material}.toml").read_text(encoding="utf-8"))
+        data = {"description": description, "case": physical(case), "own_error": own_error, "estimates": facts}
+        json.dump(data, file, indent=1)
         file.write("\n")
     print(material, json.dumps(own_error), json.dumps(facts))
 

@@ -8,6 +8,8 @@ import re
 import sys
 from pathlib import Path
 
+from circles import circles
+
 # Lowest first. Folders of one line share a floor.
 FLOORS = (
     ("common/base",),
@@ -47,14 +49,18 @@ def floor_of(folder):
 
 
 def allowed_folders(folder):
-    below = [name for floor in FLOORS[:floor_of(folder)] for name in floor]
+    below = [name for floor in FLOORS[: floor_of(folder)] for name in floor]
     return below + [folder]
 
 
 def source_files(root):
     """Paths of all C++ files, relative to the root, with forward slashes."""
-    return sorted(path.relative_to(root).as_posix() for top in TOP_FOLDERS for path in (root / top).rglob("*")
-                  if path.suffix in (".hpp", ".h", ".cpp"))
+    return sorted(
+        path.relative_to(root).as_posix()
+        for top in TOP_FOLDERS
+        for path in (root / top).rglob("*")
+        if path.suffix in (".hpp", ".h", ".cpp")
+    )
 
 
 def includes(root, path):
@@ -97,24 +103,9 @@ def wrong_includes(root):
 
 
 def cycles(root):
-    """One message for each circle of includes, found by depth-first search."""
+    """One message for each circle of includes."""
     graph = {path: [(line, target) for line, _, target in includes(root, path)] for path in source_files(root)}
-    finished = set()
-    messages = []
-
-    def visit(path, trail):
-        for line, target in graph.get(path, ()):
-            if target in trail:
-                circle = trail[trail.index(target):] + [target]
-                messages.append(f"{path}:{line}: include cycle: {' -> '.join(circle)}")
-            elif target not in finished:
-                visit(target, trail + [target])
-        finished.add(path)
-
-    for path in graph:
-        if path not in finished:
-            visit(path, [path])
-    return messages
+    return [f"{path}:{line}: include cycle: {' -> '.join(circle)}" for path, line, circle in circles(graph)]
 
 
 def main(arguments):

@@ -6,15 +6,20 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import List
+from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
-from ..errors import InputError
-from ..files import make_folder
-from ..progress import duration
-from ..programs import find_mesh_maker, find_program
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..base.progress import duration
+from ..base.suggestions import nearest
+from ..runs.programs import Program, find_mesh_maker, find_program
 from . import kinds
-from .study_file import Study, read_study
-from .suggestions import nearest
+from .overview import default_output, overview
+from .running.runner import Runner, remove_runs
+from .running.study_file import Study, read_study
+
+if TYPE_CHECKING:
+    from ..reporting.report import Report  # matplotlib takes a second to load
 
 READY = Path(__file__).resolve().parents[2] / "studies"
 
@@ -33,72 +38,100 @@ Exit code 2: a run that the report needs is missing; the report says which."""
 
 EXAMPLES = """\
 examples:
+  fsi-compare study --list
   fsi-compare study paper --quick
   fsi-compare study compare/studies/stability.toml -o results/stability
 """
 
 
-def add_parser(commands, version: str) -> None:
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
     study = commands.add_parser(
-        "study", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, epilog=EXAMPLES,
-        help="a whole study: runs what is missing, writes an HTML report", description=DESCRIPTION)
-    study.add_argument("study", metavar="STUDY", help=f"study file (TOML), or a ready one: {', '.join(ready())}")
+        "study",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="a whole study: runs what is missing, writes an HTML report",
+        description=DESCRIPTION,
+    )
+    study.add_argument(
+        "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
+    )
     study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
-    study.add_argument("--list", action="store_true", help="say what would be run, and run nothing")
-    study.add_argument("--fresh", action="store_true",
-                       help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
-                            "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew")
+    study.add_argument(
+        "--list",
+        action="store_true",
+        help="say what would be run, and run nothing; without STUDY: the ready studies and what each still has to run",
+    )
+    study.add_argument(
+        "--fresh",
+        action="store_true",
+        help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
+        "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew",
+    )
     study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
-    study.add_argument("--partitioned",
-                       metavar="PATH",
-                       type=Path,
-                       help="fsi-partitioned (default: beside this program)")
+    study.add_argument(
+        "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
+    )
     study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
-    study.add_argument("--jobs", metavar="N", type=int,
-                       help="runs at once (default: the study's); more than one spoils the seconds")
+    study.add_argument(
+        "--jobs", metavar="N", type=int, help="runs at once (default: the study's); more than one spoils the seconds"
+    )
     study.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     study.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
 
 def ready() -> List[str]:
     """Names of the study files there; case files that they use lie beside them."""
-    return sorted(path.stem for path in READY.glob("*.toml")
-                  if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE))
+    return sorted(
+        path.stem
+        for path in READY.glob("*.toml")
+        if re.search(r"^kind\s*=", path.read_text(encoding="utf-8"), re.MULTILINE)
+    )
 
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    from .runner import Runner, remove_runs
-
     for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
         if value is not None and value < 1:
             raise InputError("", name, f"{value} is not positive", "give 1 or more")
+    if options.study is None:
+        return list_ready(options)
     asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
     if not asked.requests:
-        raise InputError(asked.path, "runs", "holds nothing to run" + (" in its quick form" if options.quick else ""),
-                         "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""))
+        raise InputError(
+            asked.path,
+            "runs",
+            "holds nothing to run" + (" in its quick form" if options.quick else ""),
+            "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""),
+        )
     kind = kinds.kind(asked.kind)
     kind.check(asked)
-    programs = {"fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
-                "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned")}
+    programs = find_programs(options)
     if options.list:
         lines = [f"{request.group}: {request.label}" for request in asked.requests]
         print("\n".join([*lines, *getattr(kind, "also_runs", lambda study: [])(asked)]))
         return 0
-    folder = options.output or Path("results/studies") / (asked.path.stem + ("-quick" if options.quick else ""))
+    folder = options.output or default_output(asked.path, options.quick)
     if options.fresh:
         remove_runs(folder)
     make_folder(folder)
     begin = time.monotonic()
-    runner = Runner(asked, folder, programs, find_mesh_maker(programs["fsi-monolithic"]), options.threads, options.jobs,
-                    options.quiet)
+    runner = Runner(
+        asked,
+        folder,
+        programs,
+        find_mesh_maker(programs["fsi-monolithic"]),
+        options.threads,
+        options.jobs,
+        options.quiet,
+    )
     runs = runner.run(asked.requests)
     if all(run.status == "refused" for run in runs):
         raise InputError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
 
-    from .context import Context
-    from .report import Report  # matplotlib takes a second to load
+    from .running.context import Context
+    from ..reporting.report import Report  # matplotlib takes a second to load
 
     report = Report(folder, asked.title)
     code = kind.evaluate(Context(asked, runs, runner, report)) or 0
@@ -112,27 +145,60 @@ def study(options: argparse.Namespace) -> int:
     return code
 
 
+def list_ready(options: argparse.Namespace) -> int:
+    """Each ready study in a line, with what its default output folder lacks."""
+    if not options.list:
+        raise InputError("", "STUDY", "is missing", f"give a study file, or a ready study: {', '.join(ready())}")
+    if options.output is not None:
+        raise InputError("", "--output", "is of one study, and --list without STUDY is of all", "name the study")
+    try:
+        programs: Optional[Dict[str, Program]] = find_programs(options)
+    except InputError as error:
+        if options.monolithic or options.partitioned:
+            raise
+        print(f"fsi-compare: warning: finished runs cannot be counted: {error}", file=sys.stderr)
+        programs = None
+    maker = find_mesh_maker(programs["fsi-monolithic"]) if programs else None
+    paths = [READY / f"{name}.toml" for name in ready()]
+    print("\n".join(overview(paths, options.quick, programs, options.threads, maker)))
+    return 0
+
+
+def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
+    """Both drivers by name."""
+    return {
+        "fsi-monolithic": find_program("fsi-monolithic", options.monolithic, "--monolithic"),
+        "fsi-partitioned": find_program("fsi-partitioned", options.partitioned, "--partitioned"),
+    }
+
+
 def study_path(text: str) -> Path:
     path = Path(text)
     if path.suffix == ".toml" or path.is_file():
         return path
     if text in ready():
         return READY / f"{text}.toml"
-    raise InputError("", "STUDY", f"'{text}' is neither a file nor a ready study",
-                     f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
+    raise InputError(
+        "",
+        "STUDY",
+        f"'{text}' is neither a file nor a ready study",
+        f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}",
+    )
 
 
-def about(report, asked: Study, runner, programs) -> None:
+def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:
     """How to make the report again, and on what it was made."""
     report.section("About this report")
     if runner.warning:
         report.text(f"**Note:** {runner.warning}.")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
-    report.text(f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
-                f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
-                f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
-                f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
-                "in its folder's `study_run.json`, under `runs/`.")
+    report.text(
+        f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
+        f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
+        f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
+        f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
+        "in its folder's `study_run.json`, under `runs/`."
+    )
 
 
 def processor() -> str:

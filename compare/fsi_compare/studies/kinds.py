@@ -1,9 +1,10 @@
 """The kinds of study by name. A kind is a module with `check(study)`, which raises InputError before the first run when
 the study lacks something, and `evaluate(context)`, which fills the report and returns the exit code, 0 where it returns
-nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list."""
+nothing. A kind that runs more than the study lists may have `also_runs(study)`, lines for --list, and
+`also_standing(study, runner)`, how many of those are there."""
 
 import importlib
-from typing import Tuple
+from typing import Any, Tuple
 
 MODULES = {
     "paper": "paper.study",
@@ -16,6 +17,6 @@ MODULES = {
 NAMES: Tuple[str, ...] = tuple(MODULES)
 
 
-def kind(name: str):
+def kind(name: str) -> Any:
     """Loaded on demand: the pictures' library takes a second."""
     return importlib.import_module(f".{MODULES[name]}", __package__)

@@ -3,8 +3,19 @@
 import unittest
 
 import numpy as np
-from programs import (ARTERY, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, PARTITIONED, FolderTest, difference, pressure,
-                      run, table, wall)
+from programs import (
+    ARTERY,
+    MONOLITHIC,
+    MOONEY_RIVLIN,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    difference,
+    pressure,
+    run,
+    table,
+    wall,
+)
 
 STEPS = 8
 SETTINGS = ("time.end=1", "output.every=0")  # ms: 8 steps of 0.125
@@ -42,8 +53,11 @@ class Agreement:
     def assertIterationsEndAt(self, folder, tolerance):
         """Each step's iterations end with the first that meets the tolerance, and are as many as reported."""
         counts = table(folder, "iterations.csv")[:, 2]
-        errors = [float(line.split("|d~ - d| / |d~| = ")[1].split()[0])
-                  for line in (folder / "run.log").read_text().splitlines() if "|d~ - d|" in line]
+        errors = [
+            float(line.split("|d~ - d| / |d~| = ")[1].split()[0])
+            for line in (folder / "run.log").read_text().splitlines()
+            if "|d~ - d|" in line
+        ]
         self.assertEqual(len(errors), counts.sum())
         last = np.cumsum(counts).astype(int) - 1
         for i, error in enumerate(errors):

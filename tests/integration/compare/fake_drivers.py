@@ -107,12 +107,31 @@ def write_results(folder, program, steps=96, step=0.125, wall_s=1.0):
     (folder / "centerline_pressure.csv").write_text("\n".join(rows) + "\n")
     (folder / "iterations.csv").write_text(
         "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n"
-        + "".join(f"{n},{n * step!r},{passes},{3 * passes},{9 * passes},0.01\n" for n in range(1, steps + 1)))
+        + "".join(f"{n},{n * step!r},{passes},{3 * passes},{9 * passes},0.01\n" for n in range(1, steps + 1))
+    )
     systems = ("fluid", "wall") if partitioned else ("coupled",)
-    phases = {f"{kind}: {system}": {"calls": 3 * steps, "seconds": 0.1}
-              for kind in ("assembly", "set-up", "solve") for system in systems}
-    (folder / "summary.json").write_text(json.dumps({
-        "program": program, "version": "0.1.0", "title": "A tube", "status": "done", "threads": 1,
-        "mesh": {"name": "level coarse", "nodes": 1032, "tetrahedra": 4968}, "phases": phases,
-        "totals": {"steps": steps, "outer_iterations": passes * steps, "newton_iterations": 3 * passes * steps,
-                   "linear_iterations": 9 * passes * steps, "wall_s": wall_s}}))
+    phases = {
+        f"{kind}: {system}": {"calls": 3 * steps, "seconds": 0.1}
+        for kind in ("assembly", "set-up", "solve")
+        for system in systems
+    }
+    (folder / "summary.json").write_text(
+        json.dumps(
+            {
+                "program": program,
+                "version": "0.1.0",
+                "title": "A tube",
+                "status": "done",
+                "threads": 1,
+                "mesh": {"name": "level coarse", "nodes": 1032, "tetrahedra": 4968},
+                "phases": phases,
+                "totals": {
+                    "steps": steps,
+                    "outer_iterations": passes * steps,
+                    "newton_iterations": 3 * passes * steps,
+                    "linear_iterations": 9 * passes * steps,
+                    "wall_s": wall_s,
+                },
+            }
+        )
+    )

@@ -22,9 +22,20 @@ from pathlib import Path
 NODES = {"coarse": 1032, "intermediate": 7182, "fine": 54540}
 UNKNOWNS = {"coarse": 4662, "intermediate": 34000, "fine": 265000}
 PAPER = {  # neo-Hookean column, the others fall back on it
-    "diagonal": (51, 111, 217), "lower": (28, 58, 109), "upper": (28, 59, 114), "ssor": (27, 54, 104),
-    "ilu": (27, 54, 104), "amg": (7, 8, 12), "amg_gmres": (7, 7, 8), "amg_fgmres": (6, 7, 8), "amli": (7, 8, 12),
-    "amli_gmres": (7, 7, 8), "amli_fgmres": (6, 7, 8), "fast": (9, 10, 11), "direct": (1, 1, 1)}
+    "diagonal": (51, 111, 217),
+    "lower": (28, 58, 109),
+    "upper": (28, 59, 114),
+    "ssor": (27, 54, 104),
+    "ilu": (27, 54, 104),
+    "amg": (7, 8, 12),
+    "amg_gmres": (7, 7, 8),
+    "amg_fgmres": (6, 7, 8),
+    "amli": (7, 8, 12),
+    "amli_gmres": (7, 7, 8),
+    "amli_fgmres": (6, 7, 8),
+    "fast": (9, 10, 11),
+    "direct": (1, 1, 1),
+}
 
 
 def make_executable(path, text):
@@ -35,9 +46,12 @@ def make_executable(path, text):
 def install(folder, name="fsi-monolithic", module="fake_monolithic"):
     """Makes the program, which is `main` of the module; returns its path."""
     program = Path(folder) / name
-    make_executable(program, f"#!{sys.executable} -E\nimport sys\n"
-                    f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-                    f"from {module} import main\nsys.exit(main(sys.argv))\n")
+    make_executable(
+        program,
+        f"#!{sys.executable} -E\nimport sys\n"
+        f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        f"from {module} import main\nsys.exit(main(sys.argv))\n",
+    )
     return program
 
 
@@ -92,35 +106,74 @@ def main(words):
                 count = other
         good = count is not None
         seconds = 1e-6 * UNKNOWNS[mesh] * (count or 500)
-        return {"name": name, "converged": good, "iterations": count or 500,
-                "relative_residual": behaviour.get("residual", {}).get(name, 0.5 * tolerance) if good else 0.25,
-                "set_up_seconds": 0.125, "solve_seconds": seconds, "work_units": seconds / 1e-3,
-                "cycles": None if name == "direct" else {"mesh": count, "flow": count, "wall": 2 * (count or 0)}
-                if good else None,
-                "operator_complexity": None if name == "direct" else 1.25, "levels": None if name == "direct" else 3,
-                "memory_MiB": 12.5, "difference": None if name == "direct" else 1e-10,
-                "message": "" if good else "no convergence in 500 iterations"}
+        return {
+            "name": name,
+            "converged": good,
+            "iterations": count or 500,
+            "relative_residual": behaviour.get("residual", {}).get(name, 0.5 * tolerance) if good else 0.25,
+            "set_up_seconds": 0.125,
+            "solve_seconds": seconds,
+            "work_units": seconds / 1e-3,
+            "cycles": None
+            if name == "direct"
+            else {"mesh": count, "flow": count, "wall": 2 * (count or 0)}
+            if good
+            else None,
+            "operator_complexity": None if name == "direct" else 1.25,
+            "levels": None if name == "direct" else 3,
+            "memory_MiB": 12.5,
+            "difference": None if name == "direct" else 1e-10,
+            "message": "" if good else "no convergence in 500 iterations",
+        }
 
     result = {
-        "program": "fsi-monolithic", "version": version, "title": "A tube", "case_hash": "0123456789abcdef",
+        "program": "fsi-monolithic",
+        "version": version,
+        "title": "A tube",
+        "case_hash": "0123456789abcdef",
         "threads": int(options.get("--threads", 2)),
-        "mesh": {"name": f"level {mesh}", "nodes": NODES[mesh], "tetrahedra": 5 * NODES[mesh]}, "tolerance": tolerance,
-        "newton": [{"step": step, "time_ms": 0.125 * step, "increments": [2.2, 1.7e-2, 6.4e-6, 4.9e-13],
-                    "residuals": [1.0, 1e-2, 1e-5, 1e-12], "iterations": 4}
-                   for step in sorted({s for s, _ in systems})],
-        "systems": [{"step": step, "newton_iteration": iteration, "time_ms": 0.125 * step,
-                     "unknowns": {"mesh": 462, "flow": 960, "wall": 3240, "total": UNKNOWNS[mesh]},
-                     "product_seconds": 1e-3, "right_hand_side": 1.0,
-                     "solvers": [solver(name, step, iteration) for name in solvers]} for step, iteration in systems],
+        "mesh": {"name": f"level {mesh}", "nodes": NODES[mesh], "tetrahedra": 5 * NODES[mesh]},
+        "tolerance": tolerance,
+        "newton": [
+            {
+                "step": step,
+                "time_ms": 0.125 * step,
+                "increments": [2.2, 1.7e-2, 6.4e-6, 4.9e-13],
+                "residuals": [1.0, 1e-2, 1e-5, 1e-12],
+                "iterations": 4,
+            }
+            for step in sorted({s for s, _ in systems})
+        ],
+        "systems": [
+            {
+                "step": step,
+                "newton_iteration": iteration,
+                "time_ms": 0.125 * step,
+                "unknowns": {"mesh": 462, "flow": 960, "wall": 3240, "total": UNKNOWNS[mesh]},
+                "product_seconds": 1e-3,
+                "right_hand_side": 1.0,
+                "solvers": [solver(name, step, iteration) for name in solvers],
+            }
+            for step, iteration in systems
+        ],
     }
     if "--sub-problems" in options:
         result["sub_problems"] = [
-            {"problem": problem, "coarsening": "kickinger", "smoother": "gauss-seidel", "cycle": "V", "levels": levels,
-             "factor": factor, "iterations": 11, "operator_complexity": 1.3}
-            for problem, levels, factor in (("mesh", 2, 0.12), ("mesh", 3, 0.15), ("wall", 3, 1.5))]
+            {
+                "problem": problem,
+                "coarsening": "kickinger",
+                "smoother": "gauss-seidel",
+                "cycle": "V",
+                "levels": levels,
+                "factor": factor,
+                "iterations": 11,
+                "operator_complexity": 1.3,
+            }
+            for problem, levels, factor in (("mesh", 2, 0.12), ("mesh", 3, 0.15), ("wall", 3, 1.5))
+        ]
     folder = Path(options["-o"])
     folder.mkdir(parents=True, exist_ok=True)
     text = json.dumps(result)
-    (folder / "linear_solvers.json").write_text(text[:len(text) // 2] if behaviour.get("cut") else text)
+    (folder / "linear_solvers.json").write_text(text[: len(text) // 2] if behaviour.get("cut") else text)
     failed = any(not s["converged"] for system in result["systems"] for s in system["solvers"])
     return 2 if failed else 0

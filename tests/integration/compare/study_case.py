@@ -5,7 +5,7 @@ import json
 from fake_drivers import install
 from folder_case import FolderCase
 
-from fsi_compare.studies.runner import RECORD
+from fsi_compare.studies.running.runner import RECORD
 
 STUDY = """\
 title = "Two runs"
@@ -33,8 +33,17 @@ class StudyCase(FolderCase):
         self.case_file.write_text('title = "A tube"\n')
 
     def words(self, *arguments):
-        words = ("study", self.study, "-o", self.out, "--monolithic", self.programs / "fsi-monolithic",
-                 "--partitioned", self.programs / "fsi-partitioned", *arguments)
+        words = (
+            "study",
+            self.study,
+            "-o",
+            self.out,
+            "--monolithic",
+            self.programs / "fsi-monolithic",
+            "--partitioned",
+            self.programs / "fsi-partitioned",
+            *arguments,
+        )
         return [str(word) for word in words]
 
     def call(self, *arguments):

@@ -23,13 +23,15 @@ def gaussian(speed, start=1.0, height=50.0, width=1.2):
 
 def artery_like(speed, height=90.0):
     """A decaying, spreading main crest with ripples behind it and a small precursor at 2.4 mm/ms."""
+
     def wave(t, z):
         width = 0.9 + 0.1 * t
         x = (z - 0.8 - speed * t) / width
-        main = height / (1 + 0.25 * t) * np.exp(-x ** 2)
+        main = height / (1 + 0.25 * t) * np.exp(-(x**2))
         ripples = -0.45 * height / (1 + 0.25 * t) * np.exp(-((x + 1.7) ** 2)) * np.cos(2.2 * (x + 1.7))
         precursor = 6.0 * np.exp(-(((z - 2.4 * t) / 1.5) ** 2))
         return (main + ripples + precursor) * (1 - np.exp(-3 * z))
+
     return wave
 
 

@@ -14,11 +14,11 @@ from fake_monolithic import make_executable
 from folder_case import FolderCase
 from synthetic import Z
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
 from fsi_compare.studies.accuracy.trend import trend
-from fsi_compare.studies.accuracy.waves import Waves, extrapolated, read_waves, relative_difference
+from fsi_compare.studies.evidence.waves import Waves, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 
@@ -27,7 +27,7 @@ class ObservedOrder(unittest.TestCase):
     def test_recovers_order_and_error_for_any_ratio_of_sizes(self):
         for order in (0.6, 1.0, 1.8, 3.0):
             for sizes in ((4, 2, 1), (1.0, 0.52, 0.27), (0.3, 0.2, 0.15)):
-                errors = [0.07 * h ** order for h in sizes]
+                errors = [0.07 * h**order for h in sizes]
                 found = self_convergence(sizes, (errors[0] - errors[1], errors[1] - errors[2]))
                 self.assertAlmostEqual(found.order, order, places=9)
                 self.assertAlmostEqual(found.remaining, errors[2], places=9)
@@ -111,7 +111,7 @@ class Errors(unittest.TestCase):
 
 
 # A driver of known error: 0.16 size^2 + 0.8 step + 10 tolerance, size 1, 1/2, 1/4; 1e-6 s a node and step.
-DRIVER = '''#!{python} -E
+DRIVER = """#!{python} -E
 import json, math, sys
 from pathlib import Path
 words = sys.argv
@@ -141,7 +141,7 @@ seconds = 1e-6 * nodes * steps * (1 - 0.1 * math.log10(tolerance)) * (3 if "part
 (folder / "summary.json").write_text(json.dumps({{
     "program": program, "version": "0.1.0", "title": "A tube", "status": "done", "mesh": {{"nodes": nodes}},
     "totals": {{"steps": steps, "wall_s": seconds, "newton_iterations": 4 * steps, "outer_iterations": 5 * steps}}}}))
-'''
+"""
 
 STUDY = """
 title = "Made up"
@@ -188,16 +188,26 @@ class WholeStudy(FolderCase):
         (self.base / "tube.toml").write_text('title = "A tube"\n')
         folder = self.base / "reference"
         folder.mkdir()
-        (folder / "reference.json").write_text(json.dumps(
-            {"description": "a sine", "own_error": {"pressure_Pa": 0.001, "radial_mm": 0.002}}))
+        (folder / "reference.json").write_text(
+            json.dumps({"description": "a sine", "own_error": {"pressure_Pa": 0.001, "radial_mm": 0.002}})
+        )
         for file, column in (("centerline_pressure.csv", "pressure_Pa"), ("wall_displacement.csv", "radial_mm")):
             rows = [f"{t},{i},{math.sin(1 + i / 3 + t)!r}" for t in TIMES for i in range(19)]
             (folder / file).write_text("\n".join([f"time_ms,z_mm,{column}", *rows, ""]))
 
     def study(self, text=STUDY):
         (self.base / "made-up.toml").write_text(text)
-        code, _, err = self.call("study", self.base / "made-up.toml", "-o", self.out, "-q", "--monolithic",
-                                 self.base / "fsi-monolithic", "--partitioned", self.base / "fsi-partitioned")
+        code, _, err = self.call(
+            "study",
+            self.base / "made-up.toml",
+            "-o",
+            self.out,
+            "-q",
+            "--monolithic",
+            self.base / "fsi-monolithic",
+            "--partitioned",
+            self.base / "fsi-partitioned",
+        )
         return code, err
 
     def test_numbers(self):
@@ -234,13 +244,14 @@ class WholeStudy(FolderCase):
 
     def test_mistakes_are_named(self):
         for old, new, expected in (
-                ('targets = [10, 1]', 'target = [10]', "report.target: is unknown; did you mean 'targets'?"),
-                ('times = [1.5, 3.0]', 'times = [3.0, 1.5]', "report.times: is not an interval"),
-                ('times = [1.5, 3.0]', 'times = [1.5, 9.0]', "is not covered by the reference of 'tube'"),
-                ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of this study"),
-                ('tube = "reference"', 'tube = "nowhere"', "reference.json: cannot be read"),
-                ('tube = "reference"', 'pipe = "reference"', "report.references.pipe: is no case of this study"),
-                ('"time.end" = 3.0', '"time.end" = 2.0', "runs.grid: ends at 2 ms, before report.times")):
+            ("targets = [10, 1]", "target = [10]", "report.target: is unknown; did you mean 'targets'?"),
+            ("times = [1.5, 3.0]", "times = [3.0, 1.5]", "report.times: is not an interval"),
+            ("times = [1.5, 3.0]", "times = [1.5, 9.0]", "is not covered by the reference of 'tube'"),
+            ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of this study"),
+            ('tube = "reference"', 'tube = "nowhere"', "reference.json: cannot be read"),
+            ('tube = "reference"', 'pipe = "reference"', "report.references.pipe: is no case of this study"),
+            ('"time.end" = 3.0', '"time.end" = 2.0', "runs.grid: ends at 2 ms, before report.times"),
+        ):
             code, err = self.study(STUDY.replace(old, new))
             self.assertEqual((code, err.count("\n")), (1, 1), err)
             self.assertIn(expected, err)
@@ -251,7 +262,7 @@ class ReadyStudy(unittest.TestCase):
     def test_can_be_run(self):
         from fsi_compare.studies import kinds
         from fsi_compare.studies.command import study_path
-        from fsi_compare.studies.study_file import read_study
+        from fsi_compare.studies.running.study_file import read_study
 
         for quick in (False, True):
             study = read_study(study_path("accuracy-cost"), kinds.NAMES, quick)

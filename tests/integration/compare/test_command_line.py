@@ -46,12 +46,15 @@ class CommandLine(FolderCase):
         rows = self.csv("pressure_waves.csv")
         self.assertEqual(list(rows[0]), ["run", "time_ms", "z_mm", "pressure_Pa"])
         self.assertEqual(len(rows), 2 * 2 * 181)
-        self.assertEqual([(row["run"], row["time_ms"]) for row in rows[::181]],
-                         [("mono", "1.55"), ("mono", "3.0"), ("part", "1.55"), ("part", "3.0")])
+        self.assertEqual(
+            [(row["run"], row["time_ms"]) for row in rows[::181]],
+            [("mono", "1.55"), ("mono", "3.0"), ("part", "1.55"), ("part", "3.0")],
+        )
         wave = parabola(0.66)
         np.testing.assert_array_equal([float(row["pressure_Pa"]) for row in rows[181:362]], wave(3.0, Z))
-        np.testing.assert_allclose([float(row["pressure_Pa"]) for row in rows[:181]],
-                                   0.6 * wave(1.5, Z) + 0.4 * wave(1.625, Z), atol=1e-12)
+        np.testing.assert_allclose(
+            [float(row["pressure_Pa"]) for row in rows[:181]], 0.6 * wave(1.5, Z) + 0.4 * wave(1.625, Z), atol=1e-12
+        )
 
     def test_json(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "-q")
@@ -64,8 +67,10 @@ class CommandLine(FolderCase):
     def test_files_and_quiet(self):
         code, out, err = self.call("pressure", self.one, self.two, "-o", self.out, "-q", "--threads", "2")
         self.assertEqual((code, out, err), (0, "", ""))
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
-                         ["pressure_waves." + kind for kind in ("csv", "json", "png", "svg")])
+        self.assertEqual(
+            sorted(path.name for path in self.out.iterdir()),
+            ["pressure_waves." + kind for kind in ("csv", "json", "png", "svg")],
+        )
         umask = os.umask(0)
         os.umask(umask)
         self.assertEqual((self.out / "pressure_waves.csv").stat().st_mode & 0o777, 0o666 & ~umask)
@@ -91,6 +96,59 @@ class CommandLine(FolderCase):
         data = json.loads((self.out / "pressure_waves.json").read_text())
         self.assertLess(data["runs"][1]["largest_difference"]["max_norm_Pa"], 1e-12)
 
+    def made(self, name, mesh, times=TIMES, **more):
+        return write_run(self.base / name, parabola(0.66), times, mesh=mesh, **more)
+
+    def compared(self, *runs, words=("--times", "1,2", "--labels", "one,two")):
+        """(printed, error output, warnings of the JSON file) of runs that can be compared."""
+        code, out, err = self.call("pressure", *runs, "-o", self.out, *words)
+        self.assertEqual(code, 0, err)
+        return out, err, json.loads((self.out / "pressure_waves.json").read_text())
+
+    def test_different_meshes_are_named_with_a_warning(self):
+        coarse = self.made("coarse", {"name": "level coarse", "nodes": 1032, "hash": "03"})
+        fine = self.made("fine", {"name": "level fine", "nodes": 54540, "hash": "04"})
+        out, err, data = self.compared(coarse, fine)
+        expected = "the runs' meshes differ (one: level coarse, 1032 nodes; two: level fine, 54540 nodes)"
+        self.assertEqual(err.count("\n"), 1)
+        self.assertTrue(err.startswith(f"fsi-compare: warning: {expected}"), err)
+        self.assertIn(f"Note: {expected}", out)
+        self.assertIn("mesh level fine, 54540 nodes, step 0.125 ms", out)
+        self.assertEqual(len(data["warnings"]), 1)
+        self.assertTrue(data["warnings"][0].startswith(expected))
+        self.assertEqual(
+            [(run["mesh"], run["step_ms"], run["end_ms"]) for run in data["runs"]],
+            [("level coarse, 1032 nodes", [0.125, 0.125], 12.0), ("level fine, 54540 nodes", [0.125, 0.125], 12.0)],
+        )
+        _, err, data = self.compared(coarse, fine, words=("--times", "1", "-q"))
+        self.assertEqual((err, len(data["warnings"])), ("", 1))
+
+    def test_meshes_of_one_name_that_are_not_the_same(self):
+        one, two = ({"name": "tube.msh", "nodes": 99, "hash": key} for key in ("03", "04"))
+        _, err, _ = self.compared(self.made("a", one), self.made("b", two))
+        self.assertIn("meshes differ", err)
+
+    def test_different_steps_and_lengths_are_named_with_a_warning(self):
+        mesh = {"name": "level coarse", "nodes": 1032, "hash": "03"}
+        whole, half = self.made("whole", mesh), self.made("half", mesh, TIMES[:48] / 2)
+        _, err, data = self.compared(whole, half)
+        self.assertIn("the runs' time steps differ (one: step 0.125 ms; two: step 0.0625 ms)", err)
+        self.assertIn("the runs' lengths differ (one: 12 ms; two: 3 ms)", err)
+        self.assertEqual((err.count("\n"), len(data["warnings"])), (2, 2))
+        changed = self.made("changed", mesh, np.concatenate([TIMES[:48], TIMES[47] + TIMES[:96] / 2]))
+        _, err, _ = self.compared(whole, changed)
+        self.assertIn("(one: step 0.125 ms; two: steps of 0.0625 to 0.125 ms)", err)
+        self.assertNotIn("lengths", err)
+
+    def test_nothing_is_said_of_equal_or_unknown_conditions(self):
+        mesh = {"name": "level coarse", "nodes": 1032, "hash": "03"}
+        a, b = self.made("a", mesh), self.made("b", mesh, program="fsi-partitioned")
+        out, err, data = self.compared(a, b)
+        self.assertEqual((err, data["warnings"]), ("", []))
+        self.assertNotIn("Note:", out)
+        _, err, data = self.compared(a, self.one)  # whose summary holds no mesh
+        self.assertEqual((err, data["runs"][1]["mesh"]), ("", None))
+
     def test_title(self):
         self.call("pressure", self.one, self.two, "-o", self.out, "-q")
         self.assertIn("Synthetic tube", (self.out / "pressure_waves.svg").read_text())
@@ -99,18 +157,26 @@ class CommandLine(FolderCase):
 
     def test_time_outside_names_the_range(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES[:24])
-        self.assert_refused("short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between "
-                            "0.125 and 3 ms", "pressure", self.one, short, "-o", self.out)
+        self.assert_refused(
+            "short/centerline_pressure.csv: --times: 4.5 ms is outside the run; give times between 0.125 and 3 ms",
+            "pressure",
+            self.one,
+            short,
+            "-o",
+            self.out,
+        )
 
     def test_other_length(self):
         short = write_run(self.base / "short", parabola(0.6), TIMES, Z[:100])
-        self.assert_refused("z_mm: runs from 0 to 9.9 mm, the first run's from 0 to 18 mm", "pressure", self.one, short,
-                            "-o", self.out)
+        self.assert_refused(
+            "z_mm: runs from 0 to 9.9 mm, the first run's from 0 to 18 mm", "pressure", self.one, short, "-o", self.out
+        )
 
     def test_unfinished_run(self):
         running = write_run(self.base / "running", parabola(0.6), status="running")
-        self.assert_refused("running/summary.json: status: the run is not finished", "pressure", self.one, running,
-                            "-o", self.out)
+        self.assert_refused(
+            "running/summary.json: status: the run is not finished", "pressure", self.one, running, "-o", self.out
+        )
 
     def test_wrong_use(self):
         one, two, out = self.one, self.two, ("-o", self.out)
@@ -154,16 +220,18 @@ class BuiltProgram(unittest.TestCase):
             base = Path(folder)
             (base / "numpy.py").write_text("raise ImportError('not the one')")
             one = write_run(base / "a run", parabola(0.6))
-            done = self.call("pressure", one.name, "-o", "my output", cwd=base,
-                             env={**os.environ, "PYTHONPATH": folder})
+            done = self.call(
+                "pressure", one.name, "-o", "my output", cwd=base, env={**os.environ, "PYTHONPATH": folder}
+            )
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertTrue((base / "my output" / "pressure_waves.png").is_file())
 
     def test_exit_code_of_an_error(self):
         done = self.call("pressure", "/nowhere")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertEqual(done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote "
-                                      "with -o\n")
+        self.assertEqual(
+            done.stderr, "fsi-compare: error: /nowhere: no such folder; give the folder that a run wrote with -o\n"
+        )
 
 
 if __name__ == "__main__":

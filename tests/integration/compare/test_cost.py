@@ -12,8 +12,10 @@ COUPLING = "step,time_ms,displacement_residual,force_residual\n"
 
 def phases(**calls):
     """Phases of a summary: solve__mesh_motion is "solve: mesh motion"."""
+
     def spelt(name):
         return name.replace("set_up", "set-up").replace("__", ": ").replace("_", " ")
+
     return {spelt(name): {"seconds": 0.1, "calls": n} for name, n in calls.items()}
 
 
@@ -21,11 +23,19 @@ class Cost(FolderCase):
     def setUp(self):
         super().setUp()
         common = {"mesh": {"nodes": 1032}, "unknowns": {"coupled": 4662}, "threads": 1, "peak_memory_MiB": 30.5}
-        self.whole = write_run(self.base / "whole", parabola(0.66), phases=phases(
-            solve__coupled=10, factorisation__coupled=1), **common)
+        self.whole = write_run(
+            self.base / "whole", parabola(0.66), phases=phases(solve__coupled=10, factorisation__coupled=1), **common
+        )
         (self.whole / "iterations.csv").write_text(ITERATIONS + "1,0.125,1,6,0,0.5\n2,0.25,1,4,0,0.25\n")
-        self.parts = write_run(self.base / "parts", parabola(0.66), program="fsi-partitioned", phases=phases(
-            solve__fluid=30, solve__wall=20, solve__mesh_motion=11, factorisation__fluid=1, set_up__wall=2), **common)
+        self.parts = write_run(
+            self.base / "parts",
+            parabola(0.66),
+            program="fsi-partitioned",
+            phases=phases(
+                solve__fluid=30, solve__wall=20, solve__mesh_motion=11, factorisation__fluid=1, set_up__wall=2
+            ),
+            **common,
+        )
         (self.parts / "iterations.csv").write_text(ITERATIONS + "1,0.125,8,30,70,1\n2,0.25,3,20,30,0.5\n")
         (self.parts / "coupling.csv").write_text(COUPLING + "1,0.125,4e-7,2e-6\n2,0.25,9e-7,1e-6\n")
 
@@ -42,10 +52,17 @@ class Cost(FolderCase):
         self.assertEqual((whole["run"], whole["program"], whole["steps"]), ("whole", "monolithic", "2"))
         self.assertEqual((float(whole["wall_s"]), float(parts["wall_relative_to_first"])), (0.75, 2.0))
         self.assertEqual((whole["coupling_iterations_mean"], whole["displacement_residual_max"]), ("", ""))
-        self.assertEqual((float(parts["coupling_iterations_mean"]), parts["coupling_iterations_min"],
-                          parts["coupling_iterations_max"]), (5.5, "3", "8"))
-        self.assertEqual([parts[f"solves_{name}"] for name in ("whole", "fluid", "wall", "mesh")],
-                         ["", "30", "20", "11"])
+        self.assertEqual(
+            (
+                float(parts["coupling_iterations_mean"]),
+                parts["coupling_iterations_min"],
+                parts["coupling_iterations_max"],
+            ),
+            (5.5, "3", "8"),
+        )
+        self.assertEqual(
+            [parts[f"solves_{name}"] for name in ("whole", "fluid", "wall", "mesh")], ["", "30", "20", "11"]
+        )
         self.assertEqual((whole["solves_whole"], whole["preparations_whole"]), ("10", "1"))
         self.assertEqual((parts["newton_iterations"], parts["linear_iterations"]), ("50", "100"))
         self.assertEqual((float(parts["displacement_residual_max"]), float(parts["force_residual_max"])), (9e-7, 2e-6))
@@ -61,8 +78,9 @@ class Cost(FolderCase):
 
     def test_says_what_does_not_compare(self):
         summary = json.loads((self.parts / "summary.json").read_text())
-        (self.parts / "summary.json").write_text(json.dumps({**summary, "threads": 2, "restarted_from_step": 1,
-                                                             "mesh": {"nodes": 7}}))
+        (self.parts / "summary.json").write_text(
+            json.dumps({**summary, "threads": 2, "restarted_from_step": 1, "mesh": {"nodes": 7}})
+        )
         _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
         for note in ("different numbers of threads", "differ in mesh", "Restarted"):
             self.assertIn(note, out)

@@ -10,17 +10,17 @@ import numpy as np
 from folder_case import FolderCase
 from synthetic import parabola, write_run
 
-from fsi_compare.errors import InputError
-from fsi_compare.pictures import write_figure
-from fsi_compare.studies.commands import with_name
+from fsi_compare.base.errors import InputError
+from fsi_compare.reporting.pictures import write_figure
+from fsi_compare.studies.running.commands import with_name
 from fsi_compare.studies.coupling import study as coupling
 from fsi_compare.studies.coupling import added_mass_runs, pictures, sweeps
-from fsi_compare.studies.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG
+from fsi_compare.studies.evidence.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG
 from fsi_compare.studies.coupling.added_mass import ARTERY, AddedMass
 from fsi_compare.studies.evidence.bessel import bessel_i
 from fsi_compare.studies.coupling.bisection import bisect
-from fsi_compare.studies.study_file import Method, Request, StudyMesh, read_study
-from fsi_compare.studies.study_run import DONE, NOT_CONVERGED, StudyRun
+from fsi_compare.studies.running.study_file import Method, Request, StudyMesh, read_study
+from fsi_compare.studies.running.study_run import DONE, NOT_CONVERGED, StudyRun
 
 
 class AddedMassTheory(unittest.TestCase):
@@ -68,23 +68,55 @@ class Bisection(unittest.TestCase):
 class Tables(FolderCase):
     def run_of(self, name, program, passes, status=DONE, group="agreement", factor=1.0):
         wave = parabola(0.66)
-        folder = write_run(self.base / name, lambda t, z: factor * wave(t, z), program=program,
-                           totals={"steps": 2, "outer_iterations": sum(passes), "newton_iterations": 9, "wall_s": 1.0})
+        folder = write_run(
+            self.base / name,
+            lambda t, z: factor * wave(t, z),
+            program=program,
+            totals={"steps": 2, "outer_iterations": sum(passes), "newton_iterations": 9, "wall_s": 1.0},
+        )
         (folder / "iterations.csv").write_text(
-            "step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1)))
-        request = Request(group, "neo-hookean", Method(name, name, program, {}), {"mesh": "coarse"}, Path("case.toml"),
-                          StudyMesh("coarse", "coarse", ()), {"partitioned.tolerance": 1e-9}, 1.0)
+            "step,outer_iterations\n" + "".join(f"{i},{n}\n" for i, n in enumerate(passes, 1))
+        )
+        request = Request(
+            group,
+            "neo-hookean",
+            Method(name, name, program, {}),
+            {"mesh": "coarse"},
+            Path("case.toml"),
+            StudyMesh("coarse", "coarse", ()),
+            {"partitioned.tolerance": 1e-9},
+            1.0,
+        )
         return StudyRun(request, folder, status, "" if status == DONE else "diverged", 1.0, "")
 
     def test_agreement_is_the_relative_difference(self):
-        runs = [self.run_of("whole", "fsi-monolithic", [1, 1]),
-                self.run_of("iqn-ils", "fsi-partitioned", [9, 6], factor=1.0 + 1e-7),
-                self.run_of("aitken", "fsi-partitioned", [9, 6], status=NOT_CONVERGED)]
+        runs = [
+            self.run_of("whole", "fsi-monolithic", [1, 1]),
+            self.run_of("iqn-ils", "fsi-partitioned", [9, 6], factor=1.0 + 1e-7),
+            self.run_of("aitken", "fsi-partitioned", [9, 6], status=NOT_CONVERGED),
+        ]
         table = coupling.agreement_table(runs)
         self.assertEqual([row[0] for row in table.rows], ["iqn-ils", "aitken"])
         self.assertEqual(table.rows[0][1], "1.0e-07 (7.5)")
         self.assertEqual(table.rows[1][1], "not converged")
         self.assertAlmostEqual(table.csv_rows[0][6], 1e-7, 10)
+
+    def test_in_short(self):
+        whole = self.run_of("whole", "fsi-monolithic", [1, 1])
+        quick = self.run_of("iqn-ils", "fsi-partitioned", [9, 6], factor=1.0 + 1e-7)
+        slow = self.run_of("aitken", "fsi-partitioned", [30, 20])
+        failed = self.run_of("constant", "fsi-partitioned", [9, 6], status=NOT_CONVERGED)
+        everything = [whole, quick, slow, failed]
+        lines = coupling.in_short([quick, slow, failed], coupling.agreement_table([whole, quick, failed]), everything)
+        self.assertIn(
+            "Fewest coupling iterations a step: iqn-ils, 7.5 over walls and meshes; most: aitken, 25.0.", lines
+        )
+        self.assertIn("agree: the pressure differs by at most 1.0e-07", lines[1])
+        self.assertEqual(lines[2], "1 of 4 runs did not come to their end: 1 not converged.")
+        other = self.run_of("other", "fsi-partitioned", [9, 6], factor=1.01)
+        lines = coupling.in_short([], coupling.agreement_table([whole, other]), [whole, other, other])
+        self.assertIn("do not agree: the pressure differs by up to 1.0e-02", lines[0])
+        self.assertEqual(lines[1], "All 2 runs came to their end.")
 
     def test_passes_are_mean_and_range(self):
         table = coupling.passes_table(None, [self.run_of("iqn-ils", "fsi-partitioned", [9, 6], group="passes")])
@@ -110,22 +142,48 @@ class Sweeps(FolderCase):
         for (name, density), factor in {**{("whole", d): 1.0 for d in monolithic}, **factors}.items():
             wave = parabola(0.66)
             program = "fsi-monolithic" if name == "whole" else "fsi-partitioned"
-            folder = write_run(self.base / f"{name}-{density}", lambda t, z: (factor or 1.0) * wave(t, z),
-                               program=program, totals={"steps": 2, "outer_iterations": 4, "newton_iterations": 8})
-            request = Request("density", "a", Method(name, name, program, {}), {"structure.density": density},
-                              Path("case.toml"), None, {}, 1.0)
-            runs.append(StudyRun(request, folder, DONE if factor else NOT_CONVERGED, "" if factor else "diverged", 1.0,
-                                 f"/opt/bin/{program} case.toml"))
+            folder = write_run(
+                self.base / f"{name}-{density}",
+                lambda t, z: (factor or 1.0) * wave(t, z),
+                program=program,
+                totals={"steps": 2, "outer_iterations": 4, "newton_iterations": 8},
+            )
+            request = Request(
+                "density",
+                "a",
+                Method(name, name, program, {}),
+                {"structure.density": density},
+                Path("case.toml"),
+                None,
+                {},
+                1.0,
+            )
+            runs.append(
+                StudyRun(
+                    request,
+                    folder,
+                    DONE if factor else NOT_CONVERGED,
+                    "" if factor else "diverged",
+                    1.0,
+                    f"/opt/bin/{program} case.toml",
+                )
+            )
         return sweeps.checked(runs, self.SETTINGS)
 
     def test_every_answer_is_checked(self):
-        found = self.cells({("iqn-ils", 1.0): 1 + 1e-5, ("iqn-ils", 10.0): 1.01, ("explicit", 1.0): None,
-                            ("explicit", 10.0): 1.12})
+        found = self.cells(
+            {("iqn-ils", 1.0): 1 + 1e-5, ("iqn-ils", 10.0): 1.01, ("explicit", 1.0): None, ("explicit", 10.0): 1.12}
+        )
         self.assertEqual([cell.outcome for cell in found], [AGREES, WRONG, NOT_CONVERGED, DEVIATES])
         self.assertEqual([cell.method for cell in sweeps.faults(found)], ["iqn-ils"])
         table = sweeps.sweep_table("density", "density ratio", found, self.SETTINGS)
-        self.assertEqual(table.rows, [["iqn-ils", "2.0", "2.0 (off 1 %)", "1.0e-02"],
-                                      ["explicit", "not converged", "2.0 (off 12 %)", "1.2e-01"]])
+        self.assertEqual(
+            table.rows,
+            [
+                ["iqn-ils", "2.0", "2.0 (off 1 %)", "1.0e-02"],
+                ["explicit", "not converged", "2.0 (off 12 %)", "1.2e-01"],
+            ],
+        )
         self.assertTrue(all(row[-1] == "fsi-partitioned case.toml" for row in table.csv_rows))
         self.assertIn("2 are off by more than that", sweeps.in_words(found, self.SETTINGS))
         lines = sweeps.series(found)
@@ -142,8 +200,9 @@ class Sweeps(FolderCase):
 
 class Commands(unittest.TestCase):
     def test_program_by_name(self):
-        self.assertEqual(with_name("'/a b/fsi-monolithic' case.toml --set 'x=\"y\"'"),
-                         "fsi-monolithic case.toml --set 'x=\"y\"'")
+        self.assertEqual(
+            with_name("'/a b/fsi-monolithic' case.toml --set 'x=\"y\"'"), "fsi-monolithic case.toml --set 'x=\"y\"'"
+        )
         self.assertEqual(with_name(""), "")
 
 
@@ -157,6 +216,7 @@ class Growth(unittest.TestCase):
         class Fake:
             def columns(self, file):
                 return {"time_ms": np.repeat(times, 3), "radial_mm": radial.ravel()}
+
         return added_mass_runs.alternates_ever_more(Fake())
 
     def test_only_what_grows_and_is_not_small_is_unstable(self):
@@ -191,15 +251,19 @@ class StudyFile(unittest.TestCase):
             (Path(folder) / "case.toml").write_text("")
             path.write_text(GOOD)
             coupling.check(read_study(path, ["coupling"]))
-            for old, new, expected in (("[runs.passes]", "[runs.pass]", "runs.pass"),
-                                       ("[report.explicit]", "[report.explicitt]", "did you mean 'explicit'"),
-                                       ("[report.explicit]", "[report.sweeps]\nbound = 0\n[report.explicit]",
-                                        "report.sweeps.bound"),
-                                       ("[report.explicit]", "[report.sweeps]\none_pass = ['a']\n[report.explicit]",
-                                        "did you mean 'explicit'"),
-                                       ("low = 1.0", "low = 3.0", "report.explicit.low"),
-                                       ('case = "a"', 'case = "b"', "report.explicit.case"),
-                                       ("steps = [0.1]\n", "", "report.explicit.steps")):
+            for old, new, expected in (
+                ("[runs.passes]", "[runs.pass]", "runs.pass"),
+                ("[report.explicit]", "[report.explicitt]", "did you mean 'explicit'"),
+                ("[report.explicit]", "[report.sweeps]\nbound = 0\n[report.explicit]", "report.sweeps.bound"),
+                (
+                    "[report.explicit]",
+                    "[report.sweeps]\none_pass = ['a']\n[report.explicit]",
+                    "did you mean 'explicit'",
+                ),
+                ("low = 1.0", "low = 3.0", "report.explicit.low"),
+                ('case = "a"', 'case = "b"', "report.explicit.case"),
+                ("steps = [0.1]\n", "", "report.explicit.steps"),
+            ):
                 path.write_text(GOOD.replace(old, new))
                 with self.assertRaises(InputError) as caught:
                     coupling.check(read_study(path, ["coupling"]))

@@ -6,8 +6,8 @@ import unittest
 import numpy as np
 from synthetic import TIMES, Z, gaussian, parabola
 
-from fsi_compare.differences import difference, differences_at, l2_norm, largest_difference
-from fsi_compare.pressure_waves import PressureWaves
+from fsi_compare.runs.differences import difference, differences_at, l2_norm, largest_difference
+from fsi_compare.runs.pressure_waves import PressureWaves
 
 
 def waves_of(wave, times=TIMES, z=Z):
@@ -20,7 +20,7 @@ class Norms(unittest.TestCase):
 
     def test_linear_by_trapezoids(self):
         # trapezoids of x^2 exceed the integral by h^2/12 (f'(b) - f'(a)) = h^2/6 b
-        self.assertAlmostEqual(l2_norm(Z, Z) ** 2, 18 ** 3 / 3 + 0.01 * 18 / 6, places=9)
+        self.assertAlmostEqual(l2_norm(Z, Z) ** 2, 18**3 / 3 + 0.01 * 18 / 6, places=9)
 
     def test_uneven_points(self):
         z = np.array([0.0, 1.0, 4.0])

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from synthetic import TIMES, Z, gaussian
 
-from fsi_compare.pictures import LINES, pressure_figure, time_text, write_pressure_waves
-from fsi_compare.pressure_waves import PressureWaves
+from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves
+from fsi_compare.runs.pressure_waves import PressureWaves
 
 PAPER = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0]
 
@@ -38,11 +38,19 @@ class Files(unittest.TestCase):
             self.assertEqual(width, 1480)  # 7.4 inches at 200 dpi
             self.assertTrue(1300 < height < 1600, height)
             text = svg.read_text()
-            for part in ("z in mm", "pressure in Pa", "t = 1.50 ms", "t = 9.00 ms", "monolithic", "partitioned",
-                         "Rabbit carotid artery"):
+            for part in (
+                "z in mm",
+                "pressure in Pa",
+                "t = 1.50 ms",
+                "t = 9.00 ms",
+                "monolithic",
+                "partitioned",
+                "Rabbit carotid artery",
+            ):
                 self.assertIn(part, text)
-            self.assertEqual(sorted(path.name for path in Path(folder).iterdir()),
-                             ["pressure_waves.png", "pressure_waves.svg"])
+            self.assertEqual(
+                sorted(path.name for path in Path(folder).iterdir()), ["pressure_waves.png", "pressure_waves.svg"]
+            )
 
     def test_same_bytes_each_time(self):
         with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
@@ -58,8 +66,10 @@ class Files(unittest.TestCase):
 class Layout(unittest.TestCase):
     def test_panels_in_reading_order(self):
         figure = pressure_figure([waves(0.66)], ["a"], PAPER, "title")
-        self.assertEqual([axes.get_title() for axes in figure.axes],
-                         ["t = 1.50 ms", "t = 3.00 ms", "t = 4.50 ms", "t = 6.00 ms", "t = 7.50 ms", "t = 9.00 ms"])
+        self.assertEqual(
+            [axes.get_title() for axes in figure.axes],
+            ["t = 1.50 ms", "t = 3.00 ms", "t = 4.50 ms", "t = 6.00 ms", "t = 7.50 ms", "t = 9.00 ms"],
+        )
         grid = figure.axes[0].get_subplotspec().get_gridspec()
         self.assertEqual((grid.nrows, grid.ncols), (3, 2))
 
@@ -74,8 +84,12 @@ class Layout(unittest.TestCase):
             for label in ("run %d", "a rather long name of run number %d on the intermediate mesh, element p2p1"):
                 for times in (PAPER, [1.5], PAPER[:3], list(np.arange(1, 10.0))):
                     with self.subTest(runs=runs, label=label, times=len(times)):
-                        figure = pressure_figure([waves(0.6 + 0.02 * i) for i in range(runs)],
-                                                 [label % i for i in range(runs)], times, "A title " * 12)
+                        figure = pressure_figure(
+                            [waves(0.6 + 0.02 * i) for i in range(runs)],
+                            [label % i for i in range(runs)],
+                            times,
+                            "A title " * 12,
+                        )
                         figure.canvas.draw()
                         renderer = figure.canvas.get_renderer()
                         legend = figure.legends[0].get_window_extent(renderer)
@@ -91,6 +105,7 @@ class Layout(unittest.TestCase):
     def test_row_shares_its_scale_unless_one_panel_would_be_flat(self):
         def wave(t, z):  # 90 Pa at 1.5 ms, 9 Pa at 3 ms, 8 Pa afterwards
             return (90 if t < 2 else 9 if t < 4 else 8) * np.exp(-((z - t) ** 2))
+
         run = PressureWaves(TIMES, Z, np.array([wave(t, Z) for t in TIMES]))
         axes = pressure_figure([run], ["a"], PAPER, "title").axes
         self.assertGreater(axes[0].get_ylim()[1], 5 * axes[1].get_ylim()[1])

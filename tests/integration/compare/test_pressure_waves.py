@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 from synthetic import TIMES, Z, artery_like, gaussian, parabola
 
-from fsi_compare.pressure_waves import PressureWaves, crest_speed, peak
+from fsi_compare.runs.pressure_waves import PressureWaves, crest_speed, peak
 
 
 def waves_of(wave, times=TIMES, z=Z):
@@ -74,6 +74,7 @@ class FollowsCrest(unittest.TestCase):
     def test_least_squares_of_scattered_positions(self):
         def wave(t, z):  # every other level is off by +-0.2 mm, symmetric about the middle of the window
             return parabola(0.0, start=1 + 0.6 * t + (0.2 if round(8 * t) % 2 else -0.2))(t, z)
+
         self.assertAlmostEqual(crest_speed(waves_of(wave)), 0.6, places=10)
 
     def test_taller_crest_elsewhere_does_not_catch_it(self):
@@ -95,8 +96,9 @@ class FollowsCrest(unittest.TestCase):
             "largest at the inlet": waves_of(lambda t, z: 20 - z),
             "leaves through the outlet": waves_of(parabola(2.5)),
             "disappears": waves_of(lambda t, z: fades(t, z) if t < 7 else 0 * z),
-            "levels too far apart": waves_of(parabola(3.0, start=-10.0, half_width=1.0),
-                                             [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
+            "levels too far apart": waves_of(
+                parabola(3.0, start=-10.0, half_width=1.0), [4.0, 5.0, 6.0, 7.0, 8.0, 9.0]
+            ),
         }
         for name, waves in cases.items():
             with self.subTest(name):

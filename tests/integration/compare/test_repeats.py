@@ -7,9 +7,9 @@ from pathlib import Path
 from fake_drivers import behave, calls
 from study_case import STUDY, StudyCase
 
-from fsi_compare.studies.repeats import spread, timing_words
-from fsi_compare.studies.runner import RECORD
-from fsi_compare.studies.study_run import DONE, StudyRun
+from fsi_compare.studies.running.repeats import spread, timing_words
+from fsi_compare.studies.running.runner import RECORD
+from fsi_compare.studies.running.study_run import DONE, StudyRun
 
 
 class Repeats(StudyCase):
@@ -17,11 +17,13 @@ class Repeats(StudyCase):
         self.study.write_text(text + STUDY)
 
     def records(self):
-        return {path.parent.name.split("-")[1]: json.loads(path.read_text()) for path in
-                sorted((self.out / "runs").glob(f"*/{RECORD}"))}
+        return {
+            path.parent.name.split("-")[1]: json.loads(path.read_text())
+            for path in sorted((self.out / "runs").glob(f"*/{RECORD}"))
+        }
 
     def wall_s(self, name):
-        folder, = (self.out / "runs").glob(f"tube-{name}-*")  # the repetitions are gone
+        (folder,) = (self.out / "runs").glob(f"tube-{name}-*")  # the repetitions are gone
         return json.loads((folder / "summary.json").read_text())["totals"]["wall_s"]
 
     def test_the_median_stays(self):
@@ -73,7 +75,7 @@ class Repeats(StudyCase):
 
     def test_leftovers_of_a_killed_repetition_do_no_harm(self):
         self.call()
-        folder, = (self.out / "runs").glob("tube-mono-*")
+        (folder,) = (self.out / "runs").glob("tube-mono-*")
         leftover = folder.with_name(folder.name + "-2")
         leftover.mkdir()
         (leftover / "centerline_pressure.csv").write_text("time_ms,z_mm,pre")

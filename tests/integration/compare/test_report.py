@@ -13,8 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from study_case import StudyCase
 
-from fsi_compare.layout import Table
-from fsi_compare.studies.report import Report
+from fsi_compare.reporting.layout import Table
+from fsi_compare.reporting.report import Report
 
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/keep_study.py"
 specification = importlib.util.spec_from_file_location("keep_study", SCRIPT)
@@ -45,8 +45,17 @@ class OneFile(FolderCase):
         report.section("Numbers with `code`")
         report.text("Some **bold** text, 1 < 2 & so on.")
         columns = [("", "name"), ("pressure", "Pa"), ("pressure", "kPa")]
-        report.table(Table("numbers", "Numbers", columns, ["name", "pressure_Pa"], rows=[["one <b>", "1.0", "1e-3"]],
-                           csv_rows=[["one <b>", 0.1 + 0.2]], notes=["a note"]))
+        report.table(
+            Table(
+                "numbers",
+                "Numbers",
+                columns,
+                ["name", "pressure_Pa"],
+                rows=[["one <b>", "1.0", "1e-3"]],
+                csv_rows=[["one <b>", 0.1 + 0.2]],
+                notes=["a note"],
+            )
+        )
         report.figure("line", line_figure, "A line, in `mm`")
         return report
 
@@ -68,8 +77,9 @@ class OneFile(FolderCase):
         self.report().write()
         text = (self.base / "report.md").read_text()
         self.assertIn("# A <title> & more\n\n## Numbers with `code`\n\nSome **bold** text, 1 < 2 & so on.\n\n**N", text)
-        self.assertIn("| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\n"
-                      "a note\n", text)
+        self.assertIn(
+            "| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\na note\n", text
+        )
         self.assertIn("![line](line.png)\n\nA line, in `mm`\n", text)
 
     def test_kept_in_docs(self):
@@ -87,7 +97,7 @@ class OneFile(FolderCase):
         text = path.read_text()
         self.assertNotIn("Hundreds", text)
         self.assertIn("## About this report", text)
-        picture, = re.findall(r"\]\(([^)]*png)\)", text)
+        (picture,) = re.findall(r"\]\(([^)]*png)\)", text)
         self.assertTrue((path.parent / picture).is_file())
         self.assertEqual(len(list((docs / "pictures").iterdir())), 1)
 
@@ -100,9 +110,13 @@ class OneFile(FolderCase):
         self.assertIn("<svg", (self.base / "line.svg").read_text())
 
     def test_references_are_found(self):
-        for page in ('<img src="a.png">', '<script src="https://cdn/x.js"></script>',
-                     '<link rel="stylesheet" href="x.css">',
-                     '<a href="http://somewhere/">', "<style>body { background: url(x.png) }</style>"):
+        for page in (
+            '<img src="a.png">',
+            '<script src="https://cdn/x.js"></script>',
+            '<link rel="stylesheet" href="x.css">',
+            '<a href="http://somewhere/">',
+            "<style>body { background: url(x.png) }</style>",
+        ):
             self.assertNotEqual(outside_references(page), [], page)
 
 
@@ -115,11 +129,26 @@ class InABrowser(StudyCase):
         home = self.base / "home"
         home.mkdir(exist_ok=True)
         ended = subprocess.run(
-            [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-             "--enable-logging=stderr",
-             "--v=0", f"--user-data-dir={home}", "--virtual-time-budget=5000", "--window-size=1200,1600",
-             f"--screenshot={picture}", page.as_uri()],
-            capture_output=True, text=True, errors="replace", timeout=100, env={**os.environ, "HOME": str(home)})
+            [
+                BROWSER,
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+                "--enable-logging=stderr",
+                "--v=0",
+                f"--user-data-dir={home}",
+                "--virtual-time-budget=5000",
+                "--window-size=1200,1600",
+                f"--screenshot={picture}",
+                page.as_uri(),
+            ],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=100,
+            env={**os.environ, "HOME": str(home)},
+        )
         self.assertTrue(picture.is_file(), ended.stderr[-2000:])
         return [line for line in ended.stderr.splitlines() if "CONSOLE" in line], picture
 

@@ -6,8 +6,9 @@ import unittest
 from folder_case import FolderCase
 from synthetic import TIMES, Z, parabola, pressure_csv, write_run
 
-from fsi_compare.errors import InputError
-from fsi_compare.run_folder import default_labels, read_run
+from fsi_compare.base.errors import InputError
+from fsi_compare.runs.labels import default_labels
+from fsi_compare.runs.run_folder import read_run
 
 SHORT = TIMES[:4]
 
@@ -72,7 +73,7 @@ class RefusesBadFolder(FolderCase):
 
     def change_line(self, number, text):
         lines = self.pressure.read_text().splitlines()
-        lines[number - 1:number] = [] if text is None else [text]
+        lines[number - 1 : number] = [] if text is None else [text]
         self.pressure.write_text("\n".join(lines) + "\n")
 
     def test_no_folder(self):
@@ -110,6 +111,8 @@ class RefusesBadFolder(FolderCase):
         self.assert_refused("status: the run stopped without converging; see", "run.log")
 
     def test_failed(self):
+        self.change_summary(status="interrupted")
+        self.assert_refused("status: the run was interrupted; resume it with", "--restart " + str(self.folder))
         self.change_summary(status="failed")
         self.assert_refused("status: the run failed; see", "run.log")
 
@@ -135,8 +138,9 @@ class RefusesBadFolder(FolderCase):
 
     def test_wrong_column(self):
         self.change_line(1, "time_ms,z_mm,pressure_kPa")
-        self.assert_refused("line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,"
-                            "pressure_Pa")
+        self.assert_refused(
+            "line 1: column 'pressure_Pa' is missing; the first line must read time_ms,z_mm,pressure_Pa"
+        )
 
     def test_last_line_cut_off(self):
         self.pressure.write_text(self.pressure.read_text()[:-4])

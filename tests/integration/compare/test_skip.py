@@ -6,12 +6,12 @@ import numpy as np
 from folder_case import FolderCase
 from synthetic import parabola, write_run
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.skip import study as skip
-from fsi_compare.studies.context import Context
-from fsi_compare.studies.report import Report
-from fsi_compare.studies.study_file import read_study
-from fsi_compare.studies.study_run import DONE, NOT_CONVERGED, StudyRun
+from fsi_compare.studies.running.context import Context
+from fsi_compare.reporting.report import Report
+from fsi_compare.studies.running.study_file import read_study
+from fsi_compare.studies.running.study_run import DONE, NOT_CONVERGED, StudyRun
 
 STUDY = """
 title = "Economies"
@@ -43,8 +43,14 @@ off_label = "a stiff wall"
 counter = "structure elements"
 differs = "it yields"
 """
-SECONDS = {("kept", "1"): 1.0, ("kept", "2"): 1.2, ("kept", "3"): 1.25, ("anew", "1"): 4.0, ("anew", "2"): 6.0,
-           ("anew", "3"): 5.0}
+SECONDS = {
+    ("kept", "1"): 1.0,
+    ("kept", "2"): 1.2,
+    ("kept", "3"): 1.25,
+    ("anew", "1"): 4.0,
+    ("anew", "2"): 6.0,
+    ("anew", "3"): 5.0,
+}
 
 
 class Skip(FolderCase):
@@ -66,14 +72,22 @@ class Skip(FolderCase):
             form = str(request.values.get("economy", request.group))
             seconds = seconds_of.get((form, str(request.values.get("repeat"))), 2.0)
             wave = parabola(0.66)
-            folder = write_run(self.base / "runs" / str(i), lambda t, z,
-                               f=form: (1 + 1e-6 * (f == "anew")) * wave(t, z),
-                               0.125 * np.arange(1, 5), totals={"steps": 4, "wall_s": seconds},
-                               phases={"factorisation: coupled": {"seconds": 0.5, "calls": 12 if form == "anew" else 1},
-                                       "output": {"seconds": 0.125, "calls": 4}},
-                               counters={} if request.case == "pipe" else {"structure elements": 100})
-            runs.append(StudyRun(request, folder, status if form == "anew" else DONE,
-                                 "diverged" if status != DONE else "", 3.0, ""))
+            folder = write_run(
+                self.base / "runs" / str(i),
+                lambda t, z, f=form: (1 + 1e-6 * (f == "anew")) * wave(t, z),
+                0.125 * np.arange(1, 5),
+                totals={"steps": 4, "wall_s": seconds},
+                phases={
+                    "factorisation: coupled": {"seconds": 0.5, "calls": 12 if form == "anew" else 1},
+                    "output": {"seconds": 0.125, "calls": 4},
+                },
+                counters={} if request.case == "pipe" else {"structure elements": 100},
+            )
+            runs.append(
+                StudyRun(
+                    request, folder, status if form == "anew" else DONE, "diverged" if status != DONE else "", 3.0, ""
+                )
+            )
         self.out.mkdir(exist_ok=True)
         report = Report(self.out, study.title)
         self.code = skip.evaluate(Context(study, runs, None, report))
@@ -85,15 +99,17 @@ class Skip(FolderCase):
         rows = self.evaluate()
         self.assertEqual(self.code, 0)
         row = rows["kept"]
-        self.assertEqual([float(row[name]) for name in ("with_s", "without_s", "with_count", "without_count")],
-                         [1.2, 5.0, 1, 12])
+        self.assertEqual(
+            [float(row[name]) for name in ("with_s", "without_s", "with_count", "without_count")], [1.2, 5.0, 1, 12]
+        )
         self.assertAlmostEqual(float(row["ratio"]), 5.0 / 1.2)
         self.assertEqual((float(row["noise"]), row["in_noise"]), (1.5, "False"))
         self.assertAlmostEqual(float(row["largest_difference"]), 1e-6, 12)
         self.assertEqual((row["with"], row["switched_off"]), ("kept", "anew"))
         row = rows["pipe"]
-        self.assertEqual((row["switched_off"], float(row["with_count"]), float(row["without_count"])),
-                         ("a stiff wall", 0, 100))
+        self.assertEqual(
+            (row["switched_off"], float(row["with_count"]), float(row["without_count"])), ("a stiff wall", 0, 100)
+        )
         self.assertIn(">it yields<", self.page)
         self.assertEqual(row["in_noise"], "True")  # 2 s in both forms
         self.assertIn(">1.00 (in the noise)<", self.page)
@@ -110,17 +126,21 @@ class Skip(FolderCase):
         self.assertIn("No saving shows in the seconds.", self.page)
 
     def test_no_row_has_less_noise_than_the_median_row(self):
-        rows = [skip.Measured(None, 1.0, ratio, noise, None, None, None)
-                for ratio, noise in ((0.95, 1.0), (1.3, 1.2), (1.3, 1.4))]
-        self.assertEqual([(m.noise, m.in_noise) for m in skip.with_common_noise(rows)],
-                         [(1.2, True), (1.2, False), (1.4, True)])
+        rows = [
+            skip.Measured(None, 1.0, ratio, noise, None, None, None)
+            for ratio, noise in ((0.95, 1.0), (1.3, 1.2), (1.3, 1.4))
+        ]
+        self.assertEqual(
+            [(m.noise, m.in_noise) for m in skip.with_common_noise(rows)], [(1.2, True), (1.2, False), (1.4, True)]
+        )
         self.assertEqual(skip.with_common_noise([]), [])
 
     def test_counters(self):
         self.evaluate()
         run = self.runs[0]
-        self.assertEqual([skip.counter(run, name) for name in ("output seconds", "output", "steps", "fibres")],
-                         [0.125, 4, 4, 0])
+        self.assertEqual(
+            [skip.counter(run, name) for name in ("output seconds", "output", "steps", "fibres")], [0.125, 4, 4, 0]
+        )
 
     def test_a_run_that_failed_leaves_its_economy_out(self):
         rows = self.evaluate(NOT_CONVERGED)
@@ -128,12 +148,13 @@ class Skip(FolderCase):
         self.assertIn("did not come to their end", self.page)
 
     def test_refusals(self):
-        for expected, old, new in (("has 1 forms", ' { label = "anew", set = { monolithic.mode = "full" } },', ""),
-                                   ("'pipe-of' is no group of runs", 'off = "pipe-off"', 'off = "pipe-of"'),
-                                   ("report.economies.kept.counter: is missing", ', counter = "factorisation: coupled"',
-                                    ""),
-                                   ("is no group of runs; did you mean 'kept'", "kept = { label", "keep = { label"),
-                                   ("report.economies: is missing", STUDY[STUDY.index("[report"):], "")):
+        for expected, old, new in (
+            ("has 1 forms", ' { label = "anew", set = { monolithic.mode = "full" } },', ""),
+            ("'pipe-of' is no group of runs", 'off = "pipe-off"', 'off = "pipe-of"'),
+            ("report.economies.kept.counter: is missing", ', counter = "factorisation: coupled"', ""),
+            ("is no group of runs; did you mean 'kept'", "kept = { label", "keep = { label"),
+            ("report.economies: is missing", STUDY[STUDY.index("[report") :], ""),
+        ):
             with self.assertRaises(InputError) as caught:
                 self.study(STUDY.replace(old, new))
             self.assertIn(expected, str(caught.exception))

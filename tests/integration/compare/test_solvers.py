@@ -12,8 +12,10 @@ from unittest import mock
 from fake_monolithic import behave, calls, install
 from folder_case import FolderCase
 
-from fsi_compare import paper
-from fsi_compare.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare import cli
+from fsi_compare.base import paper
+from fsi_compare.base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare.linear.command import CASES
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")
 
@@ -23,7 +25,7 @@ class StudyTest(FolderCase):
 
     def setUp(self):
         if not self.draw:
-            patch = mock.patch("fsi_compare.solver_pictures.write_solver_pictures", return_value=[])
+            patch = mock.patch("fsi_compare.linear.solver_pictures.write_solver_pictures", return_value=[])
             patch.start()
             self.addCleanup(patch.stop)
         super().setUp()
@@ -41,7 +43,7 @@ class StudyTest(FolderCase):
 
     def line(self, text, *starts):
         """Words of the first line that begins with the given words."""
-        return next(words for words in map(str.split, text.splitlines()) if words[:len(starts)] == list(starts))
+        return next(words for words in map(str.split, text.splitlines()) if words[: len(starts)] == list(starts))
 
 
 class PaperNumbers(unittest.TestCase):
@@ -69,10 +71,12 @@ class WithPictures(StudyTest):
     draw = True
 
     def test_legend_covers_no_panel(self):
-        from fsi_compare.solver_pictures import cost_figure, iterations_figure
+        from fsi_compare.linear.solver_pictures import cost_figure, iterations_figure
 
-        with mock.patch("fsi_compare.solver_pictures.write_solver_pictures",
-                        side_effect=lambda folder, grid: grids.append(grid) or []):
+        with mock.patch(
+            "fsi_compare.linear.solver_pictures.write_solver_pictures",
+            side_effect=lambda folder, grid: grids.append(grid) or [],
+        ):
             for arguments in (SMALL, ("--systems", "1:1")):
                 grids = []
                 self.assertEqual(self.call(*arguments)[0], 0)
@@ -89,9 +93,15 @@ class WithPictures(StudyTest):
     def test_same_bytes_and_no_run_twice(self):
         self.call(*SMALL)
         first = {path.name: path.read_bytes() for path in self.out.glob("*.*")}
-        self.assertEqual(sorted(name for name in first if name.endswith(("png", "svg"))), [
-            "cost_step1_newton1.png", "cost_step1_newton1.svg", "iterations_step1_newton1.png",
-            "iterations_step1_newton1.svg"])
+        self.assertEqual(
+            sorted(name for name in first if name.endswith(("png", "svg"))),
+            [
+                "cost_step1_newton1.png",
+                "cost_step1_newton1.svg",
+                "iterations_step1_newton1.png",
+                "iterations_step1_newton1.svg",
+            ],
+        )
         self.call(*SMALL)
         self.assertEqual(first, {path.name: path.read_bytes() for path in self.out.glob("*.*")})
         self.assertEqual(len(calls(self.program)), 1)
@@ -103,7 +113,7 @@ class WithPictures(StudyTest):
         self.assertEqual([path.suffix for path in self.out.iterdir() if path.suffix in (".png", ".svg")], [])
 
     def test_names_differ_in_grey(self):
-        from fsi_compare.solver_pictures import MATERIAL_LINES, MESH_MARKS
+        from fsi_compare.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
 
         for lines in (MATERIAL_LINES, MESH_MARKS):
             self.assertEqual(len({line["marker"] for line in lines.values()}), len(lines))
@@ -111,33 +121,50 @@ class WithPictures(StudyTest):
 
 class Tables(StudyTest):
     def test_all_of_the_paper(self):
-        behave(self.program, iterations=[["neo-hookean", "fine", "1:1", "amg", 13],
-                                         ["artery", "coarse", "1:1", "lower", 28],
-                                         ["neo-hookean", "coarse", "1:1", "upper", 30],
-                                         ["neo-hookean", "coarse", "1:1", "upper_exact", 20]])
+        behave(
+            self.program,
+            iterations=[
+                ["neo-hookean", "fine", "1:1", "amg", 13],
+                ["artery", "coarse", "1:1", "lower", 28],
+                ["neo-hookean", "coarse", "1:1", "upper", 30],
+                ["neo-hookean", "coarse", "1:1", "upper_exact", 20],
+            ],
+        )
         code, out, err = self.call()
         self.assertEqual(code, 0, err)
         self.assertEqual(len(calls(self.program)), 9)
-        for part in ("Table 3", "Table 4: iterations of GMRES with block preconditioners, Newton system 1 of step 1 "
-                     "(t = 0.125 ms)", "Newton system 2 of step 12 (t = 1.5 ms)", "Cost of the methods"):
+        for part in (
+            "Table 3",
+            "Table 4: iterations of GMRES with block preconditioners, Newton system 1 of step 1 (t = 0.125 ms)",
+            "Newton system 2 of step 12 (t = 1.5 ms)",
+            "Cost of the methods",
+        ):
             self.assertIn(part, out)
-        self.assertEqual(self.line(out, "neo-Hookean", "1"),
-                         ["neo-Hookean", "1", "2.2e+00", "6.2e+01", "2.2e+00", "6.8e+01", "2.2e+00", "6.9e+01"])
+        self.assertEqual(
+            self.line(out, "neo-Hookean", "1"),
+            ["neo-Hookean", "1", "2.2e+00", "6.2e+01", "2.2e+00", "6.8e+01", "2.2e+00", "6.9e+01"],
+        )
         # material, method, then ours, exact, ratio, paper's for each mesh
         self.assertEqual(self.line(out, "P_U")[:5], ["P_U", "30*", "20", "1.50!", "28"])
         self.assertEqual(self.line(out, "AMG")[:7], ["AMG", "7", "(7)", "8", "(8)", "13*", "(12)"])
-        self.assertIn("more than 3 iterations above the coarse mesh on the fine one: AMG neo-Hookean (6), AMG "
-                      "Mooney-Rivlin", out)
+        self.assertIn(
+            "more than 3 iterations above the coarse mesh on the fine one: AMG neo-Hookean (6), AMG Mooney-Rivlin", out
+        )
         self.assertIn("At rest the fibres do nothing", out)
 
-        rows = {(r["material"], r["mesh"], r["method"]): r
-                for r in self.csv("table4_block_preconditioners_step1_newton1.csv")}
+        rows = {
+            (r["material"], r["mesh"], r["method"]): r
+            for r in self.csv("table4_block_preconditioners_step1_newton1.csv")
+        }
         self.assertEqual(len(rows), 45)
         artery = rows["artery", "coarse", "lower"]  # 25 in the paper's own column
-        self.assertEqual((artery["paper_iterations"], artery["limit_iterations"], artery["above_limit"]),
-                         ("25", "28", "no"))
-        later = {(r["material"], r["mesh"], r["method"]): r
-                 for r in self.csv("table4_block_preconditioners_step12_newton2.csv")}["artery", "coarse", "lower"]
+        self.assertEqual(
+            (artery["paper_iterations"], artery["limit_iterations"], artery["above_limit"]), ("25", "28", "no")
+        )
+        later = {
+            (r["material"], r["mesh"], r["method"]): r
+            for r in self.csv("table4_block_preconditioners_step12_newton2.csv")
+        }["artery", "coarse", "lower"]
         self.assertEqual((later["limit_iterations"], later["above_limit"], later["time_ms"]), ("25", "yes", "1.5"))
         upper = rows["neo-hookean", "coarse", "upper"]
         self.assertEqual((upper["iterations"], upper["exact_iterations"], upper["ratio_to_exact"]), ("30", "20", "1.5"))
@@ -161,15 +188,32 @@ class Tables(StudyTest):
         rows = self.csv("cost_step1_newton1.csv")
         self.assertEqual([row["method"] for row in rows], ["direct", "amg", "amg_fgmres"])
         amg = rows[1]
-        self.assertEqual([amg[name] for name in ("iterations", "set_up_seconds", "wall_cycles", "memory_MiB",
-                                                 "unknowns")], ["7", "0.125", "14", "12.5", "4662"])
+        self.assertEqual(
+            [amg[name] for name in ("iterations", "set_up_seconds", "wall_cycles", "memory_MiB", "unknowns")],
+            ["7", "0.125", "14", "12.5", "4662"],
+        )
         self.assertAlmostEqual(float(amg["solve_seconds"]), 4662e-6 * 7)
         self.assertAlmostEqual(float(amg["work_units"]), 4662e-3 * 7)
         self.assertEqual((rows[0]["operator_complexity"], rows[0]["difference_to_direct"]), ("", ""))
 
+    def test_without_a_direct_solve_nothing_is_compared_with_it(self):
+        words = ("--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1")
+        with_direct, without = (self.call(*words, "--methods", m)[1] for m in ("amg,direct", "amg"))
+        for text in ("to direct", "relative difference to the direct solver's solution above 1e-07: none"):
+            self.assertIn(text, with_direct)
+            self.assertNotIn(text, without)
+
     def test_order_of_the_preconditioners(self):
-        blocks = ("--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1", "--methods",
-                  "diagonal,lower,ssor")
+        blocks = (
+            "--materials",
+            "neo-hookean",
+            "--meshes",
+            "coarse",
+            "--systems",
+            "1:1",
+            "--methods",
+            "diagonal,lower,ssor",
+        )
         _, out, _ = self.call(*blocks)
         self.assertIn("order of the preconditioners as in the paper: yes", out)
         behave(self.program, version="0.2.0", iterations=[["neo-hookean", "coarse", "1:1", "lower", 20]])
@@ -180,13 +224,16 @@ class Tables(StudyTest):
         _, out, _ = self.call(*SMALL, "--sub-problems")
         self.assertIn("AMG of the sub-problems alone", out)
         rows = self.csv("sub_problems.csv")
-        self.assertEqual([(r["problem"], r["levels"], r["convergence_factor"]) for r in rows],
-                         [("mesh", "2", "0.12"), ("mesh", "3", "0.15"), ("wall", "3", "")])
+        self.assertEqual(
+            [(r["problem"], r["levels"], r["convergence_factor"]) for r in rows],
+            [("mesh", "2", "0.12"), ("mesh", "3", "0.15"), ("wall", "3", "")],
+        )
         self.assertIn("n.c.", out)  # a factor above one
 
     def test_without(self):
-        code, _, _ = self.call("--materials", "neo-hookean", "--methods", "direct,fast", "--systems", "1:1",
-                               "--without", "fine:direct")
+        code, _, _ = self.call(
+            "--materials", "neo-hookean", "--methods", "direct,fast", "--systems", "1:1", "--without", "fine:direct"
+        )
         self.assertEqual(code, 0)
         self.assertEqual([("direct" in call) for call in calls(self.program)], [True, True, False])
         self.assertEqual(len(self.csv("cost_step1_newton1.csv")), 5)
@@ -201,8 +248,10 @@ class Failures(StudyTest):
         self.assertIn("n.c.: AMG, neo-Hookean C: no convergence in 500 iterations", out)
         self.assertNotIn("2.50e-01", out)
         row = self.csv("cost_step1_newton1.csv")[1]
-        self.assertEqual((row["status"], row["iterations"], row["solve_seconds"], row["relative_residual"]),
-                         ("not converged", "", "", ""))
+        self.assertEqual(
+            (row["status"], row["iterations"], row["solve_seconds"], row["relative_residual"]),
+            ("not converged", "", "", ""),
+        )
         self.assertEqual(row["message"], "no convergence in 500 iterations")
         row = self.csv("table5_multilevel_step1_newton1.csv")[0]
         self.assertEqual((row["iterations"], row["above_limit"]), ("", ""))
@@ -215,20 +264,29 @@ class Failures(StudyTest):
 
     def test_a_failed_run_does_not_end_the_study(self):
         behave(self.program, end={"neo-hookean fine": [1, "out of memory"], "mooney-rivlin coarse": [2, "no step"]})
-        code, out, err = self.call("--methods", "amg,direct", "--materials", "neo-hookean,mooney-rivlin", "--systems",
-                                   "1:1", "-q")
+        code, out, err = self.call(
+            "--methods", "amg,direct", "--materials", "neo-hookean,mooney-rivlin", "--systems", "1:1", "-q"
+        )
         self.assertEqual((code, out), (2, ""))
-        self.assertEqual(err.splitlines(), ["[2/6] mooney-rivlin-coarse: failed: no step",
-                                            "[5/6] neo-hookean-fine: failed: out of memory"])
-        rows = {(r["material"], r["mesh"]): r for r in self.csv("table5_multilevel_step1_newton1.csv")
-                if r["method"] == "amg"}
-        self.assertEqual((rows["neo-hookean", "fine"]["status"], rows["neo-hookean", "fine"]["message"]),
-                         ("failed", "out of memory"))
+        self.assertEqual(
+            err.splitlines(),
+            ["[2/6] mooney-rivlin-coarse: failed: no step", "[5/6] neo-hookean-fine: failed: out of memory"],
+        )
+        rows = {
+            (r["material"], r["mesh"]): r
+            for r in self.csv("table5_multilevel_step1_newton1.csv")
+            if r["method"] == "amg"
+        }
+        self.assertEqual(
+            (rows["neo-hookean", "fine"]["status"], rows["neo-hookean", "fine"]["message"]), ("failed", "out of memory")
+        )
         self.assertEqual(rows["mooney-rivlin", "fine"]["iterations"], "12")
         # the failed ones are tried again, the others not
         behave(self.program)
-        self.assertEqual(self.call("--methods", "amg,direct", "--materials", "neo-hookean,mooney-rivlin", "--systems",
-                                   "1:1", "-q"), (0, "", ""))
+        self.assertEqual(
+            self.call("--methods", "amg,direct", "--materials", "neo-hookean,mooney-rivlin", "--systems", "1:1", "-q"),
+            (0, "", ""),
+        )
         self.assertEqual(len(calls(self.program)), 8)
 
     def test_all_failed(self):
@@ -303,17 +361,37 @@ class Restart(StudyTest):
 
     def test_command_line_of_a_run(self):
         self.runs(*SMALL, "--threads", "1", "--set", "structure.density=2", "--sub-problems")
-        self.assertEqual(calls(self.program), [
-            f"{self.cases}/neo-hookean.toml -o {self.out}/runs/neo-hookean-coarse -q --linear-systems 1:1 "
-            "--linear-solvers amg,amg_fgmres,direct --linear-tolerance 1e-09 --sub-problems --threads 1 "
-            "--set structure.density=2 --set mesh.level=coarse"])
+        self.assertEqual(
+            calls(self.program),
+            [
+                f"{self.cases}/neo-hookean.toml -o {self.out}/runs/neo-hookean-coarse -q --linear-systems 1:1 "
+                "--linear-solvers amg,amg_fgmres,direct --linear-tolerance 1e-09 --sub-problems --threads 1 "
+                "--set structure.density=2 --set mesh.level=coarse"
+            ],
+        )
 
     def test_a_study_that_is_ended_leaves_no_run_behind(self):
         behave(self.program, sleep=60)
-        code = ("import sys; sys.path[:0] = sys.argv.pop(1),; "
-                "from fsi_compare.cli import main; sys.exit(main(sys.argv[1:]))")
-        words = [sys.executable, "-E", "-B", "-c", code, Path(paper.__file__).parents[1], "solvers", "-o", self.out,
-                 "--case-dir", self.cases, "--program", self.program, *SMALL]
+        code = (
+            "import sys; sys.path[:0] = sys.argv.pop(1),; "
+            "from fsi_compare.cli import main; sys.exit(main(sys.argv[1:]))"
+        )
+        words = [
+            sys.executable,
+            "-E",
+            "-B",
+            "-c",
+            code,
+            Path(cli.__file__).parents[1],
+            "solvers",
+            "-o",
+            self.out,
+            "--case-dir",
+            self.cases,
+            "--program",
+            self.program,
+            *SMALL,
+        ]
         study = subprocess.Popen(list(map(str, words)), stderr=subprocess.PIPE, text=True)
         pid = self.base / "pid"
         until = time.monotonic() + 30
@@ -328,10 +406,17 @@ class Restart(StudyTest):
         behave(self.program)
         self.assertEqual(self.runs(*SMALL), 1)
 
+    def test_the_default_cases_are_there(self):
+        for material in MATERIALS:
+            self.assertTrue((CASES / f"{material}.toml").is_file(), CASES)
+
     def test_time_left(self):
         _, _, err = self.call(*SMALL[:2], "--meshes", "coarse,intermediate", *SMALL[4:])
-        self.assertRegex(err, r"^\[1/2\] neo-hookean-coarse: [\d.]+ s, about [\d.]+ s left\n\[2/2\] "
-                              r"neo-hookean-intermediate: [\d.]+ s\n$")
+        self.assertRegex(
+            err,
+            r"^\[1/2\] neo-hookean-coarse: [\d.]+ s, about [\d.]+ s left\n\[2/2\] "
+            r"neo-hookean-intermediate: [\d.]+ s\n$",
+        )
 
 
 class Stress(StudyTest):
@@ -344,13 +429,19 @@ class Stress(StudyTest):
         rows = self.csv("stress.csv")
         self.assertEqual(len(rows), 2 * self.ROWS)
         self.assertEqual({row["method"] for row in rows}, {"fast", "amg_fgmres"})
-        self.assertEqual(self.line(out, "neo-Hookean", "coarse", "bulk", "modulus", "1e+07", "kPa")[6:],
-                         ["9", "0.167", "yes", "6", "0.153", "yes"])
+        self.assertEqual(
+            self.line(out, "neo-Hookean", "coarse", "bulk", "modulus", "1e+07", "kPa")[6:],
+            ["9", "0.167", "yes", "6", "0.153", "yes"],
+        )
         densities = sorted({float(row["value"]) for row in rows if row["quantity"] == "density wall/fluid"})
-        self.assertEqual(densities, [10.0 ** i for i in range(-3, 4)])
-        for expected in ("--set time.step=0.0125 --set time.end=0.0125", "--set structure.bulk_modulus=100.0",
-                         "--set fluid.density=1.0 --set structure.density=1000.0", "--set fluid.viscosity=0.35",
-                         "--set mesh.file="):
+        self.assertEqual(densities, [10.0**i for i in range(-3, 4)])
+        for expected in (
+            "--set time.step=0.0125 --set time.end=0.0125",
+            "--set structure.bulk_modulus=100.0",
+            "--set fluid.density=1.0 --set structure.density=1000.0",
+            "--set fluid.viscosity=0.35",
+            "--set mesh.file=",
+        ):
             self.assertTrue(any(expected in call for call in calls(self.program)), expected)
         self.assertFalse(any("inlet" in call for call in calls(self.program)))
         self.assertIn("| neo-Hookean | coarse | viscosity |", (self.out / "stress.md").read_text())
@@ -362,20 +453,25 @@ class Stress(StudyTest):
             code, out, _ = self.call("--stress", "--methods", "fast")
         self.assertEqual(code, 2)
         self.assertEqual(len(calls(self.program)), self.ROWS - 2)
-        self.assertIn("failed: edge along/across axis 20: fsi-mesh is neither beside fsi-monolithic nor on the path",
-                      out)
+        self.assertIn(
+            "failed: edge along/across axis 20: fsi-mesh is neither beside fsi-monolithic nor on the path", out
+        )
 
     def test_not_converged(self):
         self.make_mesh_maker()
         behave(self.program, iterations=[["neo-hookean", "coarse", "1:1", "amg_fgmres", None]])
         code, out, _ = self.call("--stress")
         self.assertEqual(code, 2)
-        self.assertEqual(self.line(out, "neo-Hookean", "coarse", "viscosity", "0.35", "kPa", "ms")[6:],
-                         ["9", "0.167", "yes", "n.c.", "-", "no"])
+        self.assertEqual(
+            self.line(out, "neo-Hookean", "coarse", "viscosity", "0.35", "kPa", "ms")[6:],
+            ["9", "0.167", "yes", "n.c.", "-", "no"],
+        )
 
     def test_wrong_use(self):
-        for words, expected in ((("--systems", "12:2"), "--systems: --stress is about the first system"),
-                                (("--set", "time.step=1"), "--set: time.step is varied by --stress")):
+        for words, expected in (
+            (("--systems", "12:2"), "--systems: --stress is about the first system"),
+            (("--set", "time.step=1"), "--set: time.step is varied by --stress"),
+        ):
             code, _, err = self.call("--stress", *words)
             self.assertEqual(code, 1)
             self.assertIn(expected, err)
@@ -396,10 +492,17 @@ class WrongUse(StudyTest):
         self.assertEqual(calls(self.program), [])
 
     def test_names(self):
-        self.assert_refused("--methods: 'amg_fgmre' is unknown; nearest: amg_fgmres; names are direct, fast",
-                            "--methods", "direct,amg_fgmre")
-        self.assert_refused("--materials: 'neohookean' is unknown; nearest: neo-hookean; names are neo-hookean, "
-                            "mooney-rivlin, artery", "--materials", "neohookean")
+        self.assert_refused(
+            "--methods: 'amg_fgmre' is unknown; nearest: amg_fgmres; names are direct, fast",
+            "--methods",
+            "direct,amg_fgmre",
+        )
+        self.assert_refused(
+            "--materials: 'neohookean' is unknown; nearest: neo-hookean; names are neo-hookean, "
+            "mooney-rivlin, artery",
+            "--materials",
+            "neohookean",
+        )
         self.assert_refused("--meshes: 'corse' is unknown; nearest: coarse", "--meshes", "corse")
         self.assert_refused("--methods: 'amg' is given twice", "--methods", "amg,amg")
         self.assert_refused("--methods: '' is unknown", "--methods", "amg,")
@@ -416,19 +519,22 @@ class WrongUse(StudyTest):
         self.assert_refused("--set: a.b is given twice", "--set", "a.b=1", "--set", "a.b=2")
         self.assert_refused("--without: 'direct' has no ':'", "--without", "direct")
         self.assert_refused("--without: 'diret' is unknown; nearest: direct", "--without", "fine:diret")
-        self.assert_refused("--without: leaves no method on the fine mesh", "--methods", "direct", "--without",
-                            "fine:direct")
+        self.assert_refused(
+            "--without: leaves no method on the fine mesh", "--methods", "direct", "--without", "fine:direct"
+        )
         self.assert_refused("unrecognized arguments: --colour", "--colour")
         self.assert_refused("see fsi-compare solvers --help", "--tolerance", "small")
 
     def test_program(self):
-        self.assert_refused("/nowhere: --program: no such program; build it", "--program", "/nowhere",
-                            own_program=False)
+        self.assert_refused(
+            "/nowhere: --program: no such program; build it", "--program", "/nowhere", own_program=False
+        )
         self.assert_refused("--program: is not a program", "--program", self.cases, own_program=False)
         self.assert_refused("--program: is not fsi-monolithic", "--program", "/bin/echo", own_program=False)
         with mock.patch.dict(os.environ, PATH=""), mock.patch("sys.argv", ["/nowhere/fsi-compare"]):
-            self.assert_refused("fsi-monolithic: --program: is neither beside fsi-compare nor on the path",
-                                own_program=False)
+            self.assert_refused(
+                "fsi-monolithic: --program: is neither beside fsi-compare nor on the path", own_program=False
+            )
         behave(self.program, help="nothing of the kind")
         self.assert_refused("version 0.1.0 does not know --linear-systems; take the program built")
 
@@ -449,14 +555,23 @@ class WrongUse(StudyTest):
     def test_what_every_run_refuses(self):
         behave(self.program, end={"neo-hookean coarse": [1, "fluid.densty: unknown key; nearest: fluid.density"]})
         code, out, err = self.call(*SMALL, "-q", "--set", "fluid.densty=1")
-        self.assertEqual((code, out, err), (
-            1, "", "fsi-compare: error: fluid.densty: unknown key; nearest: fluid.density\n"))
+        self.assertEqual(
+            (code, out, err), (1, "", "fsi-compare: error: fluid.densty: unknown key; nearest: fluid.density\n")
+        )
 
     def test_help(self):
         code, out, _ = self.call("--help")
         self.assertEqual(code, 0)
-        for word in ("--methods", "--materials", "--meshes", "--systems", "--stress", "--sub-problems", "--program",
-                     *METHODS):
+        for word in (
+            "--methods",
+            "--materials",
+            "--meshes",
+            "--systems",
+            "--stress",
+            "--sub-problems",
+            "--program",
+            *METHODS,
+        ):
             self.assertIn(word, out)
 
 

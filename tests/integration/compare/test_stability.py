@@ -8,19 +8,19 @@ import numpy as np
 from folder_case import FolderCase
 from synthetic import parabola, write_run
 
-from fsi_compare.errors import InputError
-from fsi_compare.pressure_waves import PressureWaves
+from fsi_compare.base.errors import InputError
+from fsi_compare.runs.pressure_waves import PressureWaves
 from fsi_compare.studies.stability import study as stability
-from fsi_compare.studies.context import Context
-from fsi_compare.studies.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG, Cell, difference_of
+from fsi_compare.studies.running.context import Context
+from fsi_compare.studies.evidence.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG, Cell, difference_of
 from fsi_compare.studies.stability.beyond_limit_load import Inflated, limit_load_table
 from fsi_compare.studies.stability.limit_load import Inflation, apart, read_wall
 from fsi_compare.studies.stability.settings import Settings
-from fsi_compare.studies.report import Report
+from fsi_compare.reporting.report import Report
 from fsi_compare.studies.stability.messages import distinct, without_folder
-from fsi_compare.studies.study_file import Method, Request, read_study
-from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
-from fsi_compare.studies.study_run import WRONG as NOT_FINITE
+from fsi_compare.studies.running.study_file import Method, Request, read_study
+from fsi_compare.studies.running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from fsi_compare.studies.running.study_run import WRONG as NOT_FINITE
 
 STUDY = """
 title = "A map"
@@ -60,9 +60,13 @@ shear_moduli = [3.0, 0.3]
 "structure.density" = { label = "Density ratio", paper = 1.2 }
 """
 TIMES = 0.125 * np.arange(1, 5)
-ENDS = {NOT_CONVERGED: "step 4 (to t = 0.5 ms): no step lowers the residual [the state after step 3 is saved; see a/b]",
-        REFUSED: "no such key", OUT_OF_TIME: "stopped after 60 s", CRASHED: "ended by signal SIGSEGV",
-        NOT_FINITE: "flow.csv"}
+ENDS = {
+    NOT_CONVERGED: "step 4 (to t = 0.5 ms): no step lowers the residual [the state after step 3 is saved; see a/b]",
+    REFUSED: "no such key",
+    OUT_OF_TIME: "stopped after 60 s",
+    CRASHED: "ended by signal SIGSEGV",
+    NOT_FINITE: "flow.csv",
+}
 
 
 def artery_wall():
@@ -92,13 +96,19 @@ class StabilityCase(FolderCase):
             folder = self.base / "runs" / str(i)
             if request.case == "wall":
                 folder.mkdir(parents=True)
-                (folder / "wall_displacement.csv").write_text("time_ms,z_mm,radial_mm,axial_mm\n" + "".join(
-                    f"{t},{z},{0.5 * t},0\n" for t in (0.25, 0.5) for z in (0.0, 9.0, 18.0)))
+                (folder / "wall_displacement.csv").write_text(
+                    "time_ms,z_mm,radial_mm,axial_mm\n"
+                    + "".join(f"{t},{z},{0.5 * t},0\n" for t in (0.25, 0.5) for z in (0.0, 9.0, 18.0))
+                )
                 status = NOT_CONVERGED
             elif levels:
                 wave = parabola(0.66)
-                write_run(folder, lambda t, z: factor * wave(t, z), TIMES[:levels],
-                          totals={"steps": levels, "outer_iterations": 9 * levels, "newton_iterations": 3 * levels})
+                write_run(
+                    folder,
+                    lambda t, z: factor * wave(t, z),
+                    TIMES[:levels],
+                    totals={"steps": levels, "outer_iterations": 9 * levels, "newton_iterations": 3 * levels},
+                )
             runs.append(StudyRun(request, folder, status, ENDS.get(status, ""), 1.0, "/opt/bin/fsi-monolithic x.toml"))
         self.out.mkdir(exist_ok=True)
         report = Report(self.out, study.title)
@@ -115,9 +125,9 @@ class Outcomes(StabilityCase):
         self.assertAlmostEqual(float(rows[12.0, "parts"]["largest_difference"]), 5e-4, 12)
         self.assertEqual(rows[12.0, "parts"]["compared_with"], "whole")
         self.assertNotEqual(rows[12.0, "whole"]["compared_with"], "other")  # by the other driver
-        self.assertEqual((float(rows[1.2, "whole"]["iterations_per_step"]),
-                          float(rows[1.2, "parts"]["iterations_per_step"])),
-                         (3, 9))
+        self.assertEqual(
+            (float(rows[1.2, "whole"]["iterations_per_step"]), float(rows[1.2, "parts"]["iterations_per_step"])), (3, 9)
+        )
         self.assertIn("No crash", self.page)
 
     def test_silent_wrong_answer(self):
@@ -127,8 +137,9 @@ class Outcomes(StabilityCase):
 
     def test_levels_before_a_failure_count_too(self):
         code, rows = self.evaluate({("parts", 12.0): (NOT_CONVERGED, 1.01, 3), ("parts", 1.2): (NOT_CONVERGED, 1.0, 3)})
-        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]),
-                         (2, WRONG, NOT_CONVERGED))
+        self.assertEqual(
+            (code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]), (2, WRONG, NOT_CONVERGED)
+        )
 
     def test_drivers_disagree_throughout(self):
         _, rows = self.evaluate({(name, 12.0): (DONE, 2.0, 4) for name in ("parts", "once")})
@@ -152,8 +163,9 @@ class Outcomes(StabilityCase):
     def test_nothing_to_check_with(self):
         ended = {(name, 12.0): (NOT_CONVERGED, 1.0, 0) for name in ("whole", "other")}
         code, rows = self.evaluate({**ended, ("parts", 1.2): (OUT_OF_TIME, 1.0, 2)})
-        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]),
-                         (0, UNCHECKED, OUT_OF_TIME))
+        self.assertEqual(
+            (code, rows[12.0, "parts"]["outcome"], rows[1.2, "parts"]["outcome"]), (0, UNCHECKED, OUT_OF_TIME)
+        )
 
     def test_reference_falls_back(self):
         _, rows = self.evaluate({("whole", 12.0): (REFUSED, 1.0, 0)})
@@ -161,8 +173,9 @@ class Outcomes(StabilityCase):
 
     def test_crash_and_not_finite_are_faults(self):
         code, rows = self.evaluate({("parts", 12.0): (CRASHED, 1.0, 0), ("other", 1.2): (NOT_FINITE, 1.0, 0)})
-        self.assertEqual((code, rows[12.0, "parts"]["outcome"], rows[1.2, "other"]["outcome"]),
-                         (2, CRASHED, NOT_FINITE))
+        self.assertEqual(
+            (code, rows[12.0, "parts"]["outcome"], rows[1.2, "other"]["outcome"]), (2, CRASHED, NOT_FINITE)
+        )
 
     def test_scope_and_commands(self):
         self.evaluate({})
@@ -191,8 +204,10 @@ class Messages(StabilityCase):
                 self.run = type("Run", (), {"done": False, "message": message})
 
         said = "step {} (to t = {} ms): the wall ended [the state after step {} is saved; x]"
-        first, second = distinct([Cell(said.format(n, t, n), m)
-                                  for n, t, m in ((2, 0.25, "a"), (3, 0.375, "b"))] + [Cell("other, iqn-2", "a")])
+        first, second = distinct(
+            [Cell(said.format(n, t, n), m) for n, t, m in ((2, 0.25, "a"), (3, 0.375, "b"))]
+            + [Cell("other, iqn-2", "a")]
+        )
         self.assertEqual((len(first.cells), first.methods, len(second.cells)), (2, ["a", "b"], 1))
         self.assertEqual(first.text, "step N (to t = N ms): the wall ended")
         self.assertEqual(first.example, "step 2 (to t = 0.25 ms): the wall ended")
@@ -205,18 +220,28 @@ class LimitLoad(unittest.TestCase):
 
         def inflated(method, until, reached):
             levels = Inflation(np.array([0.5, reached]), np.array([0.1, 0.143]), np.array([0.0, 0.0]))
-            request = Request("pulse", "tube", Method(method, method, "p", {}), {"inlet.until": until}, None, None, {},
-                              1.0)
+            request = Request(
+                "pulse", "tube", Method(method, method, "p", {}), {"inlet.until": until}, None, None, {}, 1.0
+            )
             run = StudyRun(request, Path("nowhere"), DONE, "", 1.0, "")
             return Inflated(Cell(run, AGREES, 2, None, None), False, until, levels, wall)
 
         names = ["whole", "other", "iqn", "robin"]
-        table = limit_load_table([*(inflated(name, 1.0, 3.0) for name in [*names, "once"]),
-                                  *(inflated(name, 5.0, 2.0 if name == "iqn" else 2.5) for name in names)], settings)
-        self.assertEqual([row[:5] for row in table.rows],
-                         [["pulse of 1 ms", "-", "all 4 methods", AGREES, "3 ms"],
-                          ["pulse of 5 ms", "-", "whole; other; robin", AGREES, "2.5 ms"],
-                          ["pulse of 5 ms", "-", "iqn", AGREES, "2 ms"]])
+        table = limit_load_table(
+            [
+                *(inflated(name, 1.0, 3.0) for name in [*names, "once"]),
+                *(inflated(name, 5.0, 2.0 if name == "iqn" else 2.5) for name in names),
+            ],
+            settings,
+        )
+        self.assertEqual(
+            [row[:5] for row in table.rows],
+            [
+                ["pulse of 1 ms", "-", "all 4 methods", AGREES, "3 ms"],
+                ["pulse of 5 ms", "-", "whole; other; robin", AGREES, "2.5 ms"],
+                ["pulse of 5 ms", "-", "iqn", AGREES, "2 ms"],
+            ],
+        )
         self.assertEqual(len(table.csv_rows), 9)
 
     def test_a_long_tube_bulges_before_its_limit(self):
@@ -246,10 +271,12 @@ class Refusals(StabilityCase):
         self.assertIn(expected, str(caught.exception))
 
     def test_settings(self):
-        self.assert_refused("report.references: 'hole' is no method", 'references = ["whole", "other"]',
-                            'references = ["hole"]')
-        self.assert_refused("not methods of one driver", 'references = ["whole", "other"]',
-                            'references = ["whole", "parts"]')
+        self.assert_refused(
+            "report.references: 'hole' is no method", 'references = ["whole", "other"]', 'references = ["hole"]'
+        )
+        self.assert_refused(
+            "not methods of one driver", 'references = ["whole", "other"]', 'references = ["whole", "parts"]'
+        )
         self.assert_refused("report.bounds: is unknown; did you mean 'bound'", "[report]", "[report]\nbounds = 1")
         self.assert_refused("report.bound: 0 is not a positive", "[report]", "[report]\nbound = 0")
         self.assert_refused("varies 2 quantities", "[1.2, 12.0] }", '[1.2], "time.step" = [1.0] }')

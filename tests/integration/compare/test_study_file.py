@@ -4,10 +4,10 @@ import unittest
 
 from folder_case import FolderCase
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies import kinds
 from fsi_compare.studies.command import READY, ready, study_path
-from fsi_compare.studies.study_file import read_study
+from fsi_compare.studies.running.study_file import read_study
 
 GOOD = """\
 title = "A study"
@@ -76,8 +76,11 @@ class StudyFile(FolderCase):
         self.assertEqual({(r.group, r.case) for r in study.requests}, {("loads", "pipe")})
 
     def test_not_a_study(self):
-        for text, expected in (("", "kind: is missing"), ("title =", "is not TOML"), ("kind = 3",
-                                                                                      "kind: is not a text")):
+        for text, expected in (
+            ("", "kind: is missing"),
+            ("title =", "is not TOML"),
+            ("kind = 3", "kind: is not a text"),
+        ):
             with self.assertRaises(InputError) as caught:
                 self.read(text)
             self.assertIn(expected, str(caught.exception))
@@ -95,20 +98,26 @@ class StudyFile(FolderCase):
         self.refused("[runs.loads.quick]", "[runs.loads.quik]", "runs.loads.quik", "did you mean 'quick'?")
 
     def test_bad_programs_cases_and_meshes(self):
-        self.refused('program = "fsi-monolithic"', 'program = "fsi-mono"', "methods.mono.program",
-                     "did you mean 'fsi-monolithic'?")
+        self.refused(
+            'program = "fsi-monolithic"',
+            'program = "fsi-mono"',
+            "methods.mono.program",
+            "did you mean 'fsi-monolithic'?",
+        )
         self.refused('program = "fsi-monolithic"', "", "methods.mono.program: is missing")
         self.refused('tube = "tube.toml"', 'tube = "tub.toml"', "cases.tube", "no such case file")
-        self.refused('options = ["--axial-size", "0.2"]', 'options = "--axial-size"', "meshes.flat.options",
-                     "list of words")
+        self.refused(
+            'options = ["--axial-size", "0.2"]', 'options = "--axial-size"', "meshes.flat.options", "list of words"
+        )
         self.refused("[meshes.flat]", "[meshes.coarse]", "meshes.coarse", "a level's name already")
 
     def test_bad_values(self):
         self.refused("threads = 1", "threads = 0", "threads: 0 is not a whole number from 1")
         self.refused("threads = 1", "time_limit = -3", "time_limit: -3 is not a positive number")
         self.refused("[0.1, 0.2]", "0.1", "runs.steps.vary.time.step", "is not a list of values")
-        self.refused('"time.step" = [0.1', 'step = [0.1', "runs.steps.vary.step",
-                     "neither 'mesh' nor a key of the case file")
+        self.refused(
+            '"time.step" = [0.1', "step = [0.1", "runs.steps.vary.step", "neither 'mesh' nor a key of the case file"
+        )
         self.refused('label = "none", ', "", "runs.loads.vary.load", "has no label")
 
 

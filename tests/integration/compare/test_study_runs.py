@@ -13,9 +13,9 @@ from pathlib import Path
 from fake_drivers import behave, build_anew, calls
 from study_case import STUDY, StudyCase
 
-from fsi_compare.processes import End, Job, execute, run_jobs
-from fsi_compare.studies.runner import RECORD, first_not_finite, judge
-from fsi_compare.studies.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
+from fsi_compare.runs.processes import End, Job, execute, run_jobs
+from fsi_compare.studies.running.runner import RECORD, first_not_finite, judge
+from fsi_compare.studies.running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG
 
 
 class Restart(StudyCase):
@@ -38,12 +38,17 @@ class Restart(StudyCase):
     def test_a_change_makes_a_run_anew(self):
         self.call()
         for change, again in (
-                (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n'), 2),
-                (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n[monolithic]\n'
-                                                   'newton_tolerance = 1e-6\n'), 1),
-                (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken")), 1),
-                (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken") + 'vary = { mesh = ["fine"] }\n'), 2),
-                (lambda: behave(self.programs, version="0.2.0"), 2)):
+            (lambda: self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n'), 2),
+            (
+                lambda: self.case_file.write_text(
+                    'title = "A tube"\n[time]\nstep = 0.25\n[monolithic]\n' "newton_tolerance = 1e-6\n"
+                ),
+                1,
+            ),
+            (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken")), 1),
+            (lambda: self.study.write_text(STUDY.replace("iqn-ils", "aitken") + 'vary = { mesh = ["fine"] }\n'), 2),
+            (lambda: behave(self.programs, version="0.2.0"), 2),
+        ):
             change()
             before = len(calls(self.programs))
             self.call()
@@ -52,8 +57,11 @@ class Restart(StudyCase):
     def test_what_decides_nothing_makes_no_run_anew(self):
         self.case_file.write_text('title = "A tube"\n[time]\nstep = 0.25\n')
         self.call()
-        for text in ('# a comment\ntitle = "A tube"\n[time]\nstep = 0.25  # ms\n', 'time.step = 0.25\n',
-                     'title = "Another"\n[time]\nstep = 0.25\n'):
+        for text in (
+            '# a comment\ntitle = "A tube"\n[time]\nstep = 0.25  # ms\n',
+            "time.step = 0.25\n",
+            'title = "Another"\n[time]\nstep = 0.25\n',
+        ):
             self.case_file.write_text(text)
             self.call()
             self.assertEqual(len(calls(self.programs)), 2, text)
@@ -98,8 +106,9 @@ class Restart(StudyCase):
 
     def test_quick_form_and_list(self):
         code, out, _ = self.call("--list")
-        self.assertEqual((code, out.split("\n")[:2], calls(self.programs)), (0, ["all: tube, mono", "all: tube, part"],
-                                                                             []))
+        self.assertEqual(
+            (code, out.split("\n")[:2], calls(self.programs)), (0, ["all: tube, mono", "all: tube, part"], [])
+        )
         self.call("--quick")
         self.assertEqual(len(calls(self.programs)), 1)
 
@@ -108,10 +117,19 @@ class Restart(StudyCase):
         behave(self.programs, sleep=60)
         for end in (signal.SIGTERM, signal.SIGKILL):
             (self.programs / "pid").unlink(missing_ok=True)
-            process = subprocess.Popen([sys.executable, "-E", "-c", "import sys; sys.path.insert(0, sys.argv[1]); "
-                                        "from fsi_compare.cli import main; sys.exit(main(sys.argv[2:]))",
-                                        str(Path(__file__).resolve().parents[3] / "compare"), *self.words()],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            process = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-E",
+                    "-c",
+                    "import sys; sys.path.insert(0, sys.argv[1]); "
+                    "from fsi_compare.cli import main; sys.exit(main(sys.argv[2:]))",
+                    str(Path(__file__).resolve().parents[3] / "compare"),
+                    *self.words(),
+                ],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
             driver = self.wait_for_pid()
             process.send_signal(end)
             process.wait(timeout=30)
@@ -169,8 +187,11 @@ class Builds(StudyCase):
 
         build_anew(self.programs, "fsi-monolithic")
         _, _, err = self.call()
-        self.assertIn("2 of 2 finished runs were made by another build of fsi-monolithic 0.1.0 and fsi-partitioned "
-                      "0.1.0: `--fresh` makes them again\n", err)
+        self.assertIn(
+            "2 of 2 finished runs were made by another build of fsi-monolithic 0.1.0 and fsi-partitioned "
+            "0.1.0: `--fresh` makes them again\n",
+            err,
+        )
         _, _, err = self.call("--fresh")
         self.assertNotIn("another build", err)
         self.assertIsNone(self.note())
@@ -208,10 +229,11 @@ class Failures(StudyCase):
 
     def test_each_bad_end(self):
         for key, what, expected in (
-                ("end", [1, "time.step: 0 is not positive"], (REFUSED, "time.step: 0 is not positive")),
-                ("signal", 11, (CRASHED, "ended by signal SIGSEGV")),
-                ("end", [134, "abort"], (CRASHED, "abort")),
-                ("nan", "iterations.csv", (WRONG, "iterations.csv holds a value that is not a finite number"))):
+            ("end", [1, "time.step: 0 is not positive"], (REFUSED, "time.step: 0 is not positive")),
+            ("signal", 11, (CRASHED, "ended by signal SIGSEGV")),
+            ("end", [134, "abort"], (CRASHED, "abort")),
+            ("nan", "iterations.csv", (WRONG, "iterations.csv holds a value that is not a finite number")),
+        ):
             behave(self.programs, **{key: {"fsi-partitioned": what}})
             self.call("--fresh", "-q")
             self.assertEqual(self.outcomes()["part"], expected)
@@ -239,8 +261,10 @@ class Failures(StudyCase):
         self.assertEqual((len(calls(self.programs)), self.outcomes()["mono"][0]), (2, DONE))
 
     def test_wrong_use(self):
-        for words, expected in ((("--jobs", "0"), "--jobs: 0 is not positive"), (("--nonsense",),
-                                                                                 "unrecognized arguments")):
+        for words, expected in (
+            (("--jobs", "0"), "--jobs: 0 is not positive"),
+            (("--nonsense",), "unrecognized arguments"),
+        ):
             code, _, err = self.call(*words)
             self.assertEqual((code, err.count("\n")), (1, 1))
             self.assertIn(expected, err)
@@ -258,14 +282,20 @@ class Judging(StudyCase):
         self.assertIn("summary.json: is missing", message)
 
     def test_not_finite(self):
-        for text, bad in (("a,b\n1,nan\n", True), ("a,b\n-inf,2\n", True), ("a,b\n1,Infinity\n", True), ("a,b\n1,2\n",
-                                                                                                         False),
-                          ("nano,inf_norm\n1,2\n", False)):
+        for text, bad in (
+            ("a,b\n1,nan\n", True),
+            ("a,b\n-inf,2\n", True),
+            ("a,b\n1,Infinity\n", True),
+            ("a,b\n1,2\n", False),
+            ("nano,inf_norm\n1,2\n", False),
+        ):
             (self.base / "x.csv").write_text(text)
             self.assertEqual(first_not_finite(self.base) != "", bad, text)
-        for summary, bad in (('{"failure": "the residual is nan, the step is inf"}', False),
-                             ('{"totals": {"wall_s": NaN}}', True),
-                             ('{"phases": [{"seconds": Infinity}]}', True)):
+        for summary, bad in (
+            ('{"failure": "the residual is nan, the step is inf"}', False),
+            ('{"totals": {"wall_s": NaN}}', True),
+            ('{"phases": [{"seconds": Infinity}]}', True),
+        ):
             (self.base / "summary.json").write_text(summary)
             self.assertEqual(first_not_finite(self.base) != "", bad, summary)
 

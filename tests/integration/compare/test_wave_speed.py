@@ -6,7 +6,7 @@ from pathlib import Path
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.errors import InputError
+from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence.tube import Layer, Tube, read_tube
 from fsi_compare.studies.evidence.wave_speed import long_wave, moens_korteweg, phase_speed, wall_stiffness
 
@@ -36,11 +36,11 @@ class Artery(unittest.TestCase):
     def test_wall_stiffness_is_the_slope_of_the_closed_form_inflation(self):
         """p = sum of mu [ln(B a/(A b)) + k/2 (1/a^2 - 1/b^2)], k = a_i^2 - R_i^2."""
         tube, stretch = self.tube("mooney-rivlin"), 1e-6
-        k = tube.radius ** 2 * ((1 + stretch) ** 2 - 1)
+        k = tube.radius**2 * ((1 + stretch) ** 2 - 1)
         pressure = 0.0
         for layer in tube.layers:
-            a, b = math.sqrt(layer.inner ** 2 + k), math.sqrt(layer.outer ** 2 + k)
-            pressure += layer.shear * (math.log(layer.outer * a / (layer.inner * b)) + k / 2 * (a ** -2 - b ** -2))
+            a, b = math.sqrt(layer.inner**2 + k), math.sqrt(layer.outer**2 + k)
+            pressure += layer.shear * (math.log(layer.outer * a / (layer.inner * b)) + k / 2 * (a**-2 - b**-2))
         self.assertAlmostEqual(pressure / (stretch * tube.radius), wall_stiffness(tube), 5)
 
     def test_a_case_of_another_kind_is_refused(self):
@@ -57,8 +57,10 @@ class MoensKorteweg(unittest.TestCase):
         self.assertAlmostEqual(moens_korteweg(tube, restrained=True), math.sqrt(4 * 2.0 * 0.5 / (2 * 1.1 * 10)), 14)
 
     def test_the_thick_wall_becomes_the_thin_one(self):
-        ratio = [long_wave(tube) / moens_korteweg(tube, restrained=True)
-                 for tube in (Tube([Layer(1.0, 1.0 + h, 2.0, 1.5, 30.0)], 1.0, 1.0) for h in (1e-2, 1e-3))]
+        ratio = [
+            long_wave(tube) / moens_korteweg(tube, restrained=True)
+            for tube in (Tube([Layer(1.0, 1.0 + h, 2.0, 1.5, 30.0)], 1.0, 1.0) for h in (1e-2, 1e-3))
+        ]
         self.assertAlmostEqual(ratio[1], 1, 2)
         self.assertAlmostEqual((1 - ratio[0]) / (1 - ratio[1]), 10, delta=0.5)  # first order in h/R
 

@@ -7,8 +7,18 @@ import subprocess
 import time
 import unittest
 
-from programs import (ARTERY, DRIVERS, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, driver_command, execute,
-                      make_small_mesh)
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MESH,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    FolderTest,
+    attempt,
+    driver_command,
+    execute,
+    make_small_mesh,
+)
 
 VERSION = os.environ["FSI_VERSION"]
 STEPS = 3
@@ -62,12 +72,14 @@ class Console(FolderTest):
         self.assertTrue(text.endswith("\n"))
 
     def test_a_wrong_unit_is_a_warning_and_the_run_goes_on(self):
-        warning = ("--set: structure.layers.media.alpha: 0.5 looks like a value in radians; "
-                   "did you mean 28.6 degrees?")
+        warning = (
+            "--set: structure.layers.media.alpha: 0.5 looks like a value in radians; " "did you mean 28.6 degrees?"
+        )
         for program in DRIVERS:
             folder = self.base / f"unit_{self.name(program)}"
-            process = attempt(program, ARTERY, "-q", folder=folder,
-                              settings=(*self.settings, "structure.layers.media.alpha=0.5"))
+            process = attempt(
+                program, ARTERY, "-q", folder=folder, settings=(*self.settings, "structure.layers.media.alpha=0.5")
+            )
             self.assertEqual(process.returncode, 0)
             self.assertEqual(process.stderr, f"{self.name(program)}: warning: {warning}\n")
             log = (folder / "run.log").read_text()
@@ -92,20 +104,28 @@ class Console(FolderTest):
         folder = self.base / "wrong"
         case = str(NEO_HOOKEAN)
         for program in DRIVERS:
-            for words, shown in ((["--treads", "2", case, "-o", folder], "--threads"),
-                                 ([case, "-o", folder, "--threads", "two"], "two"),
-                                 ([case, case, "-o", folder], "one argument too many"),
-                                 ([case, "-o", folder, "--set", "time.end"], "time.end"),
-                                 ([case, "-o", folder, "-x"], "-x"),
-                                 ([case], "-o"),
-                                 (["-o", folder], "no case file"),
-                                 ([], "no case file")):
+            for words, shown in (
+                (["--treads", "2", case, "-o", folder], "--threads"),
+                ([case, "-o", folder, "--threads", "two"], "two"),
+                ([case, case, "-o", folder], "one argument too many"),
+                ([case, "-o", folder, "--set", "time.end"], "time.end"),
+                ([case, "-o", folder, "-x"], "-x"),
+                ([case], "-o"),
+                (["-o", folder], "no case file"),
+                ([], "no case file"),
+            ):
                 process = execute(program, *words)
                 with self.subTest(program=program, words=words):
                     self.assertRefused(process, shown)
                     self.assertFalse(folder.exists())
-        for words in (["artery", "--levl", "coarse", "-o", "x.msh"], ["artery"], [], ["vein", "-o", "x.msh"],
-                      ["artery", "--level", "huge", "-o", "x.msh"], ["artery", "--format", "3", "-o", "x.msh"]):
+        for words in (
+            ["artery", "--levl", "coarse", "-o", "x.msh"],
+            ["artery"],
+            [],
+            ["vein", "-o", "x.msh"],
+            ["artery", "--level", "huge", "-o", "x.msh"],
+            ["artery", "--format", "3", "-o", "x.msh"],
+        ):
             process = execute(MESH, *words, cwd=self.base)
             with self.subTest(words=words):
                 self.assertEqual((process.returncode, process.stdout), (1, ""))

@@ -3,9 +3,23 @@
 import csv
 import unittest
 
-import numpy as np
-from programs import (ARTERY, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, attempt, calls, difference,
-                      make_small_mesh, pressure, restart, run, summary, table, wall)
+from programs import (
+    ARTERY,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    attempt,
+    calls,
+    difference,
+    make_small_mesh,
+    pressure,
+    restart,
+    run,
+    summary,
+    table,
+    wall,
+)
 
 QUICK = ("iqn-ils", "iqn-imvj", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj")
 # Most passes per step, mean of the first eight steps at 1e-6: without differences of earlier steps the first ones take
@@ -37,8 +51,13 @@ class Schemes:
     def test_each_gives_the_monolithic_solution(self):
         for name in self.schemes:
             with self.subTest(scheme=name):
-                folder = run(PARTITIONED, self.case, self.base / name, *self.settings,
-                             *scheme(name, "partitioned.tolerance=1e-9", "partitioned.max_iterations=2000"))
+                folder = run(
+                    PARTITIONED,
+                    self.case,
+                    self.base / name,
+                    *self.settings,
+                    *scheme(name, "partitioned.tolerance=1e-9", "partitioned.max_iterations=2000"),
+                )
                 apart = difference(pressure(folder), pressure(self.monolithic))
                 print(f"{self.case.stem}, {name}: pressure apart by at most {apart.max():.1e}")
                 self.assertLess(apart.max(), 1e-6)
@@ -49,8 +68,9 @@ class Schemes:
     def test_quick_ones_are_quick(self):
         for name in QUICK:
             with self.subTest(scheme=name):
-                folder = run(PARTITIONED, self.case, self.base / f"quick-{name}", "time.end=1", "output.every=0",
-                             *scheme(name))
+                folder = run(
+                    PARTITIONED, self.case, self.base / f"quick-{name}", "time.end=1", "output.every=0", *scheme(name)
+                )
                 counts = table(folder, "iterations.csv")[:, 2]
                 print(f"{self.case.stem}, {name}: passes per step {counts}")
                 self.assertLessEqual(counts.mean(), LIMITS[name])
@@ -64,13 +84,23 @@ class NeoHookean(Schemes, FolderTest):
         """Some 500 passes a step: one step."""
         one = ("time.end=0.125", "output.every=0")
         whole = run(MONOLITHIC, self.case, self.base / "one", *one)
-        folder = run(PARTITIONED, self.case, self.base / "constant", *one,
-                     *scheme("constant", "partitioned.tolerance=1e-8", "partitioned.max_iterations=3000"))
+        folder = run(
+            PARTITIONED,
+            self.case,
+            self.base / "constant",
+            *one,
+            *scheme("constant", "partitioned.tolerance=1e-8", "partitioned.max_iterations=3000"),
+        )
         self.assertLess(difference(pressure(folder), pressure(whole)).max(), 1e-5)
 
     def test_force_tolerance_is_kept(self):
-        folder = run(PARTITIONED, self.case, self.base / "force", *self.settings,
-                     *scheme("iqn-ils", "partitioned.tolerance=1e-3", "partitioned.force_tolerance=1e-6"))
+        folder = run(
+            PARTITIONED,
+            self.case,
+            self.base / "force",
+            *self.settings,
+            *scheme("iqn-ils", "partitioned.tolerance=1e-3", "partitioned.force_tolerance=1e-6"),
+        )
         for row in coupling_table(folder):
             self.assertLessEqual(row["force_residual"], 1e-6)
 
@@ -78,8 +108,13 @@ class NeoHookean(Schemes, FolderTest):
         for order in (0, 1, 2):
             for name in ("iqn-ils", "robin-neumann-iqn"):
                 with self.subTest(order=order, scheme=name):
-                    folder = run(PARTITIONED, self.case, self.base / f"{name}-{order}", *self.settings,
-                                 *scheme(name, f"time.predictor={order}", "partitioned.tolerance=1e-8"))
+                    folder = run(
+                        PARTITIONED,
+                        self.case,
+                        self.base / f"{name}-{order}",
+                        *self.settings,
+                        *scheme(name, f"time.predictor={order}", "partitioned.tolerance=1e-8"),
+                    )
                     self.assertLess(difference(pressure(folder), pressure(self.monolithic)).max(), 1e-5)
 
 
@@ -106,8 +141,10 @@ class Restart(FolderTest):
                 self.assertEqual((folder / "coupling.csv").read_text().splitlines()[:4], rows[:4])
                 seconds = ("fluid_s", "wall_s", "mesh_motion_s", "coupling_s")
                 for a, b in zip(coupling_table(folder), coupling_table(whole)):
-                    self.assertEqual({k: v for k, v in a.items() if k not in seconds},
-                                     {k: v for k, v in b.items() if k not in seconds})
+                    self.assertEqual(
+                        {k: v for k, v in a.items() if k not in seconds},
+                        {k: v for k, v in b.items() if k not in seconds},
+                    )
 
     def test_goes_on_with_another_scheme(self):
         """What the other one kept is of no use, but does no harm."""
@@ -173,12 +210,22 @@ class Failures(FolderTest):
         fluid, thickness, added = 1.0, 0.39, 46.3  # mg/mm^3, mm, mm
         for order, factor in ((1, 2), (2, 6)):
             limit = factor * fluid * added / (0.884 * thickness)
-            settings = (*scheme("explicit"), "structure.stabilisation=1e-5", f"time.predictor={order}", "output.every=0",
-                        "partitioned.velocity_gap=1e9")
+            settings = (
+                *scheme("explicit"),
+                "structure.stabilisation=1e-5",
+                f"time.predictor={order}",
+                "output.every=0",
+                "partitioned.velocity_gap=1e9",
+            )
             with self.subTest(order=order):
                 self.assertIn("unstable", self.refused(*settings, f"structure.density={limit / 1.5}"))
-                folder = run(PARTITIONED, NEO_HOOKEAN, self.base / f"stable-{order}", *settings,
-                             f"structure.density={limit * 1.5}")
+                folder = run(
+                    PARTITIONED,
+                    NEO_HOOKEAN,
+                    self.base / f"stable-{order}",
+                    *settings,
+                    f"structure.density={limit * 1.5}",
+                )
                 self.assertEqual(table(folder, "iterations.csv")[:, 2].tolist(), [1] * 96)
 
     def test_explicit_is_no_answer_at_its_limit(self):
@@ -191,14 +238,16 @@ class Failures(FolderTest):
         settings = (*scheme("explicit"), "structure.density=1400")
         whole = self.refused(*settings, "time.end=2")
         folder = run(PARTITIONED, NEO_HOOKEAN, self.base / "parts", *settings, "time.end=0.5")
-        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", "--restart", folder, folder=folder,
-                          settings=(*settings, "time.end=2"))
+        process = attempt(
+            PARTITIONED, NEO_HOOKEAN, "-q", "--restart", folder, folder=folder, settings=(*settings, "time.end=2")
+        )
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertEqual(whole.split("[")[0], process.stderr.split("[")[0])
 
     def test_explicit_needs_an_extrapolation(self):
-        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", folder=self.base / "none",
-                          settings=scheme("explicit", "time.predictor=0"))
+        process = attempt(
+            PARTITIONED, NEO_HOOKEAN, "-q", folder=self.base / "none", settings=scheme("explicit", "time.predictor=0")
+        )
         self.assertEqual(process.returncode, 1)
         self.assertIn("time.predictor", process.stderr)
 

@@ -2,7 +2,7 @@
 
 import unittest
 
-from programs import (ARTERY, DRIVERS, FolderTest, difference, make_small_mesh, pressure, run, summary, table, wall)
+from programs import ARTERY, DRIVERS, FolderTest, difference, make_small_mesh, pressure, run, summary, table, wall
 
 
 class Determinism(FolderTest):
@@ -16,7 +16,8 @@ class Determinism(FolderTest):
         for d, program in enumerate(DRIVERS):
             for threads in (1, 2):
                 cls.runs[program, threads] = [
-                    run(program, ARTERY, cls.base / f"{d}-{threads}-{k}", *settings, threads=threads) for k in range(2)]
+                    run(program, ARTERY, cls.base / f"{d}-{threads}-{k}", *settings, threads=threads) for k in range(2)
+                ]
 
     def test_threads_are_those_asked_for(self):
         for (_, threads), folders in self.runs.items():
@@ -31,9 +32,11 @@ class Determinism(FolderTest):
         """Assembly adds in a fixed order; the dense kernels inside a factorisation need not."""
         for program in DRIVERS:
             one, two = (self.runs[program, threads][0] for threads in (1, 2))
-            apart = [difference(pressure(two), pressure(one)).max(),
-                     difference(wall(two)[:, :, 2], wall(one)[:, :, 2]).max(),
-                     difference(table(two, "flow.csv")[:, 1:2], table(one, "flow.csv")[:, 1:2]).max()]
+            apart = [
+                difference(pressure(two), pressure(one)).max(),
+                difference(wall(two)[:, :, 2], wall(one)[:, :, 2]).max(),
+                difference(table(two, "flow.csv")[:, 1:2], table(one, "flow.csv")[:, 1:2]).max(),
+            ]
             print(f"{program}: 2 against 1 thread, pressure, wall, flow:", apart)
             self.assertLessEqual(max(apart), 1e-10)
             self.assertEqual(table(one, "iterations.csv")[:, :4].tolist(), table(two, "iterations.csv")[:, :4].tolist())

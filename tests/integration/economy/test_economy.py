@@ -2,8 +2,19 @@
 
 import unittest
 
-from programs import (ARTERY, DRIVERS, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, arrays, calls, run, summary,
-                      table)
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    arrays,
+    calls,
+    run,
+    summary,
+    table,
+)
 
 SHORT = ("time.end=0.375", "partitioned.tolerance=1e-2")  # three steps; what is counted needs no convergence
 
@@ -56,14 +67,23 @@ class ConstantOperators(FolderTest):
     """Switched off, the economy costs time and nothing else: the same bits."""
 
     def pair(self, name, program, *settings):
-        return [run(program, NEO_HOOKEAN, self.base / f"{name}-{form}", *SHORT, *settings,
-                    f"economy.constant_operators={form}") for form in ("kept", "rebuilt")]
+        return [
+            run(
+                program,
+                NEO_HOOKEAN,
+                self.base / f"{name}-{form}",
+                *SHORT,
+                *settings,
+                f"economy.constant_operators={form}",
+            )
+            for form in ("kept", "rebuilt")
+        ]
 
     def test_monolithic_builds_in_each_newton_iteration(self):
         for name, settings, built in (
-                ("fast", (), "mesh motion factorisations"),
-                ("direct", ("monolithic.linear_solver=direct",), None),
-                ("ilu", ("monolithic.linear_solver=ilu",), "mesh motion set-ups"),
+            ("fast", (), "mesh motion factorisations"),
+            ("direct", ("monolithic.linear_solver=direct",), None),
+            ("ilu", ("monolithic.linear_solver=ilu",), "mesh motion set-ups"),
         ):
             with self.subTest(name):
                 kept, rebuilt = self.pair(name, MONOLITHIC, *settings)
@@ -96,8 +116,12 @@ class Fibres(FolderTest):
         self.assertIsNone(self.fibres("none", NEO_HOOKEAN)[0])
         with_fibres, elements = self.fibres("all", ARTERY)
         self.assertEqual(with_fibres, elements)
-        layer = ("structure.layers.adventitia.material=artery", "structure.layers.adventitia.k1=0.562",
-                 "structure.layers.adventitia.k2=0.7112", "structure.layers.adventitia.alpha=62")
+        layer = (
+            "structure.layers.adventitia.material=artery",
+            "structure.layers.adventitia.k1=0.562",
+            "structure.layers.adventitia.k2=0.7112",
+            "structure.layers.adventitia.alpha=62",
+        )
         with_fibres, elements = self.fibres("one", NEO_HOOKEAN, *layer)
         self.assertTrue(0 < with_fibres < elements)
 

@@ -4,16 +4,37 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import (ARTERY, DRIVERS, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, PARTITIONED, FolderTest, calls, energy,
-                      iterations_without_seconds, make_mesh, pressure, run, table)
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MONOLITHIC,
+    MOONEY_RIVLIN,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    calls,
+    energy,
+    iterations_without_seconds,
+    make_mesh,
+    pressure,
+    run,
+    table,
+)
 
 FOLDER = Path(__file__).parent.parent
 RIGID_PIPE = FOLDER / "rigid_pipe" / "rigid_pipe.toml"
 STATIC, DYNAMIC = (FOLDER / "wall" / f"{kind}_wall.toml" for kind in ("static", "dynamic"))
 
 ENERGIES = ("fluid_kinetic_energy", "wall_kinetic_energy", "wall_isochoric_energy", "wall_volumetric_energy")
-NUMERICAL = ("fluid_inertia", "fluid_mesh_motion", "fluid_divergence", "fluid_stabilisation", "wall_inertia",
-             "wall_stress", "wall_stabilisation")
+NUMERICAL = (
+    "fluid_inertia",
+    "fluid_mesh_motion",
+    "fluid_divergence",
+    "fluid_stabilisation",
+    "wall_inertia",
+    "wall_stress",
+    "wall_stabilisation",
+)
 STEPS = ("time.end=1", "output.every=0")  # ms: 8 steps of 0.125
 
 
@@ -41,8 +62,10 @@ class Coupled(FolderTest):
             rows = energy(folder)
             work = rows["inlet_work"].sum()
             left_over = np.abs(rows["remainder"]).max() / work
-            print(f"{name}: work {work:.4g} uJ, lost by viscosity {rows['viscous_dissipation'].sum() / work:.4f}, by "
-                  f"discretisation {rows['numerical_dissipation'].sum() / work:.4f}, left over at most {left_over:.1e}")
+            print(
+                f"{name}: work {work:.4g} uJ, lost by viscosity {rows['viscous_dissipation'].sum() / work:.4f}, by "
+                f"discretisation {rows['numerical_dissipation'].sum() / work:.4f}, left over at most {left_over:.1e}"
+            )
             self.assertGreater(work, 0.1)
             self.assertLess(left_over, 1e-4 if name == "artery" else 1e-8)
             self.assertLess(closes(rows), 1e-14 * work)
@@ -72,8 +95,14 @@ class Coupled(FolderTest):
         work = one["inlet_work"].sum()
         left_over = []
         for tolerance in (1e-3, 1e-7):
-            folder = run(PARTITIONED, NEO_HOOKEAN, self.base / str(tolerance), *STEPS,
-                         f"partitioned.tolerance={tolerance}", "partitioned.scheme=iqn-ils")
+            folder = run(
+                PARTITIONED,
+                NEO_HOOKEAN,
+                self.base / str(tolerance),
+                *STEPS,
+                f"partitioned.tolerance={tolerance}",
+                "partitioned.scheme=iqn-ils",
+            )
             other = energy(folder)
             self.assertEqual(list(one), list(other))
             left_over.append(np.abs(other["remainder"]).max() / work)
@@ -99,10 +128,25 @@ class RigidPipe(FolderTest):
     def test_viscosity_takes_the_work_of_the_inlet(self):
         stabilisation = []
         for size in (0.5, 0.25):
-            mesh = make_mesh(self.base / f"{size}.msh", "--inner-radius", 1, "--length", 12, "--media", 0.2,
-                             "--adventitia", 0, "--size", size, "--axial-size", 3 * size)
-            folders = [run(program, RIGID_PIPE, self.base / f"{size}-{d}", f"mesh.file={mesh}")
-                       for d, program in enumerate(DRIVERS)]
+            mesh = make_mesh(
+                self.base / f"{size}.msh",
+                "--inner-radius",
+                1,
+                "--length",
+                12,
+                "--media",
+                0.2,
+                "--adventitia",
+                0,
+                "--size",
+                size,
+                "--axial-size",
+                3 * size,
+            )
+            folders = [
+                run(program, RIGID_PIPE, self.base / f"{size}-{d}", f"mesh.file={mesh}")
+                for d, program in enumerate(DRIVERS)
+            ]
             self.assertSameTables(*folders)
             rows = energy(folders[0])
             self.assertEqual([name for name in rows if "wall" in name or "mesh" in name or "load" in name], [])
@@ -110,8 +154,10 @@ class RigidPipe(FolderTest):
             self.assertLess(np.abs(rows["remainder"]).max(), 1e-9 * work[-1])
             self.assertLess(closes(rows), 1e-13 * work.sum())
             last = {name: column[-1] / work[-1] for name, column in rows.items()}
-            print(f"size {size}, last step, over the work of the inlet: viscosity {last['viscous_dissipation']:.4f}, "
-                  f"stabilisation {last['fluid_stabilisation']:.4f}, inertia {last['fluid_inertia']:.1e}")
+            print(
+                f"size {size}, last step, over the work of the inlet: viscosity {last['viscous_dissipation']:.4f}, "
+                f"stabilisation {last['fluid_stabilisation']:.4f}, inertia {last['fluid_inertia']:.1e}"
+            )
             self.assertLess(abs(np.diff(rows["fluid_kinetic_energy"])[-1]), 1e-4 * work[-1])  # steady
             self.assertAlmostEqual(last["viscous_dissipation"] + last["fluid_stabilisation"], 1, delta=1e-4)
             stabilisation.append(last["fluid_stabilisation"])

@@ -6,8 +6,24 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import (DRIVERS, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, TABLES, FolderTest, arrays, attempt, difference,
-                      make_mesh, make_small_mesh, pressure, restart, run, summary, table)
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    TABLES,
+    FolderTest,
+    arrays,
+    attempt,
+    difference,
+    make_mesh,
+    make_small_mesh,
+    pressure,
+    restart,
+    run,
+    summary,
+    table,
+)
 
 LIMIT = Path(__file__).with_name("beyond_the_limit.toml")
 
@@ -48,15 +64,29 @@ class ExitCodes(FolderTest):
     def test_done(self):
         for program in DRIVERS:
             folder = self.base / "done"
-            process = attempt(program, NEO_HOOKEAN, folder=folder,
-                              settings=(self.mesh, "time.end=0.25", "partitioned.tolerance=1e-2"))
+            process = attempt(
+                program, NEO_HOOKEAN, folder=folder, settings=(self.mesh, "time.end=0.25", "partitioned.tolerance=1e-2")
+            )
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertEqual(summary(folder)["status"], "done")
             self.assertFinishedSteps(folder, 2)
             coupling = ["coupling.csv"] if program == PARTITIONED else []
-            self.assertEqual(sorted(file.name for file in folder.iterdir()), [
-                "centerline_pressure.csv", "checkpoint.h5", *coupling, "energy.csv", "fields.h5", "fields.xdmf",
-                "flow.csv", "iterations.csv", "run.log", "summary.json", "wall_displacement.csv"])
+            self.assertEqual(
+                sorted(file.name for file in folder.iterdir()),
+                [
+                    "centerline_pressure.csv",
+                    "checkpoint.h5",
+                    *coupling,
+                    "energy.csv",
+                    "fields.h5",
+                    "fields.xdmf",
+                    "flow.csv",
+                    "iterations.csv",
+                    "run.log",
+                    "summary.json",
+                    "wall_displacement.csv",
+                ],
+            )
 
     def test_bad_input_writes_nothing(self):
         broken = self.base / "broken.toml"
@@ -65,17 +95,18 @@ class ExitCodes(FolderTest):
         folder = self.base / "nothing"
         for program in DRIVERS:
             for case, settings, shown in (
-                    (self.base / "none.toml", (), "none.toml: no such file"),
-                    (broken, (), "broken.toml:9"),
-                    (NEO_HOOKEAN, ("fluid.viscosty=1",), "did you mean fluid.viscosity?"),
-                    (NEO_HOOKEAN, ("fluid.density=-1",), "-1 is not positive"),
-                    (NEO_HOOKEAN, ("time.step=fast",), "time.step"),
-                    (NEO_HOOKEAN, ("structure.layers.media.material=steel",), "neo-hookean"),
-                    (NEO_HOOKEAN, ("monolithic.linear_solver=gauss",), "monolithic.linear_solver"),
-                    (NEO_HOOKEAN, ("partitioned.scheme=atiken",), "aitken"),
-                    (NEO_HOOKEAN, ("load.pressure=1",), "load"),
-                    (NEO_HOOKEAN, ("mesh.file=none.msh",), "none.msh"),
-                    (NEO_HOOKEAN, (f"mesh.file={self.base / 'cut.msh'}",), "cut.msh")):
+                (self.base / "none.toml", (), "none.toml: no such file"),
+                (broken, (), "broken.toml:9"),
+                (NEO_HOOKEAN, ("fluid.viscosty=1",), "did you mean fluid.viscosity?"),
+                (NEO_HOOKEAN, ("fluid.density=-1",), "-1 is not positive"),
+                (NEO_HOOKEAN, ("time.step=fast",), "time.step"),
+                (NEO_HOOKEAN, ("structure.layers.media.material=steel",), "neo-hookean"),
+                (NEO_HOOKEAN, ("monolithic.linear_solver=gauss",), "monolithic.linear_solver"),
+                (NEO_HOOKEAN, ("partitioned.scheme=atiken",), "aitken"),
+                (NEO_HOOKEAN, ("load.pressure=1",), "load"),
+                (NEO_HOOKEAN, ("mesh.file=none.msh",), "none.msh"),
+                (NEO_HOOKEAN, (f"mesh.file={self.base / 'cut.msh'}",), "cut.msh"),
+            ):
                 process = attempt(program, case, folder=folder, settings=settings)
                 with self.subTest(program=program, case=case.name, settings=settings):
                     self.assertEqual((process.returncode, process.stdout), (1, ""))
@@ -87,8 +118,12 @@ class ExitCodes(FolderTest):
         text = (Path(make_mesh(self.base / "named.msh", "--format", "2.2"))).read_text()
         for group in ("inlet", "outlet", "wall_ends", "media"):
             (self.base / "lacking.msh").write_text(text.replace(f'"{group}"', '"something"'))
-            process = attempt(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "lacking",
-                              settings=(f"mesh.file={self.base / 'lacking.msh'}",))
+            process = attempt(
+                MONOLITHIC,
+                NEO_HOOKEAN,
+                folder=self.base / "lacking",
+                settings=(f"mesh.file={self.base / 'lacking.msh'}",),
+            )
             with self.subTest(group=group):
                 self.assertEqual(process.returncode, 1)
                 self.assertIn(group, process.stderr)
@@ -127,8 +162,9 @@ class ExitCodes(FolderTest):
 
     def test_goes_on_with_better_settings(self):
         for program, bad, tolerance in (
-                (MONOLITHIC, "monolithic.max_iterations=1", 1e-6),
-                (PARTITIONED, "partitioned.max_iterations=2", 1e-2)):  # what its own tolerance of 1e-4 leaves
+            (MONOLITHIC, "monolithic.max_iterations=1", 1e-6),
+            (PARTITIONED, "partitioned.max_iterations=2", 1e-2),
+        ):  # what its own tolerance of 1e-4 leaves
             settings = (self.mesh, "partitioned.tolerance=1e-4", "output.every=0")
             with self.subTest(program=program):
                 whole = run(program, NEO_HOOKEAN, self.base / "whole", *settings, "time.end=0.5")

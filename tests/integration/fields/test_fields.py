@@ -24,8 +24,18 @@ class Fields(FolderTest):
     def setUpClass(cls):
         super().setUpClass()
         mesh = make_small_mesh(cls.base / "small.msh")
-        cls.folders = [run(program, ARTERY, cls.base / str(d), f"mesh.file={mesh}", f"time.end={STEPS * STEP}",
-                           "output.every=2", "partitioned.tolerance=1e-2") for d, program in enumerate(DRIVERS)]
+        cls.folders = [
+            run(
+                program,
+                ARTERY,
+                cls.base / str(d),
+                f"mesh.file={mesh}",
+                f"time.end={STEPS * STEP}",
+                "output.every=2",
+                "partitioned.tolerance=1e-2",
+            )
+            for d, program in enumerate(DRIVERS)
+        ]
         cls.shown = [shown_by_paraview(folder) for folder in cls.folders]
 
     def each(self):
@@ -50,10 +60,14 @@ class Fields(FolderTest):
             state, grids = arrays(folder / "checkpoint.h5"), shown["grids"][-1]
             fluid, wall = (grids[part]["point fields"] for part in ("fluid", "wall"))
             flow, solid = (state[f"arrays/level0.{part}"].reshape(-1, 4) for part in ("flow", "wall"))
-            for found, computed in ((fluid["velocity"], flow[:, :3]), (fluid["pressure"], flow[:, 3]),
-                                    (fluid["displacement"], state["arrays/level0.mesh"].reshape(-1, 3)),
-                                    (wall["displacement"], solid[:, :3]), (wall["pressure"], solid[:, 3]),
-                                    (wall["velocity"], state["arrays/wall_velocity"].reshape(-1, 3))):
+            for found, computed in (
+                (fluid["velocity"], flow[:, :3]),
+                (fluid["pressure"], flow[:, 3]),
+                (fluid["displacement"], state["arrays/level0.mesh"].reshape(-1, 3)),
+                (wall["displacement"], solid[:, :3]),
+                (wall["pressure"], solid[:, 3]),
+                (wall["velocity"], state["arrays/wall_velocity"].reshape(-1, 3)),
+            ):
                 np.testing.assert_array_equal(np.array(found), computed)
                 self.assertGreater(np.abs(computed).max(), 0)
 

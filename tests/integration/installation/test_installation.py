@@ -18,8 +18,9 @@ def execute(*command, **options):
     """Output of a command that must end well."""
     process = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=500, **options)
     if process.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\nends with {process.returncode}:\n"
-                             f"{process.stdout}{process.stderr}")
+        raise AssertionError(
+            f"{' '.join(map(str, command))}\nends with {process.returncode}:\n" f"{process.stdout}{process.stderr}"
+        )
     return process.stdout
 
 
@@ -83,8 +84,16 @@ class Installation(unittest.TestCase):
     def test_another_project_finds_the_libraries(self):
         build = self.scratch / "consumer"
         compiler = os.environ["CMAKE_CXX_COMPILER"]
-        execute(CMAKE, "-S", CONSUMER, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
-                f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release")
+        execute(
+            CMAKE,
+            "-S",
+            CONSUMER,
+            "-B",
+            build,
+            f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            f"-DCMAKE_CXX_COMPILER={compiler}",
+            "-DCMAKE_BUILD_TYPE=Release",
+        )
         execute(CMAKE, "--build", build)
         case = self.prefix / "share" / "fsi-duo" / "meshes" / "artery" / "artery.toml"
         words = execute(build / "consumer", case).split()

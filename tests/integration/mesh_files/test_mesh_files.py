@@ -3,11 +3,26 @@
 import shutil
 import unittest
 
-from programs import (ARTERY, MESH, MONOLITHIC, NEO_HOOKEAN, FolderTest, attempt, difference, execute, make_mesh,
-                      pressure, run, summary, wall)
+from programs import (
+    ARTERY,
+    MESH,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    FolderTest,
+    attempt,
+    difference,
+    execute,
+    make_mesh,
+    pressure,
+    run,
+    summary,
+    wall,
+)
 
-FORMATS = {name: ("--format", name[:3], *(["--binary"] if "binary" in name else []))
-           for name in ("4.1", "4.1-binary", "2.2", "2.2-binary")}
+FORMATS = {
+    name: ("--format", name[:3], *(["--binary"] if "binary" in name else []))
+    for name in ("4.1", "4.1-binary", "2.2", "2.2-binary")
+}
 SETTINGS = ("time.end=0.375", "output.every=0")
 
 
@@ -26,12 +41,16 @@ class MeshFiles(FolderTest):
         for name, folder in self.runs.items():
             with self.subTest(format=name):
                 found = summary(folder)
-                self.assertEqual({k: v for k, v in found["mesh"].items() if k not in ("name", "hash")},
-                                 {k: v for k, v in expected["mesh"].items() if k not in ("name", "hash")})
+                self.assertEqual(
+                    {k: v for k, v in found["mesh"].items() if k not in ("name", "hash")},
+                    {k: v for k, v in expected["mesh"].items() if k not in ("name", "hash")},
+                )
                 self.assertEqual(found["unknowns"], expected["unknowns"])
                 # The order of the elements, and the last digit in text, may differ: rounding, times conditioning.
-                apart = [difference(pressure(folder), pressure(self.level)).max(),
-                         difference(wall(folder)[:, :, 2], wall(self.level)[:, :, 2]).max()]
+                apart = [
+                    difference(pressure(folder), pressure(self.level)).max(),
+                    difference(wall(folder)[:, :, 2], wall(self.level)[:, :, 2]).max(),
+                ]
                 print(f"{name} against level, pressure and wall:", apart)
                 self.assertLess(max(apart), 1e-9)
 
@@ -63,8 +82,12 @@ class MeshFiles(FolderTest):
         self.assertLess(difference(pressure(named), pressure(self.level)).max(), 1e-9)
 
     def test_layer_that_the_mesh_lacks_is_refused(self):
-        process = attempt(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "refused",
-                          settings=("structure.layers.intima.material=neo-hookean", "structure.layers.intima.c10=1"))
+        process = attempt(
+            MONOLITHIC,
+            NEO_HOOKEAN,
+            folder=self.base / "refused",
+            settings=("structure.layers.intima.material=neo-hookean", "structure.layers.intima.c10=1"),
+        )
         self.assertEqual(process.returncode, 1)
         self.assertIn("intima", process.stderr)
         self.assertIn("media", process.stderr)

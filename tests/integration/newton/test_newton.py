@@ -2,8 +2,19 @@
 
 import unittest
 
-from programs import (ARTERY, MONOLITHIC, MOONEY_RIVLIN, NEO_HOOKEAN, FolderTest, calls, difference, newton_history,
-                      pressure, run, summary)
+from programs import (
+    ARTERY,
+    MONOLITHIC,
+    MOONEY_RIVLIN,
+    NEO_HOOKEAN,
+    FolderTest,
+    calls,
+    difference,
+    newton_history,
+    pressure,
+    run,
+    summary,
+)
 
 STEPS = 12
 TOLERANCE = 1e-8  # of the case files: last increment over first
@@ -19,8 +30,15 @@ class Newton(FolderTest):
         cls.full, cls.kept = {}, {}
         for case in (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY):
             for mode, folders in (("full", cls.full), ("kept", cls.kept)):
-                folders[case] = run(MONOLITHIC, case, cls.base / f"{case.stem}-{mode}", "time.end=1.5",
-                                    f"monolithic.mode={mode}", "monolithic.linear_solver=direct", "output.every=0")
+                folders[case] = run(
+                    MONOLITHIC,
+                    case,
+                    cls.base / f"{case.stem}-{mode}",
+                    "time.end=1.5",
+                    f"monolithic.mode={mode}",
+                    "monolithic.linear_solver=direct",
+                    "output.every=0",
+                )
 
     def histories(self):
         for case, folder in self.full.items():
@@ -113,8 +131,7 @@ class Fast(FolderTest):
         tight = run(MONOLITHIC, NEO_HOOKEAN, self.base / "tight", "monolithic.linear_tolerance=1e-9", *settings)
         self.assertLess(difference(pressure(loose), pressure(tight)).max(), 1e-7)
         self.assertLess(summary(loose)["totals"]["linear_iterations"], summary(tight)["totals"]["linear_iterations"])
-        self.assertGreater(summary(loose)["totals"]["newton_iterations"],
-                           summary(tight)["totals"]["newton_iterations"])
+        self.assertGreater(summary(loose)["totals"]["newton_iterations"], summary(tight)["totals"]["newton_iterations"])
 
 
 if __name__ == "__main__":

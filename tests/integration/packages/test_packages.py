@@ -17,8 +17,9 @@ def execute(*command, **options):
     """Output of a command that must end well."""
     process = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=500, **options)
     if process.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\nends with {process.returncode}:\n"
-                             f"{process.stdout}{process.stderr}")
+        raise AssertionError(
+            f"{' '.join(map(str, command))}\nends with {process.returncode}:\n" f"{process.stdout}{process.stderr}"
+        )
     return process.stdout
 
 
@@ -29,8 +30,9 @@ class Packages(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.scratch)
         execute(os.environ["CPACK_COMMAND"], "-G", "DEB", "-B", cls.scratch, cwd=BUILD)
         architecture = execute("dpkg", "--print-architecture").strip()
-        cls.programs, cls.development = (cls.scratch / f"{name}_{VERSION}_{architecture}.deb"
-                                         for name in ("fsi-duo", "fsi-duo-dev"))
+        cls.programs, cls.development = (
+            cls.scratch / f"{name}_{VERSION}_{architecture}.deb" for name in ("fsi-duo", "fsi-duo-dev")
+        )
 
     def field(self, package, name):
         return execute("dpkg-deb", "--field", package, name).strip()
@@ -41,8 +43,10 @@ class Packages(unittest.TestCase):
         return {line.split(maxsplit=5)[5].removeprefix(".") for line in lines if not line.startswith("d")}
 
     def test_metadata(self):
-        for package, name, section in ((self.programs, "fsi-duo", "science"),
-                                       (self.development, "fsi-duo-dev", "libdevel")):
+        for package, name, section in (
+            (self.programs, "fsi-duo", "science"),
+            (self.development, "fsi-duo-dev", "libdevel"),
+        ):
             with self.subTest(name):
                 self.assertEqual(self.field(package, "Package"), name)
                 self.assertEqual(self.field(package, "Version"), VERSION)
@@ -72,16 +76,29 @@ class Packages(unittest.TestCase):
 
     def test_contents(self):
         programs, development = self.contents(self.programs), self.contents(self.development)
-        self.assertLessEqual({
-            "/usr/bin/fsi-mesh", "/usr/bin/fsi-monolithic", "/usr/bin/fsi-partitioned", "/usr/bin/fsi-compare",
-            "/usr/share/fsi-duo/compare/fsi_compare/cli.py", "/usr/share/fsi-duo/compare/studies/paper.toml",
-            "/usr/share/fsi-duo/meshes/artery/neo-hookean.toml",
-            "/usr/share/doc/fsi-duo/copyright", "/usr/share/doc/fsi-duo/README.md",
-        }, programs)
-        self.assertLessEqual({
-            "/usr/include/fsi-duo/base/version.hpp", "/usr/include/fsi-duo/monolithic/linear_solvers.hpp",
-            "/usr/lib/libfsi_base.a", "/usr/lib/cmake/fsi-duo/fsi-duo-config.cmake",
-        }, development)
+        self.assertLessEqual(
+            {
+                "/usr/bin/fsi-mesh",
+                "/usr/bin/fsi-monolithic",
+                "/usr/bin/fsi-partitioned",
+                "/usr/bin/fsi-compare",
+                "/usr/share/fsi-duo/compare/fsi_compare/cli.py",
+                "/usr/share/fsi-duo/compare/studies/paper.toml",
+                "/usr/share/fsi-duo/meshes/artery/neo-hookean.toml",
+                "/usr/share/doc/fsi-duo/copyright",
+                "/usr/share/doc/fsi-duo/README.md",
+            },
+            programs,
+        )
+        self.assertLessEqual(
+            {
+                "/usr/include/fsi-duo/base/version.hpp",
+                "/usr/include/fsi-duo/monolithic/linear_solvers.hpp",
+                "/usr/lib/libfsi_base.a",
+                "/usr/lib/cmake/fsi-duo/fsi-duo-config.cmake",
+            },
+            development,
+        )
         self.assertEqual(programs & development, set())
         strays = [path for path in programs | development if re.search(r"__pycache__|\.msh$|/tests?/|\.in$", path)]
         self.assertEqual(strays, [])

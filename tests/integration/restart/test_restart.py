@@ -6,9 +6,24 @@ import subprocess
 import time
 import unittest
 
-from programs import (ARTERY, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, arrays, attempt, driver_command,
-                      iterations_without_seconds, make_mesh, make_small_mesh, newton_history, restart, run, summary,
-                      table)
+from programs import (
+    ARTERY,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    arrays,
+    attempt,
+    driver_command,
+    iterations_without_seconds,
+    make_mesh,
+    make_small_mesh,
+    newton_history,
+    restart,
+    run,
+    summary,
+    table,
+)
 
 STEP = 0.125  # ms, of the case files
 
@@ -97,8 +112,9 @@ class Restart:
     # ---- Kills
 
     def start(self, folder, *settings):
-        command = driver_command(self.program, ARTERY, "-q", folder=folder,
-                                 settings=(*self.until(self.steps, "output.every=1"), *settings))
+        command = driver_command(
+            self.program, ARTERY, "-q", folder=folder, settings=(*self.until(self.steps, "output.every=1"), *settings)
+        )
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def kill_when(self, process, reached):
@@ -128,8 +144,9 @@ class Restart:
             with self.subTest(delay=delay):
                 self.go_on(folder, "output.every=1")
                 self.assertSameResults(folder, whole)
-                self.assertEqual(sorted(file.name for file in folder.iterdir()),
-                                 sorted(file.name for file in whole.iterdir()))
+                self.assertEqual(
+                    sorted(file.name for file in folder.iterdir()), sorted(file.name for file in whole.iterdir())
+                )
         self.assertGreater(killed, 0, "every run was faster than its kill")
 
     def test_from_a_checkpoint_before_the_last_finished_step(self):
@@ -155,9 +172,12 @@ class Restart:
         folder = self.march("refused", steps=1)
         before = {file.name: file.read_bytes() for file in folder.iterdir()}
         mesh = make_mesh(self.base / "other.msh", "--level", "coarse", "--length", 5)
-        for case, settings, what in ((NEO_HOOKEAN, (), "another case"), (ARTERY, ("fluid.density=2",), "another case"),
-                                     (ARTERY, ("time.step=0.0625",), "another case"),
-                                     (ARTERY, (f"mesh.file={mesh}",), "another mesh")):
+        for case, settings, what in (
+            (NEO_HOOKEAN, (), "another case"),
+            (ARTERY, ("fluid.density=2",), "another case"),
+            (ARTERY, ("time.step=0.0625",), "another case"),
+            (ARTERY, (f"mesh.file={mesh}",), "another mesh"),
+        ):
             process = attempt(self.program, case, "--restart", folder, settings=self.until(2, *settings))
             self.assertEqual(process.returncode, 1)
             self.assertIn(what, process.stderr)

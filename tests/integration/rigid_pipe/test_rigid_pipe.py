@@ -4,8 +4,19 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import (DRIVERS, MONOLITHIC, POINTS, FolderTest, arrays, calls, make_mesh, newton_history, run, summary,
-                      table)
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    POINTS,
+    FolderTest,
+    arrays,
+    calls,
+    make_mesh,
+    newton_history,
+    run,
+    summary,
+    table,
+)
 
 CASE = Path(__file__).with_name("rigid_pipe.toml")
 RADIUS, LENGTH = 1.0, 12.0  # mm, of the meshes made here
@@ -29,8 +40,21 @@ class RigidPipe(FolderTest):
         super().setUpClass()
         cls.folders = []
         for size in SIZES:
-            mesh = make_mesh(cls.base / f"{size}.msh", "--inner-radius", RADIUS, "--length", LENGTH, "--media", 0.2,
-                             "--adventitia", 0, "--size", size, "--axial-size", 3 * size)
+            mesh = make_mesh(
+                cls.base / f"{size}.msh",
+                "--inner-radius",
+                RADIUS,
+                "--length",
+                LENGTH,
+                "--media",
+                0.2,
+                "--adventitia",
+                0,
+                "--size",
+                size,
+                "--axial-size",
+                3 * size,
+            )
             cls.folders.append(run(MONOLITHIC, CASE, cls.base / str(size), f"mesh.file={mesh}"))
         cls.flows = [table(folder, "flow.csv") for folder in cls.folders]
 
@@ -75,14 +99,28 @@ class RigidPipe(FolderTest):
         self.assertEqual(list(reported["counters"]), ["fluid elements"])
         self.assertEqual((reported["mesh"]["wall_nodes"], reported["mesh"]["interface_nodes"]), (0, 0))
         self.assertEqual((reported["unknowns"]["wall"], reported["unknowns"]["mesh_motion"]), (0, 0))
-        self.assertEqual(set(calls(folder)), {"assembly: coupled residual", "assembly: coupled jacobian",
-                                              "factorisation: coupled", "solve: coupled", "energy balance", "output"})
+        self.assertEqual(
+            set(calls(folder)),
+            {
+                "assembly: coupled residual",
+                "assembly: coupled jacobian",
+                "factorisation: coupled",
+                "solve: coupled",
+                "energy balance",
+                "output",
+            },
+        )
         self.assertFalse((folder / "wall_displacement.csv").exists())
         fields = {"/".join(name.split("/")[:2]) for name in arrays(folder / "fields.h5") if name.startswith("fluid/")}
         self.assertEqual(fields, {f"fluid/{what}" for what in ("points", "cells", "layer", "velocity", "pressure")})
         self.assertFalse([name for name in arrays(folder / "fields.h5") if name.startswith("wall")])
-        self.assertFalse([name for name, values in arrays(folder / "checkpoint.h5").items()
-                          if ("wall" in name or "mesh" in name) and np.size(values) > 1])
+        self.assertFalse(
+            [
+                name
+                for name, values in arrays(folder / "checkpoint.h5").items()
+                if ("wall" in name or "mesh" in name) and np.size(values) > 1
+            ]
+        )
 
     def test_one_factorisation_serves_a_creeping_flow(self):
         for folder in self.folders:

@@ -11,8 +11,8 @@ from programs import MONOLITHIC, FolderTest, execute
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "compare"))
 
-from fsi_compare.programs import Program  # noqa: E402
-from fsi_compare.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
+from fsi_compare.runs.programs import Program  # noqa: E402
+from fsi_compare.linear.stress import ASPECT_RATIO, make_stretched_mesh  # noqa: E402
 
 COMPARE = os.environ["FSI_COMPARE"]
 SINGLE_SYSTEMS = "--linear-systems" in execute(MONOLITHIC, "--help").stdout
@@ -63,8 +63,18 @@ class Study(FolderTest):
         self.assertEqual(result.stat().st_mtime_ns, before)
 
     def test_a_misspelt_setting_is_one_error(self):
-        done = self.study("--methods", "direct", "--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1",
-                          "--set", "fluid.densty=1")
+        done = self.study(
+            "--methods",
+            "direct",
+            "--materials",
+            "neo-hookean",
+            "--meshes",
+            "coarse",
+            "--systems",
+            "1:1",
+            "--set",
+            "fluid.densty=1",
+        )
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
         self.assertIn("density", done.stderr)
 

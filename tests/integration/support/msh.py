@@ -36,16 +36,21 @@ class Mesh:
     def write(self, file):
         used = {node for group in self.tetrahedra.values() for cell in group for node in cell}
         groups = [(2, TRIANGLE, self.triangles), (3, TETRAHEDRON, self.tetrahedra)]
-        numbered = [(dimension, kind, tag, name, cells) for dimension, kind, named in groups
-                    for tag, (name, cells) in enumerate(named.items(), start=1)]
+        numbered = [
+            (dimension, kind, tag, name, cells)
+            for dimension, kind, named in groups
+            for tag, (name, cells) in enumerate(named.items(), start=1)
+        ]
         elements = [(kind, tag, cell) for _, kind, tag, _, cells in numbered for cell in cells]
         lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(numbered))]
         lines += [f'{dimension} {tag} "{name}"' for dimension, _, tag, name, _ in numbered]
         lines += ["$EndPhysicalNames", "$Nodes", str(len(used))]
         lines += [f"{tag} {point}" for tag, point in self.nodes.items() if tag in used]
         lines += ["$EndNodes", "$Elements", str(len(elements))]
-        lines += [" ".join(map(str, (number, kind, 2, tag, tag, *cell)))
-                  for number, (kind, tag, cell) in enumerate(elements, start=1)]
+        lines += [
+            " ".join(map(str, (number, kind, 2, tag, tag, *cell)))
+            for number, (kind, tag, cell) in enumerate(elements, start=1)
+        ]
         file.write_text("\n".join([*lines, "$EndElements", ""]))
         return file
 

@@ -3,8 +3,7 @@
 import unittest
 
 import numpy as np
-from programs import (MONOLITHIC, NEO_HOOKEAN, FolderTest, arrays, attempt, make_mesh, make_small_mesh, run, table,
-                      times)
+from programs import MONOLITHIC, NEO_HOOKEAN, FolderTest, arrays, attempt, make_mesh, make_small_mesh, run, table, times
 
 PULSE, DURATION = 1.332, 0.125  # kPa, ms, of the paper's cases
 
@@ -38,8 +37,10 @@ class TimeAxis(FolderTest):
     def test_steps_around_the_pulse_see_the_same_impulse(self):
         """The step is twice as long as the pulse, as long, or half as long. Were the pressure sampled instead of
         averaged, the first would see no pulse at all, or one of twice the impulse."""
-        flows = [table(self.march(f"pulse{step}", f"time.step={step}", "time.end=0.25"), "flow.csv")[-1, 1]
-                 for step in (0.25, 0.125, 0.0625)]
+        flows = [
+            table(self.march(f"pulse{step}", f"time.step={step}", "time.end=0.25"), "flow.csv")[-1, 1]
+            for step in (0.25, 0.125, 0.0625)
+        ]
         print("inlet flow at 0.25 ms:", flows)
         np.testing.assert_allclose(flows, flows[-1], rtol=0.3)  # first order in 0.25 ms, early in a wave of 1 ms
 
@@ -56,13 +57,15 @@ class Impulse(FolderTest):
         super().setUpClass()
         mesh = make_mesh(cls.base / "pipe.msh", "--size", 0.35, "--axial-size", 1.0, "--length", 12)
         cls.case = cls.base / "pipe.toml"
-        cls.case.write_text(f"""
+        cls.case.write_text(
+            f"""
             mesh.file = "{mesh.name}"
             fluid = {{density = 1.0, viscosity = 1e-4}}
             inlet = {{pressure = {PULSE}, until = {DURATION}}}
             time = {{step = 0.125, end = 0.5}}
             output.every = 0
-            """)
+            """
+        )
 
     def test_does_not_depend_on_the_step(self):
         flows = [self.flow(f"step{step}", step) for step in (0.5, 0.25, 0.1, 0.125, 0.0625, 0.03125)]

@@ -74,8 +74,12 @@ class StaticWall(FolderTest):
             np.testing.assert_allclose(wall(folder), wall(self.coarse), rtol=0, atol=1e-9 * largest)
 
         del whole.triangles["inner"]
-        process = attempt(MONOLITHIC, STATIC, folder=self.base / "none",
-                          settings=(f"mesh.file={whole.write(self.base / 'none.msh')}",))
+        process = attempt(
+            MONOLITHIC,
+            STATIC,
+            folder=self.base / "none",
+            settings=(f"mesh.file={whole.write(self.base / 'none.msh')}",),
+        )
         self.assertEqual(process.returncode, 1)
         self.assertIn("inner", process.stderr)
         self.assertFalse((self.base / "none").exists())
@@ -86,16 +90,33 @@ class StaticWall(FolderTest):
         self.assertEqual((reported["unknowns"]["fluid"], reported["unknowns"]["mesh_motion"]), (0, 0))
         self.assertEqual(reported["unknowns"]["coupled"], reported["unknowns"]["wall"])
         self.assertEqual((reported["mesh"]["fluid_nodes"], reported["mesh"]["interface_nodes"]), (0, 0))
-        self.assertEqual(set(calls(self.coarse)), {"assembly: coupled residual", "assembly: coupled jacobian",
-                                                   "set-up: coupled", "solve: coupled", "energy balance", "output"})
+        self.assertEqual(
+            set(calls(self.coarse)),
+            {
+                "assembly: coupled residual",
+                "assembly: coupled jacobian",
+                "set-up: coupled",
+                "solve: coupled",
+                "energy balance",
+                "output",
+            },
+        )
         self.assertFalse((self.coarse / "centerline_pressure.csv").exists())
         self.assertFalse((self.coarse / "flow.csv").exists())
         fields = {"/".join(name.split("/")[:2]) for name in arrays(self.coarse / "fields.h5")} - {
-            "steps/number", "steps/time", "steps/written"}
+            "steps/number",
+            "steps/time",
+            "steps/written",
+        }
         # Statics know no velocity.
         self.assertEqual(fields, {f"wall/{what}" for what in ("points", "cells", "layer", "displacement", "pressure")})
-        self.assertFalse([name for name, values in arrays(self.coarse / "checkpoint.h5").items()
-                          if ("flow" in name or "mesh" in name) and np.size(values) > 1])
+        self.assertFalse(
+            [
+                name
+                for name, values in arrays(self.coarse / "checkpoint.h5").items()
+                if ("flow" in name or "mesh" in name) and np.size(values) > 1
+            ]
+        )
 
     def test_drivers_agree_bit_for_bit(self):
         self.assertSameResults(run(DRIVERS[1], STATIC, self.base / "partitioned"), self.coarse)

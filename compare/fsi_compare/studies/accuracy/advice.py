@@ -2,13 +2,13 @@
 
 from typing import List, Optional, Sequence, Tuple
 
-from ...progress import duration
-from .plan import Plan
+from ...base.progress import duration
+from ..evidence.waves import QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
 from .measured import GAIN, Measured
+from .plan import Plan
 from .trend import trend
-from .waves import QUANTITIES, Quantity
 
 
 def percent(value: float) -> str:
@@ -30,13 +30,19 @@ def total_advice(measured: Sequence[Measured], plan: Plan, case: str) -> List[st
             line = f"**{percent(target)}**: {_use(measured[found])}." + _other_driver(measured, measured[found], target)
         else:
             best = min(measured, key=lambda m: m.worst)
-            line = (f"**{percent(target)}**: no setting of this study reaches it in both; the best is "
-                    + percent(best.worst) + (f" ({_use(best)})" if not missed else "") + "."
-                    + _one_alone(measured, target) + _beyond(measured, target, own))
+            line = (
+                f"**{percent(target)}**: no setting of this study reaches it in both; the best is "
+                + percent(best.worst)
+                + (f" ({_use(best)})" if not missed else "")
+                + "."
+                + _one_alone(measured, target)
+                + _beyond(measured, target, own)
+            )
             missed = True
         if own > target / 3:
-            line += (f" The reference is itself uncertain by about {percent(own)}, which is not small beside this "
-                     "target.")
+            line += (
+                f" The reference is itself uncertain by about {percent(own)}, which is not small beside this target."
+            )
         lines.append(line)
     return lines
 
@@ -62,8 +68,10 @@ def _other_driver(measured: Sequence[Measured], chosen: Measured, target: float)
     name = "monolithic" if chosen.partitioned else "partitioned"
     if found is not None:
         other = others[found]
-        return (f" With the {name} driver: {other.words}, {duration(other.seconds)}, "
-                f"{other.seconds / chosen.seconds:.2g} times as long.")
+        return (
+            f" With the {name} driver: {other.words}, {duration(other.seconds)}, "
+            f"{other.seconds / chosen.seconds:.2g} times as long."
+        )
     if all(m.discretisation != chosen.discretisation for m in others):
         return f" The {name} driver was not tried on these equations."
     return f" No {name} setting of this study reaches it."
@@ -76,8 +84,10 @@ def estimate(series: Sequence[Series], case: str, quantity: Quantity) -> Optiona
     time = [s for s in own if s.what == TIME]
     if not space or not time:
         return None
-    return (min(space, key=lambda s: (s.finest.step, s.finest.worst)),
-            max(time, key=lambda s: (s.finest.nodes, -s.finest.step)))
+    return (
+        min(space, key=lambda s: (s.finest.step, s.finest.worst)),
+        max(time, key=lambda s: (s.finest.nodes, -s.finest.step)),
+    )
 
 
 def _beyond(measured: Sequence[Measured], target: float, own: float) -> str:
@@ -88,11 +98,13 @@ def _beyond(measured: Sequence[Measured], target: float, own: float) -> str:
     seconds = found.seconds(target) if found else None
     if not found or seconds is None:
         return " The runs are too far from it to say what it would take."
-    return (f" Along the frontier the larger error has fallen as seconds^-{found.exponent:.2f}, from "
-            f"{percent(found.largest[1])} in {duration(found.largest[0])} to {percent(found.smallest[1])} in "
-            f"{duration(found.smallest[0])}; going on like that, mesh and step refined together, it would take about "
-            f"{_long(seconds)}. That is an extrapolation by {found.smallest[1] / target:.2g} in the error, good for "
-            "the order of magnitude.")
+    return (
+        f" Along the frontier the larger error has fallen as seconds^-{found.exponent:.2f}, from "
+        f"{percent(found.largest[1])} in {duration(found.largest[0])} to {percent(found.smallest[1])} in "
+        f"{duration(found.smallest[0])}; going on like that, mesh and step refined together, it would take about "
+        f"{_long(seconds)}. That is an extrapolation by {found.smallest[1] / target:.2g} in the error, good for "
+        "the order of magnitude."
+    )
 
 
 def _long(seconds: float) -> str:
@@ -105,8 +117,10 @@ def algebraic_advice(group: Sequence[Measured], targets: Sequence[float]) -> Lis
     lines = []
     for target in targets:
         words = []
-        for name, members in (("monolithic", [m for m in group if not m.partitioned]),
-                              ("partitioned", [m for m in group if m.partitioned])):
+        for name, members in (
+            ("monolithic", [m for m in group if not m.partitioned]),
+            ("partitioned", [m for m in group if m.partitioned]),
+        ):
             found = cheapest([(m.seconds, m.worst_algebraic) for m in members], target)
             if found is not None:
                 m = members[found]
@@ -124,8 +138,10 @@ def enough(group: Sequence[Measured], tight: Measured) -> str:
     if found is None:
         return f"No setting stays below a tenth of the discretisation's own error of {percent(tight.worst)}."
     m = group[found]
-    return (f"The discretisation's own error is {percent(tight.worst)} here; a solver's error of a tenth of that does "
-            f"not matter, and the fastest that keeps to it is {m.solving}, {duration(m.seconds)}.")
+    return (
+        f"The discretisation's own error is {percent(tight.worst)} here; a solver's error of a tenth of that does "
+        f"not matter, and the fastest that keeps to it is {m.solving}, {duration(m.seconds)}."
+    )
 
 
 def small_steps(series: Sequence[Series]) -> str:
@@ -136,11 +152,15 @@ def small_steps(series: Sequence[Series]) -> str:
             errors = [m.total[q.column] for m in one.runs]
             best = min(range(len(errors)), key=lambda i: errors[i])
             if best < len(errors) - 1 and errors[-1] > 1.1 * errors[best]:
-                worse.append(f"{one.fixed}: {q.name} {percent(errors[best])} with {one.runs[best].step:g} ms, "
-                             f"{percent(errors[-1])} with {one.runs[-1].step:g} ms")
+                worse.append(
+                    f"{one.fixed}: {q.name} {percent(errors[best])} with {one.runs[best].step:g} ms, "
+                    f"{percent(errors[-1])} with {one.runs[-1].step:g} ms"
+                )
     if not worse:
         return ""
-    return ("A smaller step raised the error on an unchanged mesh (" + "; ".join(worse) + "). With a smaller step the "
-            "time scheme damps short waves less, which the mesh carries at a wrong speed, and the fluid's pressure "
-            "stabilisation, proportional to the step when that is small, fades; the study does not tell the two apart. "
-            "Refine mesh and step together.")
+    return (
+        "A smaller step raised the error on an unchanged mesh (" + "; ".join(worse) + "). With a smaller step the "
+        "time scheme damps short waves less, which the mesh carries at a wrong speed, and the fluid's pressure "
+        "stabilisation, proportional to the step when that is small, fades; the study does not tell the two apart. "
+        "Refine mesh and step together."
+    )

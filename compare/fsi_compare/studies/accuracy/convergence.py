@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from .plan import Plan
+from ..evidence.waves import QUANTITIES, relative_difference
 from .measured import STEP, Measured
 from .observed_order import SelfConvergence, self_convergence, slope
-from .waves import QUANTITIES, relative_difference
+from .plan import Plan
 
 SPACE, TIME = "element size", "time step"
 
@@ -19,8 +19,7 @@ class Series:
     runs: Sequence[Measured]
     sizes: Sequence[float]  # nodes^(-1/3), or ms
     fixed: str  # what the runs have in common
-    distances: Dict[str,
-                    List[float]]  # by quantity's column: from each run to the next, relative to that
+    distances: Dict[str, List[float]]  # by quantity's column: from each run to the next, relative to that
     orders: Dict[str, List[SelfConvergence]]  # of each three successive ones
     against_reference: Dict[str, float]  # slope of all errors against the reference; NaN: there is none
 
@@ -54,8 +53,10 @@ def series(measured: Sequence[Measured], plan: Plan) -> List[Series]:
 def _plain(m: Measured) -> bool:
     """Whether nothing of the solver is varied."""
     own = m.run.request.method.settings
-    return all(not key.startswith(("monolithic.", "partitioned.")) or own.get(key) == value
-               for key, value in m.run.request.settings.items())
+    return all(
+        not key.startswith(("monolithic.", "partitioned.")) or own.get(key) == value
+        for key, value in m.run.request.settings.items()
+    )
 
 
 def _series(what: str, runs: Sequence[Measured], sizes: Sequence[float], plan: Plan) -> Series:
@@ -65,7 +66,7 @@ def _series(what: str, runs: Sequence[Measured], sizes: Sequence[float], plan: P
         name = quantity.column
         apart = [relative_difference(a.waves[name], b.waves[name], times) for a, b in zip(runs, runs[1:])]
         distances[name] = apart
-        orders[name] = [self_convergence(sizes[i:i + 3], apart[i:i + 2]) for i in range(len(runs) - 2)]
+        orders[name] = [self_convergence(sizes[i : i + 3], apart[i : i + 2]) for i in range(len(runs) - 2)]
         found = slope(sizes, [m.total[name] for m in runs])
         slopes[name] = float("nan") if found is None else found
     finest = runs[-1]

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
+from ..evidence.waves import QUANTITIES, Waves, read_waves, relative_difference
+from ..running.study_file import Request, show
+from ..running.study_run import StudyRun
 from .plan import Plan
-from ..study_file import Request, show
-from ..study_run import StudyRun
-from .waves import QUANTITIES, Waves, read_waves, relative_difference
 
 SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are
 GAIN = 0.02  # a slower setting whose total error is smaller by less than this part is no better
@@ -16,8 +16,11 @@ STEP, STABILISATION = "time.step", "structure.stabilisation"
 def discretisation(request: Request) -> Tuple:
     """What the discrete equations depend on: equal for runs that differ in their solvers only."""
     settings = {key: value for key, value in request.settings.items() if not key.startswith(SOLVING)}
-    return request.case, request.mesh.name if request.mesh else "", tuple(sorted((k, str(v)) for k,
-                                                                                 v in settings.items()))
+    return (
+        request.case,
+        request.mesh.name if request.mesh else "",
+        tuple(sorted((k, str(v)) for k, v in settings.items())),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +80,12 @@ class Measured:
     def solving(self) -> str:
         """Method and what is set beside it."""
         request = self.run.request
-        varied = [f"{key.rsplit('.', 1)[-1].replace('_', ' ')} {show(value)}" for key, value in request.settings.items()
-                  if key.startswith(("monolithic.", "partitioned.")) and (
-                      key.endswith("tolerance") or request.method.settings.get(key) != value)]
+        varied = [
+            f"{key.rsplit('.', 1)[-1].replace('_', ' ')} {show(value)}"
+            for key, value in request.settings.items()
+            if key.startswith(("monolithic.", "partitioned."))
+            and (key.endswith("tolerance") or request.method.settings.get(key) != value)
+        ]
         return ", ".join([request.method.label, *varied])
 
     @property
@@ -93,25 +99,32 @@ def measure(runs: Iterable[StudyRun], plan: Plan) -> List[Measured]:
     for run in runs:
         if run.done:
             done.setdefault(str(run.folder), run)
-    waves = {key: {q.column: read_waves(run.folder / q.file, q.column) for q in QUANTITIES} for key,
-             run in done.items()}
-    tight = {discretisation(run.request): waves[key] for key, run in done.items()
-             if run.request.method.name == plan.tight}
+    waves = {
+        key: {q.column: read_waves(run.folder / q.file, q.column) for q in QUANTITIES} for key, run in done.items()
+    }
+    tight = {
+        discretisation(run.request): waves[key] for key, run in done.items() if run.request.method.name == plan.tight
+    }
     found = []
     for key, run in done.items():
         case = run.request.case
         times = plan.times(case)
         exact = tight.get(discretisation(run.request))
         own = waves[key]
-        found.append(Measured(
-            run, own, {q.column: relative_difference(own[q.column], plan.references[case].of(q), times)
-                       for q in QUANTITIES},
-            _against(own, exact, times) if run.request.method.name != plan.tight else {}))
+        found.append(
+            Measured(
+                run,
+                own,
+                {q.column: relative_difference(own[q.column], plan.references[case].of(q), times) for q in QUANTITIES},
+                _against(own, exact, times) if run.request.method.name != plan.tight else {},
+            )
+        )
     return found
 
 
-def _against(own: Mapping[str, Waves], exact: Optional[Mapping[str, Waves]], times: Sequence[float]) -> Dict[str,
-                                                                                                             float]:
+def _against(
+    own: Mapping[str, Waves], exact: Optional[Mapping[str, Waves]], times: Sequence[float]
+) -> Dict[str, float]:
     if exact is None:
         return {}
     return {q.column: relative_difference(own[q.column], exact[q.column], times) for q in QUANTITIES}

@@ -34,7 +34,7 @@ def self_convergence(sizes: Sequence[float], distances: Sequence[float]) -> Self
         return SelfConvergence(None, None)
 
     def ratio(p: float) -> float:
-        return (h1 ** p - h2 ** p) / (h2 ** p - h3 ** p)  # grows with p
+        return (h1**p - h2**p) / (h2**p - h3**p)  # grows with p
 
     low, high = ORDERS
     wanted = first / second
@@ -44,4 +44,4 @@ def self_convergence(sizes: Sequence[float], distances: Sequence[float]) -> Self
         middle = 0.5 * (low + high)
         low, high = (middle, high) if ratio(middle) < wanted else (low, middle)
     order = 0.5 * (low + high)
-    return SelfConvergence(order, second * h3 ** order / (h2 ** order - h3 ** order))
+    return SelfConvergence(order, second * h3**order / (h2**order - h3**order))

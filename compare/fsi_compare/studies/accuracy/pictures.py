@@ -1,16 +1,18 @@
 """Pictures of the accuracy-cost study: work against precision, and errors against element size and time step."""
 
-from typing import Dict, List, Mapping, Sequence
+from typing import Callable, Dict, List, Mapping, Sequence, Tuple
 
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ...pictures import finish
+from ...reporting.pictures import finish
+from ..evidence.waves import QUANTITIES, Quantity
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
-from .waves import QUANTITIES
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "p", "h", "<", ">", "*")
 DOMINATED, ON_FRONTIER, PARTITIONED_FILL = "#b5b5b5", "#000000", "#ffffff"
@@ -37,14 +39,22 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
         _log(axes, "seconds")
     handles, labels = _mesh_handles(meshes)
     for step in steps if len(steps) > 1 else ():
-        handles.append(Line2D([], [], linestyle="none", marker="o", color=ON_FRONTIER,
-                              markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1)))
+        handles.append(
+            Line2D(
+                [],
+                [],
+                linestyle="none",
+                marker="o",
+                color=ON_FRONTIER,
+                markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1),
+            )
+        )
         labels.append(f"step {step:g} ms")
     _finish(figure, handles, labels, measured, title)
     return figure
 
 
-def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity, title: str) -> Figure:
+def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
     """Error of stopping early against seconds, a panel per mesh and step: shape by method, a line along tolerances."""
     everyone = [m for group in groups.values() for m in group]
     methods = _named(everyone, lambda m: (m.partitioned, m.run.request.method.label))
@@ -58,10 +68,20 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity,
         axes.set_title(name, wrap=True)
         axes.set_ylabel("error in % of the tight solution")
         _log(axes, "seconds")
-    handles = [Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6,
-                      markerfacecolor=PARTITIONED_FILL if any(m.partitioned for m in everyone
-                                                              if m.run.request.method.label == label)
-                      else ON_FRONTIER) for label, marker in methods.items()]
+    handles = [
+        Line2D(
+            [],
+            [],
+            linestyle="none",
+            marker=marker,
+            color=ON_FRONTIER,
+            markersize=6,
+            markerfacecolor=PARTITIONED_FILL
+            if any(m.partitioned for m in everyone if m.run.request.method.label == label)
+            else ON_FRONTIER,
+        )
+        for label, marker in methods.items()
+    ]
     _finish(figure, handles, list(methods), everyone, title, drivers=False)
     return figure
 
@@ -72,20 +92,29 @@ def orders(series: Sequence[Series], what: str, title: str) -> Figure:
     handles: List[Line2D] = []
     for axes, quantity in zip(panels, QUANTITIES):
         for i, one in enumerate(series):
-            style = {"linestyle": DASHES[i % len(DASHES)], "marker": MARKERS[i % len(MARKERS)],
-                     "color": GREYS[i % len(GREYS)],
-                     "markersize": 5, "linewidth": 1.3}
+            style = {
+                "linestyle": DASHES[i % len(DASHES)],
+                "marker": MARKERS[i % len(MARKERS)],
+                "color": GREYS[i % len(GREYS)],
+                "markersize": 5,
+                "linewidth": 1.3,
+            }
             ys = [100 * d for d in one.distances[quantity.column]]
-            line, = axes.plot([_size(one, j) for j in range(len(ys))], ys, **style)
+            (line,) = axes.plot([_size(one, j) for j in range(len(ys))], ys, **style)
             if quantity is QUANTITIES[0]:
                 handles.append(line)
         _slopes(axes)
         axes.set_title(quantity.name)
         axes.set_ylabel("difference from the next finer in %")
         _log(axes, "element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step in ms")
-    _finish(figure, handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s)
-                                       for s in (":", "--")],
-            [one.fixed for one in series] + ["first order", "second order"], [], title, drivers=False)
+    _finish(
+        figure,
+        handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s) for s in (":", "--")],
+        [one.fixed for one in series] + ["first order", "second order"],
+        [],
+        title,
+        drivers=False,
+    )
     return figure
 
 
@@ -93,7 +122,7 @@ def _size(one: Series, j: int) -> float:
     return one.sizes[j] / one.sizes[-1] if one.what == SPACE else one.sizes[j]
 
 
-def _slopes(axes) -> None:
+def _slopes(axes: Axes) -> None:
     """Lines of first and second order through the picture's middle, for the eye."""
     xs = [x for line in axes.get_lines() for x in line.get_xdata() if x > 0]
     ys = [y for line in axes.get_lines() for y in line.get_ydata() if y > 0]
@@ -102,11 +131,12 @@ def _slopes(axes) -> None:
     x, y = (min(xs) * max(xs)) ** 0.5, (min(ys) * max(ys)) ** 0.5
     ends = (min(xs), max(xs)) if max(xs) > min(xs) else (0.7 * x, 1.4 * x)
     for order, style in ((1, ":"), (2, "--")):
-        axes.plot(ends, [y * (end / x) ** order for end in ends], color="#999999", linewidth=0.8, linestyle=style,
-                  zorder=1)
+        axes.plot(
+            ends, [y * (end / x) ** order for end in ends], color="#999999", linewidth=0.8, linestyle=style, zorder=1
+        )
 
 
-def _panels(count: int):
+def _panels(count: int) -> Tuple[Figure, List[Axes]]:
     columns = min(2, count)
     rows = -(-count // columns)
     figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
@@ -116,47 +146,87 @@ def _panels(count: int):
     return figure, list(panels.flat[:count])
 
 
-def _named(measured: Sequence[Measured], key) -> Dict[str, str]:
+def _named(measured: Sequence[Measured], key: Callable[[Measured], Tuple]) -> Dict[str, str]:
     """Name -> marker, in the order of the key, whose last part is the name."""
     names = list(dict.fromkeys(k[-1] for k in sorted({key(m) for m in measured})))
     return {name: MARKERS[i % len(MARKERS)] for i, name in enumerate(names)}
 
 
-def _scatter(axes, points, measured: Sequence[Measured], marker, size, gain: float) -> None:
+def _scatter(
+    axes: Axes,
+    points: Sequence[Tuple[float, float]],
+    measured: Sequence[Measured],
+    marker: Callable[[Measured], str],
+    size: Callable[[Measured], float],
+    gain: float,
+) -> None:
     """The frontier is numbered from the left, as its table is; dominated settings are grey and lie below."""
     best = frontier(points, gain)
     for i, ((x, y), m) in enumerate(zip(points, measured)):
         colour = ON_FRONTIER if i in best else DOMINATED
-        axes.plot([x], [y], linestyle="none", marker=marker(m), markersize=size(m), color=colour, markeredgewidth=1.0,
-                  markerfacecolor=PARTITIONED_FILL if m.partitioned else colour, zorder=3 if i in best else 2)
+        axes.plot(
+            [x],
+            [y],
+            linestyle="none",
+            marker=marker(m),
+            markersize=size(m),
+            color=colour,
+            markeredgewidth=1.0,
+            markerfacecolor=PARTITIONED_FILL if m.partitioned else colour,
+            zorder=3 if i in best else 2,
+        )
     axes.plot([points[i][0] for i in best], [points[i][1] for i in best], color=ON_FRONTIER, linewidth=1.0, zorder=2.5)
     for number, i in enumerate(best, 1):
         # On alternate sides of the frontier, which falls to the right: neighbours' numbers stay apart.
-        axes.annotate(str(number), points[i], textcoords="offset points", xytext=(-6, -11) if number % 2 else (6, 5),
-                      fontsize=7, ha="center", zorder=4)
+        axes.annotate(
+            str(number),
+            points[i],
+            textcoords="offset points",
+            xytext=(-6, -11) if number % 2 else (6, 5),
+            fontsize=7,
+            ha="center",
+            zorder=4,
+        )
 
 
-def _mesh_handles(meshes: Mapping[str, str]):
-    handles = [Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6)
-               for marker in meshes.values()]
+def _mesh_handles(meshes: Mapping[str, str]) -> Tuple[List[Artist], List[str]]:
+    handles = [
+        Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6) for marker in meshes.values()
+    ]
     return handles, [f"{name} mesh" for name in meshes]
 
 
-def _finish(figure: Figure, handles, labels, measured: Sequence[Measured], title: str, drivers: bool = True) -> None:
+def _finish(
+    figure: Figure,
+    handles: List[Artist],
+    labels: List[str],
+    measured: Sequence[Measured],
+    title: str,
+    drivers: bool = True,
+) -> None:
     if drivers:
         handles.append(Line2D([], [], color=ON_FRONTIER, linewidth=1.0, marker="o", markersize=5))
         labels.append("on the frontier")
         handles.append(Line2D([], [], linestyle="none", marker="o", markersize=5, color=DOMINATED))
         labels.append("dominated")
         if any(m.partitioned for m in measured):
-            handles.append(Line2D([], [], linestyle="none", marker="o", markersize=6, color=ON_FRONTIER,
-                                  markerfacecolor=PARTITIONED_FILL))
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    linestyle="none",
+                    marker="o",
+                    markersize=6,
+                    color=ON_FRONTIER,
+                    markerfacecolor=PARTITIONED_FILL,
+                )
+            )
             labels.append("hollow: partitioned")
     width, height = figure.get_size_inches()
     finish(figure, handles, labels, title, (width, height))
 
 
-def _log(axes, name: str) -> None:
+def _log(axes: Axes, name: str) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(x=0.1, y=0.12)

@@ -5,20 +5,21 @@ against the tight solution of the same discrete equations: what stopping early, 
 
 from typing import Dict, List, Optional, Sequence
 
-from ...layout import Table, fixed
-from ...names import MATERIALS
-from ...progress import duration
+from ...base.names import MATERIALS
+from ...base.progress import duration
+from ...reporting.layout import Table, fixed
+from ...reporting.report import Report
+from ..evidence.runs_table import runs_table
+from ..evidence.waves import QUANTITIES, Quantity
+from ..running.context import Context
+from ..running.repeats import timing_words
+from ..running.study_file import Study
 from . import pictures
-from .plan import Plan, read_plan
 from .advice import algebraic_advice, enough, estimate, percent, small_steps, total_advice
-from ..context import Context
 from .convergence import SPACE, TIME, Series, series
 from .frontier import frontier
 from .measured import GAIN, Measured, measure
-from ..plain_runs import runs_table
-from ..repeats import timing_words
-from ..study_file import Study
-from .waves import QUANTITIES, Quantity
+from .plan import Plan, read_plan
 
 
 def check(study: Study) -> None:
@@ -48,15 +49,24 @@ def evaluate(context: Context) -> int:
     return 0 if measured else 2
 
 
-def _summary(context: Context, plan: Plan, measured, found, cases, groups) -> None:
+def _summary(
+    context: Context,
+    plan: Plan,
+    measured: Sequence[Measured],
+    found: Sequence[Series],
+    cases: Sequence[str],
+    groups: Dict[str, dict],
+) -> None:
     report = context.report
     report.section("What to use")
     if not measured:
         report.text("No run has ended well; see the table at the end.")
         return
     low, high = plan.window
-    report.text(f"Error: relative L2 over the length of the tube and t = {low:g} to {high:g} ms; the larger of "
-                "centre-line pressure and wall displacement counts. Seconds: of the time steps, one thread.")
+    report.text(
+        f"Error: relative L2 over the length of the tube and t = {low:g} to {high:g} ms; the larger of "
+        "centre-line pressure and wall displacement counts. Seconds: of the time steps, one thread."
+    )
     for case in cases:
         own = [m for m in measured if m.run.request.case == case]
         report.subsection(f"Total error, {MATERIALS.get(case, case)}")
@@ -80,91 +90,149 @@ def _balance(found: Sequence[Series], case: str, quantity: Quantity) -> str:
     parts = []
     for one in chosen:
         left, total = one.last(quantity.column), one.finest.total[quantity.column]
-        where = (f"the elements of the {one.finest.mesh_label} mesh" if one.what == SPACE
-                 else f"the step of {one.finest.step:g} ms")
+        assert left.order is not None and left.remaining is not None, "chosen for having an order"
+        where = (
+            f"the elements of the {one.finest.mesh_label} mesh"
+            if one.what == SPACE
+            else f"the step of {one.finest.step:g} ms"
+        )
         part = f"{percent(left.remaining)} from {where} (order {left.order:.2f}; {one.fixed})"
         # A part that exceeds the whole: the sizes are not small enough for C h^p.
-        parts.append(part if left.remaining <= total else
-                     f"{part}, more than the whole of {percent(total)}: not yet in the range where an order holds")
-    return (f"Where the error in {quantity.name} comes from, by self-convergence, without the reference: "
-            f"{'; '.join(parts)}.")
+        parts.append(
+            part
+            if left.remaining <= total
+            else f"{part}, more than the whole of {percent(total)}: not yet in the range where an order holds"
+        )
+    return (
+        f"Where the error in {quantity.name} comes from, by self-convergence, without the reference: "
+        f"{'; '.join(parts)}."
+    )
 
 
-def _method(report, plan: Plan, cases, timing: str) -> None:
+def _method(report: Report, plan: Plan, cases: Sequence[str], timing: str) -> None:
     report.section("How it is measured")
     for case in cases:
         reference = plan.references[case]
         own = ", ".join(f"{percent(reference.own_error[q.column])} in {q.name}" for q in QUANTITIES)
-        report.text(f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as "
-                    f"{own}; smaller differences between runs mean nothing. It shares the weak forms with the drivers, but "
-                    "neither the mesh nor the three dimensions.")
-    report.text("**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "
-                "against the solution of the same discrete equations with tightly converged steps; from tolerances and "
-                "schemes alone. The two must not be confused: a tolerance can be changed for nothing, a mesh cannot.",
-                "**Frontier**: no other setting is both faster and more accurate; of total errors, a gain of less "
-                f"than {percent(GAIN)} of the error does not count. {timing} Neighbours of the frontier are as good as "
-                "those on it.",
-                "**Observed order**: from the differences of three successive solutions, whatever the ratio of their "
-                "sizes; it needs no reference. The last column gives the slope against the reference instead.")
+        report.text(
+            f"Reference, {MATERIALS.get(case, case)}: {reference.description}. Its own error is estimated as "
+            f"{own}; smaller differences between runs mean nothing. It shares the weak forms with the drivers, but "
+            "neither the mesh nor the three dimensions."
+        )
+    report.text(
+        "**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "
+        "against the solution of the same discrete equations with tightly converged steps; from tolerances and "
+        "schemes alone. The two must not be confused: a tolerance can be changed for nothing, a mesh cannot.",
+        "**Frontier**: no other setting is both faster and more accurate; of total errors, a gain of less "
+        f"than {percent(GAIN)} of the error does not count. {timing} Neighbours of the frontier are as good as "
+        "those on it.",
+        "**Observed order**: from the differences of three successive solutions, whatever the ratio of their "
+        "sizes; it needs no reference. The last column gives the slope against the reference instead.",
+    )
 
 
-def _total(report, case: str, measured: Sequence[Measured], several: bool) -> None:
+def _total(report: Report, case: str, measured: Sequence[Measured], several: bool) -> None:
     name = f", {MATERIALS.get(case, case)}" if several else ""
     stem = f"_{case}" if several else ""
     report.section(f"Total error against seconds{name}")
     title = f"Error against seconds, {MATERIALS.get(case, case)}"
-    report.figure(f"work_precision{stem}", lambda: pictures.work_precision(measured, title),
-                  "Each mark is a run: shape by mesh, size by time step, hollow for the partitioned driver. **Black**: "
-                  "on the frontier, numbered as in the tables; **grey**: dominated.")
+    report.figure(
+        f"work_precision{stem}",
+        lambda: pictures.work_precision(measured, title),
+        f"Each mark is a run: shape by mesh, size by time step{_hollow(measured)}. **Black**: on the frontier, numbered as "
+        "in the tables; **grey**: dominated.",
+    )
     for quantity in QUANTITIES:
         best = frontier([(m.seconds, m.total[quantity.column]) for m in measured], GAIN)
-        table = Table(stem=f"frontier_{quantity.file.split('.')[0]}{stem}",
-                      title=f"The frontier in {quantity.name}{name}", left=3,
-                      columns=[("", "number"), ("", "equations"), ("", "solved by"), ("", "error"), ("", "seconds")],
-                      csv_columns=["number", "equations", "solved_by", "relative_error", "seconds"])
+        table = Table(
+            stem=f"frontier_{quantity.file.split('.')[0]}{stem}",
+            title=f"The frontier in {quantity.name}{name}",
+            left=3,
+            columns=[("", "number"), ("", "equations"), ("", "solved by"), ("", "error"), ("", "seconds")],
+            csv_columns=["number", "equations", "solved_by", "relative_error", "seconds"],
+        )
         for number, i in enumerate(best, 1):
             m = measured[i]
-            table.rows.append([str(number), m.equations, m.solving, percent(m.total[quantity.column]),
-                               fixed(m.seconds, ".1f")])
+            table.rows.append(
+                [str(number), m.equations, m.solving, percent(m.total[quantity.column]), fixed(m.seconds, ".1f")]
+            )
             table.csv_rows.append([number, m.equations, m.solving, m.total[quantity.column], m.seconds])
         report.table(table)
 
 
-def _orders(report, found: Sequence[Series], cases) -> None:
+def _hollow(measured: Sequence[Measured]) -> str:
+    return ", hollow for the partitioned driver" if any(m.partitioned for m in measured) else ""
+
+
+def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> None:
     report.section("Observed orders")
     if not found:
         report.text("No three runs differ in mesh or time step alone.")
         return
-    report.text("Left: the estimated error of the finest of each three, C h^p; it takes the error's shape for "
-                "unchanged. An order far from the scheme's, 2 in element size and 1 in time, says that the sizes are "
-                "not yet small beside the pulse, and that extrapolations are rough.")
-    table = Table(stem="orders", title="Observed orders", left=3,
-                  columns=[("", "refined"), ("", "all else"), ("", "sizes"),
-                           *((q.name, name) for q in QUANTITIES for name in ("differences", "order", "left", "slope"))],
-                  csv_columns=["refined", "fixed", "sizes", "quantity", "relative_differences", "order",
-                               "estimated_error", "slope_against_reference"])
+    report.text(
+        "Left: the estimated error of the finest of each three, C h^p; it takes the error's shape for "
+        "unchanged. An order far from the scheme's, 2 in element size and 1 in time, says that the sizes are "
+        "not yet small beside the pulse, and that extrapolations are rough."
+    )
+    table = Table(
+        stem="orders",
+        title="Observed orders",
+        left=3,
+        columns=[
+            ("", "refined"),
+            ("", "all else"),
+            ("", "sizes"),
+            *((q.name, name) for q in QUANTITIES for name in ("differences", "order", "left", "slope")),
+        ],
+        csv_columns=[
+            "refined",
+            "fixed",
+            "sizes",
+            "quantity",
+            "relative_differences",
+            "order",
+            "estimated_error",
+            "slope_against_reference",
+        ],
+    )
     for one in found:
         for i in range(len(one.runs) - 2):
-            three = one.runs[i:i + 3]
+            three = one.runs[i : i + 3]
             sizes = " / ".join(m.mesh_label if one.what == SPACE else f"{m.step:g} ms" for m in three)
             row = [one.what, one.fixed, sizes]
             for q in QUANTITIES:
                 of = one.orders[q.column][i]
-                apart = one.distances[q.column][i:i + 2]
+                apart = one.distances[q.column][i : i + 2]
                 last = i == len(one.runs) - 3
-                row += [", ".join(percent(d) for d in apart), fixed(of.order, ".2f"),
-                        "-" if of.remaining is None else percent(of.remaining),
-                        fixed(one.against_reference[q.column] if last else None, ".2f")]
-                table.csv_rows.append([one.what, one.fixed, sizes, q.column, " ".join(f"{d:.6g}" for d in apart),
-                                       of.order, of.remaining, one.against_reference[q.column] if last else None])
+                row += [
+                    ", ".join(percent(d) for d in apart),
+                    fixed(of.order, ".2f"),
+                    "-" if of.remaining is None else percent(of.remaining),
+                    fixed(one.against_reference[q.column] if last else None, ".2f"),
+                ]
+                table.csv_rows.append(
+                    [
+                        one.what,
+                        one.fixed,
+                        sizes,
+                        q.column,
+                        " ".join(f"{d:.6g}" for d in apart),
+                        of.order,
+                        of.remaining,
+                        one.against_reference[q.column] if last else None,
+                    ]
+                )
             table.rows.append(row)
     report.table(table)
     for what, stem in ((SPACE, "orders_space"), (TIME, "orders_time")):
         own = [one for one in found if one.what == what]
         if own:
             title = f"Difference from the next finer solution against {what}"
-            report.figure(stem, lambda: pictures.orders(own, what, title),
-                          f"Convergence in {what}: the slopes are the observed orders.")
+            report.figure(
+                stem,
+                lambda: pictures.orders(own, what, title),
+                f"Convergence in {what}: the slopes are the observed orders.",
+            )
 
 
 def _same_equations(measured: Sequence[Measured], plan: Plan) -> Dict[str, dict]:
@@ -185,54 +253,130 @@ def _same_equations(measured: Sequence[Measured], plan: Plan) -> Dict[str, dict]
     return found
 
 
-def _algebraic(report, groups: Dict[str, dict], plan: Plan) -> None:
+def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
     report.section("The solver's error alone")
     if not groups:
         report.text("No tight solution to compare with.")
         return
     runs_by_name = {name: group["runs"] for name, group in groups.items()}
+    everyone = [m for runs in runs_by_name.values() for m in runs]
     for quantity in QUANTITIES:
         title = f"Solver's error in {quantity.name} against seconds"
-        report.figure(f"algebraic_{quantity.file.split('.')[0]}",
-                      lambda: pictures.algebraic_work_precision(runs_by_name, quantity, title),
-                      "Shape by method, a thin line along its tolerances; hollow: partitioned. Black and numbered: the "
-                      "frontier.")
+        report.figure(
+            f"algebraic_{quantity.file.split('.')[0]}",
+            lambda: pictures.algebraic_work_precision(runs_by_name, quantity, title),
+            f"Shape by method, a thin line along its tolerances{_hollow(everyone)}. Black and numbered: the frontier.",
+        )
     for i, (name, group) in enumerate(groups.items(), 1):
         runs = group["runs"]
         best = frontier([(m.seconds, m.worst_algebraic) for m in runs])
-        table = Table(stem=f"algebraic_{i}", title=f"Solver's error, {name}", left=1,
-                      columns=[("", "solved by"), ("error", "pressure"), ("error", "displacement"), ("", "seconds"),
-                               ("", "iterations per step"), ("", "frontier")],
-                      csv_columns=["equations", "solved_by", "pressure_error", "displacement_error", "seconds",
-                                   "iterations_per_step", "on_frontier"],
-                      notes=["Frontier: in the larger of the two errors. Iterations: coupling passes, or Newton's."])
+        table = Table(
+            stem=f"algebraic_{i}",
+            title=f"Solver's error, {name}",
+            left=1,
+            columns=[
+                ("", "solved by"),
+                ("error", "pressure"),
+                ("error", "displacement"),
+                ("", "seconds"),
+                ("", "iterations per step"),
+                ("", "frontier"),
+            ],
+            csv_columns=[
+                "equations",
+                "solved_by",
+                "pressure_error",
+                "displacement_error",
+                "seconds",
+                "iterations_per_step",
+                "on_frontier",
+            ],
+            notes=["Frontier: in the larger of the two errors. Iterations: coupling passes, or Newton's."],
+        )
         for j in sorted(range(len(runs)), key=lambda j: runs[j].seconds):
             m = runs[j]
             on = best.index(j) + 1 if j in best else None
             passes: Optional[float] = m.run.passes if m.run.passes == m.run.passes else None
-            table.rows.append([m.solving, *(percent(m.algebraic[q.column]) for q in QUANTITIES),
-                               fixed(m.seconds, ".2f"), fixed(passes, ".1f"), "" if on is None else str(on)])
-            table.csv_rows.append([name, m.solving, *(m.algebraic[q.column] for q in QUANTITIES), m.seconds, passes,
-                                   on is not None])
+            table.rows.append(
+                [
+                    m.solving,
+                    *(percent(m.algebraic[q.column]) for q in QUANTITIES),
+                    fixed(m.seconds, ".2f"),
+                    fixed(passes, ".1f"),
+                    "" if on is None else str(on),
+                ]
+            )
+            table.csv_rows.append(
+                [name, m.solving, *(m.algebraic[q.column] for q in QUANTITIES), m.seconds, passes, on is not None]
+            )
         report.table(table)
 
 
 def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
-    table = Table(stem="settings", title="All settings, by total error", left=4,
-                  columns=[("", "case"), ("", "equations"), ("", "solved by"), ("", "group"), ("", "nodes"),
-                           ("total error", "pressure"), ("total error", "displacement"),
-                           ("solver's error", "pressure"), ("solver's error", "displacement"), ("", "time")],
-                  csv_columns=["case", "mesh", "nodes", "step_ms", "equations", "solved_by", "driver", "group",
-                               "pressure_error", "displacement_error", "pressure_solver_error",
-                               "displacement_solver_error", "seconds", "process_s", "folder"])
+    table = Table(
+        stem="settings",
+        title="All settings, by total error",
+        left=4,
+        columns=[
+            ("", "case"),
+            ("", "equations"),
+            ("", "solved by"),
+            ("", "group"),
+            ("", "nodes"),
+            ("total error", "pressure"),
+            ("total error", "displacement"),
+            ("solver's error", "pressure"),
+            ("solver's error", "displacement"),
+            ("", "time"),
+        ],
+        csv_columns=[
+            "case",
+            "mesh",
+            "nodes",
+            "step_ms",
+            "equations",
+            "solved_by",
+            "driver",
+            "group",
+            "pressure_error",
+            "displacement_error",
+            "pressure_solver_error",
+            "displacement_solver_error",
+            "seconds",
+            "process_s",
+            "folder",
+        ],
+    )
     for m in sorted(measured, key=lambda m: (m.run.request.case, m.worst)):
         request = m.run.request
         solver = [m.algebraic.get(q.column) for q in QUANTITIES]
-        table.rows.append([request.case, m.equations, m.solving, request.group, f"{m.nodes:,}",
-                           *(percent(m.total[q.column]) for q in QUANTITIES),
-                           *("-" if e is None else percent(e) for e in solver), duration(m.seconds)])
-        table.csv_rows.append([request.case, m.mesh, m.nodes, m.step, m.equations, m.solving, request.method.program,
-                               request.group,
-                               *(m.total[q.column] for q in QUANTITIES), *solver, m.seconds, m.run.seconds,
-                               m.run.folder.name])
+        table.rows.append(
+            [
+                request.case,
+                m.equations,
+                m.solving,
+                request.group,
+                f"{m.nodes:,}",
+                *(percent(m.total[q.column]) for q in QUANTITIES),
+                *("-" if e is None else percent(e) for e in solver),
+                duration(m.seconds),
+            ]
+        )
+        table.csv_rows.append(
+            [
+                request.case,
+                m.mesh,
+                m.nodes,
+                m.step,
+                m.equations,
+                m.solving,
+                request.method.program,
+                request.group,
+                *(m.total[q.column] for q in QUANTITIES),
+                *solver,
+                m.seconds,
+                m.run.seconds,
+                m.run.folder.name,
+            ]
+        )
     return table

@@ -29,7 +29,7 @@ class AddedMass:
     def hoop_stiffness(self) -> float:
         """a in kPa/mm; E = 2 (1 + nu) mu."""
         moduli = sum(2 * (1 + self.poisson) * layer.shear * layer.thickness for layer in self.tube.layers)
-        return moduli / ((1 - self.poisson ** 2) * self.tube.radius ** 2)
+        return moduli / ((1 - self.poisson**2) * self.tube.radius**2)
 
     @property
     def whole_wall(self) -> float:
@@ -57,7 +57,7 @@ class AddedMass:
     def gain(self, step: float) -> float:
         """|G|: how many times larger than the displacement put in the wall's answer comes out, in a time step of `step`
         ms with backward Euler in the fluid and Newmark's beta = 1 in the wall."""
-        wall = self.tube.wall_density * self.tube.thickness + self.hoop_stiffness * step ** 2
+        wall = self.tube.wall_density * self.tube.thickness + self.hoop_stiffness * step**2
         return self.tube.fluid_density * self.column / wall
 
     def largest_factor(self, step: float) -> float:

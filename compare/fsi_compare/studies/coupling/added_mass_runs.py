@@ -9,14 +9,14 @@ from typing import Any, Dict, List, Mapping
 
 import numpy as np
 
-from ...errors import InputError
-from ...layout import Table
+from ...base.errors import InputError
+from ...base.suggestions import check_keys
+from ...reporting.layout import Table
+from ..running.context import Context
+from ..running.study_file import Study
+from ..running.study_run import DONE, NOT_CONVERGED, StudyRun
 from .added_mass import AddedMass
 from .bisection import Bracket, bisect
-from ..context import Context
-from ..study_file import Study
-from ..study_run import DONE, NOT_CONVERGED, StudyRun
-from ..suggestions import check_keys
 
 KEYS = ("method", "case", "low", "high", "width", "steps", "stabilisations", "levels", "set")
 QUANTITIES = {"explicit": "structure.density", "constant": "partitioned.relaxation"}
@@ -29,13 +29,15 @@ def check(study: Study) -> None:
             if key not in entry:
                 raise InputError(study.path, f"report.{name}.{key}", "is missing", f"the keys are {', '.join(KEYS)}")
         if entry["method"] not in study.methods:
-            raise InputError(study.path, f"report.{name}.method", f"'{entry['method']}' is unknown",
-                             "name one of [methods]")
+            raise InputError(
+                study.path, f"report.{name}.method", f"'{entry['method']}' is unknown", "name one of [methods]"
+            )
         if entry["case"] not in study.cases:
             raise InputError(study.path, f"report.{name}.case", f"'{entry['case']}' is unknown", "name one of [cases]")
         if not 0 < entry["low"] < entry["high"]:
-            raise InputError(study.path, f"report.{name}.low", "is not below `high`, or not positive",
-                             "give the ends of the search")
+            raise InputError(
+                study.path, f"report.{name}.low", "is not below `high`, or not positive", "give the ends of the search"
+            )
 
 
 def sections(study: Study) -> Mapping[str, Mapping[str, Any]]:
@@ -55,10 +57,15 @@ def search(context: Context, name: str, entry: Mapping[str, Any], step: float, s
     quantity = QUANTITIES[name]
 
     def holds(value: float) -> bool:
-        own = {**flatten(entry.get("set", {})), "time.step": step, "structure.stabilisation": stabilisation,
-               "time.end": step * entry.get("levels", 1), quantity: value}
+        own = {
+            **flatten(entry.get("set", {})),
+            "time.step": step,
+            "structure.stabilisation": stabilisation,
+            "time.end": step * entry.get("levels", 1),
+            quantity: value,
+        }
         values = {quantity: value, "time.step": step, "structure.stabilisation": stabilisation}
-        run, = context.run([context.study.request(name, entry["case"], entry["method"], values, own)])
+        (run,) = context.run([context.study.request(name, entry["case"], entry["method"], values, own)])
         if run.status not in (DONE, NOT_CONVERGED):
             raise InputError(context.study.path, f"report.{name}", f"{run.status}: {run.message}", f"see {run.folder}")
         return run.done and not (name == "explicit" and alternates_ever_more(run))
@@ -76,7 +83,7 @@ def alternates_ever_more(run: StudyRun) -> bool:
     third = np.abs(np.diff(radial, n=3, axis=0)).max(axis=1)
     if len(third) < 24:
         return False
-    early, late = third[len(third) // 4:len(third) // 4 + 8].max(), third[-8:].max()
+    early, late = third[len(third) // 4 : len(third) // 4 + 8].max(), third[-8:].max()
     return bool(late > early and late > 0.05 * np.abs(radial).max())
 
 
@@ -92,19 +99,43 @@ def flatten(entries: Mapping[str, Any], prefix: str = "") -> Dict[str, Any]:
 
 def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
     theory, brackets = AddedMass(), []
-    table = Table(stem="added_mass_explicit", left=2,
-                  title="Critical density ratio of the wall to the fluid: `explicit` is unstable below",
-                  columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"),
-                           ("theory", "as published"), ("theory", "for this scheme"), ("", "runs")],
-                  csv_columns=["stabilisation", "time_step_ms", "unstable_at", "stable_at", "theory_published",
-                               "theory_this_scheme", "runs"])
+    table = Table(
+        stem="added_mass_explicit",
+        left=2,
+        title="Critical density ratio of the wall to the fluid: `explicit` is unstable below",
+        columns=[
+            ("", "wall's stabilisation"),
+            ("", "time step"),
+            ("", "measured"),
+            ("theory", "as published"),
+            ("theory", "for this scheme"),
+            ("", "runs"),
+        ],
+        csv_columns=[
+            "stabilisation",
+            "time_step_ms",
+            "unstable_at",
+            "stable_at",
+            "theory_published",
+            "theory_this_scheme",
+            "runs",
+        ],
+    )
     for stabilisation in entry["stabilisations"]:
         for step in entry["steps"]:
             bracket = search(context, "explicit", entry, step, stabilisation)
             brackets.append(bracket)
             published, own = theory.critical_density_ratio(), theory.explicit_limit(1)
-            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{published:.0f}", f"{own:.0f}",
-                               str(bracket.runs)])
+            table.rows.append(
+                [
+                    f"{stabilisation:g}",
+                    f"{step:g} ms",
+                    text(bracket),
+                    f"{published:.0f}",
+                    f"{own:.0f}",
+                    str(bracket.runs),
+                ]
+            )
             table.csv_rows.append([stabilisation, step, bracket.fails, bracket.holds, published, own, bracket.runs])
     table.notes += [
         "As published (Causin, Gerbeau and Nobile): rho_s h = rho_f m. For this scheme: rho_s h e = 2 rho_f m, since "
@@ -112,32 +143,45 @@ def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
         "thick wall.",
         "The quasi-static stabilisation of the wall, tau = alpha h^2/(2 mu), lets volume leak through heavy elements, "
         "so that only the nodes of the inner face answer: with alpha = 0.5 the limit lies higher still "
-        "(docs/coupling.md)."]
+        "(docs/coupling.md).",
+    ]
     context.report.table(table)
     return brackets
 
 
 def constant(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
     theory, brackets = AddedMass(), []
-    table = Table(stem="added_mass_constant", title="Largest factor of `constant` that converges", left=2,
-                  columns=[("", "wall's stabilisation"), ("", "time step"), ("", "measured"),
-                           ("", "theory 2/(1 + |G|)"), ("", "runs")],
-                  csv_columns=["stabilisation", "time_step_ms", "converges_at", "diverges_at", "theory", "runs"])
+    table = Table(
+        stem="added_mass_constant",
+        title="Largest factor of `constant` that converges",
+        left=2,
+        columns=[
+            ("", "wall's stabilisation"),
+            ("", "time step"),
+            ("", "measured"),
+            ("", "theory 2/(1 + |G|)"),
+            ("", "runs"),
+        ],
+        csv_columns=["stabilisation", "time_step_ms", "converges_at", "diverges_at", "theory", "runs"],
+    )
     for stabilisation in entry["stabilisations"]:
         for step in entry["steps"]:
             bracket = search(context, "constant", entry, step, stabilisation)
             brackets.append(bracket)
             largest = theory.largest_factor(step)
-            table.rows.append([f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{largest:.4f}",
-                               str(bracket.runs)])
+            table.rows.append(
+                [f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{largest:.4f}", str(bracket.runs)]
+            )
             table.csv_rows.append([stabilisation, step, bracket.holds, bracket.fails, largest, bracket.runs])
-    table.notes.append("Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers "
-                       "with 0.74 (alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md.")
+    table.notes.append(
+        "Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers "
+        "with 0.74 (alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md."
+    )
     context.report.table(table)
     return brackets
 
 
 def text(bracket: Bracket) -> str:
-    if bracket.value is not None:
+    if bracket.value is not None and bracket.width is not None:
         return f"{bracket.value:.3g} ± {bracket.width / 2:.0%}"
     return f"none: all fail up to {bracket.fails:g}" if bracket.fails else f"none: all hold from {bracket.holds:g}"

@@ -5,7 +5,7 @@ from typing import Any, List, Mapping, Optional, Sequence
 
 from matplotlib.figure import Figure
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 
 # Told apart without colour by marker, dash pattern and lightness.
 STYLES = (
@@ -42,8 +42,15 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
         y = [float("nan") if value is None else value for value in line.passes]
         handles += axes.plot(line.x, y, **style)
         failed = [x for x, value in zip(line.x, line.passes) if value is None]
-        strip.plot(failed, [i] * len(failed), linestyle="none", marker=style["marker"], color=style["color"],
-                   markersize=6, fillstyle="none")
+        strip.plot(
+            failed,
+            [i] * len(failed),
+            linestyle="none",
+            marker=style["marker"],
+            color=style["color"],
+            markersize=6,
+            fillstyle="none",
+        )
     wrong = [(x, value) for line in all_series for x, value, off in zip(line.x, line.passes, line.off) if off]
     labels = [line.label for line in all_series]
     if wrong:
@@ -57,6 +64,5 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
     strip.set_yticks(range(len(all_series)), [line.label for line in all_series], fontsize=6.5)
     strip.set_title("failed", loc="left")
     tolerance = settings.get("partitioned.tolerance", 1e-6)
-    finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}",
-           (width, height))
+    finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}", (width, height))
     return figure

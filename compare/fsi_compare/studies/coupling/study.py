@@ -8,31 +8,34 @@ Groups by name, or by name and a suffix (passes, passes-fine), each of which may
   cost       the schemes and the monolithic driver; the first method is the reference
 `[report]`: `sweeps` (see sweeps); `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
 
-from typing import List, Optional, Sequence
+from collections import Counter
+from typing import Dict, List, Optional, Sequence, Tuple
 
-from ...cost import cost_table, read_cost
-from ...differences import largest_difference
-from ...errors import InputError
-from ...layout import Table, fixed
-from ...names import MATERIALS
+from ...base.errors import InputError
+from ...base.names import MATERIALS
+from ...base.suggestions import check_keys
+from ...reporting.cost import Cost, cost_table, read_cost
+from ...reporting.layout import Table, fixed
+from ...runs.differences import largest_difference
+from ..evidence.cross_check import WRONG, Cell
+from ..running.context import Context
+from ..running.study_file import Study, show
+from ..running.study_run import DONE, StudyRun
 from . import added_mass_runs, sweeps
 from .pictures import passes_figure
-from ..context import Context
-from ..cross_check import WRONG, Cell
-from ..study_file import Study, show
-from ..study_run import StudyRun
-from ..suggestions import check_keys
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
 REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)
 MONOLITHIC = sweeps.MONOLITHIC
+AGREE = 1e-3  # relative difference of pressures that no picture shows
 
 
 def check(study: Study) -> None:
     for request in study.requests:
         if base(request.group) not in GROUPS:
-            raise InputError(study.path, f"runs.{request.group}", "is no group of a coupling study",
-                             f"there are {', '.join(GROUPS)}")
+            raise InputError(
+                study.path, f"runs.{request.group}", "is no group of a coupling study", f"there are {', '.join(GROUPS)}"
+            )
     check_keys(study.path, "report", study.report, REPORT_KEYS)
     sweeps.settings_of(study)
     added_mass_runs.check(study)
@@ -40,27 +43,34 @@ def check(study: Study) -> None:
 
 def also_runs(study: Study) -> List[str]:
     """For `--list`: what is run beside the study's runs."""
-    return [f"{name}: {entry['case']}, {entry['method']}, bisection of {added_mass_runs.QUANTITIES[name]} from "
-            f"{entry['low']:g} to {entry['high']:g}, {len(entry['steps']) * len(entry['stabilisations'])} times"
-            for name, entry in added_mass_runs.sections(study).items()]
+    return [
+        f"{name}: {entry['case']}, {entry['method']}, bisection of {added_mass_runs.QUANTITIES[name]} from "
+        f"{entry['low']:g} to {entry['high']:g}, {len(entry['steps']) * len(entry['stabilisations'])} times"
+        for name, entry in added_mass_runs.sections(study).items()
+    ]
 
 
 def evaluate(context: Context) -> int:
     report = context.report
+    passes, agreement = chosen(context, "passes"), chosen(context, "agreement")
+    report.section("In short")
+    report.list(in_short(passes, agreement_table(agreement) if agreement else None, context.runs))
     report.section("Coupling iterations")
-    passes = chosen(context, "passes")
     if passes:
-        report.text("Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; "
-                    "of `newton-krylov` every evaluation of the interface residual counts.")
+        report.text(
+            "Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; "
+            "of `newton-krylov` every evaluation of the interface residual counts."
+        )
         report.table(passes_table(context, passes))
         growth = growth_table(passes)
         if growth.rows:
             report.table(growth)
-    agreement = chosen(context, "agreement")
     if agreement:
-        report.text("The converged partitioned step and the monolithic step solve the same equations. Largest "
-                    "difference of the pressure along the centre line, relative to the largest pressure of the time "
-                    "level, worst of all levels:")
+        report.text(
+            "The converged partitioned step and the monolithic step solve the same equations. Largest "
+            "difference of the pressure along the centre line, relative to the largest pressure of the time "
+            "level, worst of all levels:"
+        )
         report.table(agreement_table(agreement))
     wrong: List[Cell] = []
     for group, quantity, unit in (("density", "density ratio of wall and fluid", ""), ("step", "time step", "ms")):
@@ -73,16 +83,56 @@ def evaluate(context: Context) -> int:
     if runs:
         report.section("Cost at the same accuracy of the interface condition")
         cost_section(context, runs)
-    missing = [run for run in context.runs
-               if base(run.request.group) in ("passes", "agreement", "cost") and not run.done]
+    missing = [
+        run for run in context.runs if base(run.request.group) in ("passes", "agreement", "cost") and not run.done
+    ]
     report.section("Runs")
     report.text(count_in_words(context, bisected))
     for cell in wrong:
-        report.text(f"**At fault:** {cell.run.request.group}, {cell.run.request.label}: {cell.outcome}"
-                    + (f", off by {cell.difference:.1e}" if cell.outcome == WRONG else f", {cell.run.message}"))
+        report.text(
+            f"**At fault:** {cell.run.request.group}, {cell.run.request.label}: {cell.outcome}"
+            + (f", off by {cell.difference:.1e}" if cell.outcome == WRONG else f", {cell.run.message}")
+        )
     for run in missing:
         report.text(f"**Missing:** {run.request.group}, {run.request.label}: {run.status}, {run.message}")
     return 2 if missing or wrong else 0
+
+
+def in_short(passes: Sequence[StudyRun], agreement: Optional[Table], runs: Sequence[StudyRun]) -> List[str]:
+    """The findings in words; of what was not run nothing is said. `agreement`: see agreement_table."""
+    lines = []
+    means: Dict[str, List[float]] = {}
+    for run in passes:
+        if run.done:
+            means.setdefault(run.request.method.label, []).append(run.passes)
+    if means:
+        best, worst = (pick(means, key=lambda label: max(means[label])) for pick in (min, max))
+        line = f"Fewest coupling iterations a step: {best}, {_span(means[best])} over walls and meshes"
+        lines.append(line + (f"; most: {worst}, {_span(means[worst])}." if worst != best else "."))
+    column = agreement.csv_columns.index("largest_relative_difference") if agreement else 0
+    differences = [row[column] for row in agreement.csv_rows if row[column] is not None] if agreement else []
+    if differences:
+        lines.append(
+            f"Converged steps and monolithic ones agree: the pressure differs by at most {max(differences):.1e} of the "
+            f"largest pressure of a time level, in {len(differences)} runs."
+            if max(differences) < AGREE
+            else f"Converged steps and monolithic ones do not agree: the pressure differs by up to {max(differences):.1e} "
+            "of the largest pressure of a time level."
+        )
+    statuses = {run.folder: run.status for run in runs}  # the same run asked for twice is one
+    failed = Counter(status for status in statuses.values() if status != DONE)
+    shown = ", ".join(f"{count} {status}" for status, count in failed.items())
+    lines.append(
+        f"{failed.total()} of {len(statuses)} runs did not come to their end: {shown}."
+        if failed
+        else f"All {len(statuses)} runs came to their end."
+    )
+    return lines
+
+
+def _span(values: Sequence[float]) -> str:
+    low, high = f"{min(values):.1f}", f"{max(values):.1f}"
+    return low if low == high else f"{low} to {high}"
 
 
 def sweep_section(context: Context, group: str, label: str, heading: str) -> List[Cell]:
@@ -97,18 +147,29 @@ def sweep_section(context: Context, group: str, label: str, heading: str) -> Lis
     context.report.figure(
         f"passes_{group}",
         lambda: passes_figure(sweeps.series(found), label, runs[0].request.settings, settings.bound),
-        f"Mean coupling iterations per step against the {label}. In the strip above, a mark per scheme: the run failed "
-        "there, i.e. it diverged or reached its limit of iterations, and said so."
-        + (" Crossed out: the run came to its end with another answer than the monolithic one."
-           if any(sweeps.off(cell) for cell in found) else ""))
+        f"Mean coupling iterations per step against the {label}."
+        + (
+            " In the strip above, a mark per scheme: the run failed there, i.e. it diverged or reached its limit of "
+            "iterations, and said so."
+            if any(value is None for line in sweeps.series(found) for value in line.passes)
+            else ""
+        )
+        + (
+            " Crossed out: the run came to its end with another answer than the monolithic one."
+            if any(sweeps.off(cell) for cell in found)
+            else ""
+        ),
+    )
     context.report.table(sweeps.sweep_table(group, label, found, settings))
     return sweeps.faults(found)
 
 
 def count_in_words(context: Context, bisected: int) -> str:
     different = len({run.folder for run in context.runs})
-    text = (f"The study file asks for {len(context.runs)} runs, {different} of them different: one that is asked for "
-            "twice is made once.")
+    text = (
+        f"The study file asks for {len(context.runs)} runs, {different} of them different: one that is asked for "
+        "twice is made once."
+    )
     return text + (f" Bisection added {bisected}, {different + bisected} in all." if bisected else "")
 
 
@@ -128,7 +189,8 @@ def mesh_name(run: StudyRun) -> str:
     return run.request.mesh.name if run.request.mesh else ""
 
 
-def step_range(run: StudyRun):
+def step_range(run: StudyRun) -> Tuple[float, int, int, int]:
+    """Mean, least and most coupling iterations of a step, and the number of steps."""
     outer = run.columns("iterations.csv")["outer_iterations"]
     return float(outer.mean()), int(outer.min()), int(outer.max()), len(outer)
 
@@ -137,14 +199,19 @@ def passes_table(context: Context, runs: Sequence[StudyRun]) -> Table:
     """A line per scheme, a column per mesh and material."""
     columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in runs))
     names = {(mesh, case): (f"{mesh}, {steps(runs, mesh)} steps", MATERIALS.get(case, case)) for mesh, case in columns}
-    table = Table(stem="coupling_passes", title="Coupling iterations per step, mean (range)", left=1,
-                  columns=[("", "scheme"), *(names[key] for key in columns)],
-                  csv_columns=["scheme", "mesh", "case", "tolerance", "steps", "mean", "least", "most", "status"])
+    table = Table(
+        stem="coupling_passes",
+        title="Coupling iterations per step, mean (range)",
+        left=1,
+        columns=[("", "scheme"), *(names[key] for key in columns)],
+        csv_columns=["scheme", "mesh", "case", "tolerance", "steps", "mean", "least", "most", "status"],
+    )
     for name in methods(runs):
         cells = []
         for mesh, case in columns:
-            found = [r for r in runs if r.request.method.name == name and r.request.case == case
-                     and mesh_name(r) == mesh]
+            found = [
+                r for r in runs if r.request.method.name == name and r.request.case == case and mesh_name(r) == mesh
+            ]
             if not found:
                 cells.append("")
                 continue
@@ -174,21 +241,46 @@ def growth_table(runs: Sequence[StudyRun]) -> Table:
     passes, so that only equal numbers of steps compare."""
     done = [run for run in runs if run.done]
     meshes = list(dict.fromkeys(mesh_name(run) for run in done))
-    table = Table(stem="coupling_growth", title="Coupling iterations against the mesh, over the same steps", left=3,
-                  columns=[("", "scheme"), ("", "material"), ("", "mesh"), ("", "steps"),
-                           ("", f"mean, {meshes[0] if meshes else ''}"), ("", "mean here"), ("", "ratio")],
-                  csv_columns=["scheme", "case", "mesh", "steps", "mean_coarsest", "mean", "ratio"])
+    table = Table(
+        stem="coupling_growth",
+        title="Coupling iterations against the mesh, over the same steps",
+        left=3,
+        columns=[
+            ("", "scheme"),
+            ("", "material"),
+            ("", "mesh"),
+            ("", "steps"),
+            ("", f"mean, {meshes[0] if meshes else ''}"),
+            ("", "mean here"),
+            ("", "ratio"),
+        ],
+        csv_columns=["scheme", "case", "mesh", "steps", "mean_coarsest", "mean", "ratio"],
+    )
     for run in done:
-        coarsest = [r for r in done if mesh_name(r) == meshes[0] and r.request.case == run.request.case
-                    and r.request.method.name == run.request.method.name]
+        coarsest = [
+            r
+            for r in done
+            if mesh_name(r) == meshes[0]
+            and r.request.case == run.request.case
+            and r.request.method.name == run.request.method.name
+        ]
         if mesh_name(run) == meshes[0] or not coarsest:
             continue
         passes = [r.columns("iterations.csv")["outer_iterations"] for r in (coarsest[0], run)]
         count = min(len(p) for p in passes)
         base_mean, mean = (float(p[:count].mean()) for p in passes)
         r = run.request
-        table.rows.append([r.method.label, MATERIALS.get(r.case, r.case), mesh_name(run), str(count),
-                           f"{base_mean:.1f}", f"{mean:.1f}", f"{mean / base_mean:.2f}"])
+        table.rows.append(
+            [
+                r.method.label,
+                MATERIALS.get(r.case, r.case),
+                mesh_name(run),
+                str(count),
+                f"{base_mean:.1f}",
+                f"{mean:.1f}",
+                f"{mean / base_mean:.2f}",
+            ]
+        )
         table.csv_rows.append([r.method.name, r.case, mesh_name(run), count, base_mean, mean, mean / base_mean])
     return table
 
@@ -198,12 +290,23 @@ def agreement_table(runs: Sequence[StudyRun]) -> Table:
     schemes = [run for run in runs if run.request.method.program != MONOLITHIC]
     tolerances = sorted({show(run.request.settings.get("partitioned.tolerance", "?")) for run in schemes})
     columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in schemes))
-    table = Table(stem="coupling_agreement", left=1,
-                  title=f"Relative difference to the monolithic pressure at tolerance {', '.join(tolerances)} "
-                        "(iterations per step)",
-                  columns=[("", "scheme"), *((mesh, MATERIALS.get(case, case)) for mesh, case in columns)],
-                  csv_columns=["scheme", "mesh", "case", "tolerance", "common_levels", "iterations_per_step",
-                               "largest_relative_difference", "status"])
+    table = Table(
+        stem="coupling_agreement",
+        left=1,
+        title=f"Relative difference to the monolithic pressure at tolerance {', '.join(tolerances)} "
+        "(iterations per step)",
+        columns=[("", "scheme"), *((mesh, MATERIALS.get(case, case)) for mesh, case in columns)],
+        csv_columns=[
+            "scheme",
+            "mesh",
+            "case",
+            "tolerance",
+            "common_levels",
+            "iterations_per_step",
+            "largest_relative_difference",
+            "status",
+        ],
+    )
     for name in methods(schemes):
         cells = []
         for mesh, case in columns:
@@ -219,15 +322,31 @@ def agreement_table(runs: Sequence[StudyRun]) -> Table:
 
 def agreement_cell(table: Table, run: StudyRun, runs: Sequence[StudyRun]) -> str:
     r = run.request
-    whole = [m for m in runs if m.request.method.program == MONOLITHIC and m.request.case == r.case
-             and mesh_name(m) == mesh_name(run) and m.done]
+    whole = [
+        m
+        for m in runs
+        if m.request.method.program == MONOLITHIC
+        and m.request.case == r.case
+        and mesh_name(m) == mesh_name(run)
+        and m.done
+    ]
     difference: Optional[float] = None
     levels = 0
     if whole and run.done:
         over_time = largest_difference(max(whole, key=lambda m: m.steps).pressure, run.pressure)
         levels, difference = over_time.levels, over_time.largest.max_relative if over_time.largest else None
-    table.csv_rows.append([r.method.name, mesh_name(run), r.case, r.settings.get("partitioned.tolerance"), levels,
-                           run.passes if run.done else None, difference, run.status])
+    table.csv_rows.append(
+        [
+            r.method.name,
+            mesh_name(run),
+            r.case,
+            r.settings.get("partitioned.tolerance"),
+            levels,
+            run.passes if run.done else None,
+            difference,
+            run.status,
+        ]
+    )
     return f"{fixed(difference, '.1e')} ({run.passes:.1f})" if run.done else run.status
 
 
@@ -241,34 +360,49 @@ def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
             table = cost_table(costs, f"Cost, {MATERIALS.get(case, case)}, {mesh} mesh")
             table.stem = f"coupling_cost_{case}_{mesh}".strip("_")
             context.report.table(table)
-            saving = saving_table(own, costs, f"coupling_saving_{case}_{mesh}".strip("_"),
-                                  f"What is saved, {MATERIALS.get(case, case)}, {mesh} mesh")
+            saving = saving_table(
+                own,
+                costs,
+                f"coupling_saving_{case}_{mesh}".strip("_"),
+                f"What is saved, {MATERIALS.get(case, case)}, {mesh} mesh",
+            )
             if saving:
                 context.report.table(saving)
 
 
-def saving_table(runs: Sequence[StudyRun], costs, stem: str, title: str) -> Optional[Table]:
+def saving_table(runs: Sequence[StudyRun], costs: Sequence[Cost], stem: str, title: str) -> Optional[Table]:
     """What the cheapest monolithic run saves of each partitioned one: 1 - monolithic/partitioned, per step. The paper
     counts "almost 50 %"."""
     whole = [cost for run, cost in zip(runs, costs) if run.request.method.program == MONOLITHIC]
     if not whole:
         return None
     best = min(whole, key=lambda cost: cost.seconds_per_step)
-    table = Table(stem=stem, title=title, left=1,
-                  columns=[("", "scheme"), ("saved by the monolithic driver, %", "seconds"),
-                           ("saved by the monolithic driver, %", "linear solves"),
-                           ("saved by the monolithic driver, %", "linear iterations")],
-                  csv_columns=["scheme", "seconds_saved", "linear_solves_saved", "linear_iterations_saved"])
+    table = Table(
+        stem=stem,
+        title=title,
+        left=1,
+        columns=[
+            ("", "scheme"),
+            ("saved by the monolithic driver, %", "seconds"),
+            ("saved by the monolithic driver, %", "linear solves"),
+            ("saved by the monolithic driver, %", "linear iterations"),
+        ],
+        csv_columns=["scheme", "seconds_saved", "linear_solves_saved", "linear_iterations_saved"],
+    )
     for run, cost in zip(runs, costs):
         if run.request.method.program == MONOLITHIC:
             continue
-        saved = [share(best.seconds_per_step, cost.seconds_per_step),
-                 share(sum(best.solves.values()) / best.steps, sum(cost.solves.values()) / cost.steps),
-                 share(best.linear / best.steps, cost.linear / cost.steps)]
+        saved = [
+            share(best.seconds_per_step, cost.seconds_per_step),
+            share(sum(best.solves.values()) / best.steps, sum(cost.solves.values()) / cost.steps),
+            share(best.linear / best.steps, cost.linear / cost.steps),
+        ]
         table.rows.append([cost.label, *(fixed(None if x is None else 100 * x, ".0f") for x in saved)])
         table.csv_rows.append([cost.label, *saved])
-    table.notes.append("Negative: the monolithic driver takes more. A linear solve of the whole system counts as one, "
-                       "like one of the fluid, the wall or the mesh motion.")
+    table.notes.append(
+        "Negative: the monolithic driver takes more. A linear solve of the whole system counts as one, "
+        "like one of the fluid, the wall or the mesh motion."
+    )
     return table
 
 

@@ -6,13 +6,13 @@
 from dataclasses import dataclass
 from typing import List, Sequence
 
-from ...errors import InputError
-from ...layout import Table, fixed
-from ..commands import with_name
-from ..cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
-from ..study_file import Study
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ...reporting.layout import Table, fixed
+from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
+from ..running.commands import with_name
+from ..running.study_file import Study
+from ..running.study_run import StudyRun
 from .pictures import Series
 
 KEYS = ("bound", "one_pass")
@@ -30,23 +30,32 @@ def settings_of(study: Study) -> Settings:
     check_keys(study.path, "report.sweeps", entry, KEYS)
     bound, one_pass = entry.get("bound", BOUND), entry.get("one_pass", [])
     if isinstance(bound, bool) or not isinstance(bound, (int, float)) or not bound > 0:
-        raise InputError(study.path, "report.sweeps.bound", f"{bound} is not a positive number",
-                         f"leave it out for {BOUND:g}")
+        raise InputError(
+            study.path, "report.sweeps.bound", f"{bound} is not a positive number", f"leave it out for {BOUND:g}"
+        )
     if not isinstance(one_pass, list):
         raise InputError(study.path, "report.sweeps.one_pass", "is not a list", "name methods of the study")
     for name in one_pass:
         if name not in study.methods:
-            raise InputError(study.path, "report.sweeps.one_pass", f"'{name}' is no method of the study",
-                             f"did you mean '{nearest(str(name), list(study.methods))}'?")
+            raise InputError(
+                study.path,
+                "report.sweeps.one_pass",
+                f"'{name}' is no method of the study",
+                f"did you mean '{nearest(str(name), list(study.methods))}'?",
+            )
     return Settings(float(bound), one_pass)
 
 
 def checked(runs: Sequence[StudyRun], settings: Settings) -> List[Cell]:
     """The partitioned runs of a sweep, held against the monolithic ones in it."""
-    references = list(dict.fromkeys(run.request.method.name for run in runs
-                                    if run.request.method.program == MONOLITHIC))
-    return [cell for cell in cells(runs, references, settings.one_pass, settings.bound)
-            if cell.run.request.method.program != MONOLITHIC]
+    references = list(
+        dict.fromkeys(run.request.method.name for run in runs if run.request.method.program == MONOLITHIC)
+    )
+    return [
+        cell
+        for cell in cells(runs, references, settings.one_pass, settings.bound)
+        if cell.run.request.method.program != MONOLITHIC
+    ]
 
 
 def varied(run: StudyRun) -> float:
@@ -67,22 +76,37 @@ def series(found: Sequence[Cell]) -> List[Series]:
     lines = []
     for name in schemes(found):
         own = sorted((cell for cell in found if cell.method == name), key=lambda cell: varied(cell.run))
-        lines.append(Series(label=own[0].run.request.method.label, x=[varied(cell.run) for cell in own],
-                            passes=[cell.run.passes if cell.run.done else None for cell in own],
-                            off=[off(cell) for cell in own]))
+        lines.append(
+            Series(
+                label=own[0].run.request.method.label,
+                x=[varied(cell.run) for cell in own],
+                passes=[cell.run.passes if cell.run.done else None for cell in own],
+                off=[off(cell) for cell in own],
+            )
+        )
     return lines
 
 
 def in_words(found: Sequence[Cell], settings: Settings) -> str:
     done = [cell for cell in found if cell.run.done]
     alike = [cell.difference for cell in done if cell.outcome == AGREES and cell.difference is not None]
-    text = (f"Of {len(found)} runs {len(done)} came to their end. The pressure of {len(alike)} is the monolithic one "
-            f"at every time level, to {settings.bound:g} of the level's largest"
-            + (f" (the furthest {max(alike):.1e})" if alike else ""))
-    others = [(sum(off(cell) for cell in done), "is off by more than that and marked so",
-               "are off by more than that and marked so"),
-              (sum(cell.outcome == UNCHECKED for cell in done), "has no monolithic run to be held against",
-               "have no monolithic run to be held against")]
+    text = (
+        f"Of {len(found)} runs {len(done)} came to their end. The pressure of {len(alike)} is the monolithic one "
+        f"at every time level, to {settings.bound:g} of the level's largest"
+        + (f" (the furthest {max(alike):.1e})" if alike else "")
+    )
+    others = [
+        (
+            sum(off(cell) for cell in done),
+            "is off by more than that and marked so",
+            "are off by more than that and marked so",
+        ),
+        (
+            sum(cell.outcome == UNCHECKED for cell in done),
+            "has no monolithic run to be held against",
+            "have no monolithic run to be held against",
+        ),
+    ]
     for count, one, many in others:
         if count:
             text += f"; {count} {one if count == 1 else many}"
@@ -91,33 +115,65 @@ def in_words(found: Sequence[Cell], settings: Settings) -> str:
 
 def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Settings) -> Table:
     values = sorted({varied(cell.run) for cell in found})
-    table = Table(stem=f"coupling_{group}", title=f"Mean coupling iterations per step against the {label}", left=1,
-                  columns=[("", "scheme"), *(("", f"{value:g}") for value in values),
-                           ("", "largest difference from monolithic")],
-                  csv_columns=["scheme", group, "steps", "mean", "status", "outcome", "largest_difference",
-                               "compared_with", "message", "command"])
+    table = Table(
+        stem=f"coupling_{group}",
+        title=f"Mean coupling iterations per step against the {label}",
+        left=1,
+        columns=[("", "scheme"), *(("", f"{value:g}") for value in values), ("", "largest difference from monolithic")],
+        csv_columns=[
+            "scheme",
+            group,
+            "steps",
+            "mean",
+            "status",
+            "outcome",
+            "largest_difference",
+            "compared_with",
+            "message",
+            "command",
+        ],
+    )
     for name in schemes(found):
         own = {varied(cell.run): cell for cell in found if cell.method == name}
         for value, cell in sorted(own.items()):
             run = cell.run
-            table.csv_rows.append([name, value, run.steps, run.passes if run.done else None, run.status, cell.outcome,
-                                   cell.difference, cell.against.request.method.name if cell.against else None,
-                                   run.message, with_name(run.command)])
-        worst = max((cell.difference for cell in own.values() if cell.run.done and cell.difference is not None),
-                    default=None)
-        table.rows.append([next(iter(own.values())).run.request.method.label,
-                           *(cell_text(own[value]) if value in own else "" for value in values), fixed(worst, ".1e")])
-    table.notes.append("Difference: of the pressure of runs that came to their end, the largest of all time levels, "
-                       "relative to the largest pressure of the level"
-                       + (f"; of {', '.join(settings.one_pass)}, one pass a step, of all levels."
-                          if settings.one_pass else "."))
+            table.csv_rows.append(
+                [
+                    name,
+                    value,
+                    run.steps,
+                    run.passes if run.done else None,
+                    run.status,
+                    cell.outcome,
+                    cell.difference,
+                    cell.against.request.method.name if cell.against else None,
+                    run.message,
+                    with_name(run.command),
+                ]
+            )
+        worst = max(
+            (cell.difference for cell in own.values() if cell.run.done and cell.difference is not None), default=None
+        )
+        table.rows.append(
+            [
+                next(iter(own.values())).run.request.method.label,
+                *(cell_text(own[value]) if value in own else "" for value in values),
+                fixed(worst, ".1e"),
+            ]
+        )
+    table.notes.append(
+        "Difference: of the pressure of runs that came to their end, the largest of all time levels, "
+        "relative to the largest pressure of the level"
+        + (f"; of {', '.join(settings.one_pass)}, one pass a step, of all levels." if settings.one_pass else ".")
+    )
     return table
 
 
 def cell_text(cell: Cell) -> str:
     if not cell.run.done:
         return cell.run.status
-    return f"{cell.run.passes:.1f}" + (f" (off {100 * cell.difference:.2g} %)" if off(cell) else "")
+    shown = f" (off {100 * cell.difference:.2g} %)" if cell.difference is not None and off(cell) else ""
+    return f"{cell.run.passes:.1f}{shown}"
 
 
 def faults(found: Sequence[Cell]) -> List[Cell]:

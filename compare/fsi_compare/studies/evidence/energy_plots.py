@@ -6,15 +6,24 @@ from typing import List, Optional, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...layout import Table
-from ...pictures import PANEL_INCHES, finish
-from ..study_run import StudyRun
+from ...reporting.layout import Table
+from ...reporting.pictures import PANEL_INCHES, finish
+from ...reporting.report import Report
+from ..running.study_run import StudyRun
 
 FILE = "energy.csv"
-ENERGIES = ("fluid_kinetic_energy_uJ", "wall_kinetic_energy_uJ", "wall_isochoric_energy_uJ",
-            "wall_volumetric_energy_uJ")
-SUPPLIES = (("inlet_work_uJ", 1), ("load_work_uJ", 1), ("inlet_kinetic_inflow_uJ", 1),
-            ("outlet_kinetic_outflow_uJ", -1))
+ENERGIES = (
+    "fluid_kinetic_energy_uJ",
+    "wall_kinetic_energy_uJ",
+    "wall_isochoric_energy_uJ",
+    "wall_volumetric_energy_uJ",
+)
+SUPPLIES = (
+    ("inlet_work_uJ", 1),
+    ("load_work_uJ", 1),
+    ("inlet_kinetic_inflow_uJ", 1),
+    ("outlet_kinetic_outflow_uJ", -1),
+)
 
 # Each with a marker of its own, so that they are told apart in grey.
 LINES = {
@@ -27,8 +36,15 @@ LINES = {
 }
 SHOWN = 3e-3  # of what was supplied: the picture's lower end
 REMAINDER = "left over"  # too small for the picture
-PARTS = ("supplied", "kinetic, fluid", "kinetic, wall", "elastic", "lost by viscosity", "lost by discretisation",
-         REMAINDER)
+PARTS = (
+    "supplied",
+    "kinetic, fluid",
+    "kinetic, wall",
+    "elastic",
+    "lost by viscosity",
+    "lost by discretisation",
+    REMAINDER,
+)
 
 
 @dataclass(frozen=True)
@@ -58,15 +74,18 @@ def balance(run: StudyRun) -> Optional[Balance]:
     def get(name: str) -> np.ndarray:
         return columns.get(name, zero)
 
-    return Balance(columns["time_ms"], {
-        "supplied": np.cumsum(sum(sign * get(name) for name, sign in SUPPLIES)),
-        "kinetic, fluid": get(ENERGIES[0]),
-        "kinetic, wall": get(ENERGIES[1]),
-        "elastic": get(ENERGIES[2]) + get(ENERGIES[3]),
-        "lost by viscosity": np.cumsum(get("viscous_dissipation_uJ")),
-        "lost by discretisation": np.cumsum(get("numerical_dissipation_uJ")),
-        REMAINDER: np.cumsum(get("remainder_uJ")),
-    })
+    return Balance(
+        columns["time_ms"],
+        {
+            "supplied": np.cumsum(sum(sign * get(name) for name, sign in SUPPLIES)),
+            "kinetic, fluid": get(ENERGIES[0]),
+            "kinetic, wall": get(ENERGIES[1]),
+            "elastic": get(ENERGIES[2]) + get(ENERGIES[3]),
+            "lost by viscosity": np.cumsum(get("viscous_dissipation_uJ")),
+            "lost by discretisation": np.cumsum(get("numerical_dissipation_uJ")),
+            REMAINDER: np.cumsum(get("remainder_uJ")),
+        },
+    )
 
 
 def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str) -> Figure:
@@ -76,12 +95,21 @@ def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str
     width, panels = columns * (PANEL_INCHES[0] - 0.7) + (2 if columns == 1 else 0), rows * (PANEL_INCHES[1] + 0.5)
     figure = Figure(figsize=(width, panels))
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    for axes in grid.flat[len(balances):]:
+    for axes in grid.flat[len(balances) :]:
         axes.set_visible(False)
     for axes, one, label in zip(grid.flat, balances, labels):
         every = max(1, len(one.times) // 6)
-        handles = [axes.plot(one.times, one.parts[name], markersize=4.5, markevery=(i * every // len(LINES), every),
-                             markerfacecolor="#ffffff", **style)[0] for i, (name, style) in enumerate(LINES.items())]
+        handles = [
+            axes.plot(
+                one.times,
+                one.parts[name],
+                markersize=4.5,
+                markevery=(i * every // len(LINES), every),
+                markerfacecolor="#ffffff",
+                **style,
+            )[0]
+            for i, (name, style) in enumerate(LINES.items())
+        ]
         axes.set_yscale("log")
         axes.set_title(label)
         axes.set_xlabel("t in ms")
@@ -99,27 +127,40 @@ def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str =
     table = Table(
         stem=stem,
         title="Energy at the end of the runs, in percent of what was supplied",
-        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in PARTS[1:]),
-                 ("", "left over at most")],
+        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in PARTS[1:]), ("", "left over at most")],
         csv_columns=[
-            "run", "time_ms", *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in PARTS),
-            "largest_remainder_relative"
+            "run",
+            "time_ms",
+            *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in PARTS),
+            "largest_remainder_relative",
         ],
         notes=[
             "Left over: what the balance of the discrete equations misses, summed over the steps; the last column "
             "its largest value at any time."
-        ])
+        ],
+    )
     for one, label in zip(balances, labels):
         supplied = one.end("supplied")
-        table.rows.append([label, f"{supplied:.4g}",
-                           *(f"{100 * one.end(name) / supplied:.2f}" if name != REMAINDER else
-                             f"{100 * one.end(name) / supplied:.1e}" for name in PARTS[1:]),
-                           f"{100 * one.largest_remainder:.1e}"])
+        table.rows.append(
+            [
+                label,
+                f"{supplied:.4g}",
+                *(
+                    f"{100 * one.end(name) / supplied:.2f}"
+                    if name != REMAINDER
+                    else f"{100 * one.end(name) / supplied:.1e}"
+                    for name in PARTS[1:]
+                ),
+                f"{100 * one.largest_remainder:.1e}",
+            ]
+        )
         table.csv_rows.append([label, float(one.times[-1]), *(one.end(name) for name in PARTS), one.largest_remainder])
     return table
 
 
-def energy_section(report, runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "energy") -> List[Balance]:
+def energy_section(
+    report: Report, runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "energy"
+) -> List[Balance]:
     """Table and picture of the runs that have a balance; a sentence where none has."""
     found = [(balance(run), label) for run, label in zip(runs, labels)]
     balances = [one for one, _ in found if one is not None]
@@ -127,10 +168,13 @@ def energy_section(report, runs: Sequence[StudyRun], labels: Sequence[str], stem
     if not balances:
         report.text(f"The runs hold no `{FILE}`.")
         return []
-    report.figure(stem, lambda: energy_figure(balances, names, "Energy balance"),
-                  "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less "
-                  "what flows out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and "
-                  f"volumetric. Logarithmic, down to {SHOWN:g} of the most that was supplied; what is left over is far "
-                  "below.")
+    report.figure(
+        stem,
+        lambda: energy_figure(balances, names, "Energy balance"),
+        "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less "
+        "what flows out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and "
+        f"volumetric. Logarithmic, down to {SHOWN:g} of the most that was supplied; what is left over is far "
+        "below.",
+    )
     report.table(energy_table(balances, names, stem))
     return balances

@@ -3,12 +3,12 @@
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict
+from typing import Any, Dict
 
 import h5py
 import numpy as np
 
-from ...errors import InputError
+from ...base.errors import InputError
 
 FILE = "fields.xdmf"
 
@@ -34,20 +34,22 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
         if collection.get("CollectionType") != "Temporal":
             continue
         for grid in collection.findall("Grid"):
-            if abs(float(grid.find("Time").get("Value")) - time) < 1e-6:
-                media[collection.get("Name")] = _medium(folder, grid)
+            written = grid.find("Time")
+            if written is not None and abs(float(written.get("Value", "nan")) - time) < 1e-6:
+                media[collection.get("Name", "")] = _medium(folder, grid)
     if not media:
-        raise InputError(path, f"time {time:g} ms", "is not among the times written",
-                         "choose output.every so that it is")
+        raise InputError(
+            path, f"time {time:g} ms", "is not among the times written", "choose output.every so that it is"
+        )
     return media
 
 
-def _medium(folder: Path, grid) -> Medium:
+def _medium(folder: Path, grid: Any) -> Medium:
     data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
     return Medium(_item(folder, grid.find("Geometry")), _item(folder, grid.find("Topology")).astype(np.int64), data)
 
 
-def _item(folder: Path, element) -> np.ndarray:
+def _item(folder: Path, element: Any) -> np.ndarray:
     """The data set named by the element, `FILE:/PATH`."""
     file, _, name = element.find("DataItem").text.strip().partition(":")
     try:

@@ -5,10 +5,10 @@ from typing import Dict, Sequence
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ...errors import InputError
-from ...layout import Table
-from ...pictures import finish
-from ..study_run import StudyRun
+from ...base.errors import InputError
+from ...reporting.layout import Table
+from ...reporting.pictures import finish
+from ..running.study_run import StudyRun
 
 # Told apart in grey by lightness and hatch.
 PARTS = {
@@ -19,9 +19,11 @@ PARTS = {
     "output": {"facecolor": "#dddddd", "hatch": "...."},
     "other": {"facecolor": "#ffffff", "hatch": ""},
 }
-MEANING = ("Assembly: residuals and matrices. Set-up: factorisations and preconditioners. Solve: linear systems. "
-           "Coupling: the interface's balance and acceleration. Output: result files and energy balance. Other: what "
-           "is in no phase of `summary.json`.")
+MEANING = (
+    "Assembly: residuals and matrices. Set-up: factorisations and preconditioners. Solve: linear systems. "
+    "Coupling: the interface's balance and acceleration. Output: result files and energy balance. Other: what "
+    "is in no phase of `summary.json`."
+)
 COUPLING_PHASES = ("assembly: interface balance",)
 TOO_SHORT = 0.015  # of the longest bar: a part that is nowhere longer is not seen
 
@@ -44,14 +46,29 @@ def _part(name: str) -> str:
     if name in COUPLING_PHASES:
         return "coupling"
     kind = name.partition(": ")[0]
-    return {"assembly": "assembly", "set-up": "set-up", "factorisation": "set-up", "solve": "solve", "output": "output",
-            "energy balance": "output", "coupling": "coupling"}.get(kind, "other")
+    return {
+        "assembly": "assembly",
+        "set-up": "set-up",
+        "factorisation": "set-up",
+        "solve": "solve",
+        "output": "output",
+        "energy balance": "output",
+        "coupling": "coupling",
+    }.get(kind, "other")
 
 
-def phase_table(runs: Sequence[StudyRun], labels: Sequence[str], stem: str = "phases",
-                title: str = "Milliseconds per time step, by phase") -> Table:
-    table = Table(stem=stem, title=title, columns=[("", "run"), *(("", part) for part in PARTS), ("", "all")],
-                  csv_columns=["run", "steps", *(f"{part.replace('-', '_')}_s" for part in PARTS), "wall_s"])
+def phase_table(
+    runs: Sequence[StudyRun],
+    labels: Sequence[str],
+    stem: str = "phases",
+    title: str = "Milliseconds per time step, by phase",
+) -> Table:
+    table = Table(
+        stem=stem,
+        title=title,
+        columns=[("", "run"), *(("", part) for part in PARTS), ("", "all")],
+        csv_columns=["run", "steps", *(f"{part.replace('-', '_')}_s" for part in PARTS), "wall_s"],
+    )
     for run, label in zip(runs, labels):
         parts = phase_seconds(run)
         steps = max(run.steps, 1)
@@ -71,8 +88,9 @@ def phase_figure(runs: Sequence[StudyRun], labels: Sequence[str], title: str) ->
     width, height = 7.4, 0.7 + 0.34 * len(runs)
     figure = Figure(figsize=(width, height))
     axes = figure.subplots()
-    lengths = [{part: 1e3 * seconds / max(run.steps, 1) for part, seconds in phase_seconds(run).items()}
-               for run in runs]
+    lengths = [
+        {part: 1e3 * seconds / max(run.steps, 1) for part, seconds in phase_seconds(run).items()} for run in runs
+    ]
     longest = max(sum(bar.values()) for bar in lengths)
     for row, bar in enumerate(lengths):
         left = 0.0
@@ -87,8 +105,13 @@ def phase_figure(runs: Sequence[StudyRun], labels: Sequence[str], title: str) ->
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ms of wall time per time step")
     handles = [Patch(edgecolor="#000000", linewidth=0.6, **style) for style in PARTS.values()]
-    finish(figure, handles, [_legend(part, [bar[part] for bar in lengths], longest) for part in PARTS], title,
-           (width, height))
+    finish(
+        figure,
+        handles,
+        [_legend(part, [bar[part] for bar in lengths], longest) for part in PARTS],
+        title,
+        (width, height),
+    )
     return figure
 
 

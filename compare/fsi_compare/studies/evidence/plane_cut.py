@@ -31,5 +31,5 @@ def cut(cells: np.ndarray, distance: np.ndarray, values: np.ndarray) -> Tuple[np
             owners.append(chosen)
     if not triangles:
         return np.empty((0, 3, values.shape[1])), np.empty((0, 3), int), np.empty(0, int)
-    corners = np.concatenate(triangles)
-    return corners, np.arange(3 * len(corners)).reshape(-1, 3), np.concatenate(owners)
+    joined = np.concatenate(triangles)
+    return joined, np.arange(3 * len(joined)).reshape(-1, 3), np.concatenate(owners)

@@ -14,7 +14,7 @@ from typing import Optional, Sequence
 
 import numpy as np
 
-from ...errors import InputError
+from ...base.errors import InputError
 from .bessel import bessel_i
 
 # The rabbit's carotid artery [Holzapfel2000]: inner radius, thickness of media and adventitia, mm.
@@ -74,10 +74,18 @@ def read_tube(case: Path, inner: float = INNER_RADIUS, fibre_scale: Optional[flo
         for name, thickness in THICKNESS.items():
             entry = data["structure"]["layers"][name]
             scale = entry.get("fibre_scale", 1.0) if fibre_scale is None else fibre_scale
-            layers.append(Layer(radius, radius + thickness, entry["c10"] + entry.get("c01", 0.0),
-                                scale * entry.get("k1", 0.0), entry.get("alpha", 0.0)))
+            layers.append(
+                Layer(
+                    radius,
+                    radius + thickness,
+                    entry["c10"] + entry.get("c01", 0.0),
+                    scale * entry.get("k1", 0.0),
+                    entry.get("alpha", 0.0),
+                )
+            )
             radius += thickness
         return Tube(layers, float(data["fluid"]["density"]), float(data["structure"]["density"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(case, "", f"holds no fluid-filled tube of media and adventitia ({error})",
-                         "give one of the paper's cases") from None
+        raise InputError(
+            case, "", f"holds no fluid-filled tube of media and adventitia ({error})", "give one of the paper's cases"
+        ) from None

@@ -1,9 +1,10 @@
 """Pictures of a tube cut along its axis: the deformed wall, and the velocity of the fluid in it."""
 
 from dataclasses import dataclass
-from typing import Mapping, Optional, Sequence
+from typing import List, Mapping, Optional, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -11,7 +12,7 @@ from matplotlib.quiver import Quiver
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 from .fields import Medium
 from .plane_cut import cut
 
@@ -55,10 +56,16 @@ def tube_cut(media: Mapping[str, Medium], factor: float) -> TubeCut:
     """`factor` magnifies the displacement."""
     fluid, wall = media["fluid"], media["wall"]
     corners, _, _ = cut(
-        fluid.cells, _distance(fluid),
+        fluid.cells,
+        _distance(fluid),
         np.column_stack(
-            (_in_plane(fluid.points + factor * fluid.data["displacement"]), _in_plane(fluid.data["velocity"]),
-             np.linalg.norm(fluid.data["velocity"], axis=1))))
+            (
+                _in_plane(fluid.points + factor * fluid.data["displacement"]),
+                _in_plane(fluid.data["velocity"]),
+                np.linalg.norm(fluid.data["velocity"], axis=1),
+            )
+        ),
+    )
     shell, _, owners = cut(wall.cells, _distance(wall), _in_plane(wall.points + factor * wall.data["displacement"]))
     numbers = {value: i for i, value in enumerate(_from_inside(wall))}
     layer = np.array([numbers[value] for value in wall.data["layer"][owners]], int)
@@ -73,11 +80,11 @@ def _in_plane(vectors: np.ndarray) -> np.ndarray:
     return np.column_stack((vectors[:, 2], vectors @ np.array([np.cos(ANGLE), np.sin(ANGLE), 0.0])))
 
 
-def _from_inside(wall: Medium):
+def _from_inside(wall: Medium) -> List[int]:
     """The layers' numbers, innermost first."""
     radius = np.linalg.norm(wall.points[:, :2], axis=1)[wall.cells].mean(axis=1)
     layers = np.unique(wall.data["layer"])
-    return sorted(layers, key=lambda layer: radius[wall.data["layer"] == layer].mean())
+    return sorted(layers.tolist(), key=lambda layer: float(radius[wall.data["layer"] == layer].mean()))
 
 
 def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, factor: float) -> Figure:
@@ -92,12 +99,26 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
         numbers = np.arange(3 * len(one.fluid)).reshape(-1, 3)
         z, x = one.fluid.reshape(-1, 2).T
         # One picture within the SVG in place of thousands of shaded triangles.
-        shades = axes.tripcolor(Triangulation(z, x, numbers), one.speed.ravel(), shading="gouraud", cmap="cividis",
-                                vmin=0, vmax=fastest, rasterized=True)
+        shades = axes.tripcolor(
+            Triangulation(z, x, numbers),
+            one.speed.ravel(),
+            shading="gouraud",
+            cmap="cividis",
+            vmin=0,
+            vmax=fastest,
+            rasterized=True,
+        )
         layer = np.minimum(one.layer, len(LAYERS) - 1)
         for i, style in enumerate(LAYERS):
-            axes.add_collection(PolyCollection(one.wall[layer == i], edgecolor=EDGE, linewidth=0.25,
-                                               facecolor=style["facecolor"], hatch=style["hatch"]))
+            axes.add_collection(
+                PolyCollection(
+                    one.wall[layer == i],
+                    edgecolor=EDGE,
+                    linewidth=0.25,
+                    facecolor=style["facecolor"],
+                    hatch=style["hatch"],
+                )
+            )
         arrows = _arrows(axes, one, fastest)
         if arrows is not None and axes is grid[0]:
             size = round_below(fastest)
@@ -112,8 +133,13 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     grid[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 3, 5, 10]))
     handles = [Patch(edgecolor=EDGE, facecolor=style["facecolor"], hatch=style["hatch"]) for style in LAYERS]
     times = "" if factor == 1 else f", displacement {factor:g} times"
-    finish(figure, handles, ["media", "adventitia"], f"Deformed wall and velocity at t = {time:g} ms{times}",
-           (width, height))
+    finish(
+        figure,
+        handles,
+        ["media", "adventitia"],
+        f"Deformed wall and velocity at t = {time:g} ms{times}",
+        (width, height),
+    )
     # Beside the panels that tight_layout has placed.
     figure.subplots_adjust(right=0.88)
     top, bottom = grid[0].get_position().y1, grid[-1].get_position().y0
@@ -122,7 +148,7 @@ def tube_figure(cuts: Sequence[TubeCut], labels: Sequence[str], time: float, fac
     return figure
 
 
-def _arrows(axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
+def _arrows(axes: Axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
     """Direction and size of the velocity on a regular grid of points."""
     z, x = one.fluid.reshape(-1, 2).T
     points, index = np.unique(np.round(one.fluid.reshape(-1, 2), 9), axis=0, return_inverse=True)
@@ -132,10 +158,20 @@ def _arrows(axes, one: TubeCut, fastest: float) -> Optional[Quiver]:
     values = np.zeros((len(points), 2))
     values[index.ravel()] = one.velocity.reshape(-1, 2)
     at_z, at_x = np.meshgrid(
-        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * x.max() * np.linspace(-1, 1, ARROWS[1]))
+        np.linspace(z.min(), z.max(), ARROWS[0] + 2)[1:-1], 0.8 * x.max() * np.linspace(-1, 1, ARROWS[1])
+    )
     try:
         along = [LinearTriInterpolator(mesh, values[:, i])(at_z, at_x) for i in (0, 1)]
     except (RuntimeError, ValueError):
         return None  # a cut that matplotlib cannot search goes without arrows
-    return axes.quiver(at_z, at_x, *along, color="#ffffff", edgecolor="#000000", linewidth=0.4, scale=30 * fastest,
-                       width=0.0022, zorder=3)
+    return axes.quiver(
+        at_z,
+        at_x,
+        *along,
+        color="#ffffff",
+        edgecolor="#000000",
+        linewidth=0.4,
+        scale=30 * fastest,
+        width=0.0022,
+        zorder=3,
+    )

@@ -4,6 +4,8 @@ of fluid and wall. Units: mm, ms, mg, kPa; so speeds are in mm/ms."""
 import math
 from typing import Sequence, Tuple
 
+import numpy as np
+
 from .tube import Tube
 
 
@@ -21,12 +23,12 @@ def moens_korteweg(tube: Tube, restrained: bool = False) -> float:
             if found == active:
                 break
             active = found
-        stiffness = hoop - coupling ** 2 / axial
+        stiffness = hoop - coupling**2 / axial
     return math.sqrt(stiffness / (2 * tube.fluid_density * tube.radius))
 
 
 def _sums(tube: Tube, active: Sequence[bool]) -> Tuple[float, float, float]:
-    total = sum(layer.thickness * layer.stiffness(on) for layer, on in zip(tube.layers, active))
+    total = np.sum([layer.thickness * layer.stiffness(on) for layer, on in zip(tube.layers, active)], axis=0)
     return float(total[0, 0]), float(total[0, 1]), float(total[1, 1])
 
 
@@ -34,8 +36,9 @@ def wall_stiffness(tube: Tube) -> float:
     """dp/du in kPa/mm: inner pressure over radial displacement of the inner face, of the thick wall at its length.
     There e_h = -e_r = u R / r^2, so that p = u R sum over layers H/2 (1/A^2 - 1/B^2), H = 4 mu + 8 k1 cos^4 alpha, A
     and B the layer's radii. For small u the derivative of the closed-form inflation pressure."""
-    return tube.radius * sum(0.5 * float(layer.stiffness()[0, 0]) * (layer.inner ** -2 - layer.outer ** -2)
-                             for layer in tube.layers)
+    return tube.radius * sum(
+        0.5 * float(layer.stiffness()[0, 0]) * (layer.inner**-2 - layer.outer**-2) for layer in tube.layers
+    )
 
 
 def long_wave(tube: Tube) -> float:

@@ -4,7 +4,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Sequence
 
-from ...layout import Table
+from ...reporting.layout import Table
 
 REPRODUCED = "reproduced"
 IN_PART = "in part"
@@ -28,8 +28,9 @@ class Claim:
 
 
 def unexamined(section: str, claim: str, rule: str = "") -> Claim:
-    return Claim(section, claim, NO_RUN, "-", "the runs that it needs are missing, or not in this form of the study",
-                 rule)
+    return Claim(
+        section, claim, NO_RUN, "-", "the runs that it needs are missing, or not in this form of the study", rule
+    )
 
 
 def verdict(holds: bool, partly: bool = False) -> str:
@@ -44,14 +45,17 @@ def compared(fewer: int, more: int) -> str:
 def tally(claims: Sequence[Claim]) -> str:
     """The verdicts counted in a sentence; comparisons do not count."""
     counts = Counter(c.verdict for c in claims if c.verdict in TALLY)
-    return (f"Of {counts.total()} claims: " + ", ".join(f"{counts[name]} {name}" for name in TALLY if counts[name]) +
-            ".")
+    return f"Of {counts.total()} claims: " + ", ".join(f"{counts[name]} {name}" for name in TALLY if counts[name]) + "."
 
 
 def claims_table(claims: Sequence[Claim]) -> Table:
-    table = Table(stem="claims", title="The paper's claims, one by one", left=5,
-                  columns=[("", "section"), ("", "the paper"), ("", "here"), ("", "our numbers"), ("", "why")],
-                  csv_columns=["section", "claim", "verdict", "ours", "why", "rule"])
+    table = Table(
+        stem="claims",
+        title="The paper's claims, one by one",
+        left=5,
+        columns=[("", "section"), ("", "the paper"), ("", "here"), ("", "our numbers"), ("", "why")],
+        csv_columns=["section", "claim", "verdict", "ours", "why", "rule"],
+    )
     for c in claims:
         table.rows.append([c.section, c.claim, c.verdict, c.ours, c.why])
         table.csv_rows.append([c.section, c.claim, c.verdict, c.ours, c.why, c.rule])
@@ -62,9 +66,14 @@ def claims_table(claims: Sequence[Claim]) -> Table:
 
 def rules_table(claims: Sequence[Claim]) -> Table:
     """What each verdict asks for, so that it can be judged without our numbers."""
-    table = Table(stem="claim_rules", title="What each verdict asks for", left=3,
-                  columns=[("", "section"), ("", "the paper"), ("", "rule")], csv_columns=["section", "claim", "rule"],
-                  notes=["What meets neither is not reproduced."])
+    table = Table(
+        stem="claim_rules",
+        title="What each verdict asks for",
+        left=3,
+        columns=[("", "section"), ("", "the paper"), ("", "rule")],
+        csv_columns=["section", "claim", "rule"],
+        notes=["What meets neither is not reproduced."],
+    )
     for c in claims:
         if c.rule:
             table.rows.append([c.section, c.claim, c.rule])

@@ -4,16 +4,16 @@ conclusion that it is the more robust one."""
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
-from ... import paper
-from ...cost import COUPLED, FLUID, WALL, calls
-from ...layout import Table, fixed
-from ...names import MATERIALS, MESHES
-from ...solver_tables import Grid
+from ...base import paper
+from ...base.names import MATERIALS, MESHES
+from ...linear.solver_tables import Grid
+from ...reporting.cost import COUPLED, FLUID, WALL, calls
+from ...reporting.layout import Table, fixed
+from ..running.repeats import spread
+from ..running.study_run import OUT_OF_TIME, StudyRun
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of
-from ..repeats import spread
-from ..study_run import OUT_OF_TIME, StudyRun
 
 PAPER_MONOLITHIC, FAST_MONOLITHIC, PAPER_PARTITIONED = "paper-monolithic", "monolithic", "fixed-point"
 RIVALS = (PAPER_PARTITIONED, "iqn-ils", "robin-neumann-iqn")
@@ -21,20 +21,28 @@ LABELS = {PAPER_MONOLITHIC: "the paper's monolithic solver", FAST_MONOLITHIC: "`
 
 # What each verdict asks for.
 PASSES_NEAR = 0.2  # relative
-PASSES_RULE = (f"reproduced: the mean passes a step of every material are 50 to 55; in part: within "
-               f"{100 * PASSES_NEAR:.0f} % of that")
+PASSES_RULE = (
+    f"reproduced: the mean passes a step of every material are 50 to 55; in part: within "
+    f"{100 * PASSES_NEAR:.0f} % of that"
+)
 NEWTON_STEPS = (3, 5)  # about 4
 NEWTON_RULE = f"reproduced: {NEWTON_STEPS[0]} to {NEWTON_STEPS[1]} at every step of every run"
-SUB_NEWTON_RULE = ("comparable only to sub-problems solved by Newton's method with a new Jacobian in each iteration, "
-                   "to a tolerance of their own")
+SUB_NEWTON_RULE = (
+    "comparable only to sub-problems solved by Newton's method with a new Jacobian in each iteration, "
+    "to a tolerance of their own"
+)
 COUPLED_ITERATIONS = (8, 12)  # about 10
 COUPLED_RULE = f"reproduced: {COUPLED_ITERATIONS[0]} to {COUPLED_ITERATIONS[1]} in the mean, on every mesh"
 ENOUGH = 0.4  # saved: "almost 50 %"
 NOISE = 1.3  # seconds of single runs beside other work differ by so much
-SAVING_RULE = ("in seconds, on the finest mesh of these runs; reproduced: the paper's monolithic solver saves at "
-               f"least {100 * ENOUGH:.0f} % over the paper's fixed point; in part: another monolithic solver does")
-ROBUST_RULE = ("reproduced: every monolithic run of the waves and of the cost ends, and a partitioned one to the same "
-               "accuracy does not")
+SAVING_RULE = (
+    "in seconds, on the finest mesh of these runs; reproduced: the paper's monolithic solver saves at "
+    f"least {100 * ENOUGH:.0f} % over the paper's fixed point; in part: another monolithic solver does"
+)
+ROBUST_RULE = (
+    "reproduced: every monolithic run of the waves and of the cost ends, and a partitioned one to the same "
+    "accuracy does not"
+)
 
 
 @dataclass(frozen=True)
@@ -72,10 +80,16 @@ def step_cost(run: StudyRun, cycles: Optional[float] = None) -> StepCost:
     # A sub-problem that is factorised takes one use of its solver a system.
     per_iteration = cycles if cycles and run.request.method.name == PAPER_MONOLITHIC else 1
     solves = max(linear, systems) / 2 if partitioned else linear * per_iteration
-    return StepCost(run,
-                    float(steps["outer_iterations"].sum()) / count if partitioned else None, newton,
-                    newton / 2 if partitioned else linear, solves, systems, linear,
-                    float(steps["wall_s"].sum()) / count)
+    return StepCost(
+        run,
+        float(steps["outer_iterations"].sum()) / count if partitioned else None,
+        newton,
+        newton / 2 if partitioned else linear,
+        solves,
+        systems,
+        linear,
+        float(steps["wall_s"].sum()) / count,
+    )
 
 
 def costs(runs: PaperRuns, grid: Optional[Grid] = None) -> List[StepCost]:
@@ -93,14 +107,19 @@ def paper_rounds() -> Dict[str, float]:
     partitioned = middle["fixed_point_iterations"] * middle["sub_problem_newton_iterations"]
     cycles = monolithic * middle["smoothing_steps"]
     return {
-        "monolithic": monolithic, "partitioned": partitioned, "saving": 1 - monolithic / partitioned, "cycles": cycles,
-        "cycles_per_system": cycles / (1 - p["saving"]) / partitioned
+        "monolithic": monolithic,
+        "partitioned": partitioned,
+        "saving": 1 - monolithic / partitioned,
+        "cycles": cycles,
+        "cycles_per_system": cycles / (1 - p["saving"]) / partitioned,
     }
 
 
-TIMED = ("Timed once, unless it says how often; spread: slowest over fastest. Seconds differ by up to a third with "
-         f"other work on the machine (see the report's end): methods within a factor of {NOISE:g} of each other count "
-         "as equal here.")
+TIMED = (
+    "Timed once, unless it says how often; spread: slowest over fastest. Seconds differ by up to a third with "
+    f"other work on the machine (see the report's end): methods within a factor of {NOISE:g} of each other count "
+    "as equal here."
+)
 
 
 def cost_table(found: Sequence[StepCost]) -> Table:
@@ -108,12 +127,30 @@ def cost_table(found: Sequence[StepCost]) -> Table:
         stem="cost_statement",
         title="What a time step takes",
         left=2,
-        columns=[("", "mesh"), ("", "method"), ("", "coupling iterations"), ("", "Newton iterations"),
-                 ("", "rounds as the paper counts"), ("", "sub-problem solves"), ("", "linear systems"),
-                 ("", "linear iterations"), ("", "seconds"), ("", "timed")],
+        columns=[
+            ("", "mesh"),
+            ("", "method"),
+            ("", "coupling iterations"),
+            ("", "Newton iterations"),
+            ("", "rounds as the paper counts"),
+            ("", "sub-problem solves"),
+            ("", "linear systems"),
+            ("", "linear iterations"),
+            ("", "seconds"),
+            ("", "timed"),
+        ],
         csv_columns=[
-            "mesh", "method", "coupling_iterations", "newton_iterations", "rounds", "sub_problem_solves",
-            "linear_systems", "linear_iterations", "wall_s_per_step", "steps", "timings"
+            "mesh",
+            "method",
+            "coupling_iterations",
+            "newton_iterations",
+            "rounds",
+            "sub_problem_solves",
+            "linear_systems",
+            "linear_iterations",
+            "wall_s_per_step",
+            "steps",
+            "timings",
         ],
         notes=[
             "Means over the same steps. Rounds: coupled linear iterations, or Newton iterations of a sub-problem "
@@ -121,18 +158,41 @@ def cost_table(found: Sequence[StepCost]) -> Table:
             "solvers. Sub-problem solves: what these uses are, cycles of a sub-problem's AMG in the coupled "
             "iterations (AMG_FGMRES), iterations of the coupled solver (`fast`), or iterations of a sub-problem's "
             "own solver, a factorised one counting once. Linear systems: of the whole, or of fluid and wall. Seconds "
-            "without output.", TIMED
-        ])
+            "without output.",
+            TIMED,
+        ],
+    )
     for c in found:
         mesh = mesh_of(c.run)
-        table.rows.append([
-            mesh, c.run.request.method.label,
-            fixed(c.passes, ".1f"), f"{c.newton:.1f}", f"{c.rounds:.0f}", f"{c.solves:.0f}", f"{c.systems:.1f}",
-            f"{c.linear:.0f}", f"{c.seconds:.3g}", c.timing
-        ])
+        table.rows.append(
+            [
+                mesh,
+                c.run.request.method.label,
+                fixed(c.passes, ".1f"),
+                f"{c.newton:.1f}",
+                f"{c.rounds:.0f}",
+                f"{c.solves:.0f}",
+                f"{c.systems:.1f}",
+                f"{c.linear:.0f}",
+                f"{c.seconds:.3g}",
+                c.timing,
+            ]
+        )
         table.csv_rows.append(
-            [mesh, c.method, c.passes, c.newton, c.rounds, c.solves, c.systems, c.linear, c.seconds, c.run.steps,
-             max(1, len(c.run.timings))])
+            [
+                mesh,
+                c.method,
+                c.passes,
+                c.newton,
+                c.rounds,
+                c.solves,
+                c.systems,
+                c.linear,
+                c.seconds,
+                c.run.steps,
+                max(1, len(c.run.timings)),
+            ]
+        )
     return table
 
 
@@ -147,7 +207,6 @@ class Saving:
     def of(self, quantity: str) -> float:
         return 1 - getattr(self.monolithic, quantity) / getattr(self.partitioned, quantity)
 
-
     @property
     def within_noise(self) -> bool:
         """Whether the seconds are too close to say which is faster."""
@@ -161,22 +220,38 @@ SAVED = (("rounds", "rounds as the paper counts"), ("solves", "sub-problem solve
 def savings(found: Sequence[StepCost]) -> List[Saving]:
     by = {(mesh_of(c.run), c.method): c for c in found}
     return [
-        Saving(mesh, by[mesh, mono], by[mesh, part]) for mesh in MESHES for mono in (PAPER_MONOLITHIC, FAST_MONOLITHIC)
-        for part in RIVALS if (mesh, mono) in by and (mesh, part) in by
+        Saving(mesh, by[mesh, mono], by[mesh, part])
+        for mesh in MESHES
+        for mono in (PAPER_MONOLITHIC, FAST_MONOLITHIC)
+        for part in RIVALS
+        if (mesh, mono) in by and (mesh, part) in by
     ]
 
 
 def saving_table(found: Sequence[Saving]) -> Table:
     table = Table(
-        stem="cost_saving", title="What the monolithic approach saves, in percent; negative: it takes more", left=3,
+        stem="cost_saving",
+        title="What the monolithic approach saves, in percent; negative: it takes more",
+        left=3,
         columns=[("", "mesh"), ("", "monolithic"), ("", "over"), *(("saved in", name) for _, name in SAVED)],
         csv_columns=["mesh", "monolithic", "partitioned", *(f"saved_{name}" for name, _ in SAVED)],
-        notes=[f"~: the seconds are within a factor of {NOISE:g}, which single runs do not tell apart: "
-               f"{sum(s.within_noise for s in found) or 'none'} of {len(found)}."])
+        notes=[
+            f"~: the seconds are within a factor of {NOISE:g}, which single runs do not tell apart: "
+            f"{sum(s.within_noise for s in found) or 'none'} of {len(found)}."
+        ],
+    )
     for s in found:
-        table.rows.append([s.mesh, s.monolithic.run.request.method.label, s.partitioned.run.request.method.label,
-                           *(f"{100 * s.of(name):.0f}" + ("~" if name == "seconds" and s.within_noise else "")
-                             for name, _ in SAVED)])
+        table.rows.append(
+            [
+                s.mesh,
+                s.monolithic.run.request.method.label,
+                s.partitioned.run.request.method.label,
+                *(
+                    f"{100 * s.of(name):.0f}" + ("~" if name == "seconds" and s.within_noise else "")
+                    for name, _ in SAVED
+                ),
+            ]
+        )
         table.csv_rows.append([s.mesh, s.monolithic.method, s.partitioned.method, *(s.of(name) for name, _ in SAVED)])
     return table
 
@@ -184,7 +259,9 @@ def saving_table(found: Sequence[Saving]) -> Table:
 def cycles_per_iteration(grid: Optional[Grid], mesh: str, method: str = "amg_fgmres") -> Optional[float]:
     """Cycles of a sub-problem's AMG in an iteration of the coupled one: each smoothing step on each level takes
     one."""
-    for material in grid.materials if grid else ():
+    if grid is None:
+        return None
+    for material in grid.materials:
         solve = grid.entry(material, mesh, FIRST_SYSTEM, method).solve
         if solve and solve.iterations and "flow" in solve.cycles:
             return solve.cycles["flow"] / solve.iterations
@@ -193,19 +270,29 @@ def cycles_per_iteration(grid: Optional[Grid], mesh: str, method: str = "amg_fgm
 
 def cost_claims(runs: PaperRuns, found: Sequence[StepCost], cycles: Optional[float] = None) -> List[Claim]:
     """`cycles`: of the sub-problems in a coupled iteration."""
-    return [_fixed_point_claim(runs, found), _newton_claim(runs, found), _sub_newton_claim(found),
-            _coupled_claim(found), _saving_claim(found, cycles), _robust_claim(runs)]
+    return [
+        _fixed_point_claim(runs, found),
+        _newton_claim(runs, found),
+        _sub_newton_claim(found),
+        _coupled_claim(found),
+        _saving_claim(found, cycles),
+        _robust_claim(runs),
+    ]
 
 
 def _sub_newton_claim(found: Sequence[StepCost]) -> Claim:
     text = "In each of them, fluid and structure take 4 to 5 Newton iterations"
-    partitioned = [c for c in found if c.method == PAPER_PARTITIONED and c.passes]
-    if not partitioned:
+    newton = [(c.rounds / c.passes, mesh_of(c.run)) for c in found if c.method == PAPER_PARTITIONED and c.passes]
+    if not newton:
         return unexamined("5.6", text, SUB_NEWTON_RULE)
-    return Claim("5.6", text, NOT_COMPARABLE,
-                 "; ".join(f"{c.rounds / c.passes:.1f} ({mesh_of(c.run)})" for c in partitioned),
-                 "sub-problems are solved no further than a hundredth of the interface's residual, with Jacobians kept",
-                 SUB_NEWTON_RULE)
+    return Claim(
+        "5.6",
+        text,
+        NOT_COMPARABLE,
+        "; ".join(f"{count:.1f} ({mesh})" for count, mesh in newton),
+        "sub-problems are solved no further than a hundredth of the interface's residual, with Jacobians kept",
+        SUB_NEWTON_RULE,
+    )
 
 
 def _coupled_claim(found: Sequence[StepCost]) -> Claim:
@@ -215,10 +302,17 @@ def _coupled_claim(found: Sequence[StepCost]) -> Claim:
         return unexamined("5.6", text, COUPLED_RULE)
     per_newton = [c.linear / c.newton for c in theirs]
     low, high = COUPLED_ITERATIONS
-    return Claim("5.6", text, verdict(min(per_newton) >= low and max(per_newton) <= high),
-                 "; ".join(f"{value:.1f} ({mesh_of(c.run)})" for c, value in zip(theirs, per_newton)),
-                 "fewer: a system is solved only as far as Newton's next step has use for; to the paper's 1e-9 it "
-                 "takes what Table 5 says" if max(per_newton) < low else "", COUPLED_RULE)
+    return Claim(
+        "5.6",
+        text,
+        verdict(min(per_newton) >= low and max(per_newton) <= high),
+        "; ".join(f"{value:.1f} ({mesh_of(c.run)})" for c, value in zip(theirs, per_newton)),
+        "fewer: a system is solved only as far as Newton's next step has use for; to the paper's 1e-9 it "
+        "takes what Table 5 says"
+        if max(per_newton) < low
+        else "",
+        COUPLED_RULE,
+    )
 
 
 def _saving_claim(found: Sequence[StepCost], cycles: Optional[float]) -> Claim:
@@ -232,13 +326,16 @@ def _saving_claim(found: Sequence[StepCost], cycles: Optional[float]) -> Claim:
     numbers = [f"{LABELS[s.monolithic.method]} {_less(s)}" for s in here]
     inside = f" (here {cycles:.0f})" if cycles else ""
     return Claim(
-        "5.6", text, verdict(enough.get(PAPER_MONOLITHIC, False), partly=any(enough.values())),
+        "5.6",
+        text,
+        verdict(enough.get(PAPER_MONOLITHIC, False), partly=any(enough.values())),
         f"seconds over the fixed point, {mesh} mesh: {', '.join(numbers)}; rounds, solves, other schemes: table "
         "cost_saving",
         f"the paper counts {own['monolithic']:.0f} against {own['partitioned']:.0f} rounds, {100 * own['saving']:.0f} "
         f"% fewer; but a round of its own is a coupled iteration of 8 to 10 sub-problem cycles or more{inside}: half "
         f"is saved if a sub-problem's system takes {own['cycles_per_system']:.0f} cycles. Iterations are not seconds",
-        SAVING_RULE)
+        SAVING_RULE,
+    )
 
 
 def _less(s: Saving) -> str:
@@ -261,11 +358,17 @@ def _fixed_point_claim(runs: PaperRuns, found: Sequence[StepCost]) -> Claim:
         outer = run.columns("iterations.csv")["outer_iterations"]
         means.append(float(outer.mean()))
         parts.append(f"{MATERIALS.get(name, name)} {outer.mean():.1f} ({outer.min():.0f} to {outer.max():.0f})")
-    return Claim("5.6", text,
-                 verdict(all(low <= mean <= high for mean in means),
-                         partly=all((1 - PASSES_NEAR) * low <= mean <= (1 + PASSES_NEAR) * high for mean in means)),
-                 f"Aitken's factor, tolerance 1e-6: {', '.join(parts)}",
-                 f"{whole[0][1].steps} steps; the paper gives neither tolerance nor relaxation", PASSES_RULE)
+    return Claim(
+        "5.6",
+        text,
+        verdict(
+            all(low <= mean <= high for mean in means),
+            partly=all((1 - PASSES_NEAR) * low <= mean <= (1 + PASSES_NEAR) * high for mean in means),
+        ),
+        f"Aitken's factor, tolerance 1e-6: {', '.join(parts)}",
+        f"{whole[0][1].steps} steps; the paper gives neither tolerance nor relaxation",
+        PASSES_RULE,
+    )
 
 
 def _newton_claim(runs: PaperRuns, found: Sequence[StepCost]) -> Claim:
@@ -281,18 +384,28 @@ def _newton_claim(runs: PaperRuns, found: Sequence[StepCost]) -> Claim:
         counts += [float(newton.min()), float(newton.max())]
         parts.append(f"{MATERIALS.get(name, name)} {newton.mean():.1f} ({newton.min():.0f} to {newton.max():.0f})")
     low, high = NEWTON_STEPS
-    return Claim("5.2, 5.6", text, verdict(min(counts) >= low and max(counts) <= high),
-                 f"new Jacobian in each iteration, relative increment 1e-8: {', '.join(parts)}",
-                 "with Jacobians kept, the default, more and cheaper ones", NEWTON_RULE)
+    return Claim(
+        "5.2, 5.6",
+        text,
+        verdict(min(counts) >= low and max(counts) <= high),
+        f"new Jacobian in each iteration, relative increment 1e-8: {', '.join(parts)}",
+        "with Jacobians kept, the default, more and cheaper ones",
+        NEWTON_RULE,
+    )
 
 
 def _robust_claim(runs: PaperRuns) -> Claim:
     """Of the runs to full accuracy; running out of time says nothing."""
     text = "The monolithic approach is more robust than the partitioned one"
-    asked = [run for run in runs.asked if run.request.group in (WAVES, NEWTON, FIXED_POINT, COST)
-             and run.status != OUT_OF_TIME]
-    monolithic, partitioned = ([run for run in asked if run.request.method.program == program]
-                               for program in ("fsi-monolithic", "fsi-partitioned"))
+    asked = [
+        run
+        for run in runs.asked
+        if run.request.group in (WAVES, NEWTON, FIXED_POINT, COST) and run.status != OUT_OF_TIME
+    ]
+    monolithic, partitioned = (
+        [run for run in asked if run.request.method.program == program]
+        for program in ("fsi-monolithic", "fsi-partitioned")
+    )
     if not monolithic or not partitioned:
         return unexamined("6", text, ROBUST_RULE)
     done = [sum(run.done for run in some) for some in (monolithic, partitioned)]
@@ -301,9 +414,16 @@ def _robust_claim(runs: PaperRuns) -> Claim:
     parts = [f"{done[0]} of {len(monolithic)} monolithic and {done[1]} of {len(partitioned)} partitioned runs end"]
     if passes and newton:
         parts.append(f"{_span(newton)} Newton iterations a step against {_span(passes)} passes")
-    return Claim("6", text, verdict(done[0] == len(monolithic) and done[1] < len(partitioned)), "; ".join(parts),
-                 "on this case neither fails; where each of them does is what the study `stability` is for"
-                 if done == [len(monolithic), len(partitioned)] else "", ROBUST_RULE)
+    return Claim(
+        "6",
+        text,
+        verdict(done[0] == len(monolithic) and done[1] < len(partitioned)),
+        "; ".join(parts),
+        "on this case neither fails; where each of them does is what the study `stability` is for"
+        if done == [len(monolithic), len(partitioned)]
+        else "",
+        ROBUST_RULE,
+    )
 
 
 def _span(columns: Sequence) -> str:

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from ...layout import Table
-from ...names import MATERIALS
+from ...base.names import MATERIALS
+from ...reporting.layout import Table
+from ...reporting.report import Report
 from ..evidence.energy_plots import Balance, balance, energy_section
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 from .runs import GROUPS, MONOLITHIC, RESOLVED, STOPPED_EARLY, WAVES, PaperRuns
 from .speeds import level_of
 
@@ -26,11 +27,16 @@ class Remainder:
     run: str  # which
 
 
-def write_energy(report, runs: PaperRuns) -> None:
-    shown = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
-    shown = [(material, run) for material, run in shown if run]
-    found = energy_section(report, [run for _, run in shown],
-                           [f"{MATERIALS[material]}, {runs.finest}" for material, _ in shown])
+def write_energy(report: Report, runs: PaperRuns) -> None:
+    """A section; none where the waves have no run."""
+    waves = [(material, runs.wave(material, runs.finest)) for material in runs.materials]
+    shown = [(material, run) for material, run in waves if run]
+    if not shown:
+        return
+    report.section("Energy")
+    found = energy_section(
+        report, [run for _, run in shown], [f"{MATERIALS[material]}, {runs.finest}" for material, _ in shown]
+    )
     if not found:
         return
     balances = _balances(runs)
@@ -55,14 +61,18 @@ def remainders(balances: Sequence[Tuple[StudyRun, Balance]]) -> List[Remainder]:
 
 
 def remainder_table(found: Sequence[Remainder]) -> Table:
-    table = Table(stem="energy_remainder",
-                  title="What the energy balance leaves over: the worst of the runs, relative to what was supplied",
-                  left=3, columns=[("", "runs of"), ("", "approach"), ("", "wall"), ("", "runs"),
-                                   ("", "left over at most")],
-                  csv_columns=["group", "approach", "wall", "runs", "largest_remainder_relative", "run"],
-                  notes=["Partitioned runs leave over what their tolerance lets the interface mismatch. Fibres tighten "
-                         "at a kink of the stress: the balance integrates it with an error where that falls within a "
-                         "step."])
+    table = Table(
+        stem="energy_remainder",
+        title="What the energy balance leaves over: the worst of the runs, relative to what was supplied",
+        left=3,
+        columns=[("", "runs of"), ("", "approach"), ("", "wall"), ("", "runs"), ("", "left over at most")],
+        csv_columns=["group", "approach", "wall", "runs", "largest_remainder_relative", "run"],
+        notes=[
+            "Partitioned runs leave over what their tolerance lets the interface mismatch. Fibres tighten "
+            "at a kink of the stress: the balance integrates it with an error where that falls within a "
+            "step."
+        ],
+    )
     for r in found:
         table.rows.append([r.group, r.approach, r.wall, str(r.runs), f"{r.worst:.1e}"])
         table.csv_rows.append([r.group, r.approach, r.wall, r.runs, r.worst, r.run])
@@ -80,8 +90,10 @@ def _closes(found: Sequence[Remainder]) -> str:
     early = [r.worst for r in found if r.group == STOPPED_EARLY]
     if early:
         parts.append(f"stopped early, at loose tolerances, {max(early):.1e}")
-    return ("What the balance leaves over, relative to what was supplied, in the worst of all "
-            f"{sum(r.runs for r in found)} runs: {'; '.join(parts)}.")
+    return (
+        "What the balance leaves over, relative to what was supplied, in the worst of all "
+        f"{sum(r.runs for r in found)} runs: {'; '.join(parts)}."
+    )
 
 
 def _lost(balances: Sequence[Tuple[StudyRun, Balance]]) -> str:
@@ -93,8 +105,11 @@ def _lost(balances: Sequence[Tuple[StudyRun, Balance]]) -> str:
             rows.setdefault((level_of(run), float(one.times[0]), float(one.times[-1])), []).append((lost[-1], lost[0]))
     if not rows:
         return "No run tells what the discretisation takes."
-    parts = [f"{_percents([a for a, _ in values])} until {end:g} ms on the {level} mesh with steps of {step:g} ms, "
-             f"{_percents([b for _, b in values])} in the first step" for (level, step, end), values in rows.items()]
+    parts = [
+        f"{_percents([a for a, _ in values])} until {end:g} ms on the {level} mesh with steps of {step:g} ms, "
+        f"{_percents([b for _, b in values])} in the first step"
+        for (level, step, end), values in rows.items()
+    ]
     steps = {step for _, step, _ in rows}
     only = f" The study has no other step than {steps.pop():g} ms." if len(steps) == 1 else ""
     return f"Lost to the discretisation, of what was supplied, over the walls: {'; '.join(parts)}.{only}"

@@ -5,17 +5,18 @@ well and may hold more than the study asks for, so that --fresh leaves the folde
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ...errors import InputError
-from ...files import make_folder
-from ...linear_solvers import System
-from ...names import MATERIALS, MESHES, METHODS
-from ...programs import require_linear_systems
-from ...solver_tables import Grid
-from ...linear_study import Request, run_study
-from ..builds import Builds
-from ..context import Context
-from ..study_file import Study
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.files import make_folder
+from ...base.names import MATERIALS, MESHES, METHODS
+from ...base.suggestions import check_keys, nearest
+from ...linear.results import System
+from ...linear.solver_tables import Grid
+from ...linear.study import Request, finished, run_study
+from ...runs.programs import require_linear_systems
+from ..running.builds import Builds
+from ..running.context import Context
+from ..running.runner import Runner, Standing
+from ..running.study_file import Study
 
 FOLDER = "linear"
 FIRST_SYSTEM = (1, 1)
@@ -41,8 +42,9 @@ def check(study: Study) -> None:
             _names(study, f"{key}.later_meshes", part["later_meshes"], list(MESHES))
     for case in study.cases:
         if case not in MATERIALS:
-            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials",
-                             f"name it {', '.join(MATERIALS)}")
+            raise InputError(
+                study.path, f"cases.{case}", "is none of the paper's materials", f"name it {', '.join(MATERIALS)}"
+            )
 
 
 def _names(study: Study, key: str, names: Any, known: List[str]) -> None:
@@ -66,8 +68,9 @@ def chosen(study: Study) -> Optional[Chosen]:
     if section is None or (study.quick and "quick" not in section):
         return None
     merged: Dict[str, Any] = {**section, **({"later_meshes": [], **section["quick"]} if study.quick else {})}
-    return Chosen(merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)),
-                  merged.get("later_meshes", []))
+    return Chosen(
+        merged.get("meshes", list(MESHES)), merged.get("methods", list(METHODS)), merged.get("later_meshes", [])
+    )
 
 
 def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
@@ -81,22 +84,46 @@ def solve(context: Context) -> Tuple[Optional[Grid], Optional[Grid]]:
     require_linear_systems(program)
     folder = runner.folder / FOLDER / "runs"
     make_folder(folder)
-    first = _requests(context, wanted.meshes, wanted.methods, (FIRST_SYSTEM,))
-    later = _requests(context, wanted.later_meshes, wanted.methods, LATER_SYSTEMS, "-later")
+    first, later = _requests(context.study, wanted, runner.threads)
     outcomes = run_study(program, folder, [*first, *later], runner.quiet)
     builds = Builds("runs of linear systems", f"removing `{FOLDER}/runs`")
     for outcome in outcomes:
         if outcome.taken_up:
             builds.count(program, outcome.executable)
     runner.builds.append(builds)
-    return Grid(outcomes[:len(first)]), Grid(outcomes[len(first):]) if later else None
+    return Grid(outcomes[: len(first)]), Grid(outcomes[len(first) :]) if later else None
 
 
-def _requests(context: Context, meshes: Sequence[str], methods: Sequence[str], systems: Sequence[System],
-              ending: str = "") -> List[Request]:
-    return [
-        Request(name=f"{material}-{mesh}{ending}", case=case, material=material, mesh=mesh,
-                settings=(f"mesh.level={mesh}",), solvers=tuple(methods), systems=tuple(systems), tolerance=TOLERANCE,
-                threads=context.runner.threads)
-        for mesh in sorted(meshes, key=list(MESHES).index)
-        for material, case in context.study.cases.items()]
+def standing(study: Study, runner: Runner) -> Standing:
+    """How many of these runs are there, without making any."""
+    wanted = chosen(study)
+    if wanted is None:
+        return Standing(0, 0, 0)
+    folder = runner.folder / FOLDER / "runs"
+    version = runner.programs["fsi-monolithic"].version
+    first, later = _requests(study, wanted, runner.threads)
+    there = [finished(folder / request.name, request, version) for request in (*first, *later)]
+    return Standing(len(there), sum(one is not None for one in there), 0)
+
+
+def _requests(study: Study, wanted: Chosen, threads: Optional[int]) -> Tuple[List[Request], List[Request]]:
+    """Of the first systems, and of the later ones."""
+
+    def of(meshes: Sequence[str], systems: Sequence[System], ending: str) -> List[Request]:
+        return [
+            Request(
+                name=f"{material}-{mesh}{ending}",
+                case=case,
+                material=material,
+                mesh=mesh,
+                settings=(f"mesh.level={mesh}",),
+                solvers=tuple(wanted.methods),
+                systems=tuple(systems),
+                tolerance=TOLERANCE,
+                threads=threads,
+            )
+            for mesh in sorted(meshes, key=list(MESHES).index)
+            for material, case in study.cases.items()
+        ]
+
+    return of(wanted.meshes, (FIRST_SYSTEM,), ""), of(wanted.later_meshes, LATER_SYSTEMS, "-later")

@@ -2,8 +2,8 @@
 
 from typing import List, Optional, Sequence
 
-from ...names import MATERIALS, MESHES
-from ..study_run import StudyRun
+from ...base.names import MATERIALS, MESHES
+from ..running.study_run import StudyRun
 
 MONOLITHIC, PARTITIONED = "monolithic", "robin-neumann-iqn"
 WAVES, RESOLVED, NEWTON, FIXED_POINT, COST = "waves", "resolved", "newton", "fixed-point", "cost"
@@ -32,8 +32,14 @@ class PaperRuns:
         return self.meshes[-1] if self.meshes else ""
 
     def all(self, group: str, case: str = "", mesh: str = "", method: str = "") -> List[StudyRun]:
-        return [run for run in self._runs if run.request.group == group and (not case or run.request.case == case)
-                and (not mesh or mesh_of(run) == mesh) and (not method or run.request.method.name == method)]
+        return [
+            run
+            for run in self._runs
+            if run.request.group == group
+            and (not case or run.request.case == case)
+            and (not mesh or mesh_of(run) == mesh)
+            and (not method or run.request.method.name == method)
+        ]
 
     def one(self, group: str, case: str, mesh: str, method: str = "") -> Optional[StudyRun]:
         found = self.all(group, case, mesh, method)

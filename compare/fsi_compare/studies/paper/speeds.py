@@ -1,26 +1,26 @@
 """Speed and height of the pressure wave: theory, and what the runs show on meshes side by side."""
 
 from dataclasses import dataclass, replace
-from typing import Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...layout import Table, fixed
-from ...names import MATERIALS
-from ...pictures import PANEL_INCHES, finish
-from ...pressure_waves import crest_speed
+from ...base.names import MATERIALS
+from ...reporting.layout import Table, fixed
+from ...reporting.pictures import PANEL_INCHES, finish
+from ...runs.pressure_waves import crest_speed
 from ..evidence import wave_speed
 from ..evidence.tube import Tube, read_tube
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 from .runs import DENSITY, FIBRES, MONOLITHIC, RESOLVED, TIMES, WAVES, PaperRuns, mesh_of
 from .waves import peaks
 
 STABILISATION = "structure.stabilisation"
 MARKERS = ("o", "s", "D", "^")  # of the levels, coarse first
 # Greys for theory: the materials have the colours.
-THEORY = {
+THEORY: Dict[str, Tuple[str, Dict[str, Any]]] = {
     "long": ("thick wall held at its length, long waves", {"color": "#c4c4c4", "linewidth": 5, "linestyle": "-"}),
     "held": ("Moens-Korteweg, held at its length", {"color": "#333333", "linewidth": 1.6, "linestyle": (0, (3, 1))}),
     "free": ("Moens-Korteweg, free to shorten", {"color": "#333333", "linewidth": 1.6, "linestyle": (0, (1, 1))}),
@@ -29,7 +29,8 @@ THEORY = {
 MEANING = (
     "The tube is clamped at both ends, so that long waves find it held at its length; Moens-Korteweg in its usual "
     "form, free to shorten, is shown beside it. The pulse is a few radii long and disperses: its crest belongs to wave "
-    "numbers about kR = 1 and above, and is slower than any long wave.")
+    "numbers about kR = 1 and above, and is slower than any long wave."
+)
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,15 @@ def speeds(runs: PaperRuns) -> List[Speeds]:
     levels = levels_of(runs)
 
     def of(material: str, reading: str, tube: Tube, chosen: Sequence[StudyRun]) -> Speeds:
-        return Speeds(material, reading, wave_speed.moens_korteweg(tube),
-                      wave_speed.moens_korteweg(tube, restrained=True), wave_speed.long_wave(tube),
-                      wave_speed.phase_speed(tube, 1 / tube.radius), _measured(levels, chosen))
+        return Speeds(
+            material,
+            reading,
+            wave_speed.moens_korteweg(tube),
+            wave_speed.moens_korteweg(tube, restrained=True),
+            wave_speed.long_wave(tube),
+            wave_speed.phase_speed(tube, 1 / tube.radius),
+            _measured(levels, chosen),
+        )
 
     found = []
     for material in runs.materials:
@@ -104,8 +111,9 @@ def speeds(runs: PaperRuns) -> List[Speeds]:
         if chosen:
             tube = read_tube(chosen[0].request.case_file)
             density = float(chosen[0].request.settings["structure.density"])
-            found.append(of(material, f"wall density {1e3 * density:g} kg/m^3", replace(tube, wall_density=density),
-                            chosen))
+            found.append(
+                of(material, f"wall density {1e3 * density:g} kg/m^3", replace(tube, wall_density=density), chosen)
+            )
     return found
 
 
@@ -116,8 +124,13 @@ def _measured(levels: Sequence[str], chosen: Sequence[StudyRun]) -> Dict[str, Me
     for level in [level for level in levels if level in by]:
         wave = by[level].pressure
         speed, height = crest_speed(wave), mean_peak(peaks(wave))
-        found[level] = Measured(level, speed, height, _apart(speed, before.speed if before else None),
-                                _apart(height, before.height if before else None))
+        found[level] = Measured(
+            level,
+            speed,
+            height,
+            _apart(speed, before.speed if before else None),
+            _apart(height, before.height if before else None),
+        )
         before = found[level]
     return found
 
@@ -130,14 +143,21 @@ def finest_common(found: Sequence[Speeds]) -> Optional[str]:
     """The finest level on which all of them have speed and height."""
     if not found:
         return None
-    return next((level for level in reversed(list(found[0].measured))
-                 if all(level in s.measured and s.measured[level].complete for s in found)), None)
+    return next(
+        (
+            level
+            for level in reversed(list(found[0].measured))
+            if all(level in s.measured and s.measured[level].complete for s in found)
+        ),
+        None,
+    )
 
 
 def mean_peak(values: Optional[Sequence[Optional[float]]]) -> Optional[float]:
     """Over the paper's times from 4.5 to 9 ms."""
     late = [p for time, p in zip(TIMES, values or ()) if time >= 4.5]
-    return None if not late or None in late else sum(late) / len(late)
+    known = [p for p in late if p is not None]
+    return sum(known) / len(known) if known and len(known) == len(late) else None
 
 
 def with_error(value: float, error: Optional[float], form: str) -> str:
@@ -146,46 +166,81 @@ def with_error(value: float, error: Optional[float], form: str) -> str:
 
 def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
     crest, height = "crest, 4.5 to 9 ms", "mean peak in Pa, 4.5 to 9 ms"
+    errors = ("error",) if len(levels) > 1 else ()  # one level tells none
     table = Table(
         stem="wave_speed",
         title="Speed of the pressure wave in mm/ms (m/s)",
-        columns=[("", "wall"), ("Moens-Korteweg", "free to shorten"), ("Moens-Korteweg", "held at its length"),
-                 ("thick wall, held", "long waves"), ("thick wall, held", "kR = 1"),
-                 *((crest, level) for level in levels), (crest, "error"),
-                 *((height, level) for level in levels), (height, "error")],
+        columns=[
+            ("", "wall"),
+            ("Moens-Korteweg", "free to shorten"),
+            ("Moens-Korteweg", "held at its length"),
+            ("thick wall, held", "long waves"),
+            ("thick wall, held", "kR = 1"),
+            *((crest, level) for level in levels),
+            *((crest, error) for error in errors),
+            *((height, level) for level in levels),
+            *((height, error) for error in errors),
+        ],
         csv_columns=[
-            "material", "reading", "moens_korteweg_mm_per_ms", "moens_korteweg_held_mm_per_ms", "long_wave_mm_per_ms",
-            "kR_1_mm_per_ms", "level", "crest_mm_per_ms", "crest_difference_to_coarser_mm_per_ms", "mean_peak_Pa",
-            "mean_peak_difference_to_coarser_Pa"
+            "material",
+            "reading",
+            "moens_korteweg_mm_per_ms",
+            "moens_korteweg_held_mm_per_ms",
+            "long_wave_mm_per_ms",
+            "kR_1_mm_per_ms",
+            "level",
+            "crest_mm_per_ms",
+            "crest_difference_to_coarser_mm_per_ms",
+            "mean_peak_Pa",
+            "mean_peak_difference_to_coarser_Pa",
         ],
         notes=[
             "Moens-Korteweg: c^2 = E h / (2 rho R) with the hoop modulus E of both layers together, inner radius R. "
             "Thick wall: c^2 = R/(2 rho) dp/du from the closed-form inflation of the two layers; kR: wave number "
             "times radius, with the fluid's added mass and the wall's mass.",
             "Error: estimated by the difference of the two finest levels of the row." + _resolved_note(levels)
-        ])
+            if errors
+            else "The study has one level of resolution, which tells no error of its own: see table `mesh_error`.",
+        ],
+    )
     for s in found:
         last = s.finest
         row = [s.label, *(f"{v:.3f}" for v in (s.free, s.held, s.long, s.dispersed))]
         for name, form in (("speed", ".3f"), ("height", ".1f")):
             row += [fixed(getattr(s.measured[level], name) if level in s.measured else None, form) for level in levels]
-            row.append(fixed(getattr(last, f"{name}_error") if last else None, form))
+            row += [fixed(getattr(last, f"{name}_error") if last else None, form) for _ in errors]
         table.rows.append(row)
-        table.csv_rows += [[s.material, s.reading, s.free, s.held, s.long, s.dispersed, m.level, m.speed,
-                            m.speed_error, m.height, m.height_error] for m in s.measured.values()]
+        table.csv_rows += [
+            [
+                s.material,
+                s.reading,
+                s.free,
+                s.held,
+                s.long,
+                s.dispersed,
+                m.level,
+                m.speed,
+                m.speed_error,
+                m.height,
+                m.height_error,
+            ]
+            for m in s.measured.values()
+        ]
     return table
 
 
 def _resolved_note(levels: Sequence[str]) -> str:
     if any("," in level for level in levels):
-        return (" The number behind a mesh is the wall's stabilisation factor, 0.5 otherwise. Rows without that level "
-                "have the error of coarse meshes, whose difference says little.")
+        return (
+            " The number behind a mesh is the wall's stabilisation factor, 0.5 otherwise. Rows without that level "
+            "have the error of coarse meshes, whose difference says little."
+        )
     return " Both are coarse here and share the wall's stabilisation, which stiffens it: the error may be larger."
 
 
 def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequence[str]) -> Figure:
     """Left the thick wall's dispersion; right a line of marks for each wall, so that their names have room."""
-    from ...solver_pictures import MATERIAL_LINES
+    from ...linear.solver_pictures import MATERIAL_LINES
 
     width, height = 9.2, max(PANEL_INCHES[1] + 1.1, 0.9 + 0.36 * len(found))
     figure = Figure(figsize=(width, height))
@@ -193,7 +248,7 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
     handles, labels = [], []
     products = np.linspace(0.02, 3, 60)
     for material, tube in tubes.items():
-        style = {**MATERIAL_LINES[material], "marker": "", "linewidth": 1.8}
+        style: Dict[str, Any] = {**MATERIAL_LINES[material], "marker": "", "linewidth": 1.8}
         handles += left.plot(products, [wave_speed.phase_speed(tube, x / tube.radius) for x in products], **style)
         labels.append(MATERIALS[material])
     left.axvline(1, **{**THEORY["dispersed"][1], "linewidth": 1.0})
@@ -203,20 +258,31 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
     left.set_xlim(0, 3)
     left.set_ylim(0, None)
     for y, s in enumerate(found):
-        for name, (_, style) in THEORY.items():
-            right.plot([getattr(s, name)] * 2, [y - 0.36, y + 0.36], zorder=2, **style)
+        for name, (_, line) in THEORY.items():
+            right.plot([getattr(s, name)] * 2, [y - 0.36, y + 0.36], zorder=2, **line)
         for i, level in enumerate(levels):
             m = s.measured.get(level)
             if m and m.speed is not None:
-                right.plot(m.speed, y + 0.14 * (i - (len(levels) - 1) / 2), zorder=3,
-                           **_crest(i, MATERIAL_LINES[s.material]["color"]))
+                right.plot(
+                    m.speed,
+                    y + 0.14 * (i - (len(levels) - 1) / 2),
+                    zorder=3,
+                    **_crest(i, MATERIAL_LINES[s.material]["color"]),
+                )
         if s.finest and s.finest.speed_error is not None:
             last = levels.index(s.finest.level)
-            right.errorbar(s.finest.speed, y + 0.14 * (last - (len(levels) - 1) / 2), xerr=s.finest.speed_error,
-                           ecolor=MATERIAL_LINES[s.material]["color"], elinewidth=1.0, capsize=2.5, fmt="none",
-                           zorder=2.5)
-    for label, style in THEORY.values():
-        handles += right.plot([], [], **style)
+            right.errorbar(
+                s.finest.speed,
+                y + 0.14 * (last - (len(levels) - 1) / 2),
+                xerr=s.finest.speed_error,
+                ecolor=MATERIAL_LINES[s.material]["color"],
+                elinewidth=1.0,
+                capsize=2.5,
+                fmt="none",
+                zorder=2.5,
+            )
+    for label, line in THEORY.values():
+        handles += right.plot([], [], **line)
         labels.append(label)
     for i, level in enumerate(levels):
         handles += right.plot([], [], **_crest(i, "#000000"))
@@ -233,5 +299,11 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
 
 
 def _crest(level: int, color: str) -> dict:
-    return {"marker": MARKERS[level % len(MARKERS)], "color": color, "markerfacecolor": "#ffffff", "linestyle": "none",
-            "markersize": 6, "markeredgewidth": 1.5}
+    return {
+        "marker": MARKERS[level % len(MARKERS)],
+        "color": color,
+        "markerfacecolor": "#ffffff",
+        "linestyle": "none",
+        "markersize": 6,
+        "markeredgewidth": 1.5,
+    }

@@ -1,19 +1,24 @@
 """Pressure waves and cut tubes of the paper's study, in tables and pictures."""
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Tuple
+from pathlib import Path
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...differences import largest_difference
-from ...layout import Table, fixed
-from ...names import MATERIALS, MESHES
-from ...pictures import pressure_figure
-from ...pressure_waves import PressureWaves, peak
+from ...base.names import MATERIALS, MESHES
+from ...reporting.layout import Table, fixed
+from ...reporting.pictures import pressure_figure
+from ...reporting.report import Report
+from ...runs.differences import largest_difference
+from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
-from ..study_run import StudyRun
-from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
+from ..evidence.mesh_error import MeshError, error_table, error_words, mesh_error
+from ..running.study_run import StudyRun
+from .runs import MONOLITHIC, PARTITIONED, PICTURE_TIME, RESOLVED, STOPPED_EARLY, TIMES, PaperRuns, mesh_of, times_of
+
+SEEN_APART = 1e-2  # of the largest pressure: curves nearer than this lie on each other in a picture
 
 
 def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional[float]]:
@@ -23,32 +28,65 @@ def peaks(waves: PressureWaves, times: Sequence[float] = TIMES) -> List[Optional
 
 # ---- figures of the pressure along the centre line
 
-def wave_pictures(report, runs: PaperRuns) -> None:
+
+def wave_errors(runs: PaperRuns) -> Dict[Path, MeshError]:
+    """Of each run that shows the wave of a wall as it is, by its folder."""
+    return {run.folder: mesh_error(run) for run in shown_waves(runs)}
+
+
+def shown_waves(runs: PaperRuns) -> List[StudyRun]:
+    """One run for each wall and level of resolution: the drivers' waves are one wave where both are there."""
+    waves = [runs.wave(material, mesh) for material in runs.materials for mesh in runs.meshes]
+    return [run for run in waves if run] + runs.all(RESOLVED)
+
+
+def three_walls(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """The picture that the report opens with, and how far its waves are from the reference."""
     mesh = runs.finest
-    for material in runs.materials:
-        pair = [runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED)]
-        if None in pair:
-            continue
-        times = [time for time in times_of(material) if all(run.pressure.covers(time) for run in pair)]
-        report.figure(
-            f"pressure_{material}",
-            lambda: pressure_figure([run.pressure for run in pair], ["monolithic", "partitioned"], times,
-                                    f"{MATERIALS[material]}, {mesh} mesh"),
-            f"{MATERIALS[material]}: pressure along the centre line from both drivers, at the times of the paper's "
-            "figure. The curves lie on each other.")
-    together = [(material, runs.wave(material, mesh)) for material in runs.materials]
-    together = [(material, run) for material, run in together if run]
-    if len(together) > 1:
-        times = [time for time in TIMES if all(run.pressure.covers(time) for _, run in together)]
+    found = [(material, runs.wave(material, mesh)) for material in runs.materials]
+    together = [(material, run) for material, run in found if run]
+    times = [time for time in TIMES if all(run.pressure.covers(time) for _, run in together)]
+    if together and times:
+        names = [MATERIALS[material] for material, _ in together]
         report.figure(
             "pressure_materials",
-            lambda: pressure_figure([run.pressure for _, run in together],
-                                    [MATERIALS[material] for material, _ in together], times,
-                                    f"The three walls, {mesh} mesh"),
-            "Pressure along the centre line in the three walls, at the times of the paper's figure.")
+            lambda: pressure_figure([run.pressure for _, run in together], names, times, f"The walls, {mesh} mesh"),
+            f"Pressure along the centre line of the tube, {mesh} mesh, at the times of the paper's figure. "
+            + error_words([(name, errors[run.folder]) for name, (_, run) in zip(names, together)]),
+        )
+    waves = [run for run in shown_waves(runs) if run.folder in errors]
+    if waves:
+        report.table(error_table(waves, [errors[run.folder] for run in waves]))
+
+
+def driver_pictures(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """A picture for each wall whose waves both drivers have; the caption says how far they are apart."""
+    mesh = runs.finest
+    for material in runs.materials:
+        found = [runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED)]
+        pair = [run for run in found if run]
+        times = [time for time in times_of(material) if all(run.pressure.covers(time) for run in pair)]
+        if len(pair) < 2 or not times:
+            continue
+        apart = _largest(pair[0].pressure, pair[1].pressure)
+        lie = "The curves lie on each other" if apart < SEEN_APART else "The curves are apart"
+        distance = f" {lie}: the largest difference is {apart:.1e} of the largest pressure of a time level."
+        error = errors.get(pair[0].folder)
+        report.figure(
+            f"pressure_{material}",
+            lambda: pressure_figure(
+                [run.pressure for run in pair],
+                ["monolithic", "partitioned"],
+                times,
+                f"{MATERIALS[material]}, {mesh} mesh",
+            ),
+            f"{MATERIALS[material]}: pressure along the centre line from both drivers, at the times of the paper's "
+            "figure." + (distance if np.isfinite(apart) else "") + (f" {error_words([('', error)])}" if error else ""),
+        )
 
 
 # ---- both drivers beside each other
+
 
 @dataclass(frozen=True)
 class Agreement:
@@ -66,8 +104,15 @@ def agreements(runs: PaperRuns) -> List[Agreement]:
             one, other = (runs.wave(material, mesh, method) for method in (MONOLITHIC, PARTITIONED))
             if one and other:
                 heights = [b / a for a, b in zip(peaks(one.pressure), peaks(other.pressure)) if a and b is not None]
-                found.append(Agreement(material, mesh, _largest(one.pressure, other.pressure, 1.5),
-                                       _largest(one.pressure, other.pressure), max(heights, default=float("nan"))))
+                found.append(
+                    Agreement(
+                        material,
+                        mesh,
+                        _largest(one.pressure, other.pressure, 1.5),
+                        _largest(one.pressure, other.pressure),
+                        max(heights, default=float("nan")),
+                    )
+                )
     return found
 
 
@@ -79,11 +124,14 @@ def _largest(reference: PressureWaves, other: PressureWaves, until: float = np.i
 
 
 def agreement_table(found: Sequence[Agreement]) -> Table:
-    table = Table(stem="agreement", title="Partitioned against monolithic, largest relative difference of the "
-                                          "pressure", left=2,
-                  columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
-                  csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],
-                  notes=["Interface tolerance 1e-6. Relative to the largest pressure of the same time level."])
+    table = Table(
+        stem="agreement",
+        title="Partitioned against monolithic, largest relative difference of the pressure",
+        left=2,
+        columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
+        csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],
+        notes=["Interface tolerance 1e-6. Relative to the largest pressure of the same time level."],
+    )
     for a in found:
         table.rows.append([MATERIALS[a.material], a.mesh, f"{a.start:.1e}", f"{a.all:.1e}"])
         table.csv_rows.append([a.material, a.mesh, a.start, a.all])
@@ -91,6 +139,7 @@ def agreement_table(found: Sequence[Agreement]) -> Table:
 
 
 # ---- the interface iteration stopped early
+
 
 @dataclass(frozen=True)
 class Stopped:
@@ -116,8 +165,15 @@ def stopped_early(runs: PaperRuns) -> Tuple[Optional[StudyRun], List[Stopped]]:
     for run in loose:
         own = peaks(run.pressure)
         ratios = [None if a is None or b is None else a / b for a, b in zip(own, exact)]
-        found.append(Stopped(str(run.request.values.get("stop", run.request.label)), run.passes, own, ratios,
-                             _largest(reference.pressure, run.pressure)))
+        found.append(
+            Stopped(
+                str(run.request.values.get("stop", run.request.label)),
+                run.passes,
+                own,
+                ratios,
+                _largest(reference.pressure, run.pressure),
+            )
+        )
     return reference, found
 
 
@@ -125,21 +181,30 @@ def stopped_table(reference: StudyRun, found: Sequence[Stopped]) -> Table:
     table = Table(
         stem="stopped_early",
         title="The largest pressure in Pa when the interface iteration is stopped early",
-        columns=[("", "stopped at"), ("", "iterations per step"), *(("t in ms", f"{time:g}") for time in TIMES),
-                 ("", "largest relative difference")],
+        columns=[
+            ("", "stopped at"),
+            ("", "iterations per step"),
+            *(("t in ms", f"{time:g}") for time in TIMES),
+            ("", "largest relative difference"),
+        ],
         csv_columns=["stop", "iterations_per_step", "time_ms", "peak_Pa", "peak_over_monolithic", "max_relative"],
         notes=[
             "Largest difference: of the whole wave to the monolithic one, relative to the largest pressure of the "
-            f"time level, over all levels. {MATERIALS[reference.request.case]}, coarse mesh. 'From the last step': "
-            "the iteration starts from the last displacement, otherwise from its extrapolation."
-        ])
+            f"time level, over all levels. {MATERIALS[reference.request.case]}, {mesh_of(reference)} mesh."
+        ],
+    )
+    if any("from the last step" in s.label for s in found):
+        table.notes.append(
+            "'From the last step': the iteration starts from the last displacement, otherwise from its extrapolation."
+        )
     exact = peaks(reference.pressure)
     table.rows.append(["monolithic", "", *(fixed(p, ".1f") for p in exact), ""])
     table.csv_rows += [["monolithic", None, time, p, 1.0, None] for time, p in zip(TIMES, exact)]
     for s in found:
         table.rows.append([s.label, f"{s.passes:.1f}", *(fixed(p, ".1f") for p in s.peaks), f"{s.difference:.1e}"])
-        table.csv_rows += [[s.label, s.passes, time, p, ratio, s.difference]
-                           for time, p, ratio in zip(TIMES, s.peaks, s.ratios)]
+        table.csv_rows += [
+            [s.label, s.passes, time, p, ratio, s.difference] for time, p, ratio in zip(TIMES, s.peaks, s.ratios)
+        ]
     return table
 
 
@@ -148,27 +213,37 @@ def stopped_figure(reference: StudyRun, runs: PaperRuns) -> Figure:
     waves = [reference.pressure, *(run.pressure for run in shown)]
     labels = ["monolithic", *(str(run.request.values.get("stop", run.request.label)) for run in shown)]
     times = [time for time in TIMES if all(wave.covers(time) for wave in waves)]
-    return pressure_figure(waves, labels, times, "The interface iteration stopped early, "
-                                                 f"{MATERIALS[reference.request.case]}, coarse mesh")
+    return pressure_figure(
+        waves,
+        labels,
+        times,
+        f"The interface iteration stopped early, {MATERIALS[reference.request.case]}, {mesh_of(reference)} mesh",
+    )
 
 
 # ---- fields
 
-def tube_picture(report, runs: PaperRuns) -> None:
-    """The three walls at 8 ms, all with one magnification."""
-    media, names = [], []
+
+def tube_picture(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:
+    """A section with the three walls at 8 ms, all with one magnification; none where no run holds fields."""
+    media, names, own = [], [], []
     for material in runs.materials:
         run = runs.wave(material, runs.finest)
         if run and run.has(fields.FILE):
             media.append(fields.read_fields(run.folder, PICTURE_TIME))
             names.append(MATERIALS[material])
+            own.append((MATERIALS[material], errors[run.folder]))
     if not media:
         return
+    report.section("Deformed wall and velocity")
     largest = [tube_pictures.largest_displacement(one) for one in media]
     factor = tube_pictures.round_factor(max(largest))
     cuts = [tube_pictures.tube_cut(one, factor) for one in media]
     shown = ", ".join(f"{name} {1e3 * size:.0f} um" for name, size in zip(names, largest))
-    report.figure("tube_8ms", lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
-                  f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
-                  f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
-                  "of the fluid by shade, its velocity by arrows, their scale above the first panel.")
+    report.figure(
+        "tube_8ms",
+        lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
+        f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
+        f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
+        f"of the fluid by shade, its velocity by arrows, their scale above the first panel. {error_words(own)}",
+    )

@@ -3,16 +3,19 @@
 import math
 from typing import Sequence
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from ...pictures import finish
+from ...reporting.pictures import finish
 
 WITH = {"facecolor": "#303030", "edgecolor": "#303030"}
 WITHOUT = {"facecolor": "#ffffff", "edgecolor": "#b06a2a", "hatch": "////"}
-NOISE = ({"facecolor": "#b8b8b8", "edgecolor": "#b8b8b8"},
-         {"facecolor": "#ffffff", "edgecolor": "#b8b8b8", "hatch": "...."})  # with, without
+NOISE = (
+    {"facecolor": "#b8b8b8", "edgecolor": "#b8b8b8"},
+    {"facecolor": "#ffffff", "edgecolor": "#b8b8b8", "hatch": "...."},
+)  # with, without
 NOISE_TEXT = "#8c8c8c"
 BAR = 0.36  # of a row
 
@@ -40,7 +43,7 @@ def bars_figure(measured: Sequence) -> Figure:
     return figure
 
 
-def _bars(axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
+def _bars(axes: Axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
     shown = [value for pair in pairs for value in pair if value > 0]
     low = 10 ** math.floor(math.log10(min(shown)) - 0.3) if shown else 0.1
     high = max(shown) if shown else 1.0
@@ -53,8 +56,14 @@ def _bars(axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
                 axes.text(low * 1.1, row + offset, "none", va="center", fontsize=7)
         if on > 0 and off > 0:
             ratio = f"{off / on:.2f}x" if off < 10 * on else f"{off / on:.0f}x"
-            axes.text(max(on, off) * 1.12, row + 0.5 * BAR, ratio, va="center", fontsize=7.5,
-                      color=NOISE_TEXT if in_noise[row] else "#000000")
+            axes.text(
+                max(on, off) * 1.12,
+                row + 0.5 * BAR,
+                ratio,
+                va="center",
+                fontsize=7.5,
+                color=NOISE_TEXT if in_noise[row] else "#000000",
+            )
     axes.set_xscale("log")
     axes.set_xlim(low, high * 4)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: format(value, "g")))

@@ -4,16 +4,16 @@ They also tell the noise of the seconds, and a ratio inside it is marked as such
 
 import statistics
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ...differences import largest_difference
-from ...errors import InputError
-from ...layout import Table, fixed
-from ..context import Context
-from ..cross_check import waves_of
-from ..study_file import Request, Study, show
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ...reporting.layout import Table, fixed
+from ...runs.differences import largest_difference
+from ..evidence.cross_check import waves_of
+from ..running.context import Context
+from ..running.study_file import Request, Study, show
+from ..running.study_run import StudyRun
 
 REPORT_KEYS = ("repeat", "economies")
 ECONOMY_KEYS = ("label", "counter", "off", "off_label", "differs")
@@ -36,7 +36,7 @@ def check(study: Study) -> None:
     economies(study, study.requests, lambda request: request)
 
 
-def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
+def economies(study: Study, items: Sequence[Any], request_of: Callable[[Any], Request]) -> List[Economy]:
     """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are left
     out."""
     repeat = study.report.get("repeat", "repeat")
@@ -47,8 +47,9 @@ def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
         groups.setdefault(request.group, {}).setdefault(form, []).append(item)
     named = study.report.get("economies")
     if not isinstance(named, dict) or not named:
-        raise InputError(study.path, "report.economies", "is missing",
-                         "name each group of runs there, with label and counter")
+        raise InputError(
+            study.path, "report.economies", "is missing", "name each group of runs there, with label and counter"
+        )
     found = []
     for name, entry in named.items():
         key = f"report.economies.{name}"
@@ -65,24 +66,47 @@ def economies(study: Study, items: Sequence[Any], request_of) -> List[Economy]:
     return found
 
 
-def _economy(study: Study, name: str, entry: Mapping[str, str], groups, repeat: str, request_of) -> Economy:
+def _economy(
+    study: Study,
+    name: str,
+    entry: Mapping[str, str],
+    groups: Mapping[str, Mapping[Tuple, List[Any]]],
+    repeat: str,
+    request_of: Callable[[Any], Request],
+) -> Economy:
     forms = list(groups[name].items())
     if "off" in entry:
         if entry["off"] not in groups:
-            raise InputError(study.path, f"report.economies.{name}.off", f"'{entry['off']}' is no group of runs",
-                             f"did you mean '{nearest(entry['off'], list(groups))}'?")
+            raise InputError(
+                study.path,
+                f"report.economies.{name}.off",
+                f"'{entry['off']}' is no group of runs",
+                f"did you mean '{nearest(entry['off'], list(groups))}'?",
+            )
         forms += list(groups[entry["off"]].items())
     if len(forms) != 2:
-        raise InputError(study.path, f"runs.{name}", f"has {len(forms)} forms beside its repetitions",
-                         "give two: first with the economy, then without")
+        raise InputError(
+            study.path,
+            f"runs.{name}",
+            f"has {len(forms)} forms beside its repetitions",
+            "give two: first with the economy, then without",
+        )
 
-    def label(items) -> str:
+    def label(items: Sequence[Any]) -> str:
         request = request_of(items[0])
         return ", ".join(show(v) for k, v in request.values.items() if k != repeat) or request.case
 
     (_, on), (_, off) = forms
-    return Economy(name, entry["label"], entry["counter"], label(on), entry.get("off_label", label(off)), on, off,
-                   entry.get("differs", ""))
+    return Economy(
+        name,
+        entry["label"],
+        entry["counter"],
+        label(on),
+        entry.get("off_label", label(off)),
+        on,
+        off,
+        entry.get("differs", ""),
+    )
 
 
 @dataclass(frozen=True)
@@ -117,19 +141,24 @@ def evaluate(context: Context) -> int:
         return 2
     best = sorted((m for m in measured if not m.in_noise), key=lambda m: -m.ratio)
     silent = [m.economy.label.lower() for m in measured if m.in_noise]
-    report.text("Each row is one scene, run as the toolkit does it and with one economy switched off. "
-                + ("The largest savings: " if best else "No saving shows in the seconds. ")
-                + "; ".join(f"{m.economy.label.lower()}, {m.ratio:.2g} times the seconds without it" for m in best[:3])
-                + (". " if best else "")
-                + f"Medians of {len(measured[0].economy.on)} runs each. Runs of one and the same form differ too, by a "
-                f"factor of up to {max(m.noise for m in measured):.2f}"
-                + (f"; inside that noise, so that their seconds say nothing: {', '.join(silent)}." if silent else "."))
+    report.text(
+        "Each row is one scene, run as the toolkit does it and with one economy switched off. "
+        + ("The largest savings: " if best else "No saving shows in the seconds. ")
+        + "; ".join(f"{m.economy.label.lower()}, {m.ratio:.2g} times the seconds without it" for m in best[:3])
+        + (". " if best else "")
+        + f"Medians of {len(measured[0].economy.on)} runs each. Runs of one and the same form differ too, by a "
+        f"factor of up to {max(m.noise for m in measured):.2f}"
+        + (f"; inside that noise, so that their seconds say nothing: {', '.join(silent)}." if silent else ".")
+    )
     from .pictures import bars_figure
 
     report.section("With and without")
-    report.figure("skip", lambda: bars_figure(measured),
-                  "Seconds of a run and the work that the economy is about, each on its own logarithmic scale. Behind "
-                  "the bars: without over with. Grey: the seconds differ by no more than their noise.")
+    report.figure(
+        "skip",
+        lambda: bars_figure(measured),
+        "Seconds of a run and the work that the economy is about, each on its own logarithmic scale. Behind "
+        "the bars: without over with." + (" Grey: the seconds differ by no more than their noise." if silent else ""),
+    )
     report.table(_table(measured))
     return 2 if broken else 0
 
@@ -137,13 +166,20 @@ def evaluate(context: Context) -> int:
 def measure(economy: Economy) -> Measured:
     """Noise: the largest over the smallest seconds among the repetitions of one form."""
     seconds = [[run.wall_s for run in runs] for runs in (economy.on, economy.off)]
-    waves = [waves_of(runs[0]) for runs in (economy.on, economy.off)]
+    one, other = (waves_of(runs[0]) for runs in (economy.on, economy.off))
     difference = None
-    if all(wave is not None for wave in waves):
-        largest = largest_difference(*waves).largest
+    if one is not None and other is not None:
+        largest = largest_difference(one, other).largest
         difference = largest.max_relative if largest else None
-    return Measured(economy, *(statistics.median(s) for s in seconds), max(max(s) / min(s) for s in seconds),
-                    *(counter(runs[0], economy.counter) for runs in (economy.on, economy.off)), difference)
+    return Measured(
+        economy,
+        statistics.median(seconds[0]),
+        statistics.median(seconds[1]),
+        max(max(s) / min(s) for s in seconds),
+        counter(economy.on[0], economy.counter),
+        counter(economy.off[0], economy.counter),
+        difference,
+    )
 
 
 def with_common_noise(measured: Sequence[Measured]) -> List[Measured]:
@@ -165,26 +201,83 @@ def counter(run: StudyRun, name: str) -> Optional[float]:
 
 
 def _table(measured: Sequence[Measured]) -> Table:
-    table = Table(stem="skip", title="The same scene with and without each economy", left=3,
-                  columns=[("", "economy"), ("", "with it"), ("", "switched off"), ("seconds", "with"),
-                           ("seconds", "without"), ("seconds", "ratio"), ("seconds", "noise"), ("", "counted"),
-                           ("count", "with"), ("count", "without"),
-                           ("", "relative difference of the answers")],
-                  csv_columns=["economy", "label", "with", "switched_off", "case", "method", "with_s", "without_s",
-                               "ratio", "noise", "in_noise",
-                               "counter", "with_count", "without_count", "largest_difference"])
+    table = Table(
+        stem="skip",
+        title="The same scene with and without each economy",
+        left=3,
+        columns=[
+            ("", "economy"),
+            ("", "with it"),
+            ("", "switched off"),
+            ("seconds", "with"),
+            ("seconds", "without"),
+            ("seconds", "ratio"),
+            ("seconds", "noise"),
+            ("", "counted"),
+            ("count", "with"),
+            ("count", "without"),
+            ("", "relative difference of the answers"),
+        ],
+        csv_columns=[
+            "economy",
+            "label",
+            "with",
+            "switched_off",
+            "case",
+            "method",
+            "with_s",
+            "without_s",
+            "ratio",
+            "noise",
+            "in_noise",
+            "counter",
+            "with_count",
+            "without_count",
+            "largest_difference",
+        ],
+    )
     for m in measured:
         e, request = m.economy, m.economy.on[0].request
-        table.rows.append([e.label, f"{e.on_label} ({request.method.label})", e.off_label, fixed(m.on_s, ".2f"),
-                           fixed(m.off_s, ".2f"),
-                           f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
-                           f"{m.noise:.2f}", e.counter, fixed(m.on_count, ".4g"), fixed(m.off_count, ".4g"),
-                           e.differs or fixed(m.difference, ".1e")])
-        table.csv_rows.append([e.name, e.label, e.on_label, e.off_label, request.case, request.method.name, m.on_s,
-                               m.off_s, m.ratio,
-                               m.noise, m.in_noise, e.counter, m.on_count, m.off_count, m.difference])
-    table.notes.append("Noise: the factor between the slowest and the quickest run of one form, here or in the median "
-                       "row, whichever is larger; a ratio that is no further from 1 says nothing.")
-    table.notes.append("Counted: of `summary.json`; of a phase its calls. Difference: largest over all time "
-                       "levels, relative to the largest pressure of the level.")
+        table.rows.append(
+            [
+                e.label,
+                f"{e.on_label} ({request.method.label})",
+                e.off_label,
+                fixed(m.on_s, ".2f"),
+                fixed(m.off_s, ".2f"),
+                f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
+                f"{m.noise:.2f}",
+                e.counter,
+                fixed(m.on_count, ".4g"),
+                fixed(m.off_count, ".4g"),
+                e.differs or fixed(m.difference, ".1e"),
+            ]
+        )
+        table.csv_rows.append(
+            [
+                e.name,
+                e.label,
+                e.on_label,
+                e.off_label,
+                request.case,
+                request.method.name,
+                m.on_s,
+                m.off_s,
+                m.ratio,
+                m.noise,
+                m.in_noise,
+                e.counter,
+                m.on_count,
+                m.off_count,
+                m.difference,
+            ]
+        )
+    table.notes.append(
+        "Noise: the factor between the slowest and the quickest run of one form, here or in the median "
+        "row, whichever is larger; a ratio that is no further from 1 says nothing."
+    )
+    table.notes.append(
+        "Counted: of `summary.json`; of a phase its calls. Difference: largest over all time "
+        "levels, relative to the largest pressure of the level."
+    )
     return table

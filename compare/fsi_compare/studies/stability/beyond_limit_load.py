@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence, Tuple
 
-from ...layout import Table, fixed
-from ..cross_check import Cell, quantity
-from ..report import Report
-from ..study_file import show
+from ...reporting.layout import Table, fixed
+from ...reporting.report import Report
+from ..evidence.cross_check import Cell, quantity
+from ..running.study_file import show
 from .limit_load import Curve, Inflation, Wall, inflation, pulse_figure, static_figure
 from .messages import without_folder
 from .settings import Settings
@@ -51,21 +51,23 @@ class Inflated:
         """The largest, half-way along the tube, and of a long tube at the same pressure."""
         if self.levels is None:
             return [None, None, None]
-        largest, middle = (1 + float(values[-1]) / self.wall.radius
-                           for values in (self.levels.largest, self.levels.middle))
+        largest, middle = (
+            1 + float(values[-1]) / self.wall.radius for values in (self.levels.largest, self.levels.middle)
+        )
         return [largest, middle, self.wall.widening(self.pressure) if self.at_rest else None]
 
     @property
     def shown(self) -> List[str]:
-        reached = "-" if self.reached is None else (f"{self.pressure:.3f} kPa" if self.at_rest
-                                                    else f"{self.reached:g} ms")
+        reached = (
+            "-" if self.reached is None else (f"{self.pressure:.3f} kPa" if self.at_rest else f"{self.reached:g} ms")
+        )
         return [self.cell.outcome, reached, *(fixed(widening, ".3f") for widening in self.widenings)]
 
 
 def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings) -> None:
-    wall = settings.wall
-    if wall is None:
+    if settings.wall is None:
         return
+    wall: Wall = settings.wall
     runs = [_inflated(cell, True, wall) for cell in found if settings.at_rest(cell.run)]
     runs += [_inflated(cell, False, wall) for cell in found if settings.pulse and quantity(cell.run) == settings.pulse]
     if not runs:
@@ -75,18 +77,40 @@ def beyond_limit_load(report: Report, found: Sequence[Cell], settings: Settings)
     own = [run for run in runs if run.levels is not None and run.cell.method in settings.references]
     furthest = _furthest(own)
     if furthest:
-        curves = [Curve(f"run on {run.mesh} nodes, to {run.pressure:.3f} kPa", run.load, run.cell.run.done, run.levels)
-                  for run in furthest]
-        report.figure("limit_load", lambda: static_figure(curves[:CURVES], wall),
-                      "The wall alone under a static pressure, raised in equal steps: the run of each mesh that came "
-                      "furthest. A curve ends where no further solution was found.")
-    waves = [Curve(run.label, run.load, run.cell.run.done, run.levels) for run in own
-             if not run.at_rest and run.cell.method == settings.references[0]]
-    if waves:
-        report.figure("long_pulses", lambda: pulse_figure(waves[:CURVES], "Inflation by pulses of different length"),
-                      "Largest radial displacement of the inner face. A dot: the run reached its end, which is later "
-                      "for longer pulses. A cross: it ended with a message, for want of a solution of the next step. "
-                      "Curves of longer pulses coincide until the shorter one ends.")
+        curves = [
+            Curve(f"run on {run.mesh} nodes, to {run.pressure:.3f} kPa", run.load, run.cell.run.done, run.levels)
+            for run in furthest
+            if run.levels is not None
+        ]
+        report.figure(
+            "limit_load",
+            lambda: static_figure(curves[:CURVES], wall),
+            "The wall alone under a static pressure, raised in equal steps: the run of each mesh that came "
+            "furthest. A curve ends where no further solution was found.",
+        )
+    waves = [
+        Curve(run.label, run.load, run.cell.run.done, run.levels)
+        for run in own
+        if run.levels is not None and not run.at_rest and run.cell.method == settings.references[0]
+    ]
+    shown = waves[:CURVES]
+    if shown:
+        report.figure(
+            "long_pulses",
+            lambda: pulse_figure(shown, "Inflation by pulses of different length"),
+            "Largest radial displacement of the inner face."
+            + (
+                " A dot: the run reached its end, which is later for longer pulses."
+                if any(w.done for w in shown)
+                else ""
+            )
+            + (
+                " A cross: it ended with a message, for want of a solution of the next step."
+                if not all(w.done for w in shown)
+                else ""
+            )
+            + (" Curves of longer pulses coincide until the shorter one ends." if len(shown) > 1 else ""),
+        )
     report.table(limit_load_table(runs, settings))
 
 
@@ -106,18 +130,24 @@ def _furthest(runs: Sequence[Inflated]) -> List[Inflated]:
 
 
 def _in_words(runs: Sequence[Inflated], wall: Wall) -> List[str]:
-    text = [f"A long tube of these layers that widens evenly bears less than {wall.limit:.3f} kPa at rest, at unit "
-            "axial stretch and whatever its radius. A longer pulse above that has no rest to tend to: only inertia "
-            "holds the wall, and the wall widens until the run can no longer follow it."]
+    text = [
+        f"A long tube of these layers that widens evenly bears less than {wall.limit:.3f} kPa at rest, at unit "
+        "axial stretch and whatever its radius. A longer pulse above that has no rest to tend to: only inertia "
+        "holds the wall, and the wall widens until the run can no longer follow it."
+    ]
     if wall.bulge:
-        text[0] += (f" It bears less still, for it need not widen evenly: at {wall.bulge:.2f} times its radius, under "
-                    f"{wall.pressure(wall.bulge):.3f} kPa, a bulge sets in, which grows under falling pressure.")
+        text[0] += (
+            f" It bears less still, for it need not widen evenly: at {wall.bulge:.2f} times its radius, under "
+            f"{wall.pressure(wall.bulge):.3f} kPa, a bulge sets in, which grows under falling pressure."
+        )
     if any(run.at_rest for run in runs):
-        text.append("The runs at rest end below these loads, all with a bulge half-way along the tube. Two things are "
-                    "not the long tube's. The ends are clamped, so that the middle lengthens at the cost of the ends. "
-                    "And the wall is softer on a coarse mesh: it widens further under the same pressure, less so on a "
-                    "finer one. Load steps are not cut back: a run ends at the first step without a solution, so that "
-                    "the load it reached falls short of its limit by up to one load step.")
+        text.append(
+            "The runs at rest end below these loads, all with a bulge half-way along the tube. Two things are "
+            "not the long tube's. The ends are clamped, so that the middle lengthens at the cost of the ends. "
+            "And the wall is softer on a coarse mesh: it widens further under the same pressure, less so on a "
+            "finer one. Load steps are not cut back: a run ends at the first step without a solution, so that "
+            "the load it reached falls short of its limit by up to one load step."
+        )
         reached = [f"{run.pressure:.3f} kPa on {run.mesh} nodes" for run in _furthest(runs)]
         text.append(f"Highest static pressure with a solution: {', '.join(reached)}." + _same_steps(runs))
     return text
@@ -139,22 +169,52 @@ def _same_steps(runs: Sequence[Inflated]) -> str:
 
 def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
     """Methods that came equally far share a row. Those with one pass a step say nothing about the wall."""
-    table = Table(stem="limit_load", title="How far the wall is inflated", left=4,
-                  columns=[("", "load"), ("", "nodes"), ("", "method"), ("", "outcome"), ("", "reached"),
-                           ("inner radius over that at rest", "largest"),
-                           ("inner radius over that at rest", "half-way"),
-                           ("inner radius over that at rest", "long tube")],
-                  csv_columns=["group", "value", "load_kPa_or_pulse_ms", "nodes", "method", "outcome",
-                               "reached_time_ms_or_load_fraction", "largest_widening", "middle_widening",
-                               "closed_form_widening", "message"])
+    table = Table(
+        stem="limit_load",
+        title="How far the wall is inflated",
+        left=4,
+        columns=[
+            ("", "load"),
+            ("", "nodes"),
+            ("", "method"),
+            ("", "outcome"),
+            ("", "reached"),
+            ("inner radius over that at rest", "largest"),
+            ("inner radius over that at rest", "half-way"),
+            ("inner radius over that at rest", "long tube"),
+        ],
+        csv_columns=[
+            "group",
+            "value",
+            "load_kPa_or_pulse_ms",
+            "nodes",
+            "method",
+            "outcome",
+            "reached_time_ms_or_load_fraction",
+            "largest_widening",
+            "middle_widening",
+            "closed_form_widening",
+            "message",
+        ],
+    )
     loads: Dict[Tuple[str, str], List[Inflated]] = {}
     for run in runs:
         if run.cell.method not in settings.one_pass:
             loads.setdefault((run.label, run.mesh), []).append(run)
         request = run.cell.run.request
-        table.csv_rows.append([request.group, next(iter(request.values.values())), run.load,
-                               run.cell.run.summary.get("mesh", {}).get("nodes"), run.cell.method, run.cell.outcome,
-                               run.reached, *run.widenings, without_folder(run.cell.run.message)])
+        table.csv_rows.append(
+            [
+                request.group,
+                next(iter(request.values.values())),
+                run.load,
+                run.cell.run.summary.get("mesh", {}).get("nodes"),
+                run.cell.method,
+                run.cell.outcome,
+                run.reached,
+                *run.widenings,
+                without_folder(run.cell.run.message),
+            ]
+        )
     for (label, mesh), there in loads.items():
         alike: Dict[Tuple[str, ...], List[Inflated]] = {}
         for run in there:
@@ -162,9 +222,14 @@ def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
         for shown, own in alike.items():
             methods = list(dict.fromkeys(run.cell.run.request.method.label for run in own))
             table.rows.append([label, mesh, _methods(methods, len(alike)), *shown])
-    table.notes.append("Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
-                       + (f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other "
-                          "reasons." if settings.one_pass else ""))
+    table.notes.append(
+        "Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
+        + (
+            f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other reasons."
+            if settings.one_pass
+            else ""
+        )
+    )
     return table
 
 

@@ -11,15 +11,15 @@ a bulge sets in [Fu2016], which lengthens where it widens.
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...errors import InputError
-from ...pictures import LINES, finish
+from ...base.errors import InputError
+from ...reporting.pictures import LINES, finish
 from ..evidence.tube import Layer
-from ..study_run import StudyRun
+from ..running.study_run import StudyRun
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 LABEL = (0.1, 0.055)  # width and height of a label, of the picture's: nearer ones would cover each other
@@ -41,17 +41,19 @@ class Wall:
 
     def pressure(self, widening: float) -> float:
         """kPa at which the inner radius is `widening` times its own at rest."""
-        k = self.radius ** 2 * (widening ** 2 - 1)
+        k = self.radius**2 * (widening**2 - 1)
         total = 0.0
         for layer in self.layers:
-            a2, b2 = layer.inner ** 2 + k, layer.outer ** 2 + k
-            total += layer.shear * (math.log(layer.outer / layer.inner) + 0.5 * math.log(a2 / b2)
-                                    + 0.5 * k * (1 / a2 - 1 / b2))
+            a2, b2 = layer.inner**2 + k, layer.outer**2 + k
+            total += layer.shear * (
+                math.log(layer.outer / layer.inner) + 0.5 * math.log(a2 / b2) + 0.5 * k * (1 / a2 - 1 / b2)
+            )
         return total
 
     @cached_property
     def bulge(self) -> Optional[float]:
         """The widening at which a long tube at unit axial stretch begins to bulge; None: it does not below 10."""
+
         def turns(widening: float) -> bool:
             h = 1e-5
             by_radius = self.pressure_and_force(widening + h, 1) - self.pressure_and_force(widening - h, 1)
@@ -70,11 +72,13 @@ class Wall:
         for layer in self.layers:
             half = 0.5 * (layer.outer - layer.inner)
             at_rest = layer.inner + half * (1 + NODES)
-            now = np.sqrt((widening * self.radius) ** 2 + (at_rest ** 2 - self.radius ** 2) / stretch)
+            now = np.sqrt((widening * self.radius) ** 2 + (at_rest**2 - self.radius**2) / stretch)
             hoop, radial = now / at_rest, at_rest / (now * stretch)
             thickness = layer.shear * half * WEIGHTS * radial
-            total += [np.sum(thickness * (hoop ** 2 - radial ** 2) / now),
-                      np.sum(thickness * (2 * stretch ** 2 - hoop ** 2 - radial ** 2) * now)]
+            total += [
+                np.sum(thickness * (hoop**2 - radial**2) / now),
+                np.sum(thickness * (2 * stretch**2 - hoop**2 - radial**2) * now),
+            ]
         return total
 
     def widening(self, pressure: float) -> Optional[float]:
@@ -92,9 +96,10 @@ class Wall:
         return 0.5 * (low + high)
 
 
-def read_wall(settings: Mapping, wrong) -> Wall:
+def read_wall(settings: Mapping, wrong: Callable[[str, str, str], InputError]) -> Wall:
     """From the study's [report.tube]. `wrong(key, problem, remedy)` makes the error."""
-    def positive(value) -> bool:
+
+    def positive(value: Any) -> bool:
         return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
 
     def numbers(name: str) -> List[float]:
@@ -108,8 +113,9 @@ def read_wall(settings: Mapping, wrong) -> Wall:
             raise wrong(f"report.tube.{name}", "is unknown", "its keys are radii (mm) and shear_moduli (kPa)")
     radii, moduli = numbers("radii"), numbers("shear_moduli")
     if len(radii) != len(moduli) + 1 or sorted(set(radii)) != radii:
-        raise wrong("report.tube.radii", "are not one more than the layers, rising",
-                    "give the radius of each face in mm")
+        raise wrong(
+            "report.tube.radii", "are not one more than the layers, rising", "give the radius of each face in mm"
+        )
     return Wall([Layer(*layer) for layer in zip(radii, radii[1:], moduli)])
 
 
@@ -161,13 +167,27 @@ def static_figure(runs: Sequence[Curve], wall: Wall) -> Figure:
     handles.append(axes.axhline(wall.limit, color="#777777", linewidth=1.0, linestyle=(0, (5, 3))))
     labels = ["long tube that widens evenly, closed form", f"its limit, {wall.limit:.3f} kPa"]
     if bulge:
-        handles += axes.plot(bulge, wall.pressure(bulge), linestyle="none", marker="*", markersize=11,
-                             color="#000000", markeredgecolor="#ffffff", zorder=4)
+        handles += axes.plot(
+            bulge,
+            wall.pressure(bulge),
+            linestyle="none",
+            marker="*",
+            markersize=11,
+            color="#000000",
+            markeredgecolor="#ffffff",
+            zorder=4,
+        )
         labels.append(f"a long tube begins to bulge, {wall.pressure(bulge):.3f} kPa")
     for i, run in enumerate(runs):
-        look = {"marker": "osD^v"[i % 5], "markersize": 3.5, "linewidth": 0.9, "markerfacecolor": "none",
-                "markevery": max(1, len(run.levels.times) // 25),
-                "linestyle": LINES[1 + i % 5]["linestyle"], "color": LINES[1 + i % 5]["color"]}
+        look = {
+            "marker": "osD^v"[i % 5],
+            "markersize": 3.5,
+            "linewidth": 0.9,
+            "markerfacecolor": "none",
+            "markevery": max(1, len(run.levels.times) // 25),
+            "linestyle": LINES[1 + i % 5]["linestyle"],
+            "color": LINES[1 + i % 5]["color"],
+        }
         handles += axes.plot(1 + run.levels.largest / wall.radius, run.load * run.levels.times, **look)
         labels.append(run.label)
     axes.set_xlim(1, largest)

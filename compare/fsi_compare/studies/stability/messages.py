@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Dict, List, Sequence
 
-from ..cross_check import Cell
+from ..evidence.cross_check import Cell
 
 SAVED = re.compile(r"\s*\[the state after step [^\]]*\]")  # names a folder
 NUMBER = re.compile(r"(?<![\w.-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")

@@ -2,15 +2,16 @@
 
 import math
 import textwrap
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Set, Tuple
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from ...pictures import finish
-from ..cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
-from ..study_file import show
-from ..study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
+from ...reporting.pictures import finish
+from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
+from ..running.study_file import show
+from ..running.study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
 
 CELL_INCHES = (0.92, 0.36)
 MOST_ITERATIONS = 500.0  # darkest cell
@@ -26,11 +27,13 @@ FAULT = {"facecolor": "#000000", "edgecolor": "#000000"}
 WORDS = {WRONG: "WRONG", NOT_FINITE: "NaN", CRASHED: "CRASH"}
 
 
-def map_figure(cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values: Sequence[Any], title: str, label: str,
-               paper: Any) -> Figure:
+def map_figure(
+    cells: Sequence[Cell], methods: Sequence[Tuple[str, str]], values: Sequence[Any], title: str, label: str, paper: Any
+) -> Figure:
     """`methods` are (name, label), from top to bottom; `paper` is the value of the paper's case."""
-    at: Dict[Tuple[str, Any], Cell] = {(cell.method, next(iter(cell.run.request.values.values()))): cell
-                                       for cell in cells}
+    at: Dict[Tuple[str, Any], Cell] = {
+        (cell.method, next(iter(cell.run.request.values.values()))): cell for cell in cells
+    }
     longest = max(len(text) for _, text in methods)
     heads = [_head(value) for value in values]
     width = 0.5 + 0.075 * longest + CELL_INCHES[0] * len(values)
@@ -78,29 +81,46 @@ def text_of(cell: Cell) -> str:
     if cell.outcome in (AGREES, UNCHECKED):
         return f"{cell.run.passes:.1f}"
     if cell.outcome == DEVIATES:
+        assert cell.difference is not None, "it deviates by what was measured"
         return f"off {100 * cell.difference:.2g} %"
     if cell.outcome == NOT_CONVERGED:
         return f"\N{MULTIPLICATION SIGN} step {cell.levels + 1}"
     return f"time, step {cell.levels + 1}" if cell.outcome == OUT_OF_TIME else "refused"
 
 
-def _draw(axes, column: int, row: int, cell: Cell) -> None:
-    look = FAULT if cell.outcome in FAULTS else LOOK.get(cell.outcome) or {"facecolor": shade(cell.run.passes),
-                                                                           "edgecolor": "none"}
+def _draw(axes: Axes, column: int, row: int, cell: Cell) -> None:
+    look = (
+        FAULT
+        if cell.outcome in FAULTS
+        else LOOK.get(cell.outcome) or {"facecolor": shade(cell.run.passes), "edgecolor": "none"}
+    )
     axes.add_patch(Rectangle((column + 0.02, row + 0.04), 0.96, 0.92, linewidth=0, zorder=1, **look))
     hatched = bool(look.get("hatch"))
     box = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 1.2} if hatched else None
-    axes.text(column + 0.5, row + 0.5, text_of(cell), ha="center", va="center", fontsize=7.5, zorder=2, bbox=box,
-              color="#ffffff" if cell.outcome in FAULTS else "#000000",
-              fontweight="bold" if cell.outcome in FAULTS else "normal")
+    axes.text(
+        column + 0.5,
+        row + 0.5,
+        text_of(cell),
+        ha="center",
+        va="center",
+        fontsize=7.5,
+        zorder=2,
+        bbox=box,
+        color="#ffffff" if cell.outcome in FAULTS else "#000000",
+        fontweight="bold" if cell.outcome in FAULTS else "normal",
+    )
 
 
-def _legend(outcomes) -> Tuple[List[Patch], List[str]]:
+def _legend(outcomes: Set[str]) -> Tuple[List[Patch], List[str]]:
     handles = [Patch(facecolor=shade(n), edgecolor="#aaaaaa", linewidth=0.5) for n in (1, 30, 500)]
     labels = ["converged, 1 iteration a step", "30", "500"]
-    names = {UNCHECKED: "converged, other driver did not", DEVIATES: "one pass: off by",
-             NOT_CONVERGED: "not converged in step",
-             OUT_OF_TIME: "out of time in step", REFUSED: "refused"}
+    names = {
+        UNCHECKED: "converged, other driver did not",
+        DEVIATES: "one pass: off by",
+        NOT_CONVERGED: "not converged in step",
+        OUT_OF_TIME: "out of time in step",
+        REFUSED: "refused",
+    }
     for outcome, name in names.items():
         if outcome in outcomes:
             handles.append(Patch(linewidth=0.5, **LOOK[outcome]))

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Any, List, Mapping, Optional, Sequence
 
-from ...errors import InputError
-from ..cross_check import BOUND
-from ..study_file import Study
-from ..study_run import StudyRun
-from ..suggestions import check_keys, nearest
+from ...base.errors import InputError
+from ...base.suggestions import check_keys, nearest
+from ..evidence.cross_check import BOUND
+from ..running.study_file import Study
+from ..running.study_run import StudyRun
 from .limit_load import Wall, read_wall
 
 REPORT_KEYS = ("scope", "bound", "references", "one_pass", "quantities", "tube", "static", "pulse")
@@ -47,8 +47,11 @@ def settings_of(study: Study) -> Settings:
             raise wrong(f"report.{name}", "is not a list", "name methods of the study")
         for entry in given:
             if entry not in study.methods:
-                raise wrong(f"report.{name}", f"'{entry}' is no method of the study",
-                            f"did you mean '{nearest(str(entry), list(study.methods))}'?")
+                raise wrong(
+                    f"report.{name}",
+                    f"'{entry}' is no method of the study",
+                    f"did you mean '{nearest(str(entry), list(study.methods))}'?",
+                )
         return given
 
     check_keys(study.path, "report", study.report, REPORT_KEYS)
@@ -57,19 +60,28 @@ def settings_of(study: Study) -> Settings:
         raise wrong("report.bound", f"{bound} is not a positive number", f"leave it out for {BOUND:g}")
     for request in study.requests:
         if len(request.values) != 1:
-            raise wrong(f"runs.{request.group}.vary", f"varies {len(request.values)} quantities",
-                        "vary one in each group")
+            raise wrong(
+                f"runs.{request.group}.vary", f"varies {len(request.values)} quantities", "vary one in each group"
+            )
     varied = list(dict.fromkeys(next(iter(request.values)) for request in study.requests))
     named = study.report.get("quantities", {})
     for name, entry in named.items():
         if not isinstance(entry, dict) or any(key not in QUANTITY_KEYS for key in entry):
-            raise wrong(f"report.quantities.{name}", "is no section of " + " and ".join(QUANTITY_KEYS),
-                        "see the ready study")
+            raise wrong(
+                f"report.quantities.{name}", "is no section of " + " and ".join(QUANTITY_KEYS), "see the ready study"
+            )
         if name not in varied and not study.quick:
             raise wrong(f"report.quantities.{name}", "is varied nowhere", f"did you mean '{nearest(name, varied)}'?")
     references = method_names("references", [m.name for m in study.methods.values() if m.program == "fsi-monolithic"])
     if len({study.methods[name].program for name in references}) != 1:
         raise wrong("report.references", "are not methods of one driver", "name those of fsi-monolithic")
-    return Settings(str(study.report.get("scope", "")), float(bound), references, method_names("one_pass", []), named,
-                    read_wall(study.report["tube"], wrong) if "tube" in study.report else None,
-                    str(study.report.get("static", "")), str(study.report.get("pulse", "")))
+    return Settings(
+        str(study.report.get("scope", "")),
+        float(bound),
+        references,
+        method_names("one_pass", []),
+        named,
+        read_wall(study.report["tube"], wrong) if "tube" in study.report else None,
+        str(study.report.get("static", "")),
+        str(study.report.get("pulse", "")),
+    )

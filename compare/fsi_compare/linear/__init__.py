@@ -1,0 +1,1 @@
+"""`fsi-compare solvers`: single Newton systems by many linear solvers, and their tables and pictures."""

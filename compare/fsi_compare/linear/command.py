@@ -1,0 +1,288 @@
+"""`fsi-compare solvers`: the paper's linear solvers and ours on single Newton systems."""
+
+import argparse
+import math
+import os
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
+
+from ..base.errors import InputError
+from ..base.files import make_folder, replacing
+from ..base.names import MATERIALS, MESHES, METHODS, pick
+from ..reporting.layout import Table, write_markdown
+from ..runs.programs import Program, find_monolithic
+from . import stress as stress_study
+from .results import System
+from .study import Outcome, Request, run_study
+
+CASES = Path(__file__).resolve().parents[3] / "meshes" / "artery"
+STRESS_METHODS = "fast,amg_fgmres"
+STUDY_OWN = ("mesh.level", "mesh.file")  # chosen by --meshes
+
+DESCRIPTION = """\
+Solves single Newton systems of the artery by several methods, one run of fsi-monolithic for each material and mesh.
+Prints the paper's Tables 3 (Newton), 4 (block preconditioners) and 5 (coupled AMG and AMLI) with its numbers beside
+ours, then what each method costs. Writes to OUTDIR:
+  table3_newton.csv, table4_*.csv, table5_*.csv, cost_*.csv, sub_problems.csv    with units in the column names
+  solvers.md                                          all tables, for documents
+  iterations_*.png, .svg and cost_*.png, .svg         against the number of unknowns
+  runs/                                               result folders; runs that are finished are not repeated
+With --stress instead: stress.csv and stress.md, iterations with one quantity at a time far from the paper's case.
+A finished run is taken up again when version, case, settings and threads are the same and all methods, systems and the
+tolerance are there; after a change of the program without a new version, delete runs/.
+Exit code 2: something did not converge or failed; the tables say what."""
+
+EXAMPLES = """\
+examples:
+  fsi-compare solvers -o results/solvers --meshes coarse,intermediate
+  fsi-compare solvers --methods amg_fgmres,fast,direct --materials neo-hookean --systems 12:2 --without fine:direct
+  fsi-compare solvers --stress -o results/stress
+"""
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str, version: str) -> None:
+    solvers = commands.add_parser(
+        "solvers",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="iterations and cost of the linear solvers",
+        description=DESCRIPTION,
+    )
+    solvers.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path(default_output),
+        help="folder for the files written (default: %(default)s)",
+    )
+    solvers.add_argument(
+        "--methods", metavar="A,B,...", help=f"of {', '.join(METHODS)} (default: all; with --stress {STRESS_METHODS})"
+    )
+    solvers.add_argument(
+        "--materials", metavar="A,B,...", help=f"of {', '.join(MATERIALS)} (default: all; with --stress neo-hookean)"
+    )
+    solvers.add_argument(
+        "--meshes", metavar="A,B,...", help=f"of {', '.join(MESHES)} (default: all; with --stress coarse)"
+    )
+    solvers.add_argument(
+        "--without",
+        metavar="MESH:METHOD,...",
+        help="leave a method out on a mesh, e.g. fine:direct where it does not fit into memory",
+    )
+    solvers.add_argument(
+        "--systems",
+        metavar="STEP:IT,...",
+        help="time step and Newton iteration of each system (default: 1:1,12:2; with --stress 1:1)",
+    )
+    solvers.add_argument(
+        "--tolerance",
+        metavar="TOL",
+        type=float,
+        default=1e-9,
+        help="of the true relative residual (default: %(default)g)",
+    )
+    solvers.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
+    solvers.add_argument(
+        "--stress",
+        action="store_true",
+        help="densities, time step, bulk modulus, viscosity and element shape far from the paper's",
+    )
+    solvers.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        dest="settings",
+        help="override an entry of the case files; may be repeated",
+    )
+    solvers.add_argument(
+        "--case-dir",
+        metavar="DIR",
+        type=Path,
+        default=CASES,
+        help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of the sources)",
+    )
+    solvers.add_argument(
+        "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"
+    )
+    solvers.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
+    solvers.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    solvers.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def solvers(options: argparse.Namespace) -> int:
+    """Checks everything before the first run. Returns the exit code."""
+    methods = pick("--methods", options.methods or (STRESS_METHODS if options.stress else ",".join(METHODS)), METHODS)
+    materials = pick(
+        "--materials", options.materials or ("neo-hookean" if options.stress else ",".join(MATERIALS)), list(MATERIALS)
+    )
+    meshes = pick("--meshes", options.meshes or ("coarse" if options.stress else ",".join(MESHES)), list(MESHES))
+    systems = read_systems(options.systems or ("1:1" if options.stress else "1:1,12:2"))
+    without = read_without(options.without)
+    if not (math.isfinite(options.tolerance) and 0 < options.tolerance < 1):
+        raise InputError(
+            "", "--tolerance", f"{options.tolerance:g} will not do", "give a number between 0 and 1, e.g. 1e-9"
+        )
+    if options.threads is not None and options.threads < 0:
+        raise InputError("", "--threads", f"{options.threads} is negative", "give 1 or more, or 0 for one per core")
+    if options.stress:
+        check_stress(options, systems)
+    settings = read_settings(options.settings, options.stress)
+    for material in materials:
+        check_case(options.case_dir, material)
+    program = find_monolithic(options.program)
+    make_folder(options.output)
+    check_writable(options.output)
+
+    base = Request(
+        name="",
+        case=options.case_dir,
+        material="",
+        mesh="",
+        settings=settings,
+        solvers=tuple(methods),
+        systems=tuple(systems),
+        tolerance=options.tolerance,
+        threads=options.threads,
+        sub_problems=options.sub_problems,
+    )
+    if options.stress:
+        return stress(options, program, base, materials, meshes)
+
+    requests = []
+    for mesh in sorted(meshes, key=list(MESHES).index):  # small ones first: they tell the time left
+        asked = tuple(name for name in methods if (mesh, name) not in without)
+        if not asked:
+            raise InputError("", "--without", f"leaves no method on the {mesh} mesh", "leave the mesh out of --meshes")
+        for material in materials:
+            requests.append(
+                Request(
+                    name=f"{material}-{mesh}",
+                    case=options.case_dir / f"{material}.toml",
+                    material=material,
+                    mesh=mesh,
+                    settings=(*settings, f"mesh.level={mesh}"),
+                    solvers=asked,
+                    systems=base.systems,
+                    tolerance=base.tolerance,
+                    threads=base.threads,
+                    sub_problems=base.sub_problems,
+                )
+            )
+    outcomes = run_study(program, options.output / "runs", requests, options.quiet)
+
+    from . import solver_pictures, solver_tables  # matplotlib takes a second to load
+
+    grid = solver_tables.Grid(outcomes)
+    tables = solver_tables.solver_tables(grid)
+    written = write(options, tables, "solvers.md", "Linear solvers")
+    written += solver_pictures.write_solver_pictures(options.output, grid)
+    report(options, tables, written)
+    return exit_code(outcomes)
+
+
+def stress(
+    options: argparse.Namespace, program: Program, base: Request, materials: Sequence[str], meshes: Sequence[str]
+) -> int:
+    planned = stress_study.plan(options.output, program, base, materials, meshes, options.case_dir)
+    requests = [p.request for p in planned if not p.failure]
+    runs = iter(run_study(program, options.output / "runs", requests, options.quiet))
+    outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
+    table = stress_study.stress_table(planned, outcomes, base.solvers)
+    report(options, [table], write(options, [table], "stress.md", "Linear solvers under stress"))
+    return exit_code(outcomes)
+
+
+def exit_code(outcomes: List[Outcome]) -> int:
+    return 0 if all(outcome.converged for outcome in outcomes) else 2
+
+
+def write(options: argparse.Namespace, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+    return [
+        *(table.write_csv(options.output) for table in tables),
+        write_markdown(options.output / markdown, heading, tables),
+    ]
+
+
+def report(options: argparse.Namespace, tables: Sequence[Table], written: Sequence[Path]) -> None:
+    if not options.quiet:
+        for table in tables:
+            print(table.text())
+        print("Written: " + ", ".join(str(path) for path in written))
+
+
+def read_systems(text: str) -> List[System]:
+    systems = []
+    for part in text.split(","):
+        words = part.strip().split(":")
+        if len(words) != 2 or not all(word.isascii() and word.isdigit() and int(word) > 0 for word in words):
+            raise InputError(
+                "",
+                "--systems",
+                f"'{part.strip()}' is not a system",
+                "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2",
+            )
+        system = (int(words[0]), int(words[1]))
+        if system in systems:
+            raise InputError("", "--systems", f"{part.strip()} is given twice", "give each system once")
+        systems.append(system)
+    return sorted(systems)
+
+
+def read_without(text: Optional[str]) -> Set[Tuple[str, str]]:
+    found = set()
+    for part in text.split(",") if text is not None else ():
+        mesh, colon, method = part.strip().partition(":")
+        if not colon:
+            raise InputError("", "--without", f"'{part.strip()}' has no ':'", "give MESH:METHOD, e.g. fine:direct")
+        pick("--without", mesh, list(MESHES))
+        pick("--without", method, METHODS)
+        found.add((mesh, method))
+    return found
+
+
+def read_settings(settings: List[str], stressed: bool) -> Tuple[str, ...]:
+    seen: Dict[str, str] = {}
+    for setting in settings:
+        key, equals, _ = setting.partition("=")
+        key = key.strip()
+        if not equals or not key:
+            raise InputError("", "--set", f"'{setting}' is not an entry", "write --set key=value, e.g. time.step=0.25")
+        if key in STUDY_OWN:
+            raise InputError("", "--set", f"{key} is chosen by --meshes", "leave it out")
+        if stressed and key in stress_study.VARIED:
+            raise InputError("", "--set", f"{key} is varied by --stress", "leave it out")
+        if key in seen:
+            raise InputError("", "--set", f"{key} is given twice", "give each key once")
+        seen[key] = setting
+    return tuple(seen.values())
+
+
+def check_stress(options: argparse.Namespace, systems: List[System]) -> None:
+    if systems != [(1, 1)]:
+        raise InputError("", "--systems", "--stress is about the first system", "leave --systems out")
+    for given, name in ((options.without, "--without"), (options.sub_problems, "--sub-problems")):
+        if given:
+            raise InputError("", name, "does not go with --stress", "leave it out")
+
+
+def check_case(folder: Path, material: str) -> None:
+    if not folder.is_dir():
+        raise InputError(folder, "--case-dir", "no such folder", "give the folder with the case files")
+    case = folder / f"{material}.toml"
+    if not case.is_file():
+        raise InputError(case, "--case-dir", "no such case file", "give a folder with a case file per material")
+
+
+def check_writable(folder: Path) -> None:
+    """Better now than after an hour of runs."""
+    make_folder(folder / "runs")
+    probe = folder / ".writable"
+    try:
+        with replacing(probe):
+            pass
+        os.unlink(probe)
+    except InputError:
+        raise InputError(folder, "--output", "cannot be written to", "name another folder") from None

@@ -1,0 +1,270 @@
+"""`fsi-compare cost`: what finished runs of either driver took, side by side."""
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, Optional, Sequence
+
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..runs.columns import read_columns
+from ..runs.labels import folder_labels, read_labels
+from ..runs.run_folder import PROGRAMS, read_summary
+from .layout import Table, fixed, write_markdown
+
+DESCRIPTION = """\
+Tabulates what finished runs took: wall time, coupling iterations, solves of the whole system and of the
+sub-problems, Newton and linear iterations, factorisations, memory. The first run is the reference of the column
+"relative time". Writes to OUTDIR:
+  cost.csv   all numbers, in full precision, with units in the column names
+  cost.md    the table for documents
+Seconds compare only between runs on the same, otherwise idle machine with the same number of threads; a run that
+was restarted counts its last part only, which a note says."""
+
+EXAMPLES = """\
+examples:
+  fsi-compare cost results/monolithic results/iqn-ils results/robin-neumann -o results/cost
+  fsi-compare cost results/runs/* --labels fast,aitken,iqn-ils,robin-neumann
+"""
+
+ITERATIONS = "iterations.csv"
+COUPLING = "coupling.csv"
+COUPLED, FLUID, WALL, MESH = "coupled", "fluid", "wall", "mesh motion"
+PREPARATIONS = ("factorisation", "set-up")
+
+
+@dataclass(frozen=True)
+class Cost:
+    """One run. None: it has no such part."""
+
+    label: str
+    program: str  # "monolithic" or "partitioned"
+    mesh: str
+    unknowns: Optional[int]
+    threads: Optional[int]
+    steps: int
+    seconds: float  # of all time steps
+    coupling_mean: Optional[float]  # coupling iterations per step; None: monolithic
+    coupling_range: Optional[tuple]
+    newton: int
+    linear: int
+    solves: Dict[str, int]  # linear solves, by system
+    preparations: Dict[str, int]  # factorisations or set-ups of a preconditioner, by system
+    displacement_residual: Optional[float]  # largest of the steps
+    force_residual: Optional[float]
+    memory_mib: Optional[float]
+    restarted_from: Optional[int]
+
+    @property
+    def seconds_per_step(self) -> float:
+        return self.seconds / self.steps
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    cost = commands.add_parser(
+        "cost",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="wall time, solves and iterations of finished runs",
+        description=DESCRIPTION,
+    )
+    cost.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
+    cost.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path("results/cost"),
+        help="folder for the files written (default: %(default)s)",
+    )
+    cost.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    cost.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
+    cost.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
+    )
+    cost.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    cost.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def cost(options: argparse.Namespace) -> int:
+    """Reads all runs before the first file is written."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
+    labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
+    costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
+    make_folder(options.output)
+    table = cost_table(costs, options.title)
+    written = [table.write_csv(options.output), write_markdown(options.output / "cost.md", options.title, [table])]
+    if not options.quiet:
+        print(table.text())
+        print("Written: " + ", ".join(str(path) for path in written))
+    return 0
+
+
+def read_cost(folder: Path, label: str) -> Cost:
+    """Raises InputError unless the run is finished and its tables are complete."""
+    if not folder.is_dir():
+        raise InputError(
+            folder,
+            "",
+            "is not a folder" if folder.exists() else "no such folder",
+            "give the folder that a run wrote with -o",
+        )
+    summary = read_summary(folder / "summary.json")
+    program = PROGRAMS[summary["program"]]
+    iterations = read_columns(
+        folder / ITERATIONS, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s")
+    )
+    coupled = program == "partitioned" and (folder / COUPLING).exists()
+    coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else {}
+    outer = iterations["outer_iterations"].tolist()
+    phases = summary.get("phases", {})
+    mesh = summary.get("mesh", {})
+    return Cost(
+        label=label,
+        program=program,
+        mesh=f"{mesh['nodes']} nodes" if "nodes" in mesh else str(mesh.get("name", "")),
+        unknowns=summary.get("unknowns", {}).get("coupled"),
+        threads=summary.get("threads"),
+        steps=len(outer),
+        seconds=float(iterations["wall_s"].sum()),
+        coupling_mean=sum(outer) / len(outer) if coupled else None,
+        coupling_range=(int(min(outer)), int(max(outer))) if coupled else None,
+        newton=int(iterations["newton_iterations"].sum()),
+        linear=int(iterations["linear_iterations"].sum()),
+        solves=calls(phases, ("solve",)),
+        preparations=calls(phases, PREPARATIONS),
+        displacement_residual=float(coupling["displacement_residual"].max()) if coupled else None,
+        force_residual=float(coupling["force_residual"].max()) if coupled else None,
+        memory_mib=summary.get("peak_memory_MiB"),
+        restarted_from=summary.get("restarted_from_step"),
+    )
+
+
+def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
+    """How often phases "KIND: SYSTEM" were entered, by system."""
+    found: Dict[str, int] = {}
+    for name, phase in phases.items():
+        kind, colon, system = name.partition(": ")
+        if colon and kind in kinds:
+            found[system] = found.get(system, 0) + int(phase["calls"])
+    return found
+
+
+def cost_table(costs: Sequence[Cost], title: str) -> Table:
+    systems = ("whole", "fluid", "wall", "mesh")
+    keys = (COUPLED, FLUID, WALL, MESH)
+    table = Table(
+        stem="cost",
+        title=title,
+        left=3,
+        columns=[
+            ("", "run"),
+            ("", "driver"),
+            ("", "mesh"),
+            ("", "steps"),
+            ("", "seconds per step"),
+            ("", "relative time"),
+            ("coupling iterations", "mean"),
+            ("coupling iterations", "range"),
+            ("linear solves per step", "whole"),
+            ("linear solves per step", "fluid"),
+            ("linear solves per step", "wall"),
+            ("linear solves per step", "mesh"),
+            ("linear iterations", "per step"),
+            ("", "set-ups"),
+            ("interface residual", "displacement"),
+            ("interface residual", "force"),
+            ("", "memory in MiB"),
+        ],
+        csv_columns=[
+            "run",
+            "program",
+            "mesh",
+            "unknowns",
+            "threads",
+            "steps",
+            "wall_s",
+            "wall_s_per_step",
+            "wall_relative_to_first",
+            "coupling_iterations_mean",
+            "coupling_iterations_min",
+            "coupling_iterations_max",
+            "newton_iterations",
+            "linear_iterations",
+            *(f"solves_{name}" for name in systems),
+            *(f"preparations_{name}" for name in systems),
+            "displacement_residual_max",
+            "force_residual_max",
+            "peak_memory_MiB",
+        ],
+    )
+    for c in costs:
+        relative = c.seconds_per_step / costs[0].seconds_per_step if costs[0].seconds_per_step > 0 else None
+        low, high = c.coupling_range or (None, None)
+        solves = [c.solves.get(key) for key in keys]
+        prepared = [c.preparations.get(key) for key in keys]
+        table.rows.append(
+            [
+                c.label,
+                c.program,
+                c.mesh,
+                str(c.steps),
+                f"{c.seconds_per_step:.3g}",
+                fixed(relative, ".2f"),
+                fixed(c.coupling_mean, ".2f"),
+                "-" if low is None else f"{low}-{high}",
+                *(fixed(None if n is None else n / c.steps, ".1f") for n in solves),
+                fixed(c.linear / c.steps, ".1f"),
+                str(sum(n for n in prepared if n is not None)),
+                fixed(c.displacement_residual, ".1e"),
+                fixed(c.force_residual, ".1e"),
+                fixed(c.memory_mib, ".0f"),
+            ]
+        )
+        table.csv_rows.append(
+            [
+                c.label,
+                c.program,
+                c.mesh,
+                c.unknowns,
+                c.threads,
+                c.steps,
+                c.seconds,
+                c.seconds_per_step,
+                relative,
+                c.coupling_mean,
+                low,
+                high,
+                c.newton,
+                c.linear,
+                *solves,
+                *prepared,
+                c.displacement_residual,
+                c.force_residual,
+                c.memory_mib,
+            ]
+        )
+    table.notes.append(
+        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
+        "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
+        "preconditioner, in all steps."
+    )
+    table.notes.append(
+        "Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
+        "up to Newton's tolerance."
+    )
+    threads = sorted({c.threads for c in costs if c.threads is not None})
+    if len(threads) > 1:
+        table.notes.append(
+            f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
+        )
+    if len({(c.mesh, c.steps) for c in costs}) > 1:
+        table.notes.append("The runs differ in mesh or number of steps.")
+    parts = [c.label for c in costs if c.restarted_from is not None]
+    if parts:
+        table.notes.append(
+            f"Restarted, so that solves, factorisations and memory are those of the last part: {', '.join(parts)}."
+        )
+    return table

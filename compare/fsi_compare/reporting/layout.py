@@ -1,0 +1,86 @@
+"""A table in the forms that people and scripts read."""
+
+import csv
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, List, Sequence, Tuple
+
+from ..base.files import replacing
+
+
+@dataclass
+class Table:
+    """`columns` are (group, name); text shows groups above their columns, Markdown before their names. CSV has one line
+    per fact, in full precision, with units in the names of `csv_columns`; None is an empty field there."""
+
+    stem: str
+    title: str
+    columns: Sequence[Tuple[str, str]]
+    csv_columns: Sequence[str]
+    rows: List[Sequence[str]] = field(default_factory=list)
+    csv_rows: List[Sequence] = field(default_factory=list)
+    notes: List[str] = field(default_factory=list)
+    left: int = 1  # columns aligned to the left, the others to the right
+
+    def text(self) -> str:
+        names = [name for _, name in self.columns]
+        widths = [max([len(name), *(len(row[i]) for row in self.rows)]) for i, name in enumerate(names)]
+        spans: List[Tuple[str, int, int]] = []  # group, first column, end
+        for i, (group, _) in enumerate(self.columns):
+            if spans and group and spans[-1][0] == group:
+                spans[-1] = (group, spans[-1][1], i + 1)
+            else:
+                spans.append((group, i, i + 1))
+        for group, first, end in spans:
+            widths[first] += max(0, len(group) - sum(widths[first:end]) - 2 * (end - first - 1))
+        lines = [self.title]
+        if any(group for group, _, _ in spans):
+            cells = [group.center(sum(widths[first:end]) + 2 * (end - first - 1)) for group, first, end in spans]
+            lines.append("  " + "  ".join(cells))
+        lines.append(self._line(names, widths))
+        lines += [self._line(row, widths) for row in self.rows]
+        lines += ["  " + note for note in self.notes]
+        return "\n".join(line.rstrip() for line in lines) + "\n"
+
+    def _line(self, cells: Sequence[str], widths: Sequence[int]) -> str:
+        return "  " + "  ".join(
+            cell.ljust(width) if i < self.left else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(cells, widths))
+        )
+
+    def markdown(self, heading: str = "## {}") -> str:
+        heads = [f"{group}: {name}" if group and name else group or name for group, name in self.columns]
+        lines = [
+            heading.format(self.title),
+            "",
+            _markdown_row(heads),
+            _markdown_row(["---" if i < self.left else "---:" for i in range(len(heads))]),
+        ]
+        lines += [_markdown_row(row) for row in self.rows]
+        for note in self.notes:
+            lines += ["", note.replace("*", r"\*").replace("_", r"\_").strip()]
+        return "\n".join(lines) + "\n"
+
+    def write_csv(self, folder: Path) -> Path:
+        path = folder / f"{self.stem}.csv"
+        with replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(self.csv_columns)
+            for row in self.csv_rows:
+                writer.writerow([repr(cell) if isinstance(cell, float) else cell for cell in row])
+        return path
+
+
+def write_markdown(path: Path, heading: str, tables: Sequence[Table]) -> Path:
+    with replacing(path) as temporary:
+        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
+    return path
+
+
+def _markdown_row(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", r"\|").replace("*", r"\*").replace("_", r"\_") for cell in cells) + " |"
+
+
+def fixed(value: Any, form: str, missing: str = "-") -> str:
+    """A number in the given format; a dash for what there is not."""
+    return missing if value is None else format(value, form)

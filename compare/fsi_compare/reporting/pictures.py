@@ -1,0 +1,149 @@
+"""Pictures of the pressure waves, laid out like the paper's figures: one panel per time, one line style per run."""
+
+import textwrap
+import warnings
+from pathlib import Path
+from typing import Callable, List, Sequence, Tuple
+
+from matplotlib.artist import Artist
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ..base.files import replacing
+from ..runs.pressure_waves import PressureWaves
+
+DPI = 200
+PANEL_INCHES = (3.7, 2.15)
+
+# Told apart without colour: by dash pattern and by lightness. The first run is drawn broad and dark and the others
+# narrower and lighter on top of it, so that curves that coincide are all seen.
+LINES = (
+    {"linestyle": "-", "color": "#000000", "linewidth": 2.0},
+    {"linestyle": "--", "color": "#e8871e", "linewidth": 1.4},
+    {"linestyle": "-.", "color": "#2c6fbb", "linewidth": 1.4},
+    {"linestyle": ":", "color": "#b02a5b", "linewidth": 1.8},
+    {"linestyle": (0, (7, 2)), "color": "#5fa55a", "linewidth": 1.1},
+    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#6a4c93", "linewidth": 1.1},
+)
+
+# Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
+STYLE = {
+    "font.family": ["DejaVu Sans", "sans-serif"],
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.grid": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "legend.handlelength": 3.4,
+    "lines.scale_dashes": True,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "fsi-compare",
+}
+
+
+def write_pressure_waves(
+    folder: Path, waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+) -> List[Path]:
+    """Writes `pressure_waves.png` and `.svg`; each run is drawn at its own points."""
+    return write_figure(folder, "pressure_waves", lambda: pressure_figure(waves, labels, times, title))
+
+
+def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
+    """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
+    paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing")
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(STYLE)
+        figure = draw()
+        for path, metadata in zip(paths, ({"Software": None}, {"Date": None, "Creator": None})):
+            with replacing(path) as temporary:
+                figure.savefig(temporary, dpi=DPI, metadata=metadata)
+    return paths
+
+
+def pressure_figure(
+    waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+) -> Figure:
+    """One panel per time, in reading order; the legend has its own strip below the panels."""
+    columns = 1 if len(times) == 1 else 2 if len(times) <= 8 else 3
+    rows = -(-len(times) // columns)
+    width = columns * PANEL_INCHES[0] + (1.5 if columns == 1 else 0)
+    figure = Figure(figsize=(width, rows * PANEL_INCHES[1]))
+    grid = figure.subplots(rows, columns, squeeze=False)
+    for axes in grid.flat[len(times) :]:
+        axes.set_visible(False)
+    for axes, time in zip(grid.flat, times):
+        for i, (wave, label) in enumerate(zip(waves, labels)):
+            axes.plot(wave.z, wave.at(time), label=label, zorder=2 + 0.01 * i, **LINES[i % len(LINES)])
+        axes.axhline(0, color="#999999", linewidth=0.6, zorder=1)
+        axes.set_title(f"t = {time_text(time)} ms")
+        axes.set_xlim(min(wave.z[0] for wave in waves), max(wave.z[-1] for wave in waves))
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 3, 5, 10]))
+        axes.set_xlabel("z in mm")
+        axes.set_ylabel("pressure in Pa")
+    _share_scales(grid, len(times))
+
+    finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
+    return figure
+
+
+def finish(
+    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], title: str, panels: Tuple[float, float]
+) -> None:
+    """Puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
+    curve, and sets the figure's size; `panels` are width and height of the panels together, in inches."""
+    width, panels_inches = panels
+    legend_inches = _place_legend(figure, handles, labels, width)
+    title = "\n".join(textwrap.wrap(_plain(title), int(14 * width)))
+    title_inches = 0.14 + 0.18 * len(title.splitlines())
+    height = panels_inches + legend_inches + title_inches
+    figure.set_size_inches(width, height)
+    heading = figure.suptitle(title, y=1 - 0.08 / height, va="top", fontsize=10)
+    heading.set_in_layout(False)  # its strip is reserved by rect
+    figure.tight_layout(rect=(0, legend_inches / height, 1, 1 - title_inches / height), h_pad=0.8, w_pad=1.2)
+    figure.legends[0].set_bbox_to_anchor((0.5, 0.06 / height), transform=figure.transFigure)
+
+
+def time_text(time: float) -> str:
+    """1.5 -> '1.50', as in the paper; more digits only where they are needed."""
+    text = f"{time:.2f}"
+    return text if abs(float(text) - time) < 1e-9 else f"{time:g}"
+
+
+def _share_scales(grid: np.ndarray, panels: int) -> None:
+    """Panels of a row share the pressure axis unless that would squeeze one of them below a third of its height: the
+    pulse decays fast at first, and a flat line shows nothing."""
+    columns = grid.shape[1]
+    for row in range(grid.shape[0]):
+        shown = [grid[row, i] for i in range(columns) if row * columns + i < panels]
+        limits = [axes.get_ylim() for axes in shown]
+        low, high = min(l for l, _ in limits), max(h for _, h in limits)
+        if all(h - l >= (high - low) / 3 for l, h in limits):
+            for axes in shown:
+                axes.set_ylim(low, high)
+
+
+def _place_legend(figure: Figure, handles: Sequence[Artist], labels: Sequence[str], width: float) -> float:
+    """Puts the legend at the bottom with as many columns as fit the width; returns the strip's height in inches."""
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    labels = ["\n".join(textwrap.wrap(_plain(label), int(12 * width))) for label in labels]
+    for columns in range(min(len(labels), 4), 0, -1):
+        legend = figure.legend(handles, labels, loc="lower center", ncol=columns, borderaxespad=0.0)
+        box = legend.get_window_extent(renderer)
+        if box.width <= 0.98 * width * figure.dpi or columns == 1:
+            return box.height / figure.dpi + 0.12
+        legend.remove()
+    raise AssertionError("one column always ends the search")
+
+
+def _plain(text: str) -> str:
+    """Text that matplotlib shows as it stands: no formulas, and no label that it takes for a hidden one."""
+    text = text.replace("$", r"\$")
+    return " " + text if text.startswith("_") else text

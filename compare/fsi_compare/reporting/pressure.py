@@ -1,0 +1,134 @@
+"""`fsi-compare pressure`: the pressure waves of finished runs along the centre line, side by side."""
+
+import argparse
+import math
+import sys
+from pathlib import Path
+from typing import Any, List, Sequence
+
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..runs.labels import default_labels, read_labels
+from ..runs.run_folder import Run, read_run
+
+PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
+
+EXAMPLES = """\
+examples:
+  fsi-compare pressure results/monolithic results/partitioned -o results/compare
+  fsi-compare pressure nh mr artery --labels neo-Hookean,Mooney-Rivlin,artery --times 1.75,3.5,5.25,7,8.75,10.5
+"""
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    pressure = commands.add_parser(
+        "pressure",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="pressure waves along the centre line",
+        description="Compares the pressure along the centre line. The first run is the reference.\n"
+        "Prints differences, peaks and peak speeds, and writes to OUTDIR:\n"
+        "  pressure_waves.csv         all runs at the selected times\n"
+        "  pressure_waves.png, .svg   one panel per time\n"
+        "  pressure_waves.json        the printed numbers in full precision\n"
+        "Runs whose meshes, time steps or lengths differ are compared with a warning.",
+    )
+    pressure.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
+    pressure.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path("results/compare"),
+        help="folder for the files written (default: %(default)s)",
+    )
+    pressure.add_argument(
+        "--times",
+        metavar="T,T,...",
+        default=PAPER_TIMES,
+        help="times in ms; linear between time steps (default: %(default)s)",
+    )
+    pressure.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: program, case or folder)")
+    pressure.add_argument("--title", help="heading of the picture (default: the runs' title)")
+    pressure.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
+    )
+    pressure.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def pressure(options: argparse.Namespace) -> int:
+    """Reads all runs and checks everything before the first file is written."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
+    times = read_times(options.times)
+    labels = read_labels(options.labels, len(options.folders))
+    runs = [read_run(folder) for folder in options.folders]
+    labels = labels or default_labels(runs)
+    check_comparable(runs, times)
+    make_folder(options.output)
+
+    # matplotlib takes a second to load: not before the input has proved right
+    from . import pictures, pressure_tables as tables
+
+    comparison = tables.compare_pressure(runs, labels, times)
+    written = [options.output / "pressure_waves.csv", options.output / "pressure_waves.json"]
+    tables.write_waves_csv(written[0], runs, labels, times)
+    tables.write_json(written[1], comparison)
+    title = options.title if options.title is not None else default_title(runs)
+    written += pictures.write_pressure_waves(options.output, [run.pressure for run in runs], labels, times, title)
+    if not options.quiet:
+        for warning in comparison.warnings:
+            print(f"fsi-compare: warning: {warning}", file=sys.stderr)
+        print(tables.text(runs, comparison))
+        print("Written: " + ", ".join(str(path) for path in written))
+    return 0
+
+
+def read_times(text: str) -> List[float]:
+    times = []
+    for part in text.split(","):
+        try:
+            time = float(part)
+        except ValueError:
+            raise InputError(
+                "", "--times", f"'{part.strip()}' is not a number", "give times in ms separated by commas"
+            ) from None
+        if not math.isfinite(time) or time < 0:
+            raise InputError("", "--times", f"{part.strip()} is not a time", "give times in ms, zero or later")
+        if time in times:
+            raise InputError("", "--times", f"{part.strip()} is given twice", "give each time once")
+        times.append(time)
+    return sorted(times)
+
+
+def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
+    """All runs must reach all times, and their centre lines must contain the first run's."""
+    reference = runs[0]
+    for run in runs:
+        waves = run.pressure
+        path = run.folder / "centerline_pressure.csv"
+        for time in times:
+            if not waves.covers(time):
+                raise InputError(
+                    path,
+                    "--times",
+                    f"{time:g} ms is outside the run",
+                    f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms",
+                )
+        if not waves.covers_line(reference.pressure.z):
+            z = reference.pressure.z
+            raise InputError(
+                path,
+                "z_mm",
+                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm",
+                "compare runs on the same geometry",
+            )
+
+
+def default_title(runs: Sequence[Run]) -> str:
+    titles = {run.title for run in runs}
+    if len(titles) == 1 and "" not in titles:
+        return titles.pop()
+    return "Pressure along the centre line"

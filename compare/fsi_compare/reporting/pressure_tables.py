@@ -1,0 +1,154 @@
+"""What a comparison found, as text for people and as files for scripts."""
+
+import csv
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence
+
+from ..base.files import replacing
+from ..runs.conditions import Conditions, conditions, departures
+from ..runs.differences import Difference, OverTime, differences_at, largest_difference
+from ..runs.pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
+from ..runs.run_folder import Run
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All numbers of `fsi-compare pressure`. The first run is the reference."""
+
+    labels: Sequence[str]
+    times: Sequence[float]  # ms
+    at_times: List[List[Difference]]  # [run after the first][time]
+    over_time: List[OverTime]  # [run after the first]
+    peaks: List[List[Crest]]  # [run][time]
+    speeds: List[Optional[float]]  # [run], mm/ms
+    conditions: List[Conditions]  # [run]
+    warnings: List[str]  # in what the runs' meshes, steps and lengths differ
+
+
+def compare_pressure(runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> Comparison:
+    """Differences from the first run, peaks and speeds. All times must be covered by all runs, and the first run's
+    centre line by the others'."""
+    reference = runs[0].pressure
+    found = [conditions(run) for run in runs]
+    return Comparison(
+        labels=labels,
+        times=times,
+        at_times=[differences_at(reference, run.pressure, times) for run in runs[1:]],
+        over_time=[largest_difference(reference, run.pressure) for run in runs[1:]],
+        peaks=[[peak(run.pressure.z, run.pressure.at(time)) for time in times] for run in runs],
+        speeds=[crest_speed(run.pressure) for run in runs],
+        conditions=found,
+        warnings=departures(found, labels),
+    )
+
+
+def text(runs: Sequence[Run], comparison: Comparison) -> str:
+    """The tables that the program prints."""
+    lines = ["Runs"]
+    width = max(len(label) for label in comparison.labels)
+    for label, run, made in zip(comparison.labels, runs, comparison.conditions):
+        waves = run.pressure
+        program = f"{run.program} {run.version}".strip()
+        mesh = f"mesh {made.mesh}, " if made.mesh else ""
+        lines.append(
+            f"  {label:<{width}}  {run.folder}: {program}, {mesh}{made.step_words}, {len(waves.times)} time levels "
+            f"from {waves.times[0]:g} to {waves.times[-1]:g} ms, {len(waves.z)} points"
+        )
+    lines += [f"  Note: {warning}." for warning in comparison.warnings]
+
+    for label, at_times, over_time in zip(comparison.labels[1:], comparison.at_times, comparison.over_time):
+        lines += [
+            "",
+            f"Pressure of {label} against {comparison.labels[0]} (reference)",
+            "       t in ms   max norm in Pa   relative   L2 norm in Pa mm^1/2   relative",
+        ]
+        for time, difference in zip(comparison.times, at_times):
+            lines.append(_difference_row(f"{time:g}", difference))
+        if over_time.largest is None:
+            lines.append("    no time level is common to both")
+        else:
+            lines.append(_difference_row(f"all {over_time.levels}", over_time.largest))
+    if comparison.at_times:
+        lines += [
+            "",
+            "relative: to the reference's norm at the same time. Last row: maximum of each column over all "
+            "common time levels.",
+        ]
+
+    low, high = SPEED_WINDOW_MS
+    for label, peaks, speed in zip(comparison.labels, comparison.peaks, comparison.speeds):
+        lines += ["", f"Peak of {label}", "       t in ms   pressure in Pa   at z in mm"]
+        for time, crest in zip(comparison.times, peaks):
+            lines.append(f"  {time:>12g}   {crest.pressure:>14.4f}   {crest.z:>10.3f}")
+        lines.append(f"  speed between {low:g} and {high:g} ms: " + ("n/a" if speed is None else f"{speed:.4f} mm/ms"))
+    return "\n".join(lines) + "\n"
+
+
+def _difference_row(name: str, d: Difference) -> str:
+    return (
+        f"  {name:>12}   {d.max_norm:>14.4e}   {_relative(d.max_relative):>8}   {d.l2_norm:>20.4e}   "
+        f"{_relative(d.l2_relative):>8}"
+    )
+
+
+def _relative(value: Optional[float]) -> str:
+    return "n/a" if value is None else f"{value:.2e}"
+
+
+def write_waves_csv(path: Path, runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> None:
+    """All runs at the selected times, each at its own points, in full precision."""
+    with replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("run", "time_ms", "z_mm", "pressure_Pa"))
+        for label, run in zip(labels, runs):
+            for time in times:
+                for z, pressure in zip(run.pressure.z, run.pressure.at(time)):
+                    writer.writerow((label, repr(float(time)), repr(float(z)), repr(float(pressure))))
+
+
+def write_json(path: Path, comparison: Comparison) -> None:
+    """The printed numbers in full precision; null where the table says n/a."""
+    runs = []
+    for i, label in enumerate(comparison.labels):
+        run: Dict[str, Any] = {
+            "run": label,
+            "mesh": comparison.conditions[i].mesh or None,
+            "step_ms": [comparison.conditions[i].smallest_step, comparison.conditions[i].largest_step],
+            "end_ms": comparison.conditions[i].end,
+            "speed_mm_per_ms": comparison.speeds[i],
+            "peaks": [
+                {"time_ms": time, "pressure_Pa": crest.pressure, "z_mm": crest.z}
+                for time, crest in zip(comparison.times, comparison.peaks[i])
+            ],
+        }
+        if i > 0:
+            over_time = comparison.over_time[i - 1]
+            run["differences"] = [
+                {"time_ms": time, **_named(difference)}
+                for time, difference in zip(comparison.times, comparison.at_times[i - 1])
+            ]
+            run["largest_difference"] = {
+                "common_levels": over_time.levels,
+                **(_named(over_time.largest) if over_time.largest else {}),
+            }
+        runs.append(run)
+    data = {
+        "reference": comparison.labels[0],
+        "speed_window_ms": SPEED_WINDOW_MS,
+        "warnings": comparison.warnings,
+        "runs": runs,
+    }
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _named(difference: Difference) -> dict:
+    values = asdict(difference)
+    return {
+        "max_norm_Pa": values["max_norm"],
+        "max_relative": values["max_relative"],
+        "l2_norm_Pa_sqrt_mm": values["l2_norm"],
+        "l2_relative": values["l2_relative"],
+    }

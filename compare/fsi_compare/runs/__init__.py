@@ -1,0 +1,1 @@
+"""Starting the programs and reading what their runs left."""

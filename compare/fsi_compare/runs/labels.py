@@ -1,0 +1,44 @@
+"""Names of runs in tables and pictures: those that the user gives, or the shortest that tell the runs apart."""
+
+from pathlib import Path
+from typing import List, Optional, Sequence
+
+from ..base.errors import InputError
+from .run_folder import Run
+
+
+def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
+    if text is None:
+        return None
+    labels = [label.strip() for label in text.split(",")]
+    if len(labels) != runs:
+        raise InputError(
+            "", "--labels", f"{len(labels)} labels for {runs} runs", "give one per run, separated by commas"
+        )
+    for label in labels:
+        if not label:
+            raise InputError("", "--labels", "a label is empty", "give one per run, separated by commas")
+        if labels.count(label) > 1:
+            raise InputError("", "--labels", f"'{label}' is given twice", "give each run its own")
+    return labels
+
+
+def default_labels(runs: Sequence[Run]) -> list:
+    """Names that tell the runs apart, as short as that allows: the program, then its case or folder beside it."""
+    programs = [run.short_program for run in runs]
+    choices = (
+        programs,
+        [f"{p}, {run.title}" if run.title else p for p, run in zip(programs, runs)],
+        [f"{p}, {run.folder.resolve().name}" for p, run in zip(programs, runs)],
+        [f"{p}, {run.folder}" for p, run in zip(programs, runs)],
+    )
+    for labels in choices:
+        if len(set(labels)) == len(runs):
+            return labels
+    return [f"{label} ({i})" for i, label in enumerate(choices[-1], 1)]
+
+
+def folder_labels(folders: Sequence[Path]) -> List[str]:
+    """The folders' names, or their paths where two names are the same."""
+    names = [folder.resolve().name for folder in folders]
+    return [name if names.count(name) == 1 else str(folder) for name, folder in zip(names, folders)]

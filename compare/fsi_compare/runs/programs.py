@@ -1,0 +1,85 @@
+"""The programs of the project: where they are, and which version."""
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional
+
+from ..base.errors import InputError
+
+BUILD = "build it with cmake --build --preset release, or name it with --program"
+
+
+@dataclass(frozen=True)
+class Program:
+    path: Path
+    version: str
+    digest: str = ""  # SHA-256 of the executable: a program built anew may keep its version
+
+
+def find_monolithic(named: Optional[Path]) -> Program:
+    """The program named, else the one beside fsi-compare, else the one on the path. It must answer, and know how to
+    solve single systems."""
+    program = find_program("fsi-monolithic", named)
+    require_linear_systems(program)
+    return program
+
+
+def require_linear_systems(program: Program) -> None:
+    """Raises InputError unless fsi-monolithic knows how to solve single systems."""
+    if "--linear-systems" not in _answer(program.path, "--help"):
+        raise InputError(
+            program.path,
+            "--program",
+            f"version {program.version} does not know --linear-systems",
+            "take the program built from the same sources as fsi-compare",
+        )
+
+
+def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
+    """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
+    path = named if named is not None else _beside(Path(sys.argv[0]), name)
+    if path is None:
+        raise InputError(name, option, "is neither beside fsi-compare nor on the path", BUILD)
+    if not path.exists():
+        raise InputError(path, option, "no such program", BUILD)
+    if path.is_dir() or not os.access(path, os.X_OK):
+        raise InputError(path, option, "is not a program", BUILD)
+    path = path.resolve()
+    words = _answer(path, "--version").split()
+    if len(words) != 2 or words[0] != name:
+        raise InputError(path, option, f"is not {name}", BUILD)
+    return Program(path, words[1], _executable_digest(path, option))
+
+
+def _executable_digest(path: Path, option: str) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise InputError(path, option, f"cannot be read: {error.strerror}", BUILD) from None
+
+
+def find_mesh_maker(monolithic: Program) -> Optional[Path]:
+    return _beside(monolithic.path, "fsi-mesh")
+
+
+def _beside(program: Path, name: str) -> Optional[Path]:
+    for folder in (program.parent, program.resolve().parent):
+        if (folder / name).is_file():
+            return folder / name
+    found = shutil.which(name)
+    return Path(found) if found else None
+
+
+def _answer(path: Path, option: str) -> str:
+    try:
+        return subprocess.run(
+            [str(path), option], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=60
+        ).stdout
+    except (OSError, subprocess.TimeoutExpired) as error:
+        reason = error.strerror if isinstance(error, OSError) else "no answer in 60 s"
+        raise InputError(path, "--program", f"cannot be started: {reason}", BUILD) from None

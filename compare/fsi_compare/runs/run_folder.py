@@ -1,0 +1,197 @@
+"""One finished run as its result folder states it.
+
+The folder is checked before anything is computed from it: a run that was interrupted leaves a folder that looks almost
+complete, and a comparison with it would be wrong without a sign.
+"""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..base.errors import InputError
+from .pressure_waves import PressureWaves
+
+PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
+PRESSURE_COLUMNS = ("time_ms", "z_mm", "pressure_Pa")
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run and its pressure along the centre line."""
+
+    folder: Path
+    program: str  # "fsi-monolithic" or "fsi-partitioned"
+    version: str
+    title: str
+    summary: dict  # all of summary.json
+    pressure: PressureWaves
+
+    @property
+    def short_program(self) -> str:
+        return PROGRAMS[self.program]
+
+
+def read_run(folder: Path) -> Run:
+    """Reads `summary.json` and `centerline_pressure.csv`. Raises InputError naming file, key and problem unless the run
+    is finished and both files are complete."""
+    if not folder.exists():
+        raise InputError(folder, "", "no such folder", "give the folder that a run wrote with -o")
+    if not folder.is_dir():
+        raise InputError(folder, "", "is not a folder", "give the folder that a run wrote with -o")
+    summary = read_summary(folder / "summary.json")
+    return Run(
+        folder=folder,
+        program=summary["program"],
+        version=str(summary.get("version", "")),
+        title=str(summary.get("title", "")),
+        summary=summary,
+        pressure=read_pressure(folder / "centerline_pressure.csv"),
+    )
+
+
+def read_summary(path: Path) -> dict:
+    """`summary.json` of a run that reached its end. Only `program` and `status` are demanded."""
+    text = _read_text(path)
+    try:
+        summary = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(
+            path,
+            f"line {error.lineno}",
+            f"is not JSON: {error.msg}",
+            "the run was interrupted while writing; run it again",
+        ) from None
+    if not isinstance(summary, dict):
+        raise InputError(path, "", "is not a JSON object", "run it again")
+
+    program = summary.get("program")
+    if program is None:
+        raise InputError(path, "program", "is missing", "give the result folder of a driver")
+    if not isinstance(program, str) or program not in PROGRAMS:
+        raise InputError(path, "program", f"'{program}' is unknown", f"it must be {' or '.join(PROGRAMS)}")
+
+    status = summary.get("status")
+    if status is None:
+        raise InputError(path, "status", "is missing", "run it again")
+    if status == "running":
+        raise InputError(
+            path,
+            "status",
+            "the run is not finished",
+            f"wait for its end or resume it with {program} --restart {path.parent}",
+        )
+    if status == "interrupted":
+        raise InputError(
+            path,
+            "status",
+            "the run was interrupted",
+            f"resume it with {program} --restart {path.parent}, or run it again",
+        )
+    if status == "not converged":
+        raise InputError(
+            path,
+            "status",
+            "the run stopped without converging",
+            f"see {path.parent / 'run.log'}, change the solver's settings and run it again",
+        )
+    if status == "failed":
+        raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
+    if status != "done":
+        raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")
+    return summary
+
+
+def read_pressure(path: Path) -> PressureWaves:
+    """`centerline_pressure.csv`: one block of lines per time level, the same points in each."""
+    text = _read_text(path)
+    if not text.strip():
+        raise InputError(path, "", "is empty", "the run wrote no time step; run it again")
+    lines = text.splitlines()
+    header = [name.strip() for name in lines[0].split(",")]
+    for name in PRESSURE_COLUMNS:
+        if name not in header:
+            raise InputError(
+                path, "line 1", f"column '{name}' is missing", f"the first line must read {','.join(PRESSURE_COLUMNS)}"
+            )
+    if not text.endswith("\n"):
+        raise InputError(
+            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it again"
+        )
+    if len(lines) == 1:
+        raise InputError(path, "", "holds no time level", "the run wrote no time step; run it again")
+
+    columns = [header.index(name) for name in PRESSURE_COLUMNS]
+    values = np.empty((len(lines) - 1, 3))
+    for row, line in enumerate(lines[1:]):
+        fields = line.split(",")
+        if len(fields) != len(header):
+            raise InputError(
+                path,
+                f"line {row + 2}",
+                f"has {len(fields)} values instead of {len(header)}",
+                "the run was interrupted while writing; run it again",
+            )
+        for i, column in enumerate(columns):
+            try:
+                values[row, i] = float(fields[column])
+            except ValueError:
+                raise InputError(
+                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number", "run it again"
+                ) from None
+            if not math.isfinite(values[row, i]):
+                raise InputError(
+                    path,
+                    f"line {row + 2}",
+                    f"{PRESSURE_COLUMNS[i]} is {fields[column].strip()}",
+                    "the run went wrong before this time; look at its run.log",
+                )
+    return _levels(path, *values.T)
+
+
+def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -> PressureWaves:
+    """The lines cut into time levels, each checked against the first one."""
+    starts = np.array([0, *(np.flatnonzero(np.diff(time)) + 1), len(time)])
+    points = int(starts[1])
+    if points < 2:
+        raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
+    if np.any(np.diff(z[:points]) <= 0):
+        line = int(np.flatnonzero(np.diff(z[:points]) <= 0)[0]) + 3
+        raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the centre line")
+    for start, stop in zip(starts[1:-1], starts[2:]):
+        if time[start] < time[start - 1]:
+            raise InputError(
+                path,
+                f"line {start + 2}",
+                f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
+                "time levels must be ordered; run it again",
+            )
+        if stop - start != points:
+            raise InputError(
+                path,
+                f"time_ms {time[start]:g}",
+                f"has {stop - start} of {points} points",
+                "the run was interrupted while writing; run it again",
+            )
+        if np.any(z[start:stop] != z[:points]):
+            line = int(start + np.flatnonzero(z[start:stop] != z[:points])[0]) + 2
+            raise InputError(
+                path,
+                f"line {line}",
+                "z_mm differs from the first time level's",
+                "all time levels must hold the same points; run it again",
+            )
+    return PressureWaves(times=time[starts[:-1]], z=z[:points], pressure=pressure.reshape(-1, points))
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise InputError(path, "", "is missing", "give the result folder of a finished run") from None
+    except UnicodeDecodeError:
+        raise InputError(path, "", "is not a text file", "run it again") from None
+    except OSError as error:
+        raise InputError(path, "", f"cannot be read: {error.strerror}", "check its permissions") from None

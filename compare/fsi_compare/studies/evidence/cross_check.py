@@ -1,0 +1,152 @@
+"""How each run ended, and whether what it says it solved is what the other driver finds."""
+
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+
+from ...base.errors import InputError
+from ...runs.differences import largest_difference
+from ...runs.pressure_waves import PressureWaves
+from ..running.study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, StudyRun
+from ..running.study_run import WRONG as NOT_FINITE
+
+AGREES = "converged"  # and no time level is further from the other driver's than the bound
+UNCHECKED = "converged, unchecked"  # the other driver was not run there, found nothing, or broke off earlier
+DEVIATES = "deviates"  # of a method that makes one pass and so claims no agreement
+WRONG = "wrong"  # it says converged, and the other driver says otherwise
+OUTCOMES = (AGREES, UNCHECKED, DEVIATES, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, NOT_FINITE, CRASHED)
+# Such a method misses a jump of the load by its nature, where the levels soon after are small: its difference is
+# relative to the largest pressure of all levels. Beyond half of that nothing of the wave is right, and it must not say
+# done.
+ONE_PASS_BOUND = 0.5
+FAULTS = (WRONG, NOT_FINITE, CRASHED)  # what may happen nowhere
+BOUND = 1e-3  # of the difference, relative to the largest value of a time level: a thousand interface tolerances
+
+Point = Tuple[str, str, Any]  # case, quantity, value
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One method at one point: a case, and a value of what is varied."""
+
+    run: StudyRun
+    outcome: str  # one of OUTCOMES
+    levels: int  # that the run finished, of failed runs too
+    # Largest over the time levels in common, relative to the largest of each level; of a method with one pass, of all.
+    difference: Optional[float]
+    against: Optional[StudyRun]  # whose levels these are
+
+    @property
+    def method(self) -> str:
+        return self.run.request.method.name
+
+
+def quantity(run: StudyRun) -> str:
+    return next(iter(run.request.values))
+
+
+def point_of(run: StudyRun) -> Point:
+    name = quantity(run)
+    return run.request.case, name, run.request.values[name]
+
+
+def waves_of(run: StudyRun) -> Optional[PressureWaves]:
+    """Pressure along the centre line in Pa; of a wall without fluid the radial displacement of its inner face in mm in
+    the pressure's place. None: no finished time level."""
+    try:
+        if run.has("centerline_pressure.csv"):
+            return run.pressure
+        columns = run.columns("wall_displacement.csv")
+        points = int((columns["time_ms"] == columns["time_ms"][0]).sum())
+        shape = (-1, points)
+        return PressureWaves(
+            columns["time_ms"].reshape(shape)[:, 0], columns["z_mm"][:points], columns["radial_mm"].reshape(shape)
+        )
+    except (InputError, KeyError, IndexError, ValueError):
+        return None
+
+
+def cells(runs: Sequence[StudyRun], references: Sequence[str], one_pass: Sequence[str], bound: float) -> List[Cell]:
+    """A cell for each run. `references`: methods of one driver that the others are held against, the best first;
+    `one_pass`: methods that do not iterate until fluid and wall agree."""
+    points: Dict[Point, List[StudyRun]] = {}
+    for run in runs:
+        points.setdefault(point_of(run), []).append(run)
+    found = {}
+    for there in points.values():
+        found.update({id(run): cell for run, cell in _at_point(there, references, one_pass, bound)})
+    return [found[id(run)] for run in runs]
+
+
+def _at_point(
+    runs: Sequence[StudyRun], references: Sequence[str], one_pass: Sequence[str], bound: float
+) -> List[Tuple[StudyRun, Cell]]:
+    waves = {run.request.method.name: waves_of(run) for run in runs}
+    by_name = {run.request.method.name: run for run in runs}
+    reference = next((by_name[name] for name in references if waves.get(name) is not None), None)
+    return [(run, _cell(run, reference, by_name, waves, one_pass, bound)) for run in runs]
+
+
+def _cell(
+    run: StudyRun,
+    reference: Optional[StudyRun],
+    by_name: Mapping[str, StudyRun],
+    waves: Mapping[str, Optional[PressureWaves]],
+    one_pass: Sequence[str],
+    bound: float,
+) -> Cell:
+    name = run.request.method.name
+    own = waves[name]
+    levels = 0 if own is None else len(own.times)
+    against: Optional[StudyRun] = None
+    difference: Optional[float] = None
+    common = 0
+    if own is not None and reference is not None:
+        if run is reference:
+            against, difference, common = _confirmed_by(run, own, by_name, waves, one_pass)
+        else:
+            against, expected = reference, waves[reference.request.method.name]
+            assert expected is not None, "a reference has waves"
+            difference, common = difference_of(expected, own, of_all=name in one_pass)
+    outcome = run.status if run.status != DONE else AGREES
+    if run.status == NOT_FINITE:
+        outcome = NOT_FINITE
+    elif difference is not None and difference > bound and run.status not in (CRASHED,):
+        if name not in one_pass or (run.done and difference > ONE_PASS_BOUND):
+            outcome = WRONG
+        elif run.done:
+            outcome = DEVIATES
+    elif run.done and (difference is None or common < levels):
+        outcome = UNCHECKED
+    return Cell(run, outcome, levels, difference, against)
+
+
+def _confirmed_by(
+    run: StudyRun,
+    own: PressureWaves,
+    by_name: Mapping[str, StudyRun],
+    waves: Mapping[str, Optional[PressureWaves]],
+    one_pass: Sequence[str],
+) -> Tuple[Optional[StudyRun], Optional[float], int]:
+    """The run of the other driver that bears this one out best: over most time levels, then most closely."""
+    best: Optional[Tuple[StudyRun, float, int]] = None
+    for name, other in by_name.items():
+        theirs = waves[name]
+        if theirs is None or name in one_pass or other.request.method.program == run.request.method.program:
+            continue
+        difference, common = difference_of(own, theirs)
+        if difference is not None and (best is None or (-common, difference) < (-best[2], best[1])):
+            best = other, difference, common
+    return best or (None, None, 0)
+
+
+def difference_of(reference: PressureWaves, other: PressureWaves, of_all: bool = False) -> Tuple[Optional[float], int]:
+    """(largest difference relative to the reference's largest of the same level, or `of_all`; levels in common)."""
+    if not other.covers_line(reference.z):
+        return None, 0
+    over_time = largest_difference(reference, other)
+    if over_time.largest is None:
+        return None, over_time.levels
+    if not of_all:
+        return over_time.largest.max_relative, over_time.levels
+    largest = max(float(abs(reference.at(t)).max()) for t in reference.times if other.level(t) is not None)
+    return (over_time.largest.max_norm / largest if largest > 0 else None), over_time.levels

@@ -1,0 +1,173 @@
+"""How far a run's wave is from the artery's own: the error of mesh and time step, by the measure of the accuracy study."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+
+from ...base.errors import InputError
+from ...base.names import MATERIALS, MESHES
+from ...reporting.layout import Table, fixed
+from ..running.study_run import StudyRun
+from .reference import WaveReference, read_reference
+from .waves import DISPLACEMENT, PRESSURE, QUANTITIES, read_waves, relative_difference
+
+REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
+
+# Entries of a case that leave the continuous problem as it is: how it is cut into elements and steps, how the equations
+# are solved, and what is written. All others must be the reference's.
+NUMERICAL = ("title", "element", "economy", "monolithic", "partitioned", "output", "mesh", "time")
+STABILISATION = "structure.stabilisation"
+
+
+@dataclass(frozen=True)
+class MeshError:
+    """Of one run. Relative L2 over the centre line, or the wall's inner face, and the reference's levels; None: unknown."""
+
+    pressure: Optional[float]
+    displacement: Optional[float]  # radial
+    unknown: str = ""  # why there are none
+    own_pressure: Optional[float] = None  # the reference's own error, estimated
+    own_displacement: Optional[float] = None
+
+    @property
+    def words(self) -> str:
+        """For a caption that has named the error of mesh and step before."""
+        if self.pressure is None or self.displacement is None:
+            return f"unknown ({self.unknown})"
+        return f"{percent(self.pressure)} in pressure, {percent(self.displacement)} in radial displacement"
+
+
+def error_words(errors: Sequence[Tuple[str, MeshError]]) -> str:
+    """`(name, error)` of each wave as a sentence for a caption; what is the same for all is said once."""
+    words = [error.words for _, error in errors]
+    if len(set(words)) == 1:
+        return f"Error of mesh and step: {words[0]}."
+    return "Error of mesh and step: " + "; ".join(f"{name} {error.words}" for name, error in errors) + "."
+
+
+def percent(value: float) -> str:
+    return f"{100 * value:.2g} %" if value < 1 else f"{100 * value:.0f} %"
+
+
+def physical(case: Mapping[str, Any], settings: Optional[Mapping[str, Any]] = None) -> Dict[str, Any]:
+    """What of a case file's entries, and of settings over them, states the continuous problem: dotted key -> value."""
+    entries: Dict[str, Any] = {}
+
+    def walk(prefix: str, table: Mapping[str, Any]) -> None:
+        for key, value in table.items():
+            if isinstance(value, dict):
+                walk(f"{prefix}{key}.", value)
+            else:
+                entries[f"{prefix}{key}"] = value
+
+    walk("", case)
+    entries.update(settings or {})
+    return {
+        key: value for key, value in entries.items() if key.partition(".")[0] not in NUMERICAL and key != STABILISATION
+    }
+
+
+@lru_cache(maxsize=None)
+def references(folder: Path = REFERENCES) -> Dict[str, WaveReference]:
+    """Those that are kept, by material."""
+    return {name: read_reference(folder / name) for name in MATERIALS if (folder / name / "reference.json").is_file()}
+
+
+def mesh_error(run: StudyRun) -> MeshError:
+    """Against the reference with the same physical entries, over those of its levels that the run must reach."""
+    request = run.request
+    mesh = request.mesh.name if request.mesh else None
+    try:
+        case = tomllib.loads(request.case_file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return MeshError(None, None, "its case file cannot be read")
+    section = case.get("mesh")
+    if mesh is None and isinstance(section, dict):
+        mesh = section.get("level")
+    if mesh not in MESHES or "mesh.file" in request.settings or (request.mesh and request.mesh.options):
+        return MeshError(None, None, "its mesh is none of the artery's levels, for which the references are")
+    own = physical(case, request.settings)
+    known = references()
+    reference = next((one for one in known.values() if one.case == own), None)
+    if reference is None:
+        return MeshError(None, None, _departure(own, known))
+    errors = {}
+    for quantity in QUANTITIES:
+        try:
+            waves = read_waves(run.folder / quantity.file, quantity.column)
+        except InputError:
+            return MeshError(None, None, f"{quantity.file} is missing or incomplete")
+        kept = reference.of(quantity)
+        if not (waves.covers(kept.times[0]) and waves.covers(kept.times[-1])):
+            return MeshError(
+                None,
+                None,
+                f"the reference runs from {kept.times[0]:g} to {kept.times[-1]:g} ms, this run from "
+                f"{waves.times[0]:g} to {waves.times[-1]:g} ms",
+            )
+        errors[quantity.column] = relative_difference(waves, kept, [float(time) for time in kept.times])
+    return MeshError(
+        errors[PRESSURE.column],
+        errors[DISPLACEMENT.column],
+        "",
+        reference.own_error[PRESSURE.column],
+        reference.own_error[DISPLACEMENT.column],
+    )
+
+
+def _departure(own: Mapping[str, Any], known: Mapping[str, WaveReference]) -> str:
+    """The entries in which a case departs from the reference nearest to it."""
+    if not known:
+        return "there is no reference"
+    different = [
+        sorted(key for key in {*own, *one.case} if own.get(key) != one.case.get(key)) for one in known.values()
+    ]
+    nearest = min(different, key=len)
+    shown = [f"{key} = {own[key]}" if key in own else f"no {key}" for key in nearest[:2]]
+    return f"no reference for {', '.join(shown)}" + (" and more" if len(nearest) > 2 else "")
+
+
+def error_table(runs: Sequence[StudyRun], errors: Sequence[MeshError]) -> Table:
+    """A line per run, with the reference's own error beside it."""
+    table = Table(
+        stem="mesh_error",
+        title="How far the waves are from the reference, in percent: the error of mesh and time step",
+        left=3,
+        columns=[
+            ("", "case"),
+            ("", "mesh"),
+            ("", "method"),
+            ("centre-line pressure", "error"),
+            ("centre-line pressure", "reference's own"),
+            ("radial displacement", "error"),
+            ("radial displacement", "reference's own"),
+        ],
+        csv_columns=[
+            "case",
+            "mesh",
+            "method",
+            "pressure_relative_L2",
+            "pressure_reference_own",
+            "radial_relative_L2",
+            "radial_reference_own",
+            "unknown_because",
+        ],
+        notes=[
+            "Relative L2 norm over the line and the reference's time levels, as in the study `accuracy-cost`. The "
+            "references are finer in mesh and step than any run here; their own error is an estimate."
+        ],
+    )
+    for run, error in zip(runs, errors):
+        request = run.request
+        mesh = request.mesh.name if request.mesh else ""
+        if STABILISATION in request.settings:
+            mesh += f", stabilisation {request.settings[STABILISATION]:g}"
+        values = (error.pressure, error.own_pressure, error.displacement, error.own_displacement)
+        shown = [fixed(None if value is None else 100 * value, ".2g", "unknown") for value in values]
+        table.rows.append([MATERIALS.get(request.case, request.case), mesh, request.method.label, *shown])
+        table.csv_rows.append([request.case, mesh, request.method.name, *values, error.unknown])
+    reasons = dict.fromkeys(error.unknown for error in errors if error.unknown)
+    table.notes += [f"unknown: {reason}" for reason in reasons]
+    return table

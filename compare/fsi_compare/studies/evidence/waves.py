@@ -1,0 +1,87 @@
+"""Values along a line over time, such as centre-line pressure or wall displacement, and how far they are apart."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Sequence, Union
+
+import numpy as np
+
+from ...base.errors import InputError
+from ...runs.columns import read_columns
+
+
+@dataclass(frozen=True)
+class Quantity:
+    file: str  # in a result folder
+    column: str
+    name: str
+
+
+PRESSURE = Quantity("centerline_pressure.csv", "pressure_Pa", "centre-line pressure")
+DISPLACEMENT = Quantity("wall_displacement.csv", "radial_mm", "wall displacement")
+QUANTITIES = (PRESSURE, DISPLACEMENT)
+
+
+@dataclass(frozen=True)
+class Waves:
+    times: np.ndarray  # ms, increasing
+    z: np.ndarray  # mm, increasing
+    values: np.ndarray  # (times, z)
+
+    def covers(self, time: float) -> bool:
+        return self.times[0] - 1e-6 <= time <= self.times[-1] + 1e-6
+
+    def at(self, times: Union[Sequence[float], np.ndarray], z: np.ndarray) -> np.ndarray:
+        """(times, z), linear between levels and points; a level nearer than 1e-6 ms is taken as it is."""
+        rows = []
+        for time in times:
+            if not self.covers(time):
+                raise ValueError(f"{time} ms is not between {self.times[0]} and {self.times[-1]} ms")
+            nearest = int(np.argmin(np.abs(self.times - time)))
+            if abs(self.times[nearest] - time) <= 1e-6:
+                row = self.values[nearest]
+            else:
+                after = int(np.searchsorted(self.times, time))
+                weight = (time - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
+                row = (1 - weight) * self.values[after - 1] + weight * self.values[after]
+            rows.append(row if np.array_equal(z, self.z) else np.interp(z, self.z, row))
+        return np.array(rows)
+
+
+def read_waves(path: Path, column: str) -> Waves:
+    """Of a CSV with `time_ms`, `z_mm` and the column, all points of a level together. Raises InputError."""
+    columns = read_columns(path)
+    for name in ("time_ms", "z_mm", column):
+        if name not in columns:
+            raise InputError(path, name, "is not among the columns", "run it again")
+    times = columns["time_ms"]
+    starts = np.flatnonzero(np.concatenate([[True], np.diff(times) != 0])) if len(times) else np.array([], int)
+    points = len(times) // len(starts) if len(starts) else 0
+    if not points or len(times) != points * len(starts) or np.any(np.diff(starts) != points):
+        raise InputError(path, "time_ms", "levels differ in their number of points", "run it again")
+    if np.any(np.diff(times[starts]) <= 0) or np.any(np.diff(columns["z_mm"][:points]) <= 0):
+        raise InputError(path, "time_ms", "times or points do not increase", "run it again")
+    return Waves(times[starts], columns["z_mm"][:points], columns[column].reshape(len(starts), points))
+
+
+def norm(z: np.ndarray, values: np.ndarray) -> float:
+    """(sum over the levels of the integral of values^2 dz)^(1/2), by the trapezoidal rule. Relative norms of equally
+    spaced levels are those over space and time."""
+    squares = values * values
+    return math.sqrt(float(np.sum(0.5 * (squares[:, 1:] + squares[:, :-1]) * np.diff(z))))
+
+
+def relative_difference(other: Waves, reference: Waves, times: Sequence[float]) -> float:
+    """L2 over z and `times` (ms) of other - reference, relative to the reference's, on the reference's points."""
+    expected = reference.at(times, reference.z)
+    size = norm(reference.z, expected)
+    return norm(reference.z, other.at(times, reference.z) - expected) / size if size > 0 else math.nan
+
+
+def extrapolated(fine: Waves, coarse: Waves, factor: float) -> Waves:
+    """fine + factor (fine - coarse), point by point, at the times of the coarse waves that both have; factor 1 removes
+    a first-order error between a step and its half, 1/3 a second-order one."""
+    times = np.array([t for t in coarse.times if np.min(np.abs(fine.times - t)) <= 1e-6])
+    values = fine.at(times, fine.z)
+    return Waves(times, fine.z, values + factor * (values - coarse.at(times, fine.z)))

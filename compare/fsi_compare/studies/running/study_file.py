@@ -1,0 +1,328 @@
+"""A study file (TOML): cases, methods, meshes, what is varied, and what the report is about."""
+
+import itertools
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
+
+from ...base.errors import InputError
+from ...base.names import MESHES
+from ...base.suggestions import check_keys, nearest
+
+PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
+MESH = "mesh"  # among what is varied: a level or a section of [meshes]
+
+TOP_KEYS = (
+    "title",
+    "kind",
+    "threads",
+    "jobs",
+    "time_limit",
+    "repeats",
+    "repeat_below",
+    "set",
+    "cases",
+    "methods",
+    "meshes",
+    "runs",
+    "report",
+)
+METHOD_KEYS = ("program", "label", "set")
+CASE_KEYS = ("file", "set")
+MESH_KEYS = ("options", "label")
+GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
+VALUE_KEYS = ("label", "set")
+
+
+@dataclass(frozen=True)
+class Method:
+    name: str
+    label: str
+    program: str
+    settings: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class StudyMesh:
+    name: str
+    label: str
+    options: Tuple[str, ...]  # of `fsi-mesh artery`; empty: a level of the same name, made by the driver on demand
+
+
+@dataclass(frozen=True)
+class Request:
+    """One run that a study asks for, by what it is and where it stands in the study."""
+
+    group: str
+    case: str
+    method: Method
+    values: Mapping[str, Any]  # label or value of each quantity that the group varies, by its name
+    case_file: Path
+    mesh: Optional[StudyMesh]  # None: the case file's own
+    settings: Mapping[str, Any]  # entries over the case file's, without the mesh
+    time_limit: float  # s
+
+    @property
+    def label(self) -> str:
+        values = [f"{key.rsplit('.', 1)[-1]} {show(value)}" for key, value in self.values.items()]
+        parts = [self.case, self.method.name, *values]
+        return ", ".join(part for part in parts if part)
+
+
+@dataclass(frozen=True)
+class Study:
+    path: Path
+    title: str
+    kind: str
+    threads: int
+    jobs: int
+    time_limit: float  # s
+    cases: Mapping[str, Path]
+    methods: Mapping[str, Method]
+    meshes: Mapping[str, StudyMesh]
+    requests: Sequence[Request]
+    report: Mapping[str, Any]  # settings of the report, checked by its kind
+    quick: bool
+    repeats: int = 1  # of each run that takes less than `repeat_below` s, in full: its seconds are then their median
+    repeat_below: float = 60.0
+    settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
+    case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
+
+    def request(
+        self,
+        group: str,
+        case: str,
+        method: str,
+        values: Mapping[str, Any],
+        settings: Mapping[str, Any],
+        mesh: Optional[str] = None,
+    ) -> Request:
+        """One more run, for kinds that decide on the next run from the last."""
+        chosen = self.methods[method]
+        merged = {**self.settings, **self.case_settings.get(case, {}), **chosen.settings, **settings}
+        return Request(
+            group,
+            case,
+            chosen,
+            dict(values),
+            self.cases[case],
+            self.meshes[mesh] if mesh else None,
+            merged,
+            self.time_limit,
+        )
+
+
+def show(value: Any) -> str:
+    return format(value, "g") if isinstance(value, float) else str(value)
+
+
+def read_study(path: Path, kinds: Sequence[str], quick: bool = False) -> Study:
+    """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick
+    form; groups without one are left out."""
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(path, "", "no such study", "give a study file, or the name of a ready one") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(path, "", f"cannot be read: {error}", "give a study file") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, "", f"is not TOML: {error}", "mend that line") from None
+    return _Reader(path, quick).study(data, kinds)
+
+
+class _Reader:
+    def __init__(self, path: Path, quick: bool):
+        self.path, self.quick = path, quick
+
+    def wrong(self, key: str, problem: str, remedy: str) -> InputError:
+        return InputError(self.path, key, problem, remedy)
+
+    def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
+        self.known("", data, TOP_KEYS)
+        kind = self.one_of("kind", self.text(data, "kind"), kinds)
+        limit = self.number(data, "time_limit", 3600.0)
+        entries = self.table(data, "cases", True)
+        cases = {name: self.case(name, entry) for name, entry in entries.items()}
+        of_case = {
+            name: self.settings(entry, "set", f"cases.{name}")
+            for name, entry in entries.items()
+            if isinstance(entry, dict)
+        }
+        methods = {name: self.method(name, entry) for name, entry in self.table(data, "methods", True).items()}
+        meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
+        for name, entry in self.table(data, "meshes").items():
+            meshes[name] = self.mesh(name, entry)
+        settings = self.settings(data, "set")
+        repeats = self.count(data, "repeats", 1)
+        requests: List[Request] = []
+        for name, group in self.table(data, "runs").items():
+            requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
+        return Study(
+            path=self.path,
+            title=self.text(data, "title"),
+            kind=kind,
+            threads=self.count(data, "threads", 1),
+            jobs=self.count(data, "jobs", 1),
+            time_limit=limit,
+            repeats=1 if self.quick else repeats,
+            repeat_below=self.number(data, "repeat_below", 60.0),
+            cases=cases,
+            methods=methods,
+            meshes=meshes,
+            requests=requests,
+            report=self.table(data, "report"),
+            quick=self.quick,
+            settings=settings,
+            case_settings=of_case,
+        )
+
+    def case(self, name: str, entry: Any) -> Path:
+        """A file name, or a section with `file` and `set`."""
+        file = entry
+        if isinstance(entry, dict):
+            self.known(f"cases.{name}", entry, CASE_KEYS)
+            file = entry.get("file")
+        if not isinstance(file, str):
+            raise self.wrong(f"cases.{name}", "is not a file name", "give the case file, relative to the study")
+        path = (self.path.parent / file).resolve()
+        if not path.is_file():
+            raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
+        return path
+
+    def method(self, name: str, entry: Any) -> Method:
+        key = f"methods.{name}"
+        self.known(key, entry, METHOD_KEYS)
+        program = self.one_of(f"{key}.program", self.text(entry, "program", key), PROGRAMS)
+        return Method(name, str(entry.get("label", name)), program, self.settings(entry, "set", key))
+
+    def mesh(self, name: str, entry: Any) -> StudyMesh:
+        key = f"meshes.{name}"
+        self.known(key, entry, MESH_KEYS)
+        if name in MESHES:
+            raise self.wrong(key, "is a level's name already", "choose another name")
+        options = entry.get("options")
+        if not isinstance(options, list) or not options or not all(isinstance(word, str) for word in options):
+            raise self.wrong(
+                f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
+            )
+        return StudyMesh(name, str(entry.get("label", name)), tuple(options))
+
+    def group(
+        self,
+        name: str,
+        group: Any,
+        cases: Mapping[str, Path],
+        methods: Mapping[str, Method],
+        meshes: Mapping[str, StudyMesh],
+        settings: Mapping[str, Any],
+        of_case: Mapping[str, Mapping[str, Any]],
+        limit: float,
+    ) -> List[Request]:
+        key = f"runs.{name}"
+        self.known(key, group, GROUP_KEYS)
+        if self.quick:
+            quick = group.get("quick", False)
+            if quick is False:
+                return []
+            if quick is not True:
+                self.known(f"{key}.quick", quick, GROUP_KEYS[:-1])
+                group = {**group, **quick}
+        names = [self.one_of(f"{key}.cases", case, cases) for case in group.get("cases", list(cases))]
+        chosen = [methods[self.one_of(f"{key}.methods", m, methods)] for m in group.get("methods", list(methods))]
+        own = self.settings(group, "set", key)
+        vary = self.table(group, "vary", False, key)
+        axes = [
+            [
+                self.value(f"{key}.vary.{quantity}", quantity, value, meshes)
+                for value in self.list(f"{key}.vary.{quantity}", values)
+            ]
+            for quantity, values in vary.items()
+        ]
+        requests = []
+        for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
+            merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
+            values, mesh = {}, None
+            for quantity, shown, here, chosen_mesh in point:
+                values[quantity] = shown
+                merged.update(here)
+                mesh = chosen_mesh or mesh
+            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit))
+        return requests
+
+    def value(
+        self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]
+    ) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
+        """(quantity, what is shown, settings, mesh) of one value on an axis."""
+        if quantity == MESH:
+            return quantity, value, {}, meshes[self.one_of(key, value, meshes)]
+        if isinstance(value, dict):
+            self.known(key, value, VALUE_KEYS)
+            if "label" not in value:
+                raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
+            return quantity, value["label"], self.settings(value, "set", key), None
+        if "." not in quantity:
+            raise self.wrong(
+                key,
+                "is neither 'mesh' nor a key of the case file",
+                'give a key such as "time.step", or values { label, set }',
+            )
+        return quantity, value, {quantity: value}, None
+
+    def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
+        if not isinstance(entry, dict):
+            raise self.wrong(key, "is not a section", f"its keys are {', '.join(keys)}")
+        check_keys(self.path, key, entry, keys)
+
+    def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
+        if name not in names:
+            raise self.wrong(
+                key,
+                f"'{name}' is unknown",
+                f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}",
+            )
+        return name
+
+    def text(self, entry: Dict[str, Any], name: str, section: str = "") -> str:
+        key = f"{section}.{name}".lstrip(".")
+        if not isinstance(entry.get(name), str) or not entry[name]:
+            raise self.wrong(key, "is missing" if name not in entry else "is not a text", "give it in quotes")
+        return entry[name]
+
+    def table(self, entry: Dict[str, Any], name: str, needed: bool = False, section: str = "") -> Dict[str, Any]:
+        found = entry.get(name, {})
+        if not isinstance(found, dict) or (needed and not found):
+            key = f"{section}.{name}".lstrip(".")
+            raise self.wrong(key, "is missing" if name not in entry else "is not a section", f"write a section [{key}]")
+        return found
+
+    def settings(self, entry: Dict[str, Any], name: str, section: str = "") -> Dict[str, Any]:
+        """Case-file entries, keys in quotes ("time.step" = 0.1) or nested (time.step = 0.1)."""
+        found = {}
+
+        def walk(prefix: str, table: Dict[str, Any]) -> None:
+            for key, value in table.items():
+                if isinstance(value, dict):
+                    walk(f"{prefix}{key}.", value)
+                else:
+                    found[f"{prefix}{key}"] = value
+
+        walk("", self.table(entry, name, False, section))
+        return found
+
+    def list(self, key: str, values: Any) -> List[Any]:
+        if not isinstance(values, list) or not values:
+            raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
+        return values
+
+    def number(self, entry: Dict[str, Any], name: str, default: float) -> float:
+        value = entry.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
+            raise self.wrong(name, f"{value} is not a positive number", f"leave it out for {default:g}")
+        return float(value)
+
+    def count(self, entry: Dict[str, Any], name: str, default: int) -> int:
+        value = entry.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+            raise self.wrong(name, f"{value} is not a whole number from 1", f"leave it out for {default}")
+        return value

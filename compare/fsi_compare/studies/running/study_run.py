@@ -1,0 +1,75 @@
+"""One run of a study: what was asked for, how it ended, and its files."""
+
+import functools
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, Tuple
+
+import numpy as np
+
+from ...runs.columns import read_columns
+from ...runs.pressure_waves import PressureWaves
+from ...runs.run_folder import read_pressure
+from .study_file import Request
+
+DONE = "done"
+NOT_CONVERGED = "not converged"  # exit code 2
+REFUSED = "refused"  # exit code 1: bad input
+CRASHED = "crashed"  # a signal, or an exit code that no program of ours has
+OUT_OF_TIME = "out of time"
+WRONG = "not finite"  # it says done, and a result file holds NaN or infinity
+STATUSES = (DONE, NOT_CONVERGED, REFUSED, CRASHED, OUT_OF_TIME, WRONG)
+
+
+@dataclass(frozen=True)
+class StudyRun:
+    request: Request
+    folder: Path
+    status: str  # one of STATUSES
+    message: str  # why it is not done
+    seconds: float  # of the process, start to end
+    command: str  # to repeat it by hand
+    timings: Tuple[float, ...] = ()  # s, of the time steps: of all repetitions, of which this is the median
+
+    @property
+    def done(self) -> bool:
+        return self.status == DONE
+
+    def __hash__(self) -> int:
+        return hash(self.folder)
+
+    @functools.cached_property
+    def summary(self) -> dict:
+        """`summary.json`; empty where the run wrote none."""
+        try:
+            return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+
+    @functools.cached_property
+    def pressure(self) -> PressureWaves:
+        return read_pressure(self.folder / "centerline_pressure.csv")
+
+    def columns(self, file: str) -> Dict[str, np.ndarray]:
+        """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""
+        return read_columns(self.folder / file)
+
+    def has(self, file: str) -> bool:
+        return (self.folder / file).is_file()
+
+    @property
+    def steps(self) -> int:
+        return int(self.summary.get("totals", {}).get("steps", 0))
+
+    @property
+    def wall_s(self) -> float:
+        """Seconds of the time steps, without start and mesh."""
+        return float(self.summary.get("totals", {}).get("wall_s", float("nan")))
+
+    @property
+    def passes(self) -> float:
+        """Coupling iterations a step; of a monolithic run Newton iterations a step."""
+        totals = self.summary.get("totals", {})
+        key = "outer_iterations" if self.request.method.program == "fsi-partitioned" else "newton_iterations"
+        return totals.get(key, float("nan")) / self.steps if self.steps else float("nan")

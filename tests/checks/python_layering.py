@@ -1,0 +1,146 @@
+"""python_layering.py ROOT: the modules of fsi_compare import downwards only, and never in a circle.
+
+The Python counterpart of layering.py. A module may import from its own package and from the floors below it; packages on
+the same floor do not know each other. Imports within functions count too. Besides itself fsi_compare imports the
+standard library and LIBRARIES, so that it cannot come to lean on tests or scripts.
+"""
+
+import ast
+import sys
+from pathlib import Path
+
+from circles import circles
+
+PACKAGE = "fsi_compare"
+FOLDER = f"compare/{PACKAGE}"
+# Lowest first. Packages of one line share a floor; "" is fsi_compare itself, with its command line.
+FLOORS = (
+    ("base",),
+    ("runs",),
+    ("reporting",),
+    ("linear",),
+    ("studies.running",),
+    ("studies.evidence",),
+    ("studies.accuracy", "studies.coupling", "studies.paper", "studies.skip", "studies.stability"),
+    ("studies",),
+    ("",),
+)
+LIBRARIES = ("numpy", "matplotlib", "h5py")
+# Imports by a name that is computed are seen by no check: only where every module that it may name lies below.
+COMPUTED = ("studies.kinds",)
+
+
+def source_files(root):
+    """Paths of the modules, relative to the root."""
+    return sorted(path.relative_to(root).as_posix() for path in (root / FOLDER).rglob("*.py"))
+
+
+def module_of(path):
+    """'runs.columns' for compare/fsi_compare/runs/columns.py; a package is named by its folder."""
+    parts = Path(path).relative_to(FOLDER).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def package_of(path):
+    return ".".join(Path(path).relative_to(FOLDER).parts[:-1])
+
+
+def allowed_packages(package):
+    """Its own and those of the floors below; None when it is on no floor."""
+    for number, floor in enumerate(FLOORS):
+        if package in floor:
+            return [name for below in FLOORS[:number] for name in below] + [package]
+    return None
+
+
+def imports(root, path, modules):
+    """(line, text, path) of each import of a module of fsi_compare, (line, text, None) of any other that will not do.
+    `modules`: path of each by its name."""
+    tree = ast.parse((root / path).read_text(encoding="utf-8"), path)
+    package = package_of(path).split(".") if package_of(path) else []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield from _absolute(node.lineno, f"import {alias.name}", alias.name, (), modules)
+        elif isinstance(node, ast.ImportFrom):
+            names = [alias.name for alias in node.names]
+            text = f"from {'.' * node.level}{node.module or ''} import {', '.join(names)}"
+            if node.level == 0:
+                yield from _absolute(node.lineno, text, node.module, names, modules)
+            elif node.level > len(package) + 1:
+                yield node.lineno, text, None
+            else:
+                kept = package[: len(package) - node.level + 1]
+                yield from _own(
+                    node.lineno, text, ".".join(kept + ([node.module] if node.module else [])), names, modules
+                )
+        elif isinstance(node, ast.Call) and module_of(path) not in COMPUTED:
+            called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            if called in ("import_module", "__import__"):
+                yield node.lineno, f"{called}(...)", None
+
+
+def _absolute(line, text, name, names, modules):
+    first, _, rest = name.partition(".")
+    if first == PACKAGE:
+        yield from _own(line, text, rest, names, modules)
+    elif first not in sys.stdlib_module_names and first not in LIBRARIES:
+        yield line, text, None
+
+
+def _own(line, text, name, names, modules):
+    """`name` is a module, or a package of which `names` are modules or what its __init__ defines."""
+    inside = [f"{name}.{one}".lstrip(".") for one in names]
+    found = [modules[one] for one in inside if one in modules]
+    if len(found) < max(len(names), 1):
+        found.append(modules.get(name))
+    for path in found:
+        yield line, text, path
+
+
+def wrong_imports(root):
+    """One message for each import that goes up, sideways or out of the project, and for each module on no floor."""
+    paths = source_files(root)
+    modules = {module_of(path): path for path in paths}
+    for path in paths:
+        package = package_of(path)
+        allowed = allowed_packages(package)
+        if allowed is None:
+            yield f'{path}:1: package "{package}" is on no floor; add it to FLOORS in tests/checks/python_layering.py'
+            continue
+        for line, text, target in imports(root, path, modules):
+            if target is None:
+                yield f"{path}:{line}: {text}: neither a module of {PACKAGE} nor one of {', '.join(LIBRARIES)}"
+            elif package_of(target) not in allowed:
+                yield f'{path}:{line}: {text} from "{package}"; allowed: {", ".join(allowed)}'
+
+
+def cycles(root):
+    """One message for each circle of imports."""
+    paths = source_files(root)
+    modules = {module_of(path): path for path in paths}
+    graph = {
+        path: [(line, target) for line, _, target in imports(root, path, modules) if target is not None]
+        for path in paths
+    }
+    return [f"{path}:{line}: import cycle: {' -> '.join(circle)}" for path, line, circle in circles(graph)]
+
+
+def main(arguments):
+    if len(arguments) != 1 or not (Path(arguments[0]) / FOLDER).is_dir():
+        print("python_layering.py: error: give the root of the repository", file=sys.stderr)
+        return 1
+    root = Path(arguments[0])
+    files = source_files(root)
+    if not files:
+        print("python_layering.py: error: no modules found", file=sys.stderr)
+        return 1
+    messages = list(wrong_imports(root)) + cycles(root)
+    for message in messages:
+        print(message)
+    print(f"{len(files)} modules, {len(messages)} problems")
+    return 1 if messages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

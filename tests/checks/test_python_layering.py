@@ -1,0 +1,131 @@
+"""The layering check of the Python modules must be able to fail: each mistake planted in a small tree."""
+
+import contextlib
+import io
+import tempfile
+import unittest
+from pathlib import Path
+
+from python_layering import FOLDER, cycles, main, wrong_imports
+
+CLEAN = {
+    "__init__.py": "",
+    "__main__.py": "import sys\n\nfrom .cli import main\n",
+    "cli.py": "from .base.errors import InputError\nfrom .studies.command import study\n",
+    "base/__init__.py": "",
+    "base/errors.py": "from pathlib import Path\n",
+    "runs/__init__.py": "",
+    "runs/columns.py": "import numpy as np\n\nfrom ..base.errors import InputError\n",
+    "reporting/__init__.py": "",
+    "reporting/pictures.py": "from matplotlib.figure import Figure\n\nfrom ..base import errors\n",
+    "studies/__init__.py": "",
+    "studies/command.py": "from . import kinds\n",
+    "studies/kinds.py": "import importlib\n\n\ndef kind(name):\n    return importlib.import_module(name)\n",
+    "studies/evidence/__init__.py": "LIMIT = 1\n",
+    "studies/evidence/waves.py": "from ...runs.columns import read_columns\n",
+    "studies/paper/__init__.py": "",
+    "studies/paper/study.py": "from ..evidence import LIMIT, waves\nfrom fsi_compare.reporting import pictures\n",
+    "studies/skip/__init__.py": "",
+    "studies/skip/study.py": "",
+}
+
+
+class PythonLayering(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name)
+        for path, text in CLEAN.items():
+            self.write(path, text)
+
+    def write(self, path, text):
+        file = self.root / FOLDER / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+
+    def assert_problem(self, *expected):
+        messages = list(wrong_imports(self.root)) + cycles(self.root)
+        self.assertEqual(len(messages), 1, messages)
+        for part in expected:
+            self.assertIn(part, messages[0])
+        self.assertEqual(self.exit_code(), 1)
+
+    def exit_code(self):
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            return main([str(self.root)])
+
+    def test_clean_tree(self):
+        self.assertEqual(list(wrong_imports(self.root)), [])
+        self.assertEqual(cycles(self.root), [])
+        self.assertEqual(self.exit_code(), 0)
+
+    def test_upwards(self):
+        self.write("runs/columns.py", "import math\n\nfrom ..reporting.pictures import draw\n")
+        self.assert_problem("runs/columns.py:3: from ..reporting.pictures import draw", "allowed: base, runs")
+
+    def test_upwards_by_a_package(self):
+        self.write("runs/columns.py", "from ..reporting import pictures\n")
+        self.assert_problem("runs/columns.py:1")
+
+    def test_upwards_to_the_command_line(self):
+        self.write("reporting/cost.py", "from ..cli import read_labels\n")
+        self.assert_problem("reporting/cost.py:1")
+
+    def test_upwards_by_the_full_name(self):
+        self.write("runs/columns.py", "import fsi_compare.reporting.pictures\n")
+        self.assert_problem("runs/columns.py:1")
+
+    def test_upwards_within_a_function(self):
+        self.write("runs/columns.py", "def read():\n    from ..reporting.pictures import draw\n")
+        self.assert_problem("runs/columns.py:2")
+
+    def test_upwards_by_what_a_package_defines(self):
+        self.write("runs/columns.py", "from ..studies.evidence import LIMIT\n")
+        self.assert_problem("runs/columns.py:1")
+
+    def test_sideways(self):
+        self.write("studies/skip/study.py", "from ..paper.study import evaluate\n")
+        self.assert_problem('studies/skip/study.py:1: from ..paper.study import evaluate from "studies.skip"')
+
+    def test_unknown_package(self):
+        self.write("attic/old.py", "")
+        self.assert_problem('attic/old.py:1: package "attic" is on no floor')
+
+    def test_unknown_module(self):
+        self.write("runs/columns.py", "from ..base.mistakes import InputError\n")
+        self.assert_problem("runs/columns.py:1", "neither a module of fsi_compare")
+
+    def test_above_the_package(self):
+        self.write("runs/columns.py", "from ...scripts import help\n")
+        self.assert_problem("runs/columns.py:1")
+
+    def test_other_library(self):
+        self.write("runs/columns.py", "import pandas\n")
+        self.assert_problem("runs/columns.py:1: import pandas")
+
+    def test_computed_name(self):
+        self.write("runs/columns.py", 'from importlib import import_module\n\nimport_module("fsi_compare.cli")\n')
+        self.assert_problem("runs/columns.py:3: import_module(...)")
+
+    def test_circle_of_two(self):
+        self.write("runs/a.py", "from .b import two\n")
+        self.write("runs/b.py", "from . import a\n")
+        self.assert_problem("import cycle", f"{FOLDER}/runs/a.py -> {FOLDER}/runs/b.py -> {FOLDER}/runs/a.py")
+
+    def test_circle_closed_within_a_function(self):
+        self.write("runs/a.py", "from .b import two\n")
+        self.write("runs/b.py", "def late():\n    from .a import one\n")
+        self.assert_problem("runs/b.py:2: import cycle")
+
+    def test_module_that_imports_itself(self):
+        self.write("runs/a.py", "from . import a\n")
+        self.assert_problem("import cycle")
+
+    def test_empty_tree_is_an_error(self):
+        for path in (self.root / FOLDER).rglob("*.py"):
+            path.unlink()
+        self.assertEqual(self.exit_code(), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
