@@ -87,7 +87,7 @@ class Run {
     ResultFolder folder =
         restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
-    FieldOutput fields(setup_, *scene_, loads_.steps(), line_.output, line_.restart, state_.step);
+    FieldOutput fields(setup_, *scene_, loads_.axis(), line_.output, line_.restart, state_.step);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
     summary_ = scene_json(program_, setup_, mesh_, *scene_);
@@ -158,7 +158,12 @@ class Run {
     console.line(text);
     log.info(text);
     for (const auto& warning : setup_.warnings) log.warning(warning);
-    if (state_.step > 0) log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+    if (state_.step == 0) return;
+    log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+    if (!step_change_.empty()) {
+      console.line(step_change_);
+      log.info(step_change_);
+    }
   }
 
   void save() {
@@ -166,7 +171,7 @@ class Run {
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
     checkpoint.mesh_hash = hash_of_mesh(mesh_);
-    store(state_, stepper_->memory(), checkpoint);
+    store(state_, stepper_->memory(), loads_.axis().stretches(), checkpoint);
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
@@ -174,7 +179,21 @@ class Run {
     const auto file = checkpoint_file(line_.restart);
     const Checkpoint checkpoint = read_checkpoint(file);
     require_same_run(file, checkpoint, program_, hash_of_case(setup_), hash_of_mesh(mesh_));
-    stepper_->recall(restore(file, checkpoint, state_));
+    Memory memory = restore(file, checkpoint, state_);
+    const auto stretches = stored_stretches(file, checkpoint);
+    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time);
+    if (memory.step_changed) step_change_ = text_of_change(stretches.back());
+    stepper_->recall(memory);
+  }
+
+  /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
+  std::string text_of_change(const Stretch& before) const {
+    const double asked = loads_.axis().stretches().back().asked;
+    return loads_.axis().is_static()
+               ? fmt::format("static.load_steps is {:g} from load step {} on, {:g} before: {} steps to come", asked,
+                             state_.step + 1, before.asked, loads_.steps() - state_.step)
+               : fmt::format("time.step is {:g} ms from step {} on, {:g} ms before: {} steps to come", asked,
+                             state_.step + 1, before.asked, loads_.steps() - state_.step);
   }
 
   void write(const std::string& status) {
@@ -201,6 +220,7 @@ class Run {
   Observables observables_;
   std::optional<EnergyBalance<P1Tetrahedron>> energy_;
   StepRecord total_;
+  std::string step_change_;  ///< said when the run goes on with another step
   nlohmann::json summary_;
 };
 

@@ -6,9 +6,10 @@ import subprocess
 import time
 import unittest
 
-from programs import (ARTERY, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, FolderTest, arrays, attempt, driver_command,
-                      iterations_without_seconds, make_mesh, make_small_mesh, newton_history, restart, run, summary,
-                      table)
+import numpy as np
+from programs import (ARTERY, MONOLITHIC, NEO_HOOKEAN, PARTITIONED, TABLES, FolderTest, arrays, attempt, driver_command,
+                      iterations_without_seconds, make_mesh, make_small_mesh, newton_history, pressure, restart, run, summary,
+                      table, times)
 
 STEP = 0.125  # ms, of the case files
 
@@ -94,6 +95,48 @@ class Restart:
         self.assertTrue((rows[:, 5] > 0).all())
         self.assertEqual((folder / "run.log").read_text().count("restarted after step 2"), 1)
 
+    # ---- Another step
+
+    def test_with_half_the_step(self):
+        """The times are those of both steps, to the end; the wave is that of a run with the small step throughout, but
+        for the first steps' own error of time."""
+        folder = self.march("halved", steps=4)
+        first = {name: (folder / name).read_text() for name in TABLES}
+        process = attempt(self.program, ARTERY, "--restart", folder, settings=self.until(self.steps, "time.step=0.0625"))
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        said = f"time.step is 0.0625 ms from step 5 on, 0.125 ms before: {2 * (self.steps - 4)} steps to come"
+        self.assertIn(said, process.stdout)
+        self.assertIn(said, (folder / "run.log").read_text())
+        expected = [*(STEP * np.arange(1, 5)), *(4 * STEP + STEP / 2 * np.arange(1, 2 * (self.steps - 4) + 1))]
+        self.assertEqual(times(folder), [f"{time:g}" for time in expected])
+        for name, text in first.items():
+            self.assertTrue((folder / name).read_text().startswith(text), name)
+        self.assertEqual(np.unique(table(folder, "flow.csv")[:, 0]).tolist(), expected)
+        self.assertEqual(arrays(folder / "fields.h5")["steps/time"][-1], self.steps * STEP)
+        fine = self.march("fine", "time.step=0.0625")
+        error = lambda of: np.abs(pressure(of)[-1] - pressure(fine)[-1]).max() / np.abs(pressure(fine)[-1]).max()
+        print(f"against the small step throughout: halved on the way {error(folder):.3f}, never {error(self.whole):.3f}")
+        self.assertLess(error(folder), 0.7 * error(self.whole))
+
+    def test_with_another_step_is_what_it_is_wherever_it_stops(self):
+        """Restarts after the change, with the same step, change no bit."""
+        begun = self.march("begun", steps=2)
+        changed = ("time.step=0.0625",)
+        whole = self.go_on(begun, *changed, into=self.base / "changed_whole")
+        stopped = restart(self.program, ARTERY, begun, *self.until(3, *changed), into=self.base / "changed")
+        self.assertEqual(len(times(stopped)), 4)
+        self.assertNotIn("time.step is", (self.go_on(stopped, *changed) / "run.log").read_text().split("restarted")[-1])
+        self.assertSameTables(stopped, whole)
+
+    def test_refuses_a_step_that_misses_the_end(self):
+        folder = self.march("misses", steps=1)
+        before = {file.name: file.read_bytes() for file in folder.iterdir()}
+        process = attempt(self.program, ARTERY, "--restart", folder, settings=(*self.settings, "time.step=0.5", "time.end=1"))
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("time.step: 0.5 leads from 0.125 ms", process.stderr)
+        self.assertIn("e.g. 0.125", process.stderr)
+        self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir()}, before)
+
     # ---- Kills
 
     def start(self, folder, *settings):
@@ -156,7 +199,7 @@ class Restart:
         before = {file.name: file.read_bytes() for file in folder.iterdir()}
         mesh = make_mesh(self.base / "other.msh", "--level", "coarse", "--length", 5)
         for case, settings, what in ((NEO_HOOKEAN, (), "another case"), (ARTERY, ("fluid.density=2",), "another case"),
-                                     (ARTERY, ("time.step=0.0625",), "another case"),
+                                     (ARTERY, ("time.newmark_beta=0.9",), "another case"),
                                      (ARTERY, (f"mesh.file={mesh}",), "another mesh")):
             process = attempt(self.program, case, "--restart", folder, settings=self.until(2, *settings))
             self.assertEqual(process.returncode, 1)
