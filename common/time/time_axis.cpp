@@ -47,7 +47,9 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time) {
   const double asked = stretches_.back().asked;
   stretches_ = std::move(past);
   const bool changed = asked != stretches_.back().asked;
-  if (changed) {
+  // A run that ended between two steps of its stretch, its last one cut short, goes on from that end.
+  const bool between = time_ != nullptr && std::abs(time_of(last) - time) > rounding * asked;
+  if (changed || between) {
     if (stretches_.back().after == last) stretches_.pop_back();
     stretches_.push_back({last, time, asked});
   }

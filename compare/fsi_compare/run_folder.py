@@ -74,7 +74,7 @@ def read_summary(path: Path) -> dict:
     status = summary.get("status")
     if status is None:
         raise InputError(path, "status", "is missing", "run it again")
-    if status == "running":
+    if status in ("running", "interrupted"):
         raise InputError(path, "status", "the run is not finished",
                          f"wait for its end or resume it with {program} --restart {path.parent}")
     if status == "not converged":

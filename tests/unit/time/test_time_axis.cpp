@@ -1,7 +1,6 @@
 #include "time/time_axis.hpp"
 
 #include <gtest/gtest.h>
-
 namespace fsi::test {
 
 namespace {
@@ -62,6 +61,19 @@ TEST(TimeAxis, CutsTheLastStepShortWhereTheNewOnesMissTheEnd) {
   EXPECT_EQ(axis.steps(), 3 + 3);
   EXPECT_EQ(axis.time_of(5), 0.8);
   EXPECT_EQ(axis.time_of(6), 1.0);
+}
+
+TEST(TimeAxis, GoesOnFromAnEndThatCutAStepShort) {
+  const Case before = in_time(0.25, 0.9), longer = in_time(0.25, 1.4);
+  const TimeAxis cut(before);
+  EXPECT_EQ(cut.steps(), 4);
+  EXPECT_EQ(cut.time_of(4), 0.9);
+  TimeAxis axis(longer);
+  EXPECT_FALSE(axis.go_on(cut.stretches(), 4, 0.9));
+  EXPECT_EQ(axis.steps(), 4 + 2);
+  EXPECT_EQ(axis.time_of(3), 0.75);
+  EXPECT_EQ(axis.time_of(4), 0.9);
+  EXPECT_EQ(axis.time_of(5), 1.15);
 }
 
 TEST(TimeAxis, SplitsTheRestOfAStaticLoadInEqualSteps) {
