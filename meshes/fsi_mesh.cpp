@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "base/error.hpp"
@@ -25,13 +26,24 @@ struct Request {
   bool quiet = false;
 };
 
-/// Writes the mesh and prints its quality as the solvers will see it.
+/// The format is named by the version and --binary; another extension would promise another format.
+void require_known_extension(const std::string& file) {
+  const auto extension = std::filesystem::path(file).extension().string();
+  if (extension == ".msh") return;
+  throw fsi::InputError(file, "--output",
+                        extension.empty() ? "has no extension" : "the extension " + extension + " is unknown",
+                        "the one that is known is .msh, gmsh 4.1 or 2.2 (--format), text or --binary");
+}
+
+/// Writes the mesh and prints its quality as the solvers will see it; warnings of bad elements go to stderr.
 void make_artery(const Request& request) {
   const auto made = fsi::generate_artery(request.artery);
   fsi::write_gmsh(made, request.file, request.format);
   if (request.quiet) return;
-  const auto mesh = fsi::read_gmsh(request.file, made.regions);
-  fmt::print("{}: {}", request.file, fsi::to_text(fsi::measure_quality(mesh)));
+  const auto quality = fsi::measure_quality(fsi::read_gmsh(request.file, made.regions));
+  fmt::print("{}: {}", request.file, fsi::to_text(quality));
+  std::fflush(stdout);
+  for (const auto& warning : fsi::warnings_of(quality)) fmt::print(stderr, "fsi-mesh: warning: {}\n", warning);
 }
 
 }  // namespace
@@ -46,7 +58,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   CLI::App* artery = app.add_subcommand("artery", "A straight two-layer artery along the z axis from (0,0,0)");
   artery->add_option("--level", request.level, "coarse, intermediate or fine: sets both sizes")->capture_default_str();
-  artery->add_option("-o,--output", request.file, "The .msh file to write")->required();
+  artery->add_option("-o,--output", request.file, "The file to write, .msh")->required();
   artery->add_option("--inner-radius", shape.inner_radius, "Radius of the lumen")->capture_default_str();
   artery->add_option("--media", shape.media, "Thickness of the inner layer")->capture_default_str();
   artery->add_option("--adventitia", shape.adventitia, "Thickness of the outer layer; 0: none")->capture_default_str();
@@ -58,7 +70,7 @@ int main(int argc, char** argv) {
   artery->add_flag("--binary", request.format.binary, "Write binary data");
   artery->add_option("--threads", request.threads, "Taken as by all programs; one is all this needs")
       ->check(CLI::Range(0, 1024));
-  artery->add_flag("-q,--quiet", request.quiet, "No quality report");
+  artery->add_flag("-q,--quiet", request.quiet, "No quality report and no warnings");
 
   try {
     app.parse(argc, argv);
@@ -66,6 +78,7 @@ int main(int argc, char** argv) {
     shape.size = sized->count() > 0 ? size : level.size;
     if (sized->count() == 0) shape.axial_size = level.axial_size;
     if (stretched->count() > 0) shape.axial_size = axial_size;
+    require_known_extension(request.file);
     fsi::set_threads(request.threads);
     make_artery(request);
     return fsi::exit_done;

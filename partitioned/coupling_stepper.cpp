@@ -100,13 +100,13 @@ Memory CouplingStepper<Element>::memory() const {
 template <class Element>
 void CouplingStepper<Element>::recall(const Memory& memory) {
   problem_->recall(memory);
-  accelerator_->recall(memory);
+  if (!memory.step_changed) accelerator_->recall(memory);
   const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
     const auto found = memory.numbers.find(name);
     return found == memory.numbers.end() ? 0.0 : found->second;
   };
   if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
-  march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
+  if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
   velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
 }
 

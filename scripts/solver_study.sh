@@ -27,7 +27,7 @@ run() {
   shift
   if grep -qs '"status": "done"' "$results/$name/summary.json"; then return; fi
   echo "== $name"
-  "$programs/fsi-monolithic" meshes/artery/neo-hookean.toml -o "$results/$name" -q "$@"
+  "$programs/fsi-monolithic" meshes/artery/neo-hookean.toml -o "$results/$name" --force -q "$@"
 }
 # The best of the paper's methods on the larger meshes: the first steps, from which the whole run follows.
 for level in coarse intermediate fine; do

@@ -16,7 +16,7 @@ run() {
   shift 3
   if grep -qs '"status": "done"' "$results/$name/summary.json"; then return; fi
   echo "== $name"
-  "$programs/$program" "meshes/artery/$case_name.toml" -o "$results/$name" -q "$@"
+  "$programs/$program" "meshes/artery/$case_name.toml" -o "$results/$name" --force -q "$@"
 }
 
 materials=(neo-hookean mooney-rivlin artery)

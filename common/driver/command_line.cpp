@@ -1,8 +1,11 @@
 #include "driver/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
@@ -25,7 +28,7 @@ int thread_count(const std::string& text) {
   int count = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc() || end != text.data() + text.size() || count < 0)
-    throw InputError("", "--threads", "\"" + text + "\" is no number of threads", "give 0 for one thread per core");
+    throw InputError("", "--threads", "\"" + text + "\" is no number of threads", "give 0 for as many as are of use");
   return count;
 }
 
@@ -47,7 +50,32 @@ void refuse_extras(const CLI::App& app) {
   }
 }
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_-+./,:=@%", c) != nullptr; };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string text = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      text += "'\\''";
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
 }  // namespace
+
+std::string restart_command(const CommandLine& line) {
+  std::vector<std::string> words{line.program, line.case_file.string(), "--restart", line.output.string(),
+                                 "-o",         line.output.string()};
+  for (const auto& entry : line.overrides) words.insert(words.end(), {"--set", entry});
+  if (line.threads > 0) words.insert(words.end(), {"--threads", std::to_string(line.threads)});
+  if (line.quiet) words.emplace_back("-q");
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
 
 std::optional<CommandLine> parse_command_line(const std::string& program, const std::string& description, int argc,
                                               const char* const* argv, const std::vector<ExtraOption>& extra) {
@@ -68,13 +96,14 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  app.add_option("--threads", threads, "Threads for assembly; 0: one per core (default)")->type_name("N");
+  app.add_option("--threads", threads, "Threads; 0: one per idle core, one on a small mesh (default)")->type_name("N");
   for (const auto& option : extra) {
     if (option.text)
       app.add_option(option.name, *option.text, option.description)->type_name(option.type);
     else
       app.add_flag(option.name, *option.flag, option.description);
   }
+  app.add_flag("--force", line.force, "Replace the results of an earlier run in the result folder");
   app.add_flag("-q,--quiet", line.quiet, "No progress, errors only");
   app.add_flag("-h,--help", help, "Print this help");
   app.add_flag("--help-keys", help_keys, "List the keys of a case file");
@@ -107,6 +136,7 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
   if (line.output.empty() && line.restart.empty())
     throw InputError("", "--output", "no result folder given", "add -o DIR");
   if (line.output.empty()) line.output = line.restart;
+  line.program = argc > 0 ? argv[0] : program;
   if (!threads.empty()) line.threads = thread_count(threads);
   return line;
 }

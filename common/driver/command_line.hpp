@@ -16,15 +16,20 @@ struct ExtraOption {
   bool* flag = nullptr;
 };
 
-/// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [-q]`.
+/// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [--force] [-q]`.
 struct CommandLine {
   std::filesystem::path case_file;
   std::filesystem::path output;        ///< result folder; the restarted one when --restart is given without -o
   std::filesystem::path restart;       ///< result folder to continue; empty: start at rest
   std::vector<std::string> overrides;  ///< `key=value` of each --set, in order
-  int threads = 0;                     ///< 0: one per core
+  int threads = 0;                     ///< 0: chosen by the program
+  bool force = false;                  ///< results in `output` may be replaced
   bool quiet = false;
+  std::string program;  ///< as it was called
 };
+
+/// The command that continues the run of this command line in its result folder, ready to be pasted into a shell.
+std::string restart_command(const CommandLine& line);
 
 /// Parses a driver's arguments. Empty when --help, --help-keys or --version was asked for and has been printed.
 /// \param program      name of the program, for help and version

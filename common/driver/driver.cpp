@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
+#include "base/idle_cores.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
@@ -17,6 +20,7 @@
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
 #include "driver/field_output.hpp"
+#include "driver/interruption.hpp"
 #include "driver/load_mesh.hpp"
 #include "driver/observables.hpp"
 #include "driver/program.hpp"
@@ -64,18 +68,23 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const T
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 class Run {
  public:
-  Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperFactory& make_stepper)
+  /// \param watch  of the cores, from the program's start on
+  Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperFactory& make_stepper,
+      const CoreWatch& watch)
       : program_(program),
         line_(line),
         setup_(setup),
         mesh_(load_mesh(setup)),
+        threads_(set_as_chosen(choose_threads(line.threads, mesh_.cells.size(), watch))),
         scene_(build_scene(setup, mesh_)),
         loads_(setup),
         stepper_(make_stepper(*scene_, loads_, setup)),
         state_(scene_->at_rest()),
         observables_(setup, mesh_, *scene_) {}
 
-  void march() {
+  /// To the last step or a signal; returns the program's exit code.
+  int march() {
+    const Interruption interruption;
     const bool restarted = !line_.restart.empty();
     if (restarted) recall();
     ResultTables tables = observables_.tables();
@@ -87,7 +96,7 @@ class Run {
     ResultFolder folder =
         restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
-    FieldOutput fields(setup_, *scene_, loads_.steps(), line_.output, line_.restart, state_.step);
+    FieldOutput fields(setup_, *scene_, loads_.axis(), line_.output, line_.restart, state_.step);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
     summary_ = scene_json(program_, setup_, mesh_, *scene_);
@@ -96,7 +105,7 @@ class Run {
     announce(console, log);
     if (!restarted) fields.write(state_);
     try {
-      while (state_.step < loads_.steps()) step(folder, fields, console, log);
+      while (state_.step < loads_.steps() && !interruption) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
       for (const auto& entry : stepper_->report().history) log.info("  " + entry);
       const std::string hint = failure_hint(setup_, mesh_, *scene_, loads_, state_);
@@ -105,19 +114,39 @@ class Run {
       if (state_.step > 0) save();
       summary_["failure"] = said;
       write("not converged");
-      throw ConvergenceError(
-          state_.step > 0
-              ? fmt::format(
-                    "{} [the state after step {} is saved; continue with other solver settings by --restart {}]", said,
-                    state_.step, line_.output.string())
-              : said,
-          "");
+      if (state_.step == 0) throw ConvergenceError(said, "");
+      throw ConvergenceError(fmt::format("{} [the state after step {} is saved; with other solver settings, or another "
+                                         "step, continue by: {}]",
+                                         said, state_.step, restart_command(line_)),
+                             "");
     }
+    if (state_.step < loads_.steps()) return interrupted(interruption.signal(), log);
     write("done");
     log.info("done");
+    return exit_done;
   }
 
  private:
+  static ThreadChoice set_as_chosen(const ThreadChoice& choice) {
+    set_dense_threads(set_threads(choice.count));
+    return choice;
+  }
+
+  /// Leaves a folder that a later run goes on from.
+  int interrupted(int signal, RunLog& log) {
+    std::string said = "before the end of the first step; nothing is lost by starting again";
+    if (state_.step > 0) {
+      save();
+      said = fmt::format("after step {} of {}, whose state is saved; continue by: {}", state_.step, loads_.steps(),
+                         restart_command(line_));
+    }
+    log.warning("interrupted " + said);
+    write("interrupted");
+    std::fflush(stdout);
+    std::fprintf(stderr, "%s: interrupted %s\n", program_.c_str(), said.c_str());
+    return interrupted_exit_code(signal);
+  }
+
   void step(ResultFolder& folder, FieldOutput& fields, Console& console, RunLog& log) {
     const auto start = Clock::now();
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
@@ -157,8 +186,14 @@ class Run {
                                   summary_["unknowns"]["coupled"].get<long>(), threads(), loads_.steps());
     console.line(text);
     log.info(text);
+    log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
     for (const auto& warning : setup_.warnings) log.warning(warning);
-    if (state_.step > 0) log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+    if (state_.step == 0) return;
+    log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+    if (!step_change_.empty()) {
+      console.line(step_change_);
+      log.info(step_change_);
+    }
   }
 
   void save() {
@@ -166,7 +201,7 @@ class Run {
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
     checkpoint.mesh_hash = hash_of_mesh(mesh_);
-    store(state_, stepper_->memory(), checkpoint);
+    store(state_, stepper_->memory(), loads_.axis().stretches(), checkpoint);
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
@@ -174,7 +209,21 @@ class Run {
     const auto file = checkpoint_file(line_.restart);
     const Checkpoint checkpoint = read_checkpoint(file);
     require_same_run(file, checkpoint, program_, hash_of_case(setup_), hash_of_mesh(mesh_));
-    stepper_->recall(restore(file, checkpoint, state_));
+    Memory memory = restore(file, checkpoint, state_);
+    const auto stretches = stored_stretches(file, checkpoint);
+    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time);
+    if (memory.step_changed) step_change_ = text_of_change(stretches.back());
+    stepper_->recall(memory);
+  }
+
+  /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
+  std::string text_of_change(const Stretch& before) const {
+    const double asked = loads_.axis().stretches().back().asked;
+    return loads_.axis().is_static()
+               ? fmt::format("static.load_steps is {:g} from load step {} on, {:g} before: {} steps to come", asked,
+                             state_.step + 1, before.asked, loads_.steps() - state_.step)
+               : fmt::format("time.step is {:g} ms from step {} on, {:g} ms before: {} steps to come", asked,
+                             state_.step + 1, before.asked, loads_.steps() - state_.step);
   }
 
   void write(const std::string& status) {
@@ -194,6 +243,7 @@ class Run {
   const CommandLine& line_;
   const Case& setup_;
   TetrahedralMesh mesh_;
+  ThreadChoice threads_;
   std::unique_ptr<Scene<P1Tetrahedron>> scene_;
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;
@@ -201,23 +251,34 @@ class Run {
   Observables observables_;
   std::optional<EnergyBalance<P1Tetrahedron>> energy_;
   StepRecord total_;
+  std::string step_change_;  ///< said when the run goes on with another step
   nlohmann::json summary_;
 };
+
+/// Nothing is replaced that the user has not named, whether to be replaced or to be continued.
+void require_folder(const CommandLine& line) {
+  std::error_code error;
+  const bool in_place = !line.restart.empty() &&
+                        (line.output == line.restart || std::filesystem::equivalent(line.output, line.restart, error));
+  if (!line.force && !in_place) require_no_results(line.output, restart_command(line));
+}
 
 }  // namespace
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
                const StepperFactory& make_stepper, const OtherTask& other) {
+  sleep_while_waiting(argv);
   return run_program(program, [&] {
+    const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
-    set_dense_threads(set_threads(line->threads));
+    set_dense_threads(set_threads(line->threads));  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
-    Run(program, *line, setup, make_stepper).march();
-    return static_cast<int>(exit_done);
+    require_folder(*line);
+    return Run(program, *line, setup, make_stepper, watch).march();
   });
 }
 

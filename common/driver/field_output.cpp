@@ -48,7 +48,7 @@ static_assert(names_match(output_field_list, output_fields), "case/choices.hpp o
 
 }  // namespace
 
-FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, int steps,
+FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, const TimeAxis& axis,
                          const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
                          int first_step)
     : scene_(scene) {
@@ -63,8 +63,8 @@ FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, i
   if (scene.fluid) describe(grid_of("fluid", scene.fluid->part()), scene.coupled(), true);
   if (scene.wall) describe(grid_of("wall", scene.wall->part()), true, !scene.is_static());
   if (grids_.empty()) return;
-  const double step_size = setup.time ? setup.time->step : 1.0 / steps;
-  const auto planned = planned_field_steps(steps, setup.output.every, step_size);
+  const auto planned = planned_field_steps(axis.steps(), setup.output.every,
+                                           [&](std::int64_t step) { return axis.time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
   else

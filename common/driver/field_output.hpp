@@ -6,6 +6,7 @@
 #include "fem/p1_tetrahedron.hpp"
 #include "io/fields_writer.hpp"
 #include "scene/scene.hpp"
+#include "time/time_axis.hpp"
 
 namespace fsi {
 
@@ -15,8 +16,8 @@ class FieldOutput {
   /// Nothing is written when the case wants no fields.
   /// \param restarted_from  result folder that the run continues; empty: a new run
   /// \param first_step      last step of the checkpoint, or 0
-  FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, int steps, const std::filesystem::path& folder,
-              const std::filesystem::path& restarted_from, int first_step);
+  FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, const TimeAxis& axis,
+              const std::filesystem::path& folder, const std::filesystem::path& restarted_from, int first_step);
 
   /// Writes the state's fields if its step is a planned one.
   void write(const State& state);

@@ -9,6 +9,7 @@ namespace fsi {
 namespace {
 
 constexpr const char* memory_prefix = "stepper.";
+constexpr const char* stretches_name = "step_lengths";  // per stretch: step before it, its start, what the case asked
 
 /// Calls visit(name, array) for every array of a state that a later step reads.
 template <class StateType, class Visit>
@@ -24,10 +25,13 @@ void for_each_array(StateType& state, Visit visit) {
 
 }  // namespace
 
-void store(const State& state, const Memory& memory, Checkpoint& checkpoint) {
+void store(const State& state, const Memory& memory, const std::vector<Stretch>& stretches, Checkpoint& checkpoint) {
   checkpoint.step = state.step;
   checkpoint.time = state.time;
   checkpoint.arrays["level_times"] = {state.times.begin(), state.times.end()};
+  auto& numbers = checkpoint.arrays[stretches_name];
+  for (const Stretch& stretch : stretches)
+    numbers.insert(numbers.end(), {static_cast<double>(stretch.after), stretch.start, stretch.asked});
   for_each_array(state,
                  [&](const std::string& name, const std::vector<double>& array) { checkpoint.arrays[name] = array; });
   for (const auto& [name, array] : memory.arrays) checkpoint.arrays[memory_prefix + name] = array;
@@ -50,6 +54,16 @@ Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, 
   for (const auto& [name, number] : checkpoint.reals)
     if (name.rfind(prefix, 0) == 0) memory.numbers[name.substr(prefix.size())] = number;
   return memory;
+}
+
+std::vector<Stretch> stored_stretches(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  const auto found = checkpoint.arrays.find(stretches_name);
+  const std::size_t size = found == checkpoint.arrays.end() ? 0 : found->second.size();
+  const auto& numbers = require_size(file, checkpoint, stretches_name, std::max<std::size_t>(3, size / 3 * 3));
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+    stretches.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
+  return stretches;
 }
 
 }  // namespace fsi

@@ -1,18 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "io/checkpoint.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
+#include "time/time_axis.hpp"
 
 namespace fsi {
 
-/// Adds the finished levels of a state and what the stepper keeps between steps.
-void store(const State& state, const Memory& memory, Checkpoint& checkpoint);
+/// Adds the finished levels of a state, what the stepper keeps between steps, and the steps that led there.
+void store(const State& state, const Memory& memory, const std::vector<Stretch>& stretches, Checkpoint& checkpoint);
 
 /// The reverse; `state` comes at rest, for the sizes. \throws InputError naming `file` for arrays missing or of another
 /// size
 Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, State& state);
+
+/// The steps that led to the checkpoint. \throws InputError naming `file` when it does not tell
+std::vector<Stretch> stored_stretches(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 }  // namespace fsi

@@ -130,8 +130,8 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
   if (checkpoint.case_hash != case_hash)
     throw InputError(file.string(), "case",
                      "belongs to another case (hash " + checkpoint.case_hash + ", not " + case_hash + ")",
-                     "restart with the case file of that run; only title, time.end, time.predictor, [monolithic], "
-                     "[partitioned] and [output] may differ");
+                     "restart with the case file of that run; only title, time.step, time.end, time.predictor, "
+                     "static.load_steps, [monolithic], [partitioned] and [output] may differ");
 }
 
 const std::vector<double>& require_size(const fs::path& file, const Checkpoint& checkpoint, const std::string& name,

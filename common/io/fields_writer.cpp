@@ -190,12 +190,12 @@ struct FieldsWriter::Implementation {
   }
 };
 
-std::vector<FieldStep> planned_field_steps(std::int64_t last_step, std::int64_t every, double step_size) {
+std::vector<FieldStep> planned_field_steps(std::int64_t last_step, std::int64_t every,
+                                           const std::function<double(std::int64_t)>& time_of) {
   std::vector<FieldStep> steps;
   if (every <= 0) return steps;
-  for (std::int64_t step = 0; step <= last_step; step += every)
-    steps.push_back({step, static_cast<double>(step) * step_size});
-  if (steps.back().step != last_step) steps.push_back({last_step, static_cast<double>(last_step) * step_size});
+  for (std::int64_t step = 0; step <= last_step; step += every) steps.push_back({step, time_of(step)});
+  if (steps.back().step != last_step) steps.push_back({last_step, time_of(last_step)});
   return steps;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,8 +39,9 @@ struct FieldStep {
 /// Nodal values by (grid, field): N * components doubles, the components of a node side by side.
 using FieldValues = std::map<std::pair<std::string, std::string>, std::vector<double>>;
 
-/// Steps 0, every, 2 every, ... and the last one; nothing when every is 0. `step_size` in ms.
-std::vector<FieldStep> planned_field_steps(std::int64_t last_step, std::int64_t every, double step_size);
+/// Steps 0, every, 2 every, ... and the last one; nothing when every is 0. `time_of` gives a step's time in ms.
+std::vector<FieldStep> planned_field_steps(std::int64_t last_step, std::int64_t every,
+                                           const std::function<double(std::int64_t)>& time_of);
 
 /// Writes fields.h5 and fields.xdmf (opens in ParaView) so that both can be read after a kill at any moment: fields.h5
 /// gets all its datasets when it is created and later only their raw data is overwritten in place; fields.xdmf lists

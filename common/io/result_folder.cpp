@@ -3,6 +3,8 @@
 #include <array>
 #include <cassert>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -92,7 +94,43 @@ void remove_old_results(const fs::path& folder) {
   }
 }
 
+/// The last whole line of a table, its values as text; empty when it has none.
+std::vector<std::string> last_row(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line, last;
+  std::getline(stream, line);  // header
+  while (std::getline(stream, line) && !stream.eof()) last = line;
+  std::vector<std::string> cells;
+  std::istringstream words(last);
+  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// An entry of summary.json that is text; empty when there is none.
+std::string summary_text(const fs::path& folder, const char* key) {
+  std::ifstream stream(folder / "summary.json");
+  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return {};
+  return json[key].get<std::string>();
+}
+
 }  // namespace
+
+void require_no_results(const fs::path& folder, const std::string& go_on) {
+  const auto row = last_row(folder / iterations_table.file);
+  if (row.size() < 2) return;
+  const std::string status = summary_text(folder, "status"), program = summary_text(folder, "program");
+  const std::string what = "run" + (program.empty() ? "" : " of " + program), steps = row[0] + " steps";
+  if (status == "done")
+    throw InputError(folder.string(), "", "holds a finished " + what + " (" + steps + ")",
+                     "give -o another folder, or replace it with --force");
+  std::error_code error;
+  const bool saved = fs::exists(folder / "checkpoint.h5", error);
+  throw InputError(
+      folder.string(), "",
+      "holds an unfinished " + what + " (status \"" + (status.empty() ? "unknown" : status) + "\", " + steps + ")",
+      (saved ? "continue it with " + go_on + ", " : "") + "give -o another folder, or replace it with --force");
+}
 
 ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables) : folder_(std::move(folder)) {
   prepare(folder_);

@@ -28,6 +28,12 @@ struct FlowRecord {
   double outlet_pressure = 0;  ///< kPa; written in Pa
 };
 
+/// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, they are
+/// worth the time they took. A folder whose run has not come to the end of a step may be used again.
+/// \param go_on  the command that continues a run in this folder
+/// \throws InputError that says what the folder holds and how to go on
+void require_no_results(const std::filesystem::path& folder, const std::string& go_on);
+
 /// The folder of one run and its CSV tables, each row on disk when its step is done.
 class ResultFolder {
  public:

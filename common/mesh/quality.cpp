@@ -133,8 +133,14 @@ MeshQuality measure_quality(const TetrahedralMesh& mesh) {
     ++region.tetrahedra;
     region.volume += tetrahedron_volume(corners[0], corners[1], corners[2], corners[3]);
     region.mean_eta += eta;
-    region.min_eta = std::min(region.min_eta, eta);
-    region.min_dihedral = std::min(region.min_dihedral, smallest_dihedral(corners));
+    if (eta < region.min_eta) {
+      region.min_eta = eta;
+      region.worst = static_cast<int>(c);
+      region.worst_at = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    }
+    const double dihedral = smallest_dihedral(corners);
+    region.min_dihedral = std::min(region.min_dihedral, dihedral);
+    if (eta < poor_eta || dihedral < poor_dihedral) ++region.poor;
   }
 
   for (std::size_t r = 0; r < quality.regions.size(); ++r) {
@@ -146,6 +152,20 @@ MeshQuality measure_quality(const TetrahedralMesh& mesh) {
     region.layers = element_layers(mesh, static_cast<int>(r));
   }
   return quality;
+}
+
+std::vector<std::string> warnings_of(const MeshQuality& quality) {
+  std::vector<std::string> warnings;
+  for (const auto& region : quality.regions) {
+    if (region.poor == 0) continue;
+    warnings.push_back(fmt::format(
+        "{}: {} of {} elements are of bad quality (eta below {:g} or a dihedral angle below {:g} deg); the worst is "
+        "tetrahedron {} near ({:.2f}, {:.2f}, {:.2f}) mm, eta {:.3f}; smallest angle {:.1f} deg; choose sizes across "
+        "and along that are closer to each other and to the thickness of the layers",
+        region.name, region.poor, region.tetrahedra, poor_eta, poor_dihedral, region.worst + 1, region.worst_at[0],
+        region.worst_at[1], region.worst_at[2], region.min_eta, region.min_dihedral));
+  }
+  return warnings;
 }
 
 std::string to_text(const MeshQuality& quality) {

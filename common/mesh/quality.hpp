@@ -25,6 +25,9 @@ struct MeshQuality {
     double mean_eta = 0;      ///< mean of the mean ratios
     double min_dihedral = 0;  ///< degrees
     int layers = 0;           ///< element layers across, see element_layers(); 0 where the question has no answer
+    std::size_t poor = 0;     ///< elements beyond poor_eta or poor_dihedral
+    int worst = -1;           ///< the element of the smallest mean ratio: its number in the mesh,
+    Point worst_at{};         ///< and its centre, mm
   };
   std::size_t nodes = 0;
   std::size_t tetrahedra = 0;
@@ -40,6 +43,14 @@ struct MeshQuality {
 int element_layers(const TetrahedralMesh& mesh, int region);
 
 MeshQuality measure_quality(const TetrahedralMesh& mesh);
+
+/// A mean ratio below this, or a dihedral angle below that, makes the linear systems hard and the answer poor: the
+/// stabilisation's length and the stiffness differ by more than ten between the directions of such an element.
+constexpr double poor_eta = 0.2;
+constexpr double poor_dihedral = 5;  ///< degrees
+
+/// One sentence for each region with poor elements: how many, which is the worst, where, and what to do.
+std::vector<std::string> warnings_of(const MeshQuality& quality);
 
 /// A table for the console, one line per region and one for the whole mesh, each ended by a newline.
 std::string to_text(const MeshQuality& quality);

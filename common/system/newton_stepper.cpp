@@ -31,6 +31,7 @@ void remember(const std::string& name, const LinearisationPoint& point, Memory& 
   memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
 }
 bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point) {
+  if (memory.step_changed) return false;
   if (memory.numbers.count(name + ".step") == 0) return false;
   const auto array = [&](const char* part) {
     const auto found = memory.arrays.find(name + part);

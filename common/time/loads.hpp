@@ -1,12 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdlib>
 
 #include "case/openings.hpp"
 #include "time/state.hpp"
+#include "time/time_axis.hpp"
 #include "time/time_integrator.hpp"
 
 namespace fsi {
@@ -15,17 +13,13 @@ namespace fsi {
 /// depend on the time step; a static load rises in equal steps to the table's last value.
 class Loads {
  public:
-  explicit Loads(const Case& setup) : setup_(setup), openings_(openings_of(setup)) {}
+  explicit Loads(const Case& setup) : setup_(setup), openings_(openings_of(setup)), axis_(setup) {}
 
-  int steps() const { return setup_.time ? setup_.time->steps() : setup_.static_load->load_steps; }
-
-  /// Time at the end of a step, ms; the fraction of the load in statics. To twelve digits: 3 * 0.1 is 0.3, as it is for
-  /// a run that ends there, so that one that goes on from it has the same times.
-  double time_of(int step) const {
-    if (!setup_.time) return static_cast<double>(step) / steps();
-    if (step == steps()) return setup_.time->end;
-    return std::strtod(fmt::format("{:.12g}", step * setup_.time->step).c_str(), nullptr);
-  }
+  /// When the steps are.
+  const TimeAxis& axis() const { return axis_; }
+  TimeAxis& axis() { return axis_; }
+  int steps() const { return axis_.steps(); }
+  double time_of(int step) const { return axis_.time_of(step); }
 
   /// Length of a step, ms; 0 in statics. The case's own but where the end of the run cuts the last step short.
   double step_length(int step) const {
@@ -61,6 +55,7 @@ class Loads {
  private:
   const Case& setup_;
   std::vector<OpeningData> openings_;
+  TimeAxis axis_;
 };
 
 }  // namespace fsi

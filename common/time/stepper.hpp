@@ -35,6 +35,8 @@ struct StepReport {
 struct Memory {
   std::map<std::string, std::vector<double>> arrays;
   std::map<std::string, double> numbers;
+  /// The run goes on with another step: Jacobians and differences of the one before must not serve.
+  bool step_changed = false;
 };
 
 /// One way to advance a scene by a time step. The two drivers differ in this.

@@ -13,6 +13,7 @@ from programs import (
     MESH,
     MONOLITHIC,
     NEO_HOOKEAN,
+    PARTITIONED,
     FolderTest,
     attempt,
     driver_command,
@@ -36,14 +37,18 @@ class Console(FolderTest):
 
     def test_quiet_is_silent(self):
         for program in DRIVERS:
-            process = attempt(program, NEO_HOOKEAN, "-q", folder=self.base / "quiet", settings=self.settings)
+            process = attempt(
+                program, NEO_HOOKEAN, "-q", folder=self.base / f"quiet_{self.name(program)}", settings=self.settings
+            )
             self.assertEqual((process.returncode, process.stdout, process.stderr), (0, "", ""))
         process = execute(MESH, "artery", "-q", "-o", self.base / "quiet.msh")
         self.assertEqual((process.returncode, process.stdout, process.stderr), (0, "", ""))
 
     def test_piped_progress_is_a_plain_line_per_step(self):
         for program in DRIVERS:
-            process = attempt(program, NEO_HOOKEAN, folder=self.base / "piped", settings=self.settings)
+            process = attempt(
+                program, NEO_HOOKEAN, folder=self.base / f"piped_{self.name(program)}", settings=self.settings
+            )
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertFalse(re.search(r"[^\n -~]", process.stdout), "control characters in a pipe")
             first, *steps = process.stdout.splitlines()
@@ -94,7 +99,7 @@ class Console(FolderTest):
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertIn("--version", process.stdout)
         for program in DRIVERS:
-            for option in ("--output", "--restart", "--set", "--threads", "--quiet"):
+            for option in ("--output", "--restart", "--set", "--threads", "--force", "--quiet"):
                 self.assertIn(option, execute(program, "--help").stdout)
             keys = execute(program, "--help-keys")
             self.assertEqual(keys.returncode, 0)
@@ -124,13 +129,30 @@ class Console(FolderTest):
             [],
             ["vein", "-o", "x.msh"],
             ["artery", "--level", "huge", "-o", "x.msh"],
+            ["artery", "-o", "x.vtk"],
+            ["artery", "-o", "x"],
             ["artery", "--format", "3", "-o", "x.msh"],
         ):
             process = execute(MESH, *words, cwd=self.base)
             with self.subTest(words=words):
                 self.assertEqual((process.returncode, process.stdout), (1, ""))
                 self.assertNotEqual(process.stderr, "")
-                self.assertFalse((self.base / "x.msh").exists())
+                self.assertFalse([name for name in ("x.msh", "x.vtk", "x") if (self.base / name).exists()])
+        self.assertIn(
+            "the extension .vtk is unknown; the one that is known is .msh",
+            execute(MESH, "artery", "-o", "x.vtk", cwd=self.base).stderr,
+        )
+
+    def test_bad_mesh_gets_a_warning(self):
+        good = execute(MESH, "artery", "--length", 4, "-o", self.base / "good.msh")
+        self.assertEqual((good.returncode, good.stderr), (0, ""))
+        bad = execute(MESH, "artery", "--length", 4, "--adventitia", 0.01, "-o", self.base / "bad.msh")
+        self.assertEqual(bad.returncode, 0)
+        self.assertRegex(
+            bad.stderr,
+            r"^fsi-mesh: warning: adventitia: \d+ of \d+ elements are of bad quality .* the "
+            r"worst is tetrahedron \d+ near \(.*\) mm, eta 0\.\d+; smallest angle .*; choose",
+        )
 
     def assertRefused(self, process, shown):
         """One line of complaint that says what is meant, and nothing else."""
@@ -155,10 +177,33 @@ class Console(FolderTest):
         self.assertEqual((file.read_text(), (foreign / "thesis.tex").read_text()), ("mine", "mine"))
         self.assertEqual(len(list(foreign.iterdir())), 1)
 
+    def test_finished_run_is_not_overwritten(self):
+        folder, other = self.base / "finished", self.base / "other"
+        for place in (folder, other):
+            self.assertEqual(attempt(MONOLITHIC, NEO_HOOKEAN, "-q", folder=place, settings=self.settings).returncode, 0)
+        before = {file.name: file.read_bytes() for file in folder.iterdir()}
+        for program, options in ((MONOLITHIC, ()), (PARTITIONED, ()), (MONOLITHIC, ("--restart", other))):
+            process = attempt(program, NEO_HOOKEAN, *options, folder=folder, settings=self.settings)
+            steps = len(before["iterations.csv"].splitlines()) - 1
+            self.assertRefused(
+                process,
+                f"{folder}: holds a finished run of fsi-monolithic ({steps} steps); "
+                "give -o another folder, or replace it with --force",
+            )
+            self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir()}, before)
+
+    def test_folder_of_a_run_without_a_step_is_free(self):
+        folder = self.base / "without"
+        settings = (*self.settings, "monolithic.max_iterations=1")
+        for _ in range(2):
+            self.assertEqual(attempt(MONOLITHIC, NEO_HOOKEAN, folder=folder, settings=settings).returncode, 2)
+
     def test_results_of_an_earlier_run_make_way(self):
         folder = self.base / "earlier"
         for settings in (("output.every=1",), ("output.every=0", "output.checkpoint_every=0")):
-            process = attempt(MONOLITHIC, NEO_HOOKEAN, "-q", folder=folder, settings=(*self.settings, *settings))
+            process = attempt(
+                MONOLITHIC, NEO_HOOKEAN, "-q", "--force", folder=folder, settings=(*self.settings, *settings)
+            )
             self.assertEqual(process.returncode, 0)
         self.assertFalse([name for name in ("fields.h5", "fields.xdmf", "checkpoint.h5") if (folder / name).exists()])
 

@@ -193,7 +193,7 @@ class Reports(FolderTest):
 class Failures(FolderTest):
     def refused(self, *settings):
         folder = self.base / "failed"
-        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", folder=folder, settings=settings)
+        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", "--force", folder=folder, settings=settings)
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertEqual(summary(folder)["status"], "not converged")
         return process.stderr

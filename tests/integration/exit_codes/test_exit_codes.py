@@ -16,10 +16,10 @@ from programs import (
     arrays,
     attempt,
     difference,
+    execute,
     make_mesh,
     make_small_mesh,
     pressure,
-    restart,
     run,
     summary,
     table,
@@ -63,7 +63,7 @@ class ExitCodes(FolderTest):
 
     def test_done(self):
         for program in DRIVERS:
-            folder = self.base / "done"
+            folder = self.base / f"done_{Path(program).name}"
             process = attempt(
                 program, NEO_HOOKEAN, folder=folder, settings=(self.mesh, "time.end=0.25", "partitioned.tolerance=1e-2")
             )
@@ -161,9 +161,10 @@ class ExitCodes(FolderTest):
         self.assertIn("partitioned.relaxation", process.stderr)
 
     def test_goes_on_with_better_settings(self):
-        for program, bad, tolerance in (
-            (MONOLITHIC, "monolithic.max_iterations=1", 1e-6),
-            (PARTITIONED, "partitioned.max_iterations=2", 1e-2),
+        """By the command that the message ends with, the setting that was bad put right behind it."""
+        for program, bad, good, tolerance in (
+            (MONOLITHIC, "monolithic.max_iterations=1", "monolithic.max_iterations=30", 1e-6),
+            (PARTITIONED, "partitioned.max_iterations=2", "partitioned.max_iterations=200", 1e-2),
         ):  # what its own tolerance of 1e-4 leaves
             settings = (self.mesh, "partitioned.tolerance=1e-4", "output.every=0")
             with self.subTest(program=program):
@@ -171,7 +172,9 @@ class ExitCodes(FolderTest):
                 folder = run(program, NEO_HOOKEAN, self.base / "stopped", *settings, "time.end=0.25")
                 process = attempt(program, NEO_HOOKEAN, "--restart", folder, settings=(*settings, "time.end=0.5", bad))
                 self.assertNotConverged(process, folder, 2)
-                restart(program, NEO_HOOKEAN, folder, *settings, "time.end=0.5")
+                command = process.stderr.split("continue by: ")[1].split("]")[0]
+                process = execute("sh", "-c", f"{command} --set {good}")
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
                 self.assertEqual(summary(folder)["status"], "done")
                 self.assertNotIn("failure", summary(folder))
                 self.assertFinishedSteps(folder, 4)

@@ -12,7 +12,7 @@ QUIET = ("output.every=0", "output.checkpoint_every=0")
 
 class LimitLoad(FolderTest):
     def failure(self, program, case, *settings):
-        process = attempt(program, case, "-q", folder=self.base / "run", settings=(*QUIET, *settings))
+        process = attempt(program, case, "-q", "--force", folder=self.base / "run", settings=(*QUIET, *settings))
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertEqual(process.stderr.count("\n"), 1)
         return process.stderr

@@ -5,24 +5,30 @@ import shutil
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
+import numpy as np
 from programs import (
     ARTERY,
     MONOLITHIC,
     NEO_HOOKEAN,
     PARTITIONED,
+    TABLES,
     FolderTest,
     arrays,
     attempt,
+    difference,
     driver_command,
     iterations_without_seconds,
     make_mesh,
     make_small_mesh,
     newton_history,
+    pressure,
     restart,
     run,
     summary,
     table,
+    times,
 )
 
 STEP = 0.125  # ms, of the case files
@@ -109,6 +115,48 @@ class Restart:
         self.assertTrue((rows[:, 5] > 0).all())
         self.assertEqual((folder / "run.log").read_text().count("restarted after step 2"), 1)
 
+    # ---- Another step
+
+    def test_with_half_the_step(self):
+        """The times are those of both steps, to the end; what was there stays."""
+        first = self.steps // 4
+        folder = self.march("halved", steps=first)
+        before = {name: (folder / name).read_text() for name in TABLES}
+        process = attempt(
+            self.program, ARTERY, "--restart", folder, settings=self.until(self.steps, "time.step=0.0625")
+        )
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        said = (
+            f"time.step is 0.0625 ms from step {first + 1} on, 0.125 ms before: "
+            f"{2 * (self.steps - first)} steps to come"
+        )
+        self.assertIn(said, process.stdout)
+        self.assertIn(said, (folder / "run.log").read_text())
+        expected = [STEP * k for k in range(1, first + 1)]
+        expected += [STEP * (first + k / 2) for k in range(1, 2 * (self.steps - first) + 1)]
+        self.assertEqual(times(folder), [f"{time:g}" for time in expected])
+        for name, text in before.items():
+            self.assertTrue((folder / name).read_text().startswith(text), name)
+        self.assertEqual(np.unique(table(folder, "flow.csv")[:, 0]).tolist(), expected)
+        self.assertEqual(arrays(folder / "fields.h5")["steps/time"][-1], self.steps * STEP)
+
+    def test_with_another_step_is_what_it_is_wherever_it_stops(self):
+        """Restarts after the change, with the same step, change no bit."""
+        begun = self.march("begun", steps=2)
+        changed = ("time.step=0.0625",)
+        whole = self.go_on(begun, *changed, into=self.base / "changed_whole")
+        stopped = restart(self.program, ARTERY, begun, *self.until(3, *changed), into=self.base / "changed")
+        self.assertEqual(len(times(stopped)), 4)
+        self.assertNotIn("time.step is", (self.go_on(stopped, *changed) / "run.log").read_text().split("restarted")[-1])
+        self.assertSameTables(stopped, whole)
+
+    def test_with_a_step_that_misses_the_end(self):
+        """The last one is cut short."""
+        folder = self.march("misses", steps=1)
+        restart(self.program, ARTERY, folder, *self.settings, "time.step=0.25", "time.end=0.5")
+        self.assertEqual(times(folder), ["0.125", "0.375", "0.5"])
+        self.assertNoNan(folder)
+
     # ---- Kills
 
     def start(self, folder, *settings):
@@ -175,7 +223,7 @@ class Restart:
         for case, settings, what in (
             (NEO_HOOKEAN, (), "another case"),
             (ARTERY, ("fluid.density=2",), "another case"),
-            (ARTERY, ("time.step=0.0625",), "another case"),
+            (ARTERY, ("time.newmark_beta=0.9",), "another case"),
             (ARTERY, (f"mesh.file={mesh}",), "another mesh"),
         ):
             process = attempt(self.program, case, "--restart", folder, settings=self.until(2, *settings))
@@ -207,6 +255,15 @@ class Monolithic(Restart, FolderTest):
         self.assertTrue(any(renewed[1:]), "no Jacobian was renewed after the first step: the test shows nothing")
         self.assertSameTables(self.go_on(folder), self.whole)
 
+    def test_wave_with_half_the_step(self):
+        """It is nearer than that of the large step to that of the small step throughout."""
+        folder = self.march("wave", steps=2)
+        restart(self.program, ARTERY, folder, *self.until(self.steps, "time.step=0.0625"))
+        fine = pressure(self.march("fine", "time.step=0.0625"))[-1]
+        error = lambda run: np.abs(pressure(run)[-1] - fine).max() / np.abs(fine).max()
+        print(f"against the small step throughout: halved early {error(folder):.3f}, never {error(self.whole):.3f}")
+        self.assertLess(error(folder), 0.7 * error(self.whole))
+
     def test_with_full_newton(self):
         whole = self.march("full_whole", "monolithic.mode=full")
         folder = self.go_on(self.march("full", "monolithic.mode=full", steps=2), "monolithic.mode=full")
@@ -218,6 +275,22 @@ class Partitioned(Restart, FolderTest):
     steps = 5
     settings = ("partitioned.tolerance=1e-1",)  # to be quick; bits must agree at any tolerance
     kills = 3
+
+    def test_with_half_the_step_as_the_monolithic_driver(self):
+        """The levels of both lengths are extrapolated in one driver and not in the other: the answers agree."""
+        found = []
+        for program, *settings in (
+            (PARTITIONED, "partitioned.tolerance=1e-7", "time.predictor=2"),
+            (MONOLITHIC, "time.predictor=0"),
+        ):
+            folder = self.base / f"agree_{Path(program).name}"
+            run(program, ARTERY, folder, *self.until(2, *settings))
+            restart(program, ARTERY, folder, *self.until(4, "time.step=0.0625", *settings))
+            found.append(pressure(folder))
+        apart = difference(*found)
+        print("partitioned against monolithic, step by step:", apart)
+        self.assertEqual(len(apart), 6)
+        self.assertLess(apart.max(), 1e-5)
 
 
 if __name__ == "__main__":

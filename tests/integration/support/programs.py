@@ -41,8 +41,8 @@ def attempt(program, case, *options, folder=None, settings=(), threads=1):
 
 
 def run(program, case, folder, *settings, options=(), threads=1):
-    """A quiet run that must end well; returns its folder."""
-    process = attempt(program, case, "-q", *options, folder=folder, settings=settings, threads=threads)
+    """A quiet run that must end well, whatever the folder held; returns the folder."""
+    process = attempt(program, case, "-q", "--force", *options, folder=folder, settings=settings, threads=threads)
     if process.returncode != 0:
         raise AssertionError(f"{' '.join(process.args)}\nends with {process.returncode}: {process.stderr}")
     return Path(folder)

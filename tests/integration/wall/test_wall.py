@@ -1,11 +1,29 @@
 """A wall alone under pressure, static and dynamic, beside the small-strain solution; nothing of a fluid is built."""
 
+import math
+import signal
+import subprocess
+import time
 import unittest
 from pathlib import Path
 
 import numpy as np
 from msh import Mesh
-from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, calls, make_mesh, run, summary, times, wall
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    attempt,
+    calls,
+    driver_command,
+    make_mesh,
+    restart,
+    run,
+    summary,
+    times,
+    wall,
+)
 
 STATIC, DYNAMIC = (Path(__file__).with_name(f"{kind}_wall.toml") for kind in ("static", "dynamic"))
 PRESSURE, DENSITY = 0.002, 1.2  # kPa, mg/mm^3, as in the case files
@@ -54,6 +72,30 @@ class StaticWall(FolderTest):
         self.assertEqual(times(self.coarse), ["0.5", "1"])
         half, whole = (middle(lines)[0] for lines in wall(self.coarse))
         self.assertAlmostEqual(half / whole, 0.5, delta=0.002)  # nonlinear by the strain, 1e-3
+
+    def test_goes_on_with_other_load_steps(self):
+        """Interrupted among small steps and continued by large ones, it comes to the same end: at rest only the load
+        counts."""
+        folder, steps = self.base / "other_steps", 400
+        command = driver_command(MONOLITHIC, STATIC, "-q", folder=folder, settings=(f"static.load_steps={steps}",))
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            deadline = time.monotonic() + 100
+            while process.poll() is None and time.monotonic() < deadline:
+                if (folder / "iterations.csv").exists() and len(times(folder)) >= 3:
+                    break
+                time.sleep(0.001)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=100)
+        done = summary(folder)["totals"]["steps"]
+        self.assertEqual((summary(folder)["status"], len(times(folder))), ("interrupted", done))
+        self.assertLess(done, steps)
+        more = math.ceil(3 * (1 - done / steps))
+        restart(MONOLITHIC, STATIC, folder, "static.load_steps=3")
+        said = f"static.load_steps is 3 from load step {done + 1} on, 400 before: {more} steps to come"
+        self.assertIn(said, (folder / "run.log").read_text())
+        self.assertEqual((len(times(folder)), times(folder)[-1]), (done + more, "1"))
+        found, expected = wall(folder)[-1], wall(self.coarse)[-1]
+        self.assertLess(np.abs(found - expected)[:, 2].max(), 1e-7 * expected[:, 2].max())
 
     def test_ends_are_clamped_and_the_tube_widens(self):
         lines = wall(self.coarse)[-1]

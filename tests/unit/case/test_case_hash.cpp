@@ -26,6 +26,7 @@ TEST(CaseHash, IgnoresWhatMayChangeOnRestart) {
   const auto hash = hash_of_case(scene);
   scene.title = "extended";
   scene.time->end = 24.0;
+  scene.time->step = 0.0625;
   scene.time->predictor = 0;
   scene.mesh.file = "elsewhere.msh";
   scene.output.every = 1;
@@ -48,6 +49,10 @@ TEST(CaseHash, NoticesWhatChangesTheEquations) {
   EXPECT_TRUE(changed([](Case& c) { c.structure->layers["adventitia"] = c.structure->layers["media"]; }));
   EXPECT_TRUE(changed([](Case& c) { c.inlet->points[0].second = 1; }));
   EXPECT_TRUE(changed([](Case& c) { c.time->newmark_gamma = 0.5; }));
+  EXPECT_TRUE(changed([](Case& c) {
+    c.time.reset();
+    c.static_load = StaticData{};
+  }));
   EXPECT_TRUE(changed([](Case& c) { c.structure.reset(); }));
 }
 

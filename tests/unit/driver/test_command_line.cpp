@@ -15,7 +15,7 @@ std::optional<CommandLine> parse(std::vector<const char*> arguments) {
 
 TEST(CommandLine, TakesAllOptions) {
   const auto line = parse({"--set", "a.b=1", "case.toml", "-o", "out", "--set", "c=[1, 2]", "--set=d=x y", "--threads",
-                           "4", "-q", "--restart", "old"});
+                           "4", "-q", "--restart", "old", "--force"});
   ASSERT_TRUE(line);
   EXPECT_EQ(line->case_file, "case.toml");
   EXPECT_EQ(line->output, "out");
@@ -23,6 +23,7 @@ TEST(CommandLine, TakesAllOptions) {
   EXPECT_EQ(line->overrides, (std::vector<std::string>{"a.b=1", "c=[1, 2]", "d=x y"}));
   EXPECT_EQ(line->threads, 4);
   EXPECT_TRUE(line->quiet);
+  EXPECT_TRUE(line->force);
 }
 
 TEST(CommandLine, HasDefaults) {
@@ -32,12 +33,25 @@ TEST(CommandLine, HasDefaults) {
   EXPECT_TRUE(line->overrides.empty());
   EXPECT_EQ(line->threads, 0);
   EXPECT_FALSE(line->quiet);
+  EXPECT_FALSE(line->force);
 }
 
 TEST(CommandLine, RestartsInPlaceWithoutOutput) {
   const auto line = parse({"case.toml", "--restart", "old"});
   ASSERT_TRUE(line);
   EXPECT_EQ(line->output, "old");
+}
+
+TEST(CommandLine, ContinuesByACommandThatAShellReadsBack) {
+  const auto line = parse({"my case.toml", "-o", "it's", "--set", "title=\"a $b\"", "--set", "time.end=6", "--threads",
+                           "2", "-q", "--force"});
+  ASSERT_TRUE(line);
+  EXPECT_EQ(restart_command(*line),
+            "fsi-partitioned 'my case.toml' --restart 'it'\\''s' -o 'it'\\''s' --set 'title=\"a $b\"' --set "
+            "time.end=6 --threads 2 -q");
+  const auto elsewhere = parse({"case.toml", "--restart", "old", "-o", "new"});
+  ASSERT_TRUE(elsewhere);
+  EXPECT_EQ(restart_command(*elsewhere), "fsi-partitioned case.toml --restart new -o new");
 }
 
 TEST(CommandLine, PrintsHelpAndVersionInsteadOfRunning) {

@@ -24,6 +24,11 @@ inline std::vector<FieldGrid> sample_grids() {
   return {fluid, wall};
 }
 
+/// Times of steps of one length, ms.
+inline auto steps_of(double length) {
+  return [length](std::int64_t step) { return static_cast<double>(step) * length; };
+}
+
 /// Component c of a vector: x_c + 10 t; a scalar: x + 100 y + 10000 z + t, plus 0.5 in the wall.
 inline FieldValues sample_values(const std::vector<FieldGrid>& grids, double time) {
   FieldValues values;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 class Fields : public FolderTest {
  protected:
   const std::vector<FieldGrid> grids_ = sample_grids();
-  const std::vector<FieldStep> planned_ = planned_field_steps(20, 8, 0.125);
+  const std::vector<FieldStep> planned_ = planned_field_steps(20, 8, steps_of(0.125));
 
   void write(FieldsWriter& writer, std::int64_t step) const {
     writer.write(step, sample_values(grids_, 0.125 * static_cast<double>(step)));
@@ -27,13 +27,13 @@ class Fields : public FolderTest {
 };
 
 TEST(PlannedFieldSteps, HaveTheFirstAndTheLastStep) {
-  const auto steps = planned_field_steps(20, 8, 0.5);
+  const auto steps = planned_field_steps(20, 8, steps_of(0.5));
   ASSERT_EQ(steps.size(), 4u);
   EXPECT_EQ(steps[1].step, 8);
   EXPECT_EQ(steps[1].time, 4.0);
   EXPECT_EQ(steps[3].step, 20);
-  EXPECT_EQ(planned_field_steps(16, 8, 0.5).size(), 3u);
-  EXPECT_TRUE(planned_field_steps(16, 0, 0.5).empty());
+  EXPECT_EQ(planned_field_steps(16, 8, steps_of(0.5)).size(), 3u);
+  EXPECT_TRUE(planned_field_steps(16, 0, steps_of(0.5)).empty());
 }
 
 TEST_F(Fields, ListOnlyFinishedSteps) {
@@ -122,7 +122,7 @@ TEST_F(Fields, RestartExtendsTheRunInAnotherFolder) {
   }
   const auto before = contents_of(folder_ / "fields.h5");
   {
-    FieldsWriter writer(other, grids_, planned_field_steps(32, 4, 0.125), folder_, 20);
+    FieldsWriter writer(other, grids_, planned_field_steps(32, 4, steps_of(0.125)), folder_, 20);
     write(writer, 24);
     const auto text = contents_of(other / "fields.xdmf");
     EXPECT_NE(text.find("\"step 20\""), std::string::npos);

@@ -38,7 +38,7 @@ class Kill : public FolderTest {};
 
 TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
   const auto grids = sample_grids();
-  const auto planned = planned_field_steps(last_step, 1, step_size);
+  const auto planned = planned_field_steps(last_step, 1, steps_of(step_size));
   // Some milliseconds after the first checkpoint, so that the kills fall into all parts of a step.
   for (int milliseconds = 0; milliseconds < 30; milliseconds += 2) {
     const auto run = folder_ / std::to_string(milliseconds);

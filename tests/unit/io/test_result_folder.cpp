@@ -35,6 +35,36 @@ class Results : public FolderTest {
   }
 };
 
+/// What the refusal says; empty: none.
+std::string refusal(const fs::path& folder) {
+  try {
+    require_no_results(folder, "GO ON");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Results, OfFinishedStepsAreNotToBeReplaced) {
+  EXPECT_EQ(refusal(run_), "");
+  ResultFolder results(run_, all_tables);
+  write_summary(run_, {{"program", "fsi-x"}, {"status", "running"}});
+  EXPECT_EQ(refusal(run_), "") << "no step is finished";
+  write_step(results, 1);
+  write_step(results, 2);
+  EXPECT_EQ(refusal(run_), run_.string() +
+                               ": holds an unfinished run of fsi-x (status \"running\", 2 steps); give -o another "
+                               "folder, or replace it with --force");
+  write_text(run_ / "checkpoint.h5", "");
+  EXPECT_NE(refusal(run_).find("; continue it with GO ON, give -o another"), std::string::npos);
+  write_summary(run_, {{"program", "fsi-x"}, {"status", "done"}});
+  EXPECT_EQ(
+      refusal(run_),
+      run_.string() + ": holds a finished run of fsi-x (2 steps); give -o another folder, or replace it with --force");
+  write_text(run_ / "summary.json", "{cut");
+  EXPECT_NE(refusal(run_).find("holds an unfinished run (status \"unknown\", 2 steps)"), std::string::npos);
+}
+
 TEST_F(Results, TablesHaveTheColumnsThatScriptsRelyOn) {
   ResultFolder results(run_, all_tables);
   write_step(results, 1);

@@ -10,7 +10,7 @@ int main(int, char** argv) {
     const std::filesystem::path folder = argv[1];
     std::filesystem::create_directories(folder);
     const auto grids = fsi::test::sample_grids();
-    fsi::FieldsWriter writer(folder, grids, fsi::planned_field_steps(16, 8, 0.125));
+    fsi::FieldsWriter writer(folder, grids, fsi::planned_field_steps(16, 8, fsi::test::steps_of(0.125)));
     writer.write(0, fsi::test::sample_values(grids, 0.0));
     writer.write(8, fsi::test::sample_values(grids, 1.0));
     return 0;

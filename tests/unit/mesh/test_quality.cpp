@@ -44,6 +44,25 @@ TEST(Quality, CountsLayersAcrossTheWall) {
   EXPECT_EQ(element_layers(mesh, 2), 2);
 }
 
+TEST(Quality, WarnsOfBadElementsAndSaysWhereTheWorstIs) {
+  EXPECT_TRUE(warnings_of(measure_quality(test::short_artery())).empty());
+  ArteryOptions thin;
+  thin.adventitia = 0.01;
+  thin.length = 4;
+  const auto mesh = generate_artery(thin);
+  const auto quality = measure_quality(mesh);
+  EXPECT_EQ(quality.regions[0].poor, 0u);
+  const auto& sleeve = quality.regions[2];
+  EXPECT_EQ(sleeve.poor, sleeve.tetrahedra);  // 0.01 mm across, forty times as much around
+  ASSERT_GE(sleeve.worst, 0);
+  EXPECT_EQ(mesh.cell_region[sleeve.worst], 2);
+  EXPECT_NEAR(std::hypot(sleeve.worst_at[0], sleeve.worst_at[1]), 1.43 + 0.26, 0.1);
+  const auto warnings = warnings_of(quality);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.back().rfind("adventitia: ", 0), 0u) << warnings.back();
+  EXPECT_NE(warnings.back().find("tetrahedron " + std::to_string(sleeve.worst + 1) + " near"), std::string::npos);
+}
+
 TEST(Quality, ReportAddsUp) {
   const auto mesh = test::short_artery();
   const auto quality = measure_quality(mesh);

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// Cores that this process may use, and how many of them other processes keep busy.
+struct CoreUse {
+  int cores = 1;
+  double busy_elsewhere = 0;
+};
+
+/// Busy clock ticks of each core in the text of /proc/stat, by core number; -1 for a core that it does not list.
+std::vector<long> busy_ticks(const std::string& proc_stat);
+
+/// Cores that others kept busy between two looks at /proc/stat.
+/// \param before, after  busy_ticks
+/// \param cores          numbers of those that count
+/// \param own            seconds of all cores that this process used in between
+/// \param seconds        between the looks
+double busy_elsewhere(const std::vector<long>& before, const std::vector<long>& after, const std::vector<int>& cores,
+                      double ticks_per_second, double own, double seconds);
+
+/// Whole cores that a cgroup's cpu.max allows, at least 1; 0: no limit. `text` is "max 100000" or "150000 100000".
+int cgroup_cores(const std::string& text);
+
+/// Watches the cores from its construction on.
+class CoreWatch {
+ public:
+  CoreWatch();
+  /// The mean since the construction, over 50 ms at least: it waits for what is missing.
+  CoreUse look() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::vector<int> cores_;  ///< numbers of those this process may run on
+  Clock::time_point start_;
+  double own_seconds_;
+  std::vector<long> ticks_;
+};
+
+/// How many threads a run takes, and why.
+struct ThreadChoice {
+  int count = 1;
+  std::string reason;
+};
+
+/// As asked with --threads; else one per idle core, but none with fewer than `tetrahedra_per_thread`.
+/// \param asked  0: not
+ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreUse& use);
+/// The same; looks at the cores only where that decides.
+ThreadChoice choose_threads(int asked, std::size_t tetrahedra, const CoreWatch& watch);
+
+/// Below it a second thread costs as much as it brings (docs/performance.md).
+constexpr std::size_t tetrahedra_per_thread = 10000;
+
+}  // namespace fsi

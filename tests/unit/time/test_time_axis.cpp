@@ -1,0 +1,97 @@
+#include "time/time_axis.hpp"
+
+#include <gtest/gtest.h>
+namespace fsi::test {
+
+namespace {
+
+Case in_time(double step, double end) {
+  Case setup;
+  setup.time = TimeData{};
+  setup.time->step = step;
+  setup.time->end = end;
+  return setup;
+}
+
+Case at_rest(int load_steps) {
+  Case setup;
+  setup.static_load = StaticData{load_steps};
+  return setup;
+}
+
+TEST(TimeAxis, HitsTheEndAndHasDecimalTimes) {
+  const Case setup = in_time(0.1, 0.7);
+  const TimeAxis axis(setup);
+  EXPECT_EQ(axis.steps(), 7);
+  EXPECT_EQ(axis.time_of(0), 0);
+  EXPECT_EQ(axis.time_of(3), 0.3);  // 3 * 0.1 is not
+  EXPECT_EQ(axis.time_of(7), 0.7);
+}
+
+TEST(TimeAxis, GoesOnWithTheSameStepAsIfItHadNotStopped) {
+  const Case setup = in_time(0.1, 0.7);
+  TimeAxis axis(setup);
+  const TimeAxis whole(setup);
+  EXPECT_FALSE(axis.go_on(whole.stretches(), 3, 0.3));
+  for (int step = 0; step <= 7; ++step) EXPECT_EQ(axis.time_of(step), whole.time_of(step));
+  EXPECT_EQ(axis.stretches().size(), 1u);
+}
+
+TEST(TimeAxis, GoesOnWithAnotherStepAndKeepsWhatLiesBefore) {
+  const Case before = in_time(0.1, 0.7), halved = in_time(0.05, 0.7), again = in_time(0.1, 1.0);
+  TimeAxis axis(halved);
+  EXPECT_TRUE(axis.go_on(TimeAxis(before).stretches(), 3, 0.3));
+  EXPECT_EQ(axis.steps(), 3 + 8);
+  const double times[] = {0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7};
+  for (int step = 0; step <= 11; ++step) EXPECT_EQ(axis.time_of(step), times[step]) << step;
+
+  TimeAxis third(again);
+  EXPECT_TRUE(third.go_on(axis.stretches(), 5, 0.4));
+  EXPECT_EQ(third.steps(), 5 + 6);
+  EXPECT_EQ(third.time_of(2), 0.2);
+  EXPECT_EQ(third.time_of(4), 0.35);
+  EXPECT_EQ(third.time_of(6), 0.5);
+  EXPECT_EQ(third.time_of(11), 1.0);
+}
+
+TEST(TimeAxis, CutsTheLastStepShortWhereTheNewOnesMissTheEnd) {
+  const Case before = in_time(0.1, 1.0), other = in_time(0.25, 1.0);
+  TimeAxis axis(other);
+  EXPECT_TRUE(axis.go_on(TimeAxis(before).stretches(), 3, 0.3));
+  EXPECT_EQ(axis.steps(), 3 + 3);
+  EXPECT_EQ(axis.time_of(5), 0.8);
+  EXPECT_EQ(axis.time_of(6), 1.0);
+}
+
+TEST(TimeAxis, GoesOnFromAnEndThatCutAStepShort) {
+  const Case before = in_time(0.25, 0.9), longer = in_time(0.25, 1.4);
+  const TimeAxis cut(before);
+  EXPECT_EQ(cut.steps(), 4);
+  EXPECT_EQ(cut.time_of(4), 0.9);
+  TimeAxis axis(longer);
+  EXPECT_FALSE(axis.go_on(cut.stretches(), 4, 0.9));
+  EXPECT_EQ(axis.steps(), 4 + 2);
+  EXPECT_EQ(axis.time_of(3), 0.75);
+  EXPECT_EQ(axis.time_of(4), 0.9);
+  EXPECT_EQ(axis.time_of(5), 1.15);
+}
+
+TEST(TimeAxis, SplitsTheRestOfAStaticLoadInEqualSteps) {
+  const Case before = at_rest(4), finer = at_rest(9), coarser = at_rest(1);
+  TimeAxis axis(finer);
+  EXPECT_TRUE(axis.go_on(TimeAxis(before).stretches(), 3, 0.75));
+  EXPECT_EQ(axis.steps(), 3 + 3);  // a quarter of nine, rounded up
+  EXPECT_EQ(axis.time_of(2), 0.5);
+  EXPECT_DOUBLE_EQ(axis.time_of(4), 0.75 + 0.25 / 3);
+  EXPECT_EQ(axis.time_of(6), 1.0);
+
+  TimeAxis last(coarser);
+  EXPECT_TRUE(last.go_on(axis.stretches(), 4, axis.time_of(4)));
+  EXPECT_EQ(last.steps(), 5);
+  EXPECT_EQ(last.time_of(5), 1.0);
+  EXPECT_DOUBLE_EQ(last.time_of(4), axis.time_of(4));
+}
+
+}  // namespace
+
+}  // namespace fsi::test
