@@ -15,8 +15,8 @@ namespace fsi {
 /// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
 struct Artery {
   using FibreData = Fibres;
-  double c10 = 0;          ///< kPa
-  double k1 = 0;           ///< kPa
+  double c10 = 0;          ///< kPa, initial shear modulus without fibres
+  double k1 = 0;           ///< kPa; at small strains a family has the modulus 4 k1 along its fibres
   double k2 = 0;           ///< -
   double fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
   double alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone

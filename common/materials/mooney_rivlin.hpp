@@ -8,11 +8,11 @@
 
 namespace fsi {
 
-/// Psi = c10/2 (J_1 - 3) + c01/2 (J_2 - 3), J_1 = I_1 I_3^(-1/3), J_2 = I_2 I_3^(-2/3): docs/theory.md, section
-/// 5.3.
+/// Psi = c10/2 (J_1 - 3) + c01/2 (J_2 - 3), J_1 = I_1 I_3^(-1/3), J_2 = I_2 I_3^(-2/3):
+/// docs/theory.md, section 5.3.
 struct MooneyRivlin {
   using FibreData = NoFibres;
-  double c10 = 0, c01 = 0;  ///< kPa
+  double c10 = 0, c01 = 0;  ///< kPa; their sum is the initial shear modulus
 
   static constexpr const char* name = "mooney-rivlin";
   static std::vector<ParameterOf<MooneyRivlin>> parameters() {

@@ -11,7 +11,7 @@ namespace fsi {
 /// Psi = c10/2 (J_1 - 3), J_1 = I_1 I_3^(-1/3): docs/theory.md, section 5.2. c10 is the shear modulus.
 struct NeoHookean {
   using FibreData = NoFibres;
-  double c10 = 0;  ///< kPa
+  double c10 = 0;  ///< kPa, initial shear modulus
 
   static constexpr const char* name = "neo-hookean";
   static std::vector<ParameterOf<NeoHookean>> parameters() {
