@@ -24,7 +24,7 @@ std::vector<std::string> artery_levels();
 
 /// Element sizes of a level: node counts of the paper's meshes (1,034, 7,249 and 54,521) within a few percent.
 /// Throws InputError for an unknown level, naming the nearest.
-ArteryOptions artery_level(const std::string& level);
+ArteryOptions artery_level(const std::string& name);
 
 /// A conforming mesh with volumes `fluid`, `media`, `adventitia` and surfaces `inlet` (z = 0), `outlet`, `wall_ends`,
 /// `outer`. Every node of an interface or of the outer face lies on its cylinder.

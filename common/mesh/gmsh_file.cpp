@@ -71,7 +71,7 @@ const GmshType& known_type(GmshScanner& in, int number) {
 }
 
 std::string read_header(GmshScanner& in) {
-  const std::string version = in.word();
+  std::string version = in.word();
   const int file_type = in.text_integer("file type"), size = in.text_integer("data size");
   if (version != "4.1" && version != "2.2")
     in.fail(fmt::format("version {} is not supported", version.substr(0, 16)),
