@@ -26,7 +26,7 @@ stage() {
 # that they need.
 configure_and_build() {
   local options=()
-  [ -f "$build/CMakeCache.txt" ] || options=(-DFSI_TESTS=OFF -DFSI_BENCHMARKS=OFF)
+  [ -f "$build/CMakeCache.txt" ] || options=(-DFSI_TESTS=OFF)
   cmake --preset release "${options[@]}"
   cmake --build "$build" --target fsi-mesh fsi-monolithic fsi-partitioned
 }
