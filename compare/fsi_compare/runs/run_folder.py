@@ -6,6 +6,7 @@ complete, and a comparison with it would be wrong without a sign.
 
 import json
 import math
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -76,20 +77,13 @@ def read_summary(path: Path) -> dict:
     status = summary.get("status")
     if status is None:
         raise InputError(path, "status", "is missing", "run it again")
+    case = summary.get("case")
+    words = [program, *([case] if isinstance(case, str) else []), "--restart", str(path.parent)]
+    resume = shlex.join(words)  # to be copied as it stands
     if status == "running":
-        raise InputError(
-            path,
-            "status",
-            "the run is not finished",
-            f"wait for its end or resume it with {program} --restart {path.parent}",
-        )
+        raise InputError(path, "status", "the run is not finished", f"wait for its end or resume it with {resume}")
     if status == "interrupted":
-        raise InputError(
-            path,
-            "status",
-            "the run was interrupted",
-            f"resume it with {program} --restart {path.parent}, or run it again",
-        )
+        raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
     if status == "not converged":
         raise InputError(
             path,

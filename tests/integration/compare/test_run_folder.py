@@ -110,9 +110,16 @@ class RefusesBadFolder(FolderCase):
         self.change_summary(status="not converged")
         self.assert_refused("status: the run stopped without converging; see", "run.log")
 
-    def test_failed(self):
+    def test_interrupted(self):
         self.change_summary(status="interrupted")
         self.assert_refused("status: the run was interrupted; resume it with", "--restart " + str(self.folder))
+
+    def test_advice_is_a_whole_command(self):
+        for status in ("running", "interrupted"):
+            self.change_summary(status=status, case="my cases/tube.toml")
+            self.assert_refused(f"resume it with fsi-monolithic 'my cases/tube.toml' --restart {self.folder}")
+
+    def test_failed(self):
         self.change_summary(status="failed")
         self.assert_refused("status: the run failed; see", "run.log")
 
