@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -22,6 +23,7 @@ template <int Rows, int Columns, class Store>
 inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double* x, Store store) {
   const NodeGraph& graph = *a.graph;
   const int rows = graph.rows();
+  assert(a.values.size() == static_cast<std::size_t>(graph.blocks()) * Rows * Columns);
 #pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
   for (int row = 0; row < rows; ++row) {
     double sum[Rows] = {};
@@ -126,6 +128,8 @@ void residual_components(const BlockMatrix<1, Numbers>& a, const std::vector<dou
 template <int R, int M, int C>
 BlockMatrix<R, C> block_product(const BlockMatrix<R, M>& a, const BlockMatrix<M, C>& b, int columns) {
   const NodeGraph &left = *a.graph, &right = *b.graph;
+  assert(left.blocks() == 0 || *std::max_element(left.columns.begin(), left.columns.end()) < right.rows());
+  assert(right.blocks() == 0 || *std::max_element(right.columns.begin(), right.columns.end()) < columns);
   const int rows = left.rows();
   auto graph = std::make_shared<NodeGraph>();
   graph->offsets.assign(static_cast<std::size_t>(rows) + 1, 0);
@@ -144,7 +148,10 @@ BlockMatrix<R, C> block_product(const BlockMatrix<R, M>& a, const BlockMatrix<M,
         ++graph->offsets[row + 1];
       });
   }
-  for (int row = 0; row < rows; ++row) graph->offsets[row + 1] += graph->offsets[row];
+  for (int row = 0; row < rows; ++row) {
+    graph->offsets[row + 1] += graph->offsets[row];
+    assert(graph->offsets[row + 1] >= 0);  // blocks are counted in 32 bits
+  }
   graph->columns.resize(graph->offsets[rows]);
   BlockMatrix<R, C> c;
   c.values.assign(graph->columns.size() * R * C, 0.0);

@@ -1,10 +1,12 @@
 #include "algebra/csr_matrix.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace fsi {
 
 CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b) {
+  assert(a.columns == b.rows());
   CsrMatrix<double> c;
   const int rows = a.rows();
   c.columns = b.columns;
@@ -24,7 +26,10 @@ CsrMatrix<double> product(const CsrMatrix<double>& a, const CsrMatrix<double>& b
       c.offsets[row + 1] = count;
     }
   }
-  for (int row = 0; row < rows; ++row) c.offsets[row + 1] += c.offsets[row];
+  for (int row = 0; row < rows; ++row) {
+    c.offsets[row + 1] += c.offsets[row];
+    assert(c.offsets[row + 1] >= 0);  // entries are counted in 32 bits
+  }
   c.indices.resize(c.offsets[rows]);
   c.values.resize(c.offsets[rows]);
 #pragma omp parallel

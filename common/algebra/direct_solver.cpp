@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
+
 #include "base/error.hpp"
 
 extern "C" void openblas_set_num_threads(int);
@@ -57,6 +59,7 @@ void DirectSolver::discard() {
 
 void DirectSolver::factorise(const SparseMatrix& a) {
   auto& my = *implementation_;
+  assert(a.rows.size() == a.values.size() && a.offsets.back() == a.nonzeros());
   const auto* offsets = indices(a.offsets);
   const auto* rows = indices(a.rows);
   double info[UMFPACK_INFO];
@@ -85,6 +88,7 @@ void DirectSolver::factorise(const SparseMatrix& a) {
 
 void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const {
   const auto& my = *implementation_;
+  assert(my.numeric && static_cast<std::int64_t>(b.size()) == a.size());
   x.resize(b.size());
   double info[UMFPACK_INFO];
   const auto status = umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(), x.data(),

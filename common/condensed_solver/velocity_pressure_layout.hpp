@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ class VelocityPressureLayout {
       int part;
     };
     std::vector<Node> nodes;
+    // Equations and unknowns stand at the same places.
+    assert(same_places(numbering_.flow, numbering_.flow_rows) && same_places(numbering_.wall, numbering_.wall_rows));
     const int fluid_nodes = blocks.flow ? blocks.flow->graph->rows() : 0;
     const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
     for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({(*blocks.fluid_nodes.places)[a], false, a});
@@ -122,6 +125,11 @@ class VelocityPressureLayout {
   }
 
  private:
+  [[maybe_unused]] static bool same_places(const UnknownMap& unknowns, const UnknownMap& rows) {
+    return std::equal(unknowns.begin(), unknowns.end(), rows.begin(), rows.end(),
+                      [](const Unknown& a, const Unknown& b) { return (a.index < 0) == (b.index < 0); });
+  }
+
   /// Where a component of a velocity stands in the system.
   struct Entry {
     std::int64_t unknown = -1;  ///< none

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -32,6 +33,7 @@ class RoughSequence {
 /// \param step  x <- A x; returns |A x| / |x|, or 0 when there is nothing left to multiply, which ends the iteration
 template <class Step>
 std::vector<double> power_iteration(int iterations, Step step) {
+  assert(iterations > 0);
   std::vector<double> growth;
   for (int k = 0; k < iterations; ++k) {
     growth.push_back(step());

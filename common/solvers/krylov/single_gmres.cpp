@@ -1,6 +1,7 @@
 #include "solvers/krylov/single_gmres.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -56,6 +57,7 @@ void SingleGmres::orthogonalise(int count, std::vector<float>& w, std::vector<do
 
 SingleGmres::Report SingleGmres::solve(const Operator& a, const Operator& inverse, const std::vector<float>& b,
                                        std::vector<float>& x, double tolerance, int max_iterations) {
+  assert(max_iterations >= 0);
   Report report;
   tolerance = std::max(tolerance, smallest_tolerance);
   const std::size_t size = b.size();

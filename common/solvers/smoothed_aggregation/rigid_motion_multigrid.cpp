@@ -1,6 +1,7 @@
 #include "solvers/smoothed_aggregation/rigid_motion_multigrid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -209,6 +210,8 @@ std::vector<float> inverse_diagonal(const BlockMatrix<modes, modes>& a) {
 template <int n>
 void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const std::vector<std::array<double, 3>>& points,
                                      const Options& options, const std::vector<char>& fixed) {
+  assert(static_cast<int>(points.size()) == finest.graph->rows());
+  assert(fixed.empty() || fixed.size() == points.size() * n);
   levels_.clear();
   coarsest_inverse_.clear();
   post_smoothing_ = options.post_smoothing;

@@ -100,6 +100,7 @@ CsrMatrix<double> smoothed_prolongation(const CsrMatrix<double>& a, const std::v
 }  // namespace
 
 void ScalarMultigrid::set_up(const CsrMatrix<double>& matrix, const Options& options) {
+  assert(matrix.rows() == matrix.columns);
   levels_.clear();
   post_smoothing_ = options.post_smoothing;
   CsrMatrix<double> a = matrix;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <vector>
 
 #include "algebra/node_graph.hpp"
@@ -34,6 +35,7 @@ struct SweepChunks {
         while (columns[at] < begin[c]) ++at;
         first[row] = at;
         while (columns[at] < row) ++at;
+        assert(at < offsets[row + 1] && columns[at] == row);
         diagonal[row] = at;
         while (at < offsets[row + 1] && columns[at] < begin[c + 1]) ++at;
         last[row] = at;

@@ -232,6 +232,34 @@ TEST(FastSolver, TheCoarseLevelsOfAStaticWallKnowHeldComponents) {
   EXPECT_LT(relative_difference(x, system.solution), 1e-6);
 }
 
+// The step's length may change from one update to the next: nothing of the last one stays.
+TEST(FastSolver, StepsOfDifferentLength) {
+  Scene<Tet>& scene = artery().scene();
+  System<Tet> system("coupled", scene, number_scene(scene));
+  FastSolver<Tet> fast(system.blocks(), iterative());
+  DirectLinearSolver<Tet> direct(system.blocks());
+  std::vector<std::vector<double>> solutions;
+  for (double step : {0.125, 0.05, 0.125}) {
+    State state = scene.at_rest();
+    StepData data;
+    data.rates = scene.integrator->rates(state, step);
+    data.opening_pressures = {1.332};
+    system.work_on(state, data);
+    system.evaluate();
+    system.linearise();
+    std::vector<double> expected, x;
+    direct.update();
+    direct.solve(system.residual(), 0, expected);
+    fast.update();
+    EXPECT_TRUE(fast.solve(system.residual(), 1e-10, x).converged);
+    EXPECT_FALSE(fast.uses_factorisation());
+    EXPECT_LT(relative_difference(x, expected), 1e-7) << step;
+    solutions.push_back(x);
+  }
+  EXPECT_EQ(solutions[2], solutions[0]);
+  EXPECT_GT(relative_difference(solutions[1], solutions[0]), 0.1);
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -1,0 +1,108 @@
+// The impedance on the interface: its rows in the residual, its diagonal in the Jacobian, components without equations,
+// and the call before each evaluation.
+#include <gtest/gtest.h>
+
+#include "support/nodal_arrays.hpp"
+#include "support/random.hpp"
+#include "support/scenes.hpp"
+#include "system/numbering.hpp"
+#include "system/system.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+using Tet = P1Tetrahedron;
+using Mixed = MixedLayout<3>;
+
+/// The fluid of a box at a random state, its velocity free on the interface.
+struct FreeFluid {
+  std::unique_ptr<Scene<Tet>> scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(2));
+  State state = scene->at_rest();
+  StepData data;
+  InterfaceImpedance impedance;
+
+  FreeFluid() {
+    data.rates = scene->integrator->rates(state, 0.125);
+    data.opening_pressures = {1.332};
+    state.now.flow = random_field(scene->fluid->part().nodes, 4, 0.3, 1e-3, 1);
+    Random random(2);
+    for (const auto& node : scene->interface) {
+      impedance.nodes.push_back(node.fluid);
+      impedance.impedance.push_back(random());  // of both signs
+      for (int k = 0; k < 3; ++k) impedance.velocity.push_back(random());
+    }
+    impedance.impedance.front() = 0;
+  }
+  std::unique_ptr<System<Tet>> system(const InterfaceImpedance* with) {
+    auto made = std::make_unique<System<Tet>>("fluid", *scene, number_fluid(*scene, true), LinearSolverFactory<Tet>{},
+                                              SystemNorm::entries, with);
+    made->work_on(state, data);
+    return made;
+  }
+};
+
+TEST(InterfaceImpedance, AddsItsRowsToTheResidualAndNotToTheFluids) {
+  FreeFluid fluid;
+  const auto plain = fluid.system(nullptr), tied = fluid.system(&fluid.impedance);
+  plain->evaluate();
+  tied->evaluate();
+  EXPECT_EQ(plain->fluid_residual(), tied->fluid_residual());
+  auto expected = plain->residual();
+  int rows = 0;
+  for (std::size_t i = 0; i < fluid.impedance.nodes.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t entry = Mixed::vector(fluid.impedance.nodes[i], k);
+      const auto row = tied->numbering().flow_rows[entry].index;
+      if (row < 0) continue;
+      ++rows;
+      expected[row] +=
+          fluid.impedance.impedance[i] * (fluid.state.now.flow[entry] - fluid.impedance.velocity[3 * i + k]);
+    }
+  EXPECT_GT(rows, 0);
+  EXPECT_LT(largest(difference(tied->residual(), expected)), 1e-14);
+}
+
+TEST(InterfaceImpedance, IsTheDerivativeOfItsRows) {
+  FreeFluid fluid;
+  const auto tied = fluid.system(&fluid.impedance), plain = fluid.system(nullptr);
+  plain->linearise();
+  const auto without = plain->blocks().flow->values;
+  tied->linearise();
+  const auto& with = *tied->blocks().flow;
+  auto rest = with.values;
+  for (std::size_t i = 0; i < fluid.impedance.nodes.size(); ++i) {
+    const int node = fluid.impedance.nodes[i], at = with.graph->find(node, node);
+    for (int k = 0; k < 3; ++k)
+      if (tied->numbering().flow_rows[Mixed::vector(node, k)].index >= 0)
+        rest[static_cast<std::size_t>(at) * 16 + k * 5] -= fluid.impedance.impedance[i];
+  }
+  EXPECT_LT(largest(difference(rest, without)), 1e-13);
+  EXPECT_GT(largest(difference(with.values, without)), 0.1);
+}
+
+TEST(InterfaceImpedance, CallsWhatFollowsTheIterateBeforeEachEvaluation) {
+  FreeFluid fluid;
+  int calls = 0;
+  fluid.impedance.before_evaluation = [&](State& state) {
+    EXPECT_EQ(&state, &fluid.state);
+    ++calls;
+  };
+  const auto tied = fluid.system(&fluid.impedance);
+  tied->evaluate();
+  tied->linearise();
+  tied->evaluate();
+  EXPECT_EQ(calls, 2);
+}
+
+TEST(InterfaceImpedance, NormsCanBeEuclidean) {
+  FreeFluid fluid;
+  const auto tied = fluid.system(&fluid.impedance);
+  double sum = 0;
+  for (double value : fluid.state.now.flow) sum += value * value;
+  EXPECT_DOUBLE_EQ(tied->size(), std::sqrt(sum));
+}
+
+}  // namespace
+
+}  // namespace fsi::test
