@@ -40,7 +40,7 @@ inline State moved(const Scene<P1Tetrahedron>& scene) {
   for (int a = 0; a < scene.fluid->node_count(); ++a)
     for (int k = 0; k < 3; ++k) {
       state.now.mesh[a * 3 + k] = 0.01 * wave(scene.fluid->part().nodes[a], k);
-      state.now.flow[a * 4 + k] = 0.5 * wave(scene.fluid->part().nodes[a], k + 3);
+      state.now.fluid[a * 4 + k] = 0.5 * wave(scene.fluid->part().nodes[a], k + 3);
     }
   for (int a = 0; a < scene.wall->node_count(); ++a)
     for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene.wall->part().nodes[a], k);

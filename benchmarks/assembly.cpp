@@ -50,7 +50,7 @@ void wall(benchmark::State& run, const std::string& material, bool derivatives) 
 void coupled(benchmark::State& run, const std::string& material) {
   Setup s(material, static_cast<int>(run.range(0)));
   for (auto _ : run) {
-    s.fluid(FluidDerivatives::flow_and_domain);
+    s.fluid(FluidDerivatives::fluid_and_domain);
     s.wall(true);
   }
   rate(run, s.scene->fluid->part().cells.size() + s.scene->wall->part().cells.size());
@@ -58,8 +58,8 @@ void coupled(benchmark::State& run, const std::string& material) {
 
 #define FSI_BENCHMARK(...) BENCHMARK_CAPTURE(__VA_ARGS__)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)
 FSI_BENCHMARK(fluid, residual, FluidDerivatives::none);
-FSI_BENCHMARK(fluid, residual_and_flow_jacobian, FluidDerivatives::flow);
-FSI_BENCHMARK(fluid, residual_and_full_jacobian, FluidDerivatives::flow_and_domain);
+FSI_BENCHMARK(fluid, residual_and_flow_jacobian, FluidDerivatives::fluid);
+FSI_BENCHMARK(fluid, residual_and_full_jacobian, FluidDerivatives::fluid_and_domain);
 FSI_BENCHMARK(wall, residual_neo_hookean, "neo-hookean", false);
 FSI_BENCHMARK(wall, jacobian_neo_hookean, "neo-hookean", true);
 FSI_BENCHMARK(wall, jacobian_mooney_rivlin, "mooney-rivlin", true);

@@ -78,7 +78,7 @@ LinearStatistics CoupledLinearSolver<Element>::statistics() const {
   s.operator_complexity = multigrid_->operator_complexity();
   s.levels = static_cast<int>(multigrid_->levels().size());
   s.mesh_cycles = multigrid_->mesh_cycles();
-  s.flow_cycles = multigrid_->flow_cycles();
+  s.fluid_cycles = multigrid_->fluid_cycles();
   s.wall_cycles = multigrid_->wall_cycles();
   return s;
 }

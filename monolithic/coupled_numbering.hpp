@@ -20,10 +20,10 @@ Numbering number_scene(const Scene<Element>& scene) {
   const int nodes = scene.fluid->node_count();
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
-  all.flow = detail::number_nodes<n>(
+  all.fluid = detail::number_nodes<n>(
       nodes, all.size, [&](int a, int k) { return wet[a] || scene.velocity_conditions.fixes(a, k); },
       [&](int a) { return space.carries_scalar(a); });
-  all.flow_rows = all.flow;
+  all.fluid_rows = all.fluid;
   all.mesh = detail::number_vectors<n>(nodes, all.size,
                                        [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
   all.mesh_rows = all.mesh;
@@ -32,8 +32,8 @@ Numbering number_scene(const Scene<Element>& scene) {
       const Unknown displacement = all.wall[Mixed::vector(i.wall, k)];
       if (displacement.index < 0) continue;
       all.mesh[Vector::vector(i.fluid, k)] = displacement;
-      all.flow[Mixed::vector(i.fluid, k)] = {displacement.index, all.interface.rate()};
-      all.flow_rows[Mixed::vector(i.fluid, k)] = displacement;
+      all.fluid[Mixed::vector(i.fluid, k)] = {displacement.index, all.interface.rate()};
+      all.fluid_rows[Mixed::vector(i.fluid, k)] = displacement;
       all.interface_velocities.push_back(Mixed::vector(i.fluid, k));
     }
   return all;

@@ -56,9 +56,9 @@ CoupledSolverOptions options_for(const CoupledMethod& method, const MonolithicDa
   auto& multigrid = options.multigrid;
   multigrid.coarsening = grid.coarsening;
   if (method.exact) multigrid.coarsening.max_levels = 1;
-  multigrid.flow.smoother = grid.sub_problems.fluid_smoother;
+  multigrid.fluid.smoother = grid.sub_problems.fluid_smoother;
   multigrid.wall.smoother = grid.sub_problems.wall_smoother;
-  for (auto* cycle : {&multigrid.mesh.cycle, &multigrid.flow.cycle, &multigrid.wall.cycle}) {
+  for (auto* cycle : {&multigrid.mesh.cycle, &multigrid.fluid.cycle, &multigrid.wall.cycle}) {
     cycle->kind = grid.sub_problems.kind;
     cycle->pre_smoothing = cycle->post_smoothing = grid.sub_problems.smoothing;
   }

@@ -26,7 +26,7 @@ struct FastSolver<Element>::Iterative {
   SingleGmres gmres;
   std::vector<float> single_right, single_solution;
   std::vector<double> right, solution, residual, jacobian_times_x, correction;
-  std::vector<double> mesh, mesh_right, flow_rows;
+  std::vector<double> mesh, mesh_right, fluid_rows;
 
   explicit Iterative(const JacobianBlocks<Element>& blocks)
       : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
@@ -37,7 +37,7 @@ struct FastSolver<Element>::Iterative {
       count_extension(blocks);
       mesh.resize(blocks.numbering.mesh.size());
       mesh_right.resize(mesh.size());
-      flow_rows.resize(blocks.numbering.flow.size());
+      fluid_rows.resize(blocks.numbering.fluid.size());
     }
   }
   void count_extension(const JacobianBlocks<Element>& blocks) {
@@ -228,10 +228,10 @@ void FastSolver<Element>::subtract_mesh_rows(double tolerance) {
   if (it.extension->iterates() && norm(it.mesh_right) <= 0.01 * tolerance * norm(it.right)) return;
   set_zero(it.mesh);
   it.extension->solve(it.mesh_right, it.mesh, mesh_rows_tolerance);
-  multiply(*blocks_.shape_derivatives, it.mesh, it.flow_rows);
+  multiply(*blocks_.shape_derivatives, it.mesh, it.fluid_rows);
   std::vector<double>& all = it.jacobian_times_x;
   all.assign(it.residual.size(), 0.0);
-  add_to_system(numbering.flow_rows, it.flow_rows, all);
+  add_to_system(numbering.fluid_rows, it.fluid_rows, all);
   it.layout.take(all, it.solution);
   axpy(-1, it.solution, it.right);
 }

@@ -37,8 +37,8 @@ class VelocityPressureLayout {
     };
     std::vector<Node> nodes;
     // Equations and unknowns stand at the same places.
-    assert(same_places(numbering_.flow, numbering_.flow_rows) && same_places(numbering_.wall, numbering_.wall_rows));
-    const int fluid_nodes = blocks.flow ? blocks.flow->graph->rows() : 0;
+    assert(same_places(numbering_.fluid, numbering_.fluid_rows) && same_places(numbering_.wall, numbering_.wall_rows));
+    const int fluid_nodes = blocks.fluid ? blocks.fluid->graph->rows() : 0;
     const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
     for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({(*blocks.fluid_nodes.places)[a], false, a});
     for (int a = 0; a < wall_nodes; ++a) nodes.push_back({(*blocks.wall_nodes.places)[a], true, a});
@@ -50,8 +50,8 @@ class VelocityPressureLayout {
     pressure_of_wall = velocity_of_wall;
     std::vector<int> velocity_of_unknown(static_cast<std::size_t>(numbering_.size), -1);
     for (const Node& node : nodes) {
-      const UnknownMap& map = node.wall ? numbering_.wall : numbering_.flow;
-      const std::size_t first = static_cast<std::size_t>(node.part) * (n + 1);
+      const UnknownMap& map = node.wall ? numbering_.wall : numbering_.fluid;
+      const std::size_t first = MixedLayout<n>::vector(node.part);
       int velocity = -1;  // that of the node's partner on the interface, if it came before
       bool moves = false;
       for (int k = 0; k < n; ++k) {
@@ -68,7 +68,7 @@ class VelocityPressureLayout {
         }
         for (int k = 0; k < n; ++k) {
           const auto unknown = map[first + k].index;
-          Entry& entry = entries_[static_cast<std::size_t>(velocity) * n + k];
+          Entry& entry = entries_[VectorLayout<n>::vector(velocity, k]);
           if (unknown < 0) {
             partly_fixed_ = true;
           } else if (entry.unknown < 0) {
@@ -95,17 +95,18 @@ class VelocityPressureLayout {
     // The system's unknown x gives v = unknown.factor x in the fluid and d = x = wall_factor v in the wall.
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (entries_[i].unknown >= 0)
-        velocity_scale_[i] = entries_[i].wall ? wall_factor : 1 / numbering_.flow[entries_[i].place].factor;
+        velocity_scale_[i] = entries_[i].wall ? wall_factor : 1 / numbering_.fluid[entries_[i].place].factor;
   }
 
   /// Some velocity node has a component that is no unknown of one of its media.
   bool partly_fixed() const { return partly_fixed_; }
   /// Component k of a node of the part is an unknown.
   bool is_free(bool wall, int node, int k) const {
-    return (wall ? numbering_.wall : numbering_.flow)[static_cast<std::size_t>(node) * (n + 1) + k].index >= 0;
+    return (wall ? numbering_.wall : numbering_.fluid)[MixedLayout<n>::vector(node, k].index) >= 0;
   }
   /// Component k of a velocity node is an unknown, in one medium at least.
-  bool is_free(int velocity, int k) const { return entries_[static_cast<std::size_t>(velocity) * n + k].unknown >= 0; }
+  bool is_free(int velocity, int k) const { return entries_[VectorLayout<n>::vector(velocity, k].unknown) >= 0;
+  }
 
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
   std::size_t size() const { return velocity_size() + pressures; }

@@ -46,7 +46,7 @@ class VelocityPressureMatrix {
     for (int v = 0; v < layout_.velocities; ++v)
       for (int i = 0; i < lanes; ++i)
         to[static_cast<std::size_t>(v) * lanes + i] =
-            i < n ? static_cast<float>(factor * from[static_cast<std::size_t>(v) * n + i]) : 0.0f;
+            i < n ? static_cast<float>(factor * from[VectorLayout<n>::vector(v, i])) : 0.0f;
     for (int p = 0; p < layout_.pressures; ++p)
       to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
   }
@@ -55,7 +55,7 @@ class VelocityPressureMatrix {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v)
       for (int k = 0; k < n; ++k)
-        to[static_cast<std::size_t>(v) * n + k] = factor * from[static_cast<std::size_t>(v) * lanes + k];
+        to[VectorLayout<n>::vector(v, k]) = factor * from[static_cast<std::size_t>(v) * lanes + k];
     for (int p = 0; p < layout_.pressures; ++p) to[layout_.velocity_size() + p] = factor * from[velocity_size() + p];
   }
 
@@ -140,13 +140,13 @@ class VelocityPressureMatrix {
   }
   template <class Visit>
   void for_blocks_of_node(bool wall, int node, Visit visit) const {
-    const auto& matrix = wall ? *blocks_.wall : *blocks_.flow;
+    const auto& matrix = wall ? *blocks_.wall : *blocks_.fluid;
     const auto& velocity_of = wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid;
     const auto& pressure_of = wall ? layout_.pressure_of_wall : layout_.pressure_of_fluid;
     const double factor = wall ? layout_.wall_factor : 1;
     const auto& graph = *matrix.graph;
     const bool partly_fixed = layout_.partly_fixed();
-    double constrained[(n + 1) * (n + 1)];
+    double constrained[MixedLayout<n>::entries * MixedLayout<n>::entries];
     for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
       const int b = graph.columns[at];
       const double* block = matrix.block(at);
@@ -167,19 +167,20 @@ class VelocityPressureMatrix {
   /// `to` = the block that couples two nodes of a part, without the components that are no unknowns. A component that
   /// is none in any medium gets a diagonal as large as the others', once.
   void constrain(bool wall, int row, int column, const double* block, double* to) const {
-    std::copy(block, block + (n + 1) * (n + 1), to);
+    std::copy(block, block + MixedLayout<n>::entries * MixedLayout<n>::entries, to);
     for (int k = 0; k < n; ++k) {
-      if (!layout_.is_free(wall, row, k)) std::fill(to + k * (n + 1), to + (k + 1) * (n + 1), 0.0);
+      if (!layout_.is_free(wall, row, k))
+        std::fill_n(to + MixedLayout<n>::in_block(k, 0), MixedLayout<n>::entries, 0.0);
       if (!layout_.is_free(wall, column, k))
-        for (int i = 0; i <= n; ++i) to[i * (n + 1) + k] = 0;
+        for (int i = 0; i <= n; ++i) to[MixedLayout<n>::in_block(i, k)] = 0;
     }
     if (row != column) return;
     const int v = (wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid)[row];
     if (v < 0 || (wall && layout_.fluid_of_velocity[v] >= 0)) return;
     double largest = 0;
-    for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(block[k * (n + 1) + k]));
+    for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(block[MixedLayout<n>::in_block(k, k)]));
     for (int k = 0; k < n; ++k)
-      if (!layout_.is_free(v, k)) to[k * (n + 1) + k] = largest > 0 ? largest : 1;
+      if (!layout_.is_free(v, k)) to[MixedLayout<n>::in_block(k, k)] = largest > 0 ? largest : 1;
   }
 
   void make_momentum_pattern() {
@@ -223,13 +224,14 @@ class VelocityPressureMatrix {
       for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
         if (p >= 0) {
           float* g = gradient_.data() + static_cast<std::size_t>(gradient_at++) * lanes;
-          for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[i * (n + 1) + n]);
+          for (int i = 0; i < n; ++i) g[i] = static_cast<float>(block[MixedLayout<n>::in_block(i, n)]);
         }
         if (u < 0) return;
         const auto column = std::lower_bound(momentum_.columns.begin() + begin, momentum_.columns.begin() + end, u);
         float* a = momentum_.values.data() + static_cast<std::size_t>(column - momentum_.columns.begin()) * n * lanes;
         for (int i = 0; i < n; ++i)
-          for (int k = 0; k < n; ++k) a[k * lanes + i] += static_cast<float>(factor * block[i * (n + 1) + k]);
+          for (int k = 0; k < n; ++k)
+            a[k * lanes + i] += static_cast<float>(factor * block[MixedLayout<n>::in_block(i, k)]);
       });
     }
   }
@@ -238,13 +240,13 @@ class VelocityPressureMatrix {
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {
       int at = continuity_offsets_[p];
-      for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
-                         [&](const double* block, int v, int q, double factor) {
-                           float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
-                           for (int k = 0; k < n; ++k)
-                             b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[n * (n + 1) + k]);
-                           compressibility_[at++] = q < 0 ? 0.0f : static_cast<float>(block[n * (n + 1) + n]);
-                         });
+      for_blocks_of_node(
+          layout_.wall_pressure[p], layout_.node_of_pressure[p], [&](const double* block, int v, int q, double factor) {
+            float* b = divergence_.data() + static_cast<std::size_t>(at) * lanes;
+            for (int k = 0; k < n; ++k)
+              b[k] = v < 0 ? 0.0f : static_cast<float>(factor * block[MixedLayout<n>::in_block(n, k)]);
+            compressibility_[at++] = q < 0 ? 0.0f : static_cast<float>(block[MixedLayout<n>::in_block(n, n)]);
+          });
     }
   }
 

@@ -150,9 +150,9 @@ class VelocityPressurePreconditioner {
       double lumped[n] = {};
       matrix_.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
         for (int i = 0; i < n; ++i) {
-          lumped[i] += factor * block[i * (n + 1) + i];
+          lumped[i] += factor * block[MixedLayout<n>::in_block(i, i)];
           if (u == v)
-            for (int k = 0; k < n; ++k) diagonal(i, k) += factor * block[i * (n + 1) + k];
+            for (int k = 0; k < n; ++k) diagonal(i, k) += factor * block[MixedLayout<n>::in_block(i, k)];
         }
       });
       const Eigen::Matrix<double, n, n> inverse = diagonal.inverse();
@@ -162,7 +162,7 @@ class VelocityPressurePreconditioner {
         for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
         // Viscosity drops out of the lumped sum: where it dominates, the diagonal is larger.
         const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
-        inverse_lumped_[static_cast<std::size_t>(v) * n + k] = 1 / d;
+        inverse_lumped_[VectorLayout<n>::vector(v, k]) = 1 / d;
       }
       if (layout_.fluid_of_velocity[v] < 0) {
         int k = 0;  // a component that can move
@@ -192,22 +192,22 @@ class VelocityPressurePreconditioner {
           schur_.values[at] = 0;
         }
         const double scale = row_scale(p);
-        matrix_.for_blocks_of_node(
-            layout_.wall_pressure[p], layout_.node_of_pressure[p],
-            [&](const double* block, int v, int q, double factor) {
-              if (q >= 0) schur_.values[position[q]] += scale * block[n * (n + 1) + n];
-              if (v < 0) return;
-              double divergence[n];  // a row of B D^-1
-              for (int k = 0; k < n; ++k)
+        matrix_.for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
+                                   [&](const double* block, int v, int q, double factor) {
+                                     if (q >= 0)
+                                       schur_.values[position[q]] += scale * block[MixedLayout<n>::in_block(n, n)];
+                                     if (v < 0) return;
+                                     double divergence[n];  // a row of B D^-1
+                                     for (int k = 0; k < n; ++k)
                 divergence[k] =
-                    scale * factor * block[n * (n + 1) + k] * inverse_lumped_[static_cast<std::size_t>(v) * n + k];
+                    scale * factor * block[MixedLayout<n>::in_block(n, k)] * inverse_lumped_[VectorLayout<n>::vector(v, k]);
               for (int at = matrix_.gradient_offsets()[v]; at < matrix_.gradient_offsets()[v + 1]; ++at) {
-                const float* g = matrix_.gradient(at);
-                double sum = 0;
-                for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
-                schur_.values[position[matrix_.gradient_columns()[at]]] -= sum;
+              const float* g = matrix_.gradient(at);
+              double sum = 0;
+              for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
+              schur_.values[position[matrix_.gradient_columns()[at]]] -= sum;
               }
-            });
+                                   });
       }
     }
   }

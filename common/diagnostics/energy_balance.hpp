@@ -42,9 +42,9 @@ class EnergyBalance {
       const double rate = 1.0 / step;
       FluidInput in;
       in.step = step;
-      in.flow = now.flow.data();
-      in.flow_reference = old.flow.data();
-      in.flow_factor = rate;
+      in.fluid = now.fluid.data();
+      in.fluid_reference = old.fluid.data();
+      in.fluid_factor = rate;
       if (scene_.coupled()) {
         in.mesh = now.mesh.data();
         in.mesh_reference = old.mesh.data();
@@ -60,13 +60,13 @@ class EnergyBalance {
       const auto pressures = loads_.opening_pressures(state.step);
       const auto& open = scene_.fluid->open_boundaries();
       for (std::size_t i = 0; i < open.size(); ++i) {
-        const double kinetic = step * scene_.fluid->kinetic_outflow(open[i], now.flow);
+        const double kinetic = step * scene_.fluid->kinetic_outflow(open[i], now.fluid);
         if (open[i].name() == group::inlet)
           record.inlet_kinetic -= kinetic;
         else
           record.outlet_kinetic += kinetic;
         if (i < pressures.size() && pressures[i] != 0)
-          record.inlet_work -= step * pressures[i] * open[i].outflow(now.flow);
+          record.inlet_work -= step * pressures[i] * open[i].outflow(now.fluid);
       }
     }
     if (scene_.wall) {

@@ -114,7 +114,8 @@ std::string failure_hint(const Case& setup, const TetrahedralMesh& mesh, const S
   if (scene.wall) {
     std::array<Extreme, 3> levels;
     for (int k = 0; k < 3; ++k)
-      levels[k] = largest_stretch(scene.wall->part(), state.before[k].wall, Scene<P1Tetrahedron>::n + 1);
+      levels[k] =
+          largest_stretch(scene.wall->part(), state.before[k].wall, MixedLayout<Scene<P1Tetrahedron>::n>::entries);
     WallAtFailure wall{levels[0]};
     wall.growing = state.step >= 3 && levels[0].value > levels[1].value && levels[1].value > levels[2].value &&
                    levels[2].value > already_stretched;

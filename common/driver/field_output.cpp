@@ -39,11 +39,17 @@ struct OutputField {
 
 constexpr std::array<OutputField, 3> output_fields{
     {{"displacement", n, "mm", [](bool moves, bool) { return moves; },
-      [](const State& state, bool fluid) { return fluid ? state.now.mesh : taken(state.now.wall, n + 1, 0, n); }},
+      [](const State& state, bool fluid) {
+        return fluid ? state.now.mesh : taken(state.now.wall, MixedLayout<n>::entries, 0, n);
+      }},
      {"velocity", n, "mm/ms", [](bool, bool flows) { return flows; },
-      [](const State& state, bool fluid) { return fluid ? taken(state.now.flow, n + 1, 0, n) : state.wall_velocity; }},
+      [](const State& state, bool fluid) {
+        return fluid ? taken(state.now.fluid, MixedLayout<n>::entries, 0, n) : state.wall_velocity;
+      }},
      {"pressure", 1, "kPa", [](bool, bool) { return true; },
-      [](const State& state, bool fluid) { return taken(fluid ? state.now.flow : state.now.wall, n + 1, n, 1); }}}};
+      [](const State& state, bool fluid) {
+        return taken(fluid ? state.now.fluid : state.now.wall, MixedLayout<n>::entries, n, 1);
+      }}}};
 static_assert(names_match(output_field_list, output_fields), "case/choices.hpp owns these names");
 
 }  // namespace

@@ -51,13 +51,13 @@ void Observables::write(const State& state, ResultFolder& folder) const {
     std::vector<double> pressure(centre_line_.size(), 0.0);
     for (std::size_t i = 0; i < centre_line_.size(); ++i)
       for (int a = 0; a < 4; ++a)
-        pressure[i] += centre_line_[i].weights[a] * state.now.flow[Mixed::scalar(centre_line_[i].nodes[a])];
+        pressure[i] += centre_line_[i].weights[a] * state.now.fluid[Mixed::scalar(centre_line_[i].nodes[a])];
     folder.write_centerline(state.time, centre_z_, pressure);
     const auto &inlet = *scene_.fluid->open_boundary(group::inlet),
                &outlet = *scene_.fluid->open_boundary(group::outlet);
-    const auto& flow = state.now.flow;
-    folder.write_flow(state.time, {-inlet.outflow(flow), outlet.outflow(flow), inlet.mean_pressure(flow),
-                                   outlet.mean_pressure(flow)});
+    const auto& fluid = state.now.fluid;
+    folder.write_flow(state.time, {-inlet.outflow(fluid), outlet.outflow(fluid), inlet.mean_pressure(fluid),
+                                   outlet.mean_pressure(fluid)});
   }
   if (!wall_line_.empty()) {
     const AxisFrame frame(axis_);

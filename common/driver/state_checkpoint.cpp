@@ -16,7 +16,7 @@ template <class StateType, class Visit>
 void for_each_array(StateType& state, Visit visit) {
   for (std::size_t level = 0; level < state.before.size(); ++level) {
     visit(fmt::format("level{}.mesh", level), state.before[level].mesh);
-    visit(fmt::format("level{}.flow", level), state.before[level].flow);
+    visit(fmt::format("level{}.flow", level), state.before[level].fluid);
     visit(fmt::format("level{}.wall", level), state.before[level].wall);
   }
   visit("wall_velocity", state.wall_velocity);

@@ -27,6 +27,8 @@ struct MixedLayout {
     return static_cast<std::size_t>(node) * entries + static_cast<std::size_t>(component);
   }
   static constexpr std::size_t scalar(int node) { return vector(node, Components); }
+  /// Of a row and a column in a square block that couples two nodes; the scalar's are the last.
+  static constexpr int in_block(int row, int column) { return row * entries + column; }
 };
 
 }  // namespace fsi

@@ -16,7 +16,7 @@ template <class Element, FluidDerivatives Derivatives, bool Moving>
 AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                            const FluidInput& in, double* residual, FluidJacobian<Element>* jacobian) {
   constexpr int n = Element::components;
-  constexpr bool domain = Derivatives == FluidDerivatives::flow_and_domain;
+  constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
   // Seeds of one node, in this order: mesh displacement (if asked for), velocity, pressure.
   constexpr int seeds = Derivatives == FluidDerivatives::none ? 0 : (domain ? 2 * n + 1 : n + 1);
   constexpr int domain_seeds = domain ? seeds : 0;
@@ -30,16 +30,16 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
   NodalScalar<Element> p{};
   ElementRows<Element, T> rows;
   for (const auto& pack : packs) {
-    gather<Mixed>(u, pack, in.flow);
-    gather<Mixed>(u_reference, pack, in.flow_reference);
-    gather<Mixed>(p, pack, in.flow);
+    gather<Mixed>(u, pack, in.fluid);
+    gather<Mixed>(u_reference, pack, in.fluid_reference);
+    gather<Mixed>(p, pack, in.fluid);
     if constexpr (Moving) {
       gather<Vector>(d, pack, in.mesh);
       gather<Vector>(d_reference, pack, in.mesh_reference);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k) {
-        rate.at[a][k] = Pack(in.flow_factor) * (u.at[a][k] - u_reference.at[a][k]);
+        rate.at[a][k] = Pack(in.fluid_factor) * (u.at[a][k] - u_reference.at[a][k]);
         convection.at[a][k] = u.at[a][k];
         if constexpr (Moving) convection.at[a][k] -= Pack(in.mesh_factor) * (d.at[a][k] - d_reference.at[a][k]);
       }
@@ -60,12 +60,12 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
             Vec3<T> c = seed_value<Element, seeds, u0>(value_of(convection, g), g, b);
             if constexpr (domain)
               for (int i = 0; i < n; ++i) c[Element::axis[i]].slope[i] = Pack(-in.mesh_factor * g.vectors().value[b]);
-            return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, in.flow_factor), c,
+            return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, in.fluid_factor), c,
                                   seed_value<Element, seeds, p0>(value_of(p, g), g, b));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (seeds > 0)
-        scatter_blocks<Element, seeds, u0, Mixed::entries>(rows, pack, b, jacobian->flow.values.data());
+        scatter_blocks<Element, seeds, u0, Mixed::entries>(rows, pack, b, jacobian->fluid.values.data());
       if constexpr (domain)
         scatter_blocks<Element, seeds, 0, n>(rows, pack, b, jacobian->shape_derivatives.values.data());
     }
@@ -82,8 +82,8 @@ AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs,
                               std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,
                               FluidJacobian<Element>* jacobian = nullptr) {
   form.step = in.step;
-  if (derivatives != FluidDerivatives::none) jacobian->flow.set_zero();
-  if (derivatives == FluidDerivatives::flow_and_domain) jacobian->shape_derivatives.set_zero();
+  if (derivatives != FluidDerivatives::none) jacobian->fluid.set_zero();
+  if (derivatives == FluidDerivatives::fluid_and_domain) jacobian->shape_derivatives.set_zero();
   std::vector<AssemblyResult> results(packs.thread_count());
   const auto serial_below = derivatives == FluidDerivatives::none ? serial_residual_elements : serial_jacobian_elements;
   for_each_thread(packs, serial_below, [&](int t, const auto& mine) {
@@ -94,8 +94,8 @@ AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs,
     };
     const auto with = [&](auto which) { in.mesh ? run(which, std::true_type{}) : run(which, std::false_type{}); };
     if (derivatives == D::none) with(std::integral_constant<D, D::none>{});
-    if (derivatives == D::flow) with(std::integral_constant<D, D::flow>{});
-    if (derivatives == D::flow_and_domain) run(std::integral_constant<D, D::flow_and_domain>{}, std::true_type{});
+    if (derivatives == D::fluid) with(std::integral_constant<D, D::fluid>{});
+    if (derivatives == D::fluid_and_domain) run(std::integral_constant<D, D::fluid_and_domain>{}, std::true_type{});
   });
   return reduced(results);
 }

@@ -16,16 +16,16 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
   const auto integrals = [&](const auto& pack, int, std::size_t) {
     NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate, convection;
     NodalScalar<Element> p{};
-    gather<Mixed>(u, pack, in.flow);
-    gather<Mixed>(u_old, pack, in.flow_reference);
-    gather<Mixed>(p, pack, in.flow);
+    gather<Mixed>(u, pack, in.fluid);
+    gather<Mixed>(u_old, pack, in.fluid_reference);
+    gather<Mixed>(p, pack, in.fluid);
     if (in.mesh) {
       gather<Vector>(d, pack, in.mesh);
       gather<Vector>(d_old, pack, in.mesh_reference);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k) {
-        rate.at[a][k] = Pack(in.flow_factor) * (u.at[a][k] - u_old.at[a][k]);
+        rate.at[a][k] = Pack(in.fluid_factor) * (u.at[a][k] - u_old.at[a][k]);
         convection.at[a][k] = u.at[a][k] - Pack(in.mesh_factor) * (d.at[a][k] - d_old.at[a][k]);
       }
     struct Prepared {

@@ -8,27 +8,27 @@ namespace fsi {
 /// What the fluid's residual depends on. Flow arrays hold (u, p) in the mixed layout, in mm/ms and kPa; mesh arrays the
 /// displacement d_m in the vector layout, in mm. The latter are null where the domain is rigid. Rates are a factor
 /// times what the field has moved from a reference, as the time integrator says:
-///   du/dt = flow_factor (u - flow_reference),   w = mesh_factor (d_m - mesh_reference).
+///   du/dt = fluid_factor (u - fluid_reference),   w = mesh_factor (d_m - mesh_reference).
 struct FluidInput {
   const double* mesh = nullptr;
   const double* mesh_reference = nullptr;
-  const double* flow = nullptr;
-  const double* flow_reference = nullptr;
-  double flow_factor = 0;  ///< 1/ms
-  double mesh_factor = 0;  ///< 1/ms
-  double step = 0;         ///< ms, for the stabilisation
+  const double* fluid = nullptr;
+  const double* fluid_reference = nullptr;
+  double fluid_factor = 0;  ///< 1/ms
+  double mesh_factor = 0;   ///< 1/ms
+  double step = 0;          ///< ms, for the stabilisation
 };
 
 /// Derivatives of the fluid's residual with respect to its own unknowns (u, p) and to the mesh displacement.
 template <class Element>
 struct FluidJacobian {
   static constexpr int own = MixedLayout<Element::components>::entries;
-  BlockMatrix<own, own> flow;                               ///< columns (u, p)
+  BlockMatrix<own, own> fluid;                              ///< columns (u, p)
   BlockMatrix<own, Element::components> shape_derivatives;  ///< columns d_m; empty where not asked for
 };
 
 /// Which derivatives an element loop is asked for.
-enum class FluidDerivatives { none, flow, flow_and_domain };
+enum class FluidDerivatives { none, fluid, fluid_and_domain };
 
 /// Energy of the fluid at the end of a step, and what the step's discrete equations, tested with (u, -p), do besides
 /// changing it (docs/energy.md); all in uJ = mm^3 kPa. With the step's ends 0 and 1, D = cof F_1 : grad(d_1 - d_0):

@@ -37,9 +37,9 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
 
 template <class Element>
 FluidJacobian<Element>& FluidProblem<Element>::jacobian(FluidDerivatives derivatives) {
-  if (derivatives != FluidDerivatives::none && jacobian_.flow.values.empty())
-    jacobian_.flow = decltype(jacobian_.flow)(graph());
-  if (derivatives == FluidDerivatives::flow_and_domain && jacobian_.shape_derivatives.values.empty())
+  if (derivatives != FluidDerivatives::none && jacobian_.fluid.values.empty())
+    jacobian_.fluid = decltype(jacobian_.fluid)(graph());
+  if (derivatives == FluidDerivatives::fluid_and_domain && jacobian_.shape_derivatives.values.empty())
     jacobian_.shape_derivatives = decltype(jacobian_.shape_derivatives)(graph());
   return jacobian_;
 }

@@ -90,7 +90,7 @@ void HarmonicExtension<n>::set_up(Group& group) {
   const int component = group.components.front();
   group.row.assign(graph.rows(), -1);
   for (int a = 0; a < graph.rows(); ++a)
-    if (inner_[static_cast<std::size_t>(a) * n + component]) {
+    if (inner_[VectorLayout<n>::vector(a, component])) {
       group.row[a] = static_cast<int>(group.node.size());
       group.node.push_back(a);
     }
@@ -162,13 +162,13 @@ void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<
   right_.assign(group.components.size(), std::vector<double>(rows));
   for (std::size_t c = 0; c < group.components.size(); ++c)
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t entry = static_cast<std::size_t>(group.node[i]) * n + group.components[c];
+      const std::size_t entry = VectorLayout<n>::vector(group.node[i], group.components[c]);
       right_[c][i] = right[entry] - rows_[entry];
     }
   group.solver.solve_each(group.columns, right_, solution_);
   for (std::size_t c = 0; c < group.components.size(); ++c)
     for (std::size_t i = 0; i < rows; ++i)
-      field[static_cast<std::size_t>(group.node[i]) * n + group.components[c]] = solution_[c][i];
+      field[VectorLayout<n>::vector(group.node[i], group.components[c]]) = solution_[c][i];
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old
@@ -184,7 +184,7 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < m; ++k) {
-      const std::size_t entry = static_cast<std::size_t>(group.node[i]) * n + group.components[k];
+      const std::size_t entry = VectorLayout<n>::vector(group.node[i], group.components[k]);
       x[static_cast<std::size_t>(i) * m + k] = field[entry];
       r[static_cast<std::size_t>(i) * m + k] = right[entry] - rows_[entry];
     }
@@ -240,7 +240,7 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   if (!done()) return false;
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < m; ++k)
-      field[static_cast<std::size_t>(group.node[i]) * n + group.components[k]] = x[static_cast<std::size_t>(i) * m + k];
+      field[VectorLayout<n>::vector(group.node[i], group.components[k]]) = x[static_cast<std::size_t>(i) * m + k];
   return true;
 }
 

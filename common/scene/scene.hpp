@@ -7,8 +7,8 @@
 #include "fluid/fluid_problem.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "scene/dirichlet_conditions.hpp"
-#include "structure/wall_problem.hpp"
 #include "time/time_integrator.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi {
 
@@ -60,7 +60,7 @@ class Scene {
   State at_rest() const {
     State state;
     Solution zero;
-    if (fluid) zero.flow.assign(fluid->space().mixed_size(), 0.0);
+    if (fluid) zero.fluid.assign(fluid->space().mixed_size(), 0.0);
     if (coupled()) zero.mesh.assign(fluid->space().vector_size(), 0.0);
     if (wall) {
       zero.wall.assign(wall->space().mixed_size(), 0.0);
@@ -81,14 +81,14 @@ class Scene {
       in.mesh_reference = rates.mesh_reference.data();
       in.mesh_factor = rates.interface.rate();
     }
-    in.flow = state.now.flow.data();
-    in.flow_reference = rates.flow_reference.data();
-    in.flow_factor = rates.flow_factor;
+    in.fluid = state.now.fluid.data();
+    in.fluid_reference = rates.fluid_reference.data();
+    in.fluid_factor = rates.fluid_factor;
     in.step = rates.step;
     return in;
   }
-  StructureInput wall_input(const State& state, const StepRates& rates) const {
-    StructureInput in;
+  WallInput wall_input(const State& state, const StepRates& rates) const {
+    WallInput in;
     in.wall = state.now.wall.data();
     if (!rates.is_static()) {
       in.acceleration_history = rates.acceleration_history.data();
@@ -99,7 +99,7 @@ class Scene {
 
   /// Writes the prescribed values.
   void impose_conditions(Solution& solution) const {
-    if (fluid) velocity_conditions.template impose<Mixed>(solution.flow);
+    if (fluid) velocity_conditions.template impose<Mixed>(solution.fluid);
     if (coupled()) mesh_conditions.template impose<Vector>(solution.mesh);
     if (wall) wall_conditions.template impose<Mixed>(solution.wall);
   }
@@ -110,7 +110,7 @@ class Scene {
       for (int k = 0; k < n; ++k) {
         const std::size_t w = Mixed::vector(node.wall, k);
         state.now.mesh[Vector::vector(node.fluid, k)] = state.now.wall[w];
-        state.now.flow[Mixed::vector(node.fluid, k)] =
+        state.now.fluid[Mixed::vector(node.fluid, k)] =
             rates.interface.velocity(state.now.wall[w], rates.wall_reference[w]);
       }
   }

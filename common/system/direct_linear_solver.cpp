@@ -12,8 +12,8 @@ GatheredMatrix gather_jacobian(const JacobianBlocks<Element>& blocks) {
   const Numbering& numbering = blocks.numbering;
   GatheredMatrix::Builder builder(numbering.size);
   if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
-  if (blocks.flow) gather_blocks(builder, *blocks.flow, numbering.flow_rows, numbering.flow);
-  if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.flow_rows, numbering.mesh);
+  if (blocks.fluid) gather_blocks(builder, *blocks.fluid, numbering.fluid_rows, numbering.fluid);
+  if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.fluid_rows, numbering.mesh);
   if (blocks.mesh_laplacian)
     gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh);
   return GatheredMatrix(std::move(builder));

@@ -13,11 +13,11 @@ namespace fsi {
 /// of absent parts are empty. Single components of a node may be without an unknown, and so may its scalar.
 struct Numbering {
   std::int64_t size = 0;
-  UnknownMap mesh_rows, mesh;  ///< mesh motion: equations, unknowns d_m; vector layout
-  UnknownMap flow_rows, flow;  ///< momentum and continuity; (u, p_f); mixed layout
-  UnknownMap wall_rows, wall;  ///< momentum and volume; (d_s, p_s); mixed layout
+  UnknownMap mesh_rows, mesh;    ///< mesh motion: equations, unknowns d_m; vector layout
+  UnknownMap fluid_rows, fluid;  ///< momentum and continuity; (u, p_f); mixed layout
+  UnknownMap wall_rows, wall;    ///< momentum and volume; (d_s, p_s); mixed layout
 
-  /// Entries of `flow` whose unknown is the interface's displacement.
+  /// Entries of `fluid` whose unknown is the interface's displacement.
   std::vector<std::size_t> interface_velocities;
   /// The step's: du = d(d_s) / period for those entries. Their factors follow it.
   InterfaceKinematics interface;
@@ -29,7 +29,7 @@ struct Numbering {
     const bool changed = interface.period != of_step.period;
     interface = of_step;
     if (!changed || interface_velocities.empty()) return false;
-    for (std::size_t entry : interface_velocities) flow[entry].factor = interface.rate();
+    for (std::size_t entry : interface_velocities) fluid[entry].factor = interface.rate();
     ++version;
     return true;
   }

@@ -7,10 +7,10 @@ namespace fsi {
 
 template <class Element>
 JacobianProduct<Element>::JacobianProduct(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
-  flow_.resize(blocks.numbering.flow.size());
+  fluid_.resize(blocks.numbering.fluid.size());
   mesh_.resize(blocks.numbering.mesh.size());
   wall_.resize(blocks.numbering.wall.size());
-  flow_rows_ = flow_;
+  fluid_rows_ = fluid_;
   mesh_rows_ = mesh_;
   wall_rows_ = wall_;
 }
@@ -20,11 +20,11 @@ void JacobianProduct<Element>::multiply(const std::vector<double>& x, std::vecto
   const Numbering& numbering = blocks_.numbering;
   y.assign(static_cast<std::size_t>(numbering.size), 0.0);
   if (blocks_.shape_derivatives || blocks_.mesh_laplacian) values(numbering.mesh, x, mesh_);
-  if (blocks_.flow) {
-    values(numbering.flow, x, flow_);
-    fsi::multiply(*blocks_.flow, flow_, flow_rows_);
-    if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, flow_rows_);
-    add_to_system(numbering.flow_rows, flow_rows_, y);
+  if (blocks_.fluid) {
+    values(numbering.fluid, x, fluid_);
+    fsi::multiply(*blocks_.fluid, fluid_, fluid_rows_);
+    if (blocks_.shape_derivatives) multiply_add(*blocks_.shape_derivatives, mesh_, fluid_rows_);
+    add_to_system(numbering.fluid_rows, fluid_rows_, y);
   }
   if (blocks_.mesh_laplacian) {
     multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);

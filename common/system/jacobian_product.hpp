@@ -22,7 +22,7 @@ class JacobianProduct {
   static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field);
 
   JacobianBlocks<Element> blocks_;
-  std::vector<double> flow_, mesh_, wall_, flow_rows_, mesh_rows_, wall_rows_;
+  std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
 };
 
 }  // namespace fsi

@@ -35,7 +35,7 @@ struct JacobianBlocks {
 
   /// Its factors and its interface's kinematics hold for the values that update() finds, and may differ at the next.
   const Numbering& numbering;
-  const BlockMatrix<mixed, mixed>* flow = nullptr;           ///< d(momentum, continuity) / d(u, p_f)
+  const BlockMatrix<mixed, mixed>* fluid = nullptr;          ///< d(momentum, continuity) / d(u, p_f)
   const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
   const BlockMatrix<1, n>* mesh_laplacian = nullptr;         ///< of the mesh motion, one number per component
   const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
@@ -47,7 +47,7 @@ struct JacobianBlocks {
 
   /// d = wall_factor v ties changes of the wall's displacement and of its velocity; 1 in statics.
   double wall_factor() const { return numbering.interface.period; }
-  bool coupled() const { return flow && wall && mesh_laplacian && interface; }
+  bool coupled() const { return fluid && wall && mesh_laplacian && interface; }
 };
 
 /// What a linear solve did.
@@ -63,7 +63,7 @@ struct LinearStatistics {
   double memory_mib = 0;           ///< matrices, factors and vectors that it holds beside the block matrices
   double operator_complexity = 0;  ///< entries of all levels over entries of the finest; 0 without levels
   int levels = 0;
-  long long mesh_cycles = 0, flow_cycles = 0, wall_cycles = 0;  ///< sub-problem cycles so far
+  long long mesh_cycles = 0, fluid_cycles = 0, wall_cycles = 0;  ///< sub-problem cycles so far
 };
 
 /// Solves J x = b for the Jacobian that a JacobianBlocks describes, in the unknowns of its numbering.

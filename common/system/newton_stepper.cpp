@@ -20,13 +20,13 @@ void append_history(const NewtonReport& report, std::vector<std::string>& lines,
 
 void remember(const std::string& name, const LinearisationPoint& point, Memory& memory) {
   memory.arrays[name + ".mesh"] = point.now.mesh;
-  memory.arrays[name + ".flow"] = point.now.flow;
+  memory.arrays[name + ".flow"] = point.now.fluid;
   memory.arrays[name + ".wall"] = point.now.wall;
   memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
-  memory.arrays[name + ".flow_reference"] = point.rates.flow_reference;
+  memory.arrays[name + ".flow_reference"] = point.rates.fluid_reference;
   memory.numbers[name + ".step"] = point.rates.step;
   memory.numbers[name + ".period"] = point.rates.interface.period;
-  memory.numbers[name + ".flow_factor"] = point.rates.flow_factor;
+  memory.numbers[name + ".flow_factor"] = point.rates.fluid_factor;
   memory.numbers[name + ".acceleration_factor"] = point.rates.acceleration_factor;
   memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
 }
@@ -40,10 +40,10 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   const auto number = [&](const char* part) { return memory.numbers.at(name + part); };
   point.now = {array(".mesh"), array(".flow"), array(".wall")};
   point.rates.mesh_reference = array(".mesh_reference");
-  point.rates.flow_reference = array(".flow_reference");
+  point.rates.fluid_reference = array(".flow_reference");
   point.rates.step = number(".step");
   point.rates.interface.period = number(".period");
-  point.rates.flow_factor = number(".flow_factor");
+  point.rates.fluid_factor = number(".flow_factor");
   point.rates.acceleration_factor = number(".acceleration_factor");
   point.wall_pressure = number(".wall_pressure");
   return true;

@@ -50,11 +50,11 @@ Numbering number_fluid(const Scene<Element>& scene, bool free_interface = false)
   Numbering part;
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
-  part.flow = detail::number_nodes<Element::components>(
+  part.fluid = detail::number_nodes<Element::components>(
       scene.fluid->node_count(), part.size,
       [&](int a, int k) { return scene.velocity_conditions.fixes(a, k) || (wet[a] && !free_interface); },
       [&](int a) { return space.carries_scalar(a); });
-  part.flow_rows = part.flow;
+  part.fluid_rows = part.fluid;
   return part;
 }
 

@@ -21,9 +21,9 @@ System<Element>::System(std::string name, Scene<Element>& scene, Numbering numbe
     : name_(std::move(name)),
       scene_(scene),
       numbering_(std::move(numbering)),
-      derivatives_(numbering_.flow.empty()   ? FluidDerivatives::none
-                   : numbering_.mesh.empty() ? FluidDerivatives::flow
-                                             : FluidDerivatives::flow_and_domain),
+      derivatives_(numbering_.fluid.empty()  ? FluidDerivatives::none
+                   : numbering_.mesh.empty() ? FluidDerivatives::fluid
+                                             : FluidDerivatives::fluid_and_domain),
       interface_(interface_pairs(scene)),
       norm_(norm),
       impedance_(impedance),
@@ -38,14 +38,14 @@ JacobianBlocks<Element> System<Element>::blocks() {
     blocks.wall = &scene_.wall->jacobian();
     blocks.wall_nodes = {&scene_.wall->part().nodes, &scene_.wall->part().mesh_node};
   }
-  if (!numbering_.flow_rows.empty()) {
+  if (!numbering_.fluid_rows.empty()) {
     auto& jacobian = scene_.fluid->jacobian(derivatives_);
-    blocks.flow = &jacobian.flow;
+    blocks.fluid = &jacobian.fluid;
     if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
     blocks.fluid_nodes = {&scene_.fluid->part().nodes, &scene_.fluid->part().mesh_node};
   }
   if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
-  if (blocks.flow && blocks.wall) blocks.interface = &interface_;
+  if (blocks.fluid && blocks.wall) blocks.interface = &interface_;
   blocks.mesh_laplacian_version = &scene_.mesh_motion_assemblies;
   blocks.profile = &scene_.profile;
   return blocks;
@@ -119,14 +119,14 @@ double System<Element>::solve(double tolerance) {
 template <class Element>
 void System<Element>::move(double step) {
   if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
-  if (!numbering_.flow.empty()) add_to_field(numbering_.flow, increment_, step, state_->now.flow);
+  if (!numbering_.fluid.empty()) add_to_field(numbering_.fluid, increment_, step, state_->now.fluid);
   if (!numbering_.wall.empty()) add_to_field(numbering_.wall, increment_, step, state_->now.wall);
 }
 
 template <class Element>
 double System<Element>::size() const {
   return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
-                   weighted<Mixed>(flow_volumes_, state_->now.flow, !numbering_.flow.empty()) +
+                   weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
                    weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
 }
 
@@ -138,7 +138,7 @@ double System<Element>::rounding() {
       if (map[i].index >= 0) x[map[i].index] = std::max(x[map[i].index], std::abs(field[i] / map[i].factor));
   };
   values(numbering_.mesh, state_->now.mesh);
-  values(numbering_.flow, state_->now.flow);
+  values(numbering_.fluid, state_->now.fluid);
   values(numbering_.wall, state_->now.wall);
   if (!numbering_.wall.empty())
     for (int node = 0; node < scene_.wall->node_count(); ++node)
@@ -168,10 +168,10 @@ AssemblyResult System<Element>::assemble(bool derivatives) {
     multiply_mesh_motion<Element>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
     add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
   }
-  if (!numbering_.flow_rows.empty()) {
+  if (!numbering_.fluid_rows.empty()) {
     result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                           fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
-    add_to_system(numbering_.flow_rows, fluid_residual_, residual_);
+    add_to_system(numbering_.fluid_rows, fluid_residual_, residual_);
     if (impedance_) add_impedance(derivatives);
   }
   if (!numbering_.wall_rows.empty()) {
@@ -192,12 +192,12 @@ void System<Element>::add_impedance(bool derivatives) {
     const double c = impedance_->impedance[i];
     for (int k = 0; k < n; ++k) {
       const std::size_t entry = Mixed::vector(node, k);
-      const Unknown& row = numbering_.flow_rows[entry];
+      const Unknown& row = numbering_.fluid_rows[entry];
       if (row.index < 0) continue;
-      residual_[row.index] += row.factor * c * (state_->now.flow[entry] - impedance_->velocity[i * n + k]);
+      residual_[row.index] += row.factor * c * (state_->now.fluid[entry] - impedance_->velocity[i * n + k]);
       if (!derivatives) continue;
-      auto& flow = scene_.fluid->jacobian(derivatives_).flow;
-      flow.block(flow.graph->find(node, node))[k * Mixed::entries + k] += c;
+      auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
+      fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += c;
     }
   }
 }
@@ -224,8 +224,8 @@ void System<Element>::add_absolute_products(const std::vector<double>& x, std::v
         }
   };
   if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
-  if (j.flow) add(*j.flow, numbering_.flow_rows, numbering_.flow, false);
-  if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.flow_rows, numbering_.mesh, false);
+  if (j.fluid) add(*j.fluid, numbering_.fluid_rows, numbering_.fluid, false);
+  if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
 }
 
@@ -239,11 +239,11 @@ std::vector<double> System<Element>::norm_weights() {
   const auto weights_of = [&](const auto& part) {
     return norm_ == SystemNorm::volumes ? nodal_volumes<Element>(part) : std::vector<double>(part.nodes.size(), 1.0);
   };
-  if ((!numbering_.flow.empty() || !numbering_.mesh.empty()) && flow_volumes_.empty())
-    mesh_volumes_ = flow_volumes_ = weights_of(scene_.fluid->part());
+  if ((!numbering_.fluid.empty() || !numbering_.mesh.empty()) && fluid_volumes_.empty())
+    mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->part());
   if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->part());
   add(numbering_.mesh, mesh_volumes_, Vector::entries);
-  add(numbering_.flow, flow_volumes_, Mixed::entries);
+  add(numbering_.fluid, fluid_volumes_, Mixed::entries);
   add(numbering_.wall, wall_volumes_, Mixed::entries);
   return weights;
 }
@@ -252,7 +252,7 @@ template <class Element>
 bool System<Element>::rates_differ(const StepRates& rates) const {
   const StepRates& of_jacobian = point_.rates;
   return rates.step != of_jacobian.step || rates.interface.period != of_jacobian.interface.period ||
-         rates.flow_factor != of_jacobian.flow_factor || rates.acceleration_factor != of_jacobian.acceleration_factor;
+         rates.fluid_factor != of_jacobian.fluid_factor || rates.acceleration_factor != of_jacobian.acceleration_factor;
 }
 
 #define FSI_INSTANTIATE(Element) template class System<Element>;

@@ -124,7 +124,7 @@ class System : public NewtonProblem {
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
-  std::vector<double> mesh_volumes_, flow_volumes_, wall_volumes_;
+  std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;
   std::vector<double> weights_;
 };
 

@@ -13,10 +13,10 @@ StepRates EulerNewmark<Components>::rates(const State& state, double step) const
   StepRates rates;
   rates.step = step;
   rates.interface.period = step;
-  rates.flow_factor = 1.0 / step;
+  rates.fluid_factor = 1.0 / step;
   rates.acceleration_factor = 1.0 / (newmark_.beta * step * step);
   rates.mesh_reference = old.mesh;
-  rates.flow_reference = old.flow;
+  rates.fluid_reference = old.fluid;
   rates.wall_reference = old.wall;
 
   using Vector = VectorLayout<Components>;

@@ -30,7 +30,7 @@ void predict(State& state, int order, double time) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = w[0] * x0[i] + w[1] * x1[i] + w[2] * x2[i];
   };
   extrapolate(&Solution::mesh);
-  extrapolate(&Solution::flow);
+  extrapolate(&Solution::fluid);
   extrapolate(&Solution::wall);
 }
 

@@ -9,9 +9,9 @@ namespace fsi {
 /// Nodal values of one time level, the paper's X = (D_m, U_f, U_s), in the layouts of fem/nodal_layout.hpp. Arrays of
 /// absent physics are empty.
 struct Solution {
-  std::vector<double> mesh;  ///< d_m, vectors per fluid node, mm
-  std::vector<double> flow;  ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
-  std::vector<double> wall;  ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
+  std::vector<double> mesh;   ///< d_m, vectors per fluid node, mm
+  std::vector<double> fluid;  ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
+  std::vector<double> wall;   ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
 };
 
 /// Everything a time step starts from and works on.

@@ -11,9 +11,9 @@ namespace fsi {
 struct StepRates {
   double step = 0;                 ///< ms; 0 in statics
   InterfaceKinematics interface;   ///< velocities of the mesh, and of the fluid on the interface, from displacements
-  double flow_factor = 0;          ///< 1/ms: du/dt = flow_factor (u - flow_reference)
+  double fluid_factor = 0;         ///< 1/ms: du/dt = fluid_factor (u - fluid_reference)
   double acceleration_factor = 0;  ///< 1/ms^2: wall's acceleration = acceleration_factor d + acceleration_history
-  std::vector<double> mesh_reference, flow_reference, wall_reference;
+  std::vector<double> mesh_reference, fluid_reference, wall_reference;
   std::vector<double> acceleration_history;  ///< mm/ms^2
 
   bool is_static() const { return step == 0; }

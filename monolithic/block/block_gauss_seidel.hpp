@@ -9,7 +9,7 @@ namespace fsi {
 
 /// Damping factors of the block Gauss-Seidel iteration.
 struct BlockDamping {
-  double mesh = 1, flow = 1, wall = 1;
+  double mesh = 1, fluid = 1, wall = 1;
 };
 
 /// Damped block Gauss-Seidel iteration, the smoother of the coupled system ([Langer2018], algorithm 2):
@@ -25,8 +25,8 @@ class BlockGaussSeidel {
   void sweep(const CoupledVector& b, CoupledVector& x, const BlockDamping& damping) {
     k_.mesh_residual(b, x, residual_.mesh);
     correct(inverse_.mesh, damping.mesh, residual_.mesh, correction_.mesh, x.mesh);
-    k_.flow_residual(b, x, residual_.flow);
-    correct(inverse_.flow, damping.flow, residual_.flow, correction_.flow, x.flow);
+    k_.fluid_residual(b, x, residual_.fluid);
+    correct(inverse_.fluid, damping.fluid, residual_.fluid, correction_.fluid, x.fluid);
     k_.wall_residual(b, x, residual_.wall);
     correct(inverse_.wall, damping.wall, residual_.wall, correction_.wall, x.wall);
   }

@@ -38,7 +38,7 @@ class DiagonalPreconditioner : public BlockPreconditioner<n> {
   using BlockPreconditioner<n>::BlockPreconditioner;
   void apply(const CoupledVector& b, CoupledVector& x) override {
     this->inverse_.mesh.solve(b.mesh, x.mesh);
-    this->inverse_.flow.solve(b.flow, x.flow);
+    this->inverse_.fluid.solve(b.fluid, x.fluid);
     this->inverse_.wall.solve(b.wall, x.wall);
   }
 };
@@ -54,11 +54,11 @@ class LowerPreconditioner : public BlockPreconditioner<n> {
     const auto& k = this->k_;
     auto& r = this->r_;
     this->inverse_.mesh.solve(b.mesh, x.mesh);
-    r = b.flow;
-    k.subtract_flow_mesh(x.mesh, r);
-    this->inverse_.flow.solve(r, x.flow);
+    r = b.fluid;
+    k.subtract_fluid_mesh(x.mesh, r);
+    this->inverse_.fluid.solve(r, x.fluid);
     r = b.wall;
-    k.subtract_wall_flow(x.flow, r);
+    k.subtract_wall_fluid(x.fluid, r);
     this->inverse_.wall.solve(r, x.wall);
   }
 };
@@ -74,9 +74,9 @@ class UpperPreconditioner : public BlockPreconditioner<n> {
     const auto& k = this->k_;
     auto& r = this->r_;
     this->inverse_.wall.solve(b.wall, x.wall);
-    r = b.flow;
-    k.subtract_flow_wall(x.wall, r);
-    this->inverse_.flow.solve(r, x.flow);
+    r = b.fluid;
+    k.subtract_fluid_wall(x.wall, r);
+    this->inverse_.fluid.solve(r, x.fluid);
     r = b.mesh;
     k.subtract_mesh_wall(x.wall, r);
     this->inverse_.mesh.solve(r, x.mesh);
@@ -94,10 +94,10 @@ class SsorPreconditioner : public LowerPreconditioner<n> {
     LowerPreconditioner<n>::apply(b, x);
     const auto& k = this->k_;
     auto &r = this->r_, &t = this->t_;
-    r.assign(b.flow.size(), 0.0);
-    k.subtract_flow_wall(x.wall, r);
-    this->inverse_.flow.solve(r, t);
-    axpy(1.0, t, x.flow);
+    r.assign(b.fluid.size(), 0.0);
+    k.subtract_fluid_wall(x.wall, r);
+    this->inverse_.fluid.solve(r, t);
+    axpy(1.0, t, x.fluid);
     r.assign(b.mesh.size(), 0.0);
     k.subtract_mesh_wall(x.wall, r);
     this->inverse_.mesh.solve(r, t);
@@ -118,11 +118,11 @@ class IluPreconditioner : public BlockPreconditioner<n> {
     auto &r = this->r_, &t = this->t_;
     // Forward: y_m = b_m, y_f = b_f - Afm Am^-1 y_m, y_s = b_s - Asf Af^-1 y_f.
     this->inverse_.mesh.solve(b.mesh, x.mesh);
-    y_flow_ = b.flow;
-    k.subtract_flow_mesh(x.mesh, y_flow_);
-    this->inverse_.flow.solve(y_flow_, x.flow);
+    y_fluid_ = b.fluid;
+    k.subtract_fluid_mesh(x.mesh, y_fluid_);
+    this->inverse_.fluid.solve(y_fluid_, x.fluid);
     r = b.wall;
-    k.subtract_wall_flow(x.flow, r);
+    k.subtract_wall_fluid(x.fluid, r);
     // Backward: x_s = As^-1 y_s; with z = Am^-1 Ams x_s, x_m = Am^-1 y_m - z and
     // x_f = Af^-1 (y_f - Afs x_s + Afm z), where Am^-1 y_m and Af^-1 y_f are known from above.
     this->inverse_.wall.solve(r, x.wall);
@@ -130,15 +130,15 @@ class IluPreconditioner : public BlockPreconditioner<n> {
     k.subtract_mesh_wall(x.wall, r);
     this->inverse_.mesh.solve(r, t);  // t = -z
     axpy(1.0, t, x.mesh);
-    r.assign(b.flow.size(), 0.0);
-    k.subtract_flow_wall(x.wall, r);
-    k.subtract_flow_mesh(t, r);
-    this->inverse_.flow.solve(r, t);
-    axpy(1.0, t, x.flow);
+    r.assign(b.fluid.size(), 0.0);
+    k.subtract_fluid_wall(x.wall, r);
+    k.subtract_fluid_mesh(t, r);
+    this->inverse_.fluid.solve(r, t);
+    axpy(1.0, t, x.fluid);
   }
 
  private:
-  std::vector<double> y_flow_;
+  std::vector<double> y_fluid_;
 };
 
 namespace detail {

@@ -23,21 +23,22 @@ namespace fsi {
 /// elsewhere: the diagonal ones of coarse levels in the multigrid hierarchies of the sub-problems.
 template <int n>
 struct CoupledMatrix {
-  const BlockMatrix<1, n>* mesh = nullptr;           ///< Am, one number per component
-  const BlockMatrix<1, 1>* mesh_wall = nullptr;      ///< Ams: fluid nodes x wall nodes
-  const BlockMatrix<n + 1, n>* flow_mesh = nullptr;  ///< Afm
-  const BlockMatrix<n + 1, n + 1>* flow = nullptr;   ///< Af
-  const BlockMatrix<n, n + 1>* flow_wall = nullptr;  ///< Afs, momentum rows only: fluid nodes x wall nodes
-  const BlockMatrix<1, 1>* wall_flow = nullptr;      ///< Asf: wall nodes x fluid nodes
-  const BlockMatrix<n + 1, n + 1>* wall = nullptr;   ///< As
+  const BlockMatrix<1, n>* mesh = nullptr;                              ///< Am, one number per component
+  const BlockMatrix<1, 1>* mesh_wall = nullptr;                         ///< Ams: fluid nodes x wall nodes
+  const BlockMatrix<MixedLayout<n>::entries, n>* fluid_mesh = nullptr;  ///< Afm
+  const BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>* fluid = nullptr;  ///< Af
+  const BlockMatrix<n, MixedLayout<n>::entries>* fluid_wall =
+      nullptr;                                    ///< Afs, momentum rows only: fluid nodes x wall nodes
+  const BlockMatrix<1, 1>* wall_fluid = nullptr;  ///< Asf: wall nodes x fluid nodes
+  const BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>* wall = nullptr;  ///< As
 
   int mesh_nodes() const { return mesh->graph->rows(); }  ///< as many as fluid nodes on the finest level
-  int fluid_nodes() const { return flow->graph->rows(); }
+  int fluid_nodes() const { return fluid->graph->rows(); }
   int wall_nodes() const { return wall->graph->rows(); }
   CoupledVector zero_vector() const {
     return {std::vector<double>(static_cast<std::size_t>(mesh_nodes()) * n, 0.0),
-            std::vector<double>(static_cast<std::size_t>(fluid_nodes()) * (n + 1), 0.0),
-            std::vector<double>(static_cast<std::size_t>(wall_nodes()) * (n + 1), 0.0)};
+            std::vector<double>(MixedLayout<n>::size(fluid_nodes()), 0.0),
+            std::vector<double>(MixedLayout<n>::size(wall_nodes()), 0.0)};
   }
 
   // Products with one block, y -= A x.
@@ -45,28 +46,28 @@ struct CoupledMatrix {
     multiply_add_components<n>(*mesh, d_m, y, -1);
   }
   void subtract_mesh_wall(const std::vector<double>& s, std::vector<double>& y) const {
-    subtract_tie<n, n + 1>(*mesh_wall, s, y);
+    subtract_tie<n, MixedLayout<n>::entries>(*mesh_wall, s, y);
   }
-  void subtract_flow(const std::vector<double>& f, std::vector<double>& y) const { multiply_subtract(*flow, f, y); }
-  void subtract_flow_mesh(const std::vector<double>& d_m, std::vector<double>& y) const {
-    multiply_subtract(*flow_mesh, d_m, y);
+  void subtract_fluid(const std::vector<double>& f, std::vector<double>& y) const { multiply_subtract(*fluid, f, y); }
+  void subtract_fluid_mesh(const std::vector<double>& d_m, std::vector<double>& y) const {
+    multiply_subtract(*fluid_mesh, d_m, y);
   }
   /// Most rows are empty: nodes off the interface.
-  void subtract_flow_wall(const std::vector<double>& s, std::vector<double>& y) const {
-    const auto& graph = *flow_wall->graph;
+  void subtract_fluid_wall(const std::vector<double>& s, std::vector<double>& y) const {
+    const auto& graph = *fluid_wall->graph;
 #pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
     for (int row = 0; row < graph.rows(); ++row) {
-      double* to = y.data() + static_cast<std::size_t>(row) * (n + 1);
+      double* to = y.data() + MixedLayout<n>::vector(row);
       for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
-        const double* block = flow_wall->block(at);
-        const double* from = s.data() + static_cast<std::size_t>(graph.columns[at]) * (n + 1);
+        const double* block = fluid_wall->block(at);
+        const double* from = s.data() + MixedLayout<n>::vector(graph.columns[at]);
         for (int r = 0; r < n; ++r)
-          for (int c = 0; c <= n; ++c) to[r] -= block[r * (n + 1) + c] * from[c];
+          for (int c = 0; c <= n; ++c) to[r] -= block[MixedLayout<n>::in_block(r, c)] * from[c];
       }
     }
   }
-  void subtract_wall_flow(const std::vector<double>& f, std::vector<double>& y) const {
-    subtract_tie<n + 1, n + 1>(*wall_flow, f, y);
+  void subtract_wall_fluid(const std::vector<double>& f, std::vector<double>& y) const {
+    subtract_tie<MixedLayout<n>::entries, MixedLayout<n>::entries>(*wall_fluid, f, y);
   }
   void subtract_wall(const std::vector<double>& s, std::vector<double>& y) const {
     multiply_subtract(*wall, s, y);
@@ -78,28 +79,28 @@ struct CoupledMatrix {
     subtract_mesh(x.mesh, r);
     subtract_mesh_wall(x.wall, r);
   }
-  void flow_residual(const CoupledVector& b, const CoupledVector& x, std::vector<double>& r) const {
-    r = b.flow;
-    subtract_flow_mesh(x.mesh, r);
-    subtract_flow(x.flow, r);
-    subtract_flow_wall(x.wall, r);
+  void fluid_residual(const CoupledVector& b, const CoupledVector& x, std::vector<double>& r) const {
+    r = b.fluid;
+    subtract_fluid_mesh(x.mesh, r);
+    subtract_fluid(x.fluid, r);
+    subtract_fluid_wall(x.wall, r);
   }
   void wall_residual(const CoupledVector& b, const CoupledVector& x, std::vector<double>& r) const {
     r = b.wall;
-    subtract_wall_flow(x.flow, r);
+    subtract_wall_fluid(x.fluid, r);
     subtract_wall(x.wall, r);
   }
   void residual(const CoupledVector& b, const CoupledVector& x, CoupledVector& r) const {
     mesh_residual(b, x, r.mesh);
-    flow_residual(b, x, r.flow);
+    fluid_residual(b, x, r.fluid);
     wall_residual(b, x, r.wall);
   }
 
   /// Stored numbers.
   std::int64_t nonzeros() const {
-    return static_cast<std::int64_t>(mesh->values.size() + flow->values.size() + flow_mesh->values.size() +
-                                     flow_wall->values.size() + wall->values.size() + mesh_wall->values.size() +
-                                     wall_flow->values.size());
+    return static_cast<std::int64_t>(mesh->values.size() + fluid->values.size() + fluid_mesh->values.size() +
+                                     fluid_wall->values.size() + wall->values.size() + mesh_wall->values.size() +
+                                     wall_fluid->values.size());
   }
   double memory_mib() const {
     return 8.0 * static_cast<double>(nonzeros()) / (1 << 20);
@@ -125,9 +126,9 @@ SparseMatrix sparse_matrix(const CoupledMatrix<n>& k) {
     std::int64_t row;
     double value;
   };
-  const std::int64_t flow0 = static_cast<std::int64_t>(k.mesh_nodes()) * n,
-                     wall0 = flow0 + static_cast<std::int64_t>(k.fluid_nodes()) * (n + 1),
-                     size = wall0 + static_cast<std::int64_t>(k.wall_nodes()) * (n + 1);
+  const std::int64_t fluid0 = static_cast<std::int64_t>(k.mesh_nodes()) * n,
+                     wall0 = fluid0 + static_cast<std::int64_t>(MixedLayout<n>::size(k.fluid_nodes())),
+                     size = wall0 + static_cast<std::int64_t>(MixedLayout<n>::size(k.wall_nodes()));
   std::vector<std::vector<Entry>> columns(static_cast<std::size_t>(size));
   const auto put = [&](std::int64_t row, std::int64_t column, double value) {
     if (value != 0) columns[static_cast<std::size_t>(column)].push_back({row, value});
@@ -147,24 +148,25 @@ SparseMatrix sparse_matrix(const CoupledMatrix<n>& k) {
   const auto put_tie = [&](const BlockMatrix<1, 1>& tie, std::int64_t row, std::int64_t column0, int node, int c) {
     const auto& graph = *tie.graph;
     for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
-      put(row, column0 + static_cast<std::int64_t>(graph.columns[at]) * (n + 1) + c, tie.values[at]);
+      put(row, column0 + static_cast<std::int64_t>(MixedLayout<n>::vector(graph.columns[at], c)), tie.values[at]);
   };
   for (int a = 0; a < k.mesh_nodes(); ++a)
     for (int c = 0; c < n; ++c) {
       const auto& graph = *k.mesh->graph;
       for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
-        put(static_cast<std::int64_t>(a) * n + c, static_cast<std::int64_t>(graph.columns[at]) * n + c,
-            k.mesh->block(at)[c]);
-      put_tie(*k.mesh_wall, static_cast<std::int64_t>(a) * n + c, wall0, a, c);
+        put(static_cast<std::int64_t>(VectorLayout<n>::vector(a, c)),
+            static_cast<std::int64_t>(VectorLayout<n>::vector(graph.columns[at], c)), k.mesh->block(at)[c]);
+      put_tie(*k.mesh_wall, static_cast<std::int64_t>(VectorLayout<n>::vector(a, c)), wall0, a, c);
     }
   for (int a = 0; a < k.fluid_nodes(); ++a) {
-    put_blocks(*k.flow_mesh, flow0, n + 1, 0, a);
-    put_blocks(*k.flow, flow0, n + 1, flow0, a);
-    put_blocks(*k.flow_wall, flow0, n + 1, wall0, a);
+    put_blocks(*k.fluid_mesh, fluid0, MixedLayout<n>::entries, 0, a);
+    put_blocks(*k.fluid, fluid0, MixedLayout<n>::entries, fluid0, a);
+    put_blocks(*k.fluid_wall, fluid0, MixedLayout<n>::entries, wall0, a);
   }
   for (int a = 0; a < k.wall_nodes(); ++a) {
-    for (int c = 0; c < n; ++c) put_tie(*k.wall_flow, wall0 + static_cast<std::int64_t>(a) * (n + 1) + c, flow0, a, c);
-    put_blocks(*k.wall, wall0, n + 1, wall0, a);
+    for (int c = 0; c < n; ++c)
+      put_tie(*k.wall_fluid, wall0 + static_cast<std::int64_t>(MixedLayout<n>::vector(a, c)), fluid0, a, c);
+    put_blocks(*k.wall, wall0, MixedLayout<n>::entries, wall0, a);
   }
   SparseMatrix matrix;
   matrix.offsets.assign(1, 0);

@@ -13,13 +13,13 @@ CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : b
   assert(blocks.coupled());
   const Numbering& numbering = blocks.numbering;
   mesh_ = BlockMatrix<1, n>(blocks.mesh_laplacian->graph);
-  flow_ = BlockMatrix<n + 1, n + 1>(blocks.flow->graph);
-  flow_mesh_ = BlockMatrix<n + 1, n>(blocks.shape_derivatives->graph);
-  wall_ = BlockMatrix<n + 1, n + 1>(blocks.wall->graph);
-  k_ = {&mesh_, &mesh_wall_, &flow_mesh_, &flow_, &flow_wall_, &wall_flow_, &wall_};
+  fluid_ = BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>(blocks.fluid->graph);
+  fluid_mesh_ = BlockMatrix<MixedLayout<n>::entries, n>(blocks.shape_derivatives->graph);
+  wall_ = BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>(blocks.wall->graph);
+  k_ = {&mesh_, &mesh_wall_, &fluid_mesh_, &fluid_, &fluid_wall_, &wall_fluid_, &wall_};
   constraints_.mesh_fixed = without_unknown(numbering.mesh_rows, n);
-  constraints_.velocity_fixed = without_unknown(numbering.flow, n + 1);
-  wall_zero_ = without_unknown(numbering.wall, n + 1);
+  constraints_.velocity_fixed = without_unknown(numbering.fluid, MixedLayout<n>::entries);
+  wall_zero_ = without_unknown(numbering.wall, MixedLayout<n>::entries);
   mesh_zero_ = without_unknown(numbering.mesh, n);  // columns of interface nodes stay, they are unknowns
   constraints_.wall_fixed = wall_zero_;
   std::vector<int> wall_of(static_cast<std::size_t>(k_.fluid_nodes()), -1),
@@ -32,10 +32,10 @@ CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : b
     fluid_of[pair.wall] = pair.fluid;
     std::fill_n(constraints_.wall_fixed.begin() + static_cast<std::ptrdiff_t>(pair.wall) * n, n, 1);
   }
-  no_pressure_ = without_scalar(numbering.flow);
+  no_pressure_ = without_scalar(numbering.fluid);
   no_wall_pressure_ = without_scalar(numbering.wall);
   mesh_wall_ = tie(wall_of);
-  wall_flow_ = tie(fluid_of);
+  wall_fluid_ = tie(fluid_of);
 
   // Afs: the wall's momentum rows of the interface nodes.
   auto graph = std::make_shared<NodeGraph>();
@@ -50,12 +50,12 @@ CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : b
     }
     graph->offsets.push_back(static_cast<int>(graph->columns.size()));
   }
-  flow_wall_ = BlockMatrix<n, n + 1>(std::move(graph));
+  fluid_wall_ = BlockMatrix<n, MixedLayout<n>::entries>(std::move(graph));
   fixed_tractions_.assign(constraints_.velocity_fixed.size(), 0);
   for (const InterfacePair& pair : interface_)  // no equations, where the wall is held
     for (int k = 0; k < n; ++k)
-      fixed_tractions_[static_cast<std::size_t>(pair.fluid) * n + k] =
-          wall_zero_[static_cast<std::size_t>(pair.wall) * n + k];
+      fixed_tractions_[VectorLayout<n>::vector(pair.fluid, k]) =
+          wall_zero_[VectorLayout<n>::vector(pair.wall, k]);
 }
 
 template <class Element>
@@ -63,21 +63,21 @@ void CoupledSystem<Element>::update() {
   const double rate = blocks_.numbering.interface.rate();
   const auto one = [](std::size_t) { return 1.0; };
   update_mesh_motion();
-  copy(*blocks_.flow, flow_);
-  impose(flow_, constraints_.velocity_fixed, constraints_.velocity_fixed, one);
-  impose_scalars(flow_, no_pressure_);
-  copy(*blocks_.shape_derivatives, flow_mesh_);
-  impose(flow_mesh_, constraints_.velocity_fixed, mesh_zero_, [](std::size_t) { return 0.0; });
+  copy(*blocks_.fluid, fluid_);
+  impose(fluid_, constraints_.velocity_fixed, constraints_.velocity_fixed, one);
+  impose_scalars(fluid_, no_pressure_);
+  copy(*blocks_.shape_derivatives, fluid_mesh_);
+  impose(fluid_mesh_, constraints_.velocity_fixed, mesh_zero_, [](std::size_t) { return 0.0; });
   for (int a : no_pressure_)
-    for (int at = flow_mesh_.graph->offsets[a]; at < flow_mesh_.graph->offsets[a + 1]; ++at)
-      std::fill_n(flow_mesh_.block(at) + n * n, n, 0.0);
+    for (int at = fluid_mesh_.graph->offsets[a]; at < fluid_mesh_.graph->offsets[a + 1]; ++at)
+      std::fill_n(fluid_mesh_.block(at) + n * n, n, 0.0);
   const auto tractions = static_cast<std::ptrdiff_t>(traction_.size());
 #pragma omp parallel for schedule(static) if (tractions > 20000)
   for (std::ptrdiff_t i = 0; i < tractions; ++i) {
     const double* from = blocks_.wall->block(traction_[i]);
-    std::copy(from, from + n * (n + 1), flow_wall_.block(static_cast<int>(i)));
+    std::copy(from, from + n * MixedLayout<n>::entries, fluid_wall_.block(static_cast<int>(i)));
   }
-  impose(flow_wall_, fixed_tractions_, wall_zero_, [](std::size_t) { return 0.0; });
+  impose(fluid_wall_, fixed_tractions_, wall_zero_, [](std::size_t) { return 0.0; });
   copy(*blocks_.wall, wall_);
   impose(wall_, constraints_.wall_fixed, wall_zero_, [&](std::size_t i) { return wall_zero_[i] ? 1.0 : rate; });
   impose_scalars(wall_, no_wall_pressure_);
@@ -97,10 +97,10 @@ void CoupledSystem<Element>::expand(const std::vector<double>& condensed, Couple
     for (std::size_t i = 0; i < rows.size(); ++i) part[i] = rows[i].index >= 0 ? condensed[rows[i].index] : 0.0;
   };
   take(numbering.mesh_rows, b.mesh);
-  take(numbering.flow_rows, b.flow);
+  take(numbering.fluid_rows, b.fluid);
   take(numbering.wall_rows, b.wall);
   for (const auto& pair : interface_)  // their equation is the flow's
-    for (int k = 0; k < n; ++k) b.wall[static_cast<std::size_t>(pair.wall) * (n + 1) + k] = 0;
+    for (int k = 0; k < n; ++k) b.wall[MixedLayout<n>::vector(pair.wall, k]) = 0;
 }
 
 template <class Element>
@@ -112,7 +112,7 @@ void CoupledSystem<Element>::compress(const CoupledVector& x, std::vector<double
       if (unknowns[i].index >= 0) condensed[unknowns[i].index] = part[i] / unknowns[i].factor;
   };
   give(numbering.mesh, x.mesh);
-  give(numbering.flow, x.flow);
+  give(numbering.fluid, x.fluid);
   give(numbering.wall, x.wall);  // last: it owns the interface
 }
 
@@ -139,25 +139,26 @@ std::vector<char> CoupledSystem<Element>::without_unknown(const UnknownMap& map,
 template <class Element>
 std::vector<int> CoupledSystem<Element>::without_scalar(const UnknownMap& map) {
   std::vector<int> nodes;
-  for (std::size_t a = 0; a < map.size() / (n + 1); ++a)
-    if (map[a * (n + 1) + n].index < 0) nodes.push_back(static_cast<int>(a));
+  for (std::size_t a = 0; a < map.size() / MixedLayout<n>::entries; ++a)
+    if (map[MixedLayout<n>::scalar(static_cast<int>(a))].index < 0) nodes.push_back(static_cast<int>(a));
   return nodes;
 }
 
 template <class Element>
-void CoupledSystem<Element>::impose_scalars(BlockMatrix<n + 1, n + 1>& matrix, const std::vector<int>& nodes) {
+void CoupledSystem<Element>::impose_scalars(BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& matrix,
+                                            const std::vector<int>& nodes) {
   const auto& graph = *matrix.graph;
   for (int a : nodes)
     for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
       double* block = matrix.block(at);
-      for (int c = 0; c <= n; ++c) block[n * (n + 1) + c] = 0;
+      for (int c = 0; c <= n; ++c) block[MixedLayout<n>::in_block(n, c)] = 0;
       if (graph.columns[at] == a) {
-        for (int r = 0; r < n; ++r) block[r * (n + 1) + n] = 0;
-        block[n * (n + 1) + n] = 1;
+        for (int r = 0; r < n; ++r) block[MixedLayout<n>::in_block(r, n)] = 0;
+        block[MixedLayout<n>::in_block(n, n)] = 1;
         continue;
       }
       double* other = matrix.block(graph.find(graph.columns[at], a));
-      for (int r = 0; r <= n; ++r) other[r * (n + 1) + n] = 0;
+      for (int r = 0; r <= n; ++r) other[MixedLayout<n>::in_block(r, n)] = 0;
     }
 }
 
@@ -168,8 +169,8 @@ void CoupledSystem<Element>::impose_diagonal() {
   for (int a = 0; a < graph.rows(); ++a)
     for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
       for (int k = 0; k < n; ++k)
-        if (constraints_.mesh_fixed[static_cast<std::size_t>(a) * n + k] ||
-            mesh_zero_[static_cast<std::size_t>(graph.columns[at]) * n + k])
+        if (constraints_.mesh_fixed[VectorLayout<n>::vector(a, k]) ||
+            mesh_zero_[VectorLayout<n>::vector(graph.columns[at], k]))
           mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
 }
 

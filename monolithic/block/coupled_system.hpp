@@ -96,16 +96,17 @@ class CoupledSystem {
   }
 
   /// Identity rows and zero columns for scalars without unknown.
-  static void impose_scalars(BlockMatrix<n + 1, n + 1>& matrix, const std::vector<int>& nodes);
+  static void impose_scalars(BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& matrix,
+                             const std::vector<int>& nodes);
 
   void impose_diagonal();
 
   JacobianBlocks<Element> blocks_;
   BlockMatrix<1, n> mesh_;
-  BlockMatrix<1, 1> mesh_wall_, wall_flow_;
-  BlockMatrix<n + 1, n> flow_mesh_;
-  BlockMatrix<n, n + 1> flow_wall_;
-  BlockMatrix<n + 1, n + 1> flow_, wall_;
+  BlockMatrix<1, 1> mesh_wall_, wall_fluid_;
+  BlockMatrix<MixedLayout<n>::entries, n> fluid_mesh_;
+  BlockMatrix<n, MixedLayout<n>::entries> fluid_wall_;
+  BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries> fluid_, wall_;
   CoupledMatrix<n> k_;
   CoupledConstraints constraints_;
   std::vector<InterfacePair> interface_;

@@ -26,7 +26,7 @@ class SubSolver {
 /// Sub-solvers of the three blocks of one level.
 struct SubSolvers {
   SubSolver& mesh;
-  SubSolver& flow;
+  SubSolver& fluid;
   SubSolver& wall;
 };
 

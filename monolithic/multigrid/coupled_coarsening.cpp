@@ -33,30 +33,30 @@ Step step(const NodeGraph& graph, const NodeMarks& marks, const std::vector<int>
 std::vector<CoupledTransfer> coarsen_coupled(CoupledNodes nodes, const CoupledCoarseningOptions& options) {
   constexpr double least_reduction = 0.8;  // coarser levels that keep more nodes are not worth having
   std::vector<CoupledTransfer> transfers;
-  Step mesh, flow, wall;  // own the graphs that `nodes` refers to below the finest level
+  Step mesh, fluid, wall;  // own the graphs that `nodes` refers to below the finest level
   while (static_cast<int>(transfers.size()) + 1 < options.max_levels &&
-         nodes.flow->rows() + nodes.wall->rows() > options.coarsest_nodes) {
+         nodes.fluid->rows() + nodes.wall->rows() > options.coarsest_nodes) {
     std::vector<char> prescribed;
     for (int node : nodes.wall_interface) prescribed.push_back(nodes.wall_marks.prescribed[node]);
     const NodeTransfer surface =
-        coarsen_interface(interface_graph(*nodes.flow, nodes.flow_interface, *nodes.wall, nodes.wall_interface),
+        coarsen_interface(interface_graph(*nodes.fluid, nodes.fluid_interface, *nodes.wall, nodes.wall_interface),
                           prescribed, options.kind);
     CoarseningOptions rules;
     rules.kind = options.kind;
     rules.interior_from_interface = true;
-    Step next_flow = step(*nodes.flow, nodes.flow_marks, nodes.flow_interface, surface, rules);
+    Step next_fluid = step(*nodes.fluid, nodes.flow_marks, nodes.fluid_interface, surface, rules);
     rules.interior_from_interface = false;
     Step next_wall = step(*nodes.wall, nodes.wall_marks, nodes.wall_interface, surface, rules);
     rules.scalar_part = false;
     Step next_mesh = step(*nodes.mesh, nodes.mesh_marks, nodes.mesh_interface, surface, rules);
-    if (next_flow.graph.rows() + next_wall.graph.rows() > least_reduction * (nodes.flow->rows() + nodes.wall->rows()))
+    if (next_fluid.graph.rows() + next_wall.graph.rows() > least_reduction * (nodes.fluid->rows() + nodes.wall->rows()))
       break;
-    flow = std::move(next_flow);
+    fluid = std::move(next_fluid);
     wall = std::move(next_wall);
     mesh = std::move(next_mesh);
-    transfers.push_back({mesh.transfer, flow.transfer, wall.transfer});
-    nodes = {&mesh.graph, &flow.graph,    &wall.graph,    mesh.marks,    flow.marks,
-             wall.marks,  mesh.interface, flow.interface, wall.interface};
+    transfers.push_back({mesh.transfer, fluid.transfer, wall.transfer});
+    nodes = {&mesh.graph, &fluid.graph,   &wall.graph,     mesh.marks,    fluid.marks,
+             wall.marks,  mesh.interface, fluid.interface, wall.interface};
   }
   return transfers;
 }

@@ -11,9 +11,9 @@ namespace fsi {
 
 /// The nodes of one level of the coupled system. Mesh motion and flow have the same nodes on the finest level only.
 struct CoupledNodes {
-  const NodeGraph *mesh = nullptr, *flow = nullptr, *wall = nullptr;
+  const NodeGraph *mesh = nullptr, *fluid = nullptr, *wall = nullptr;
   NodeMarks mesh_marks, flow_marks, wall_marks;
-  std::vector<int> mesh_interface, flow_interface, wall_interface;  ///< the same points one by one, clamped ones too
+  std::vector<int> mesh_interface, fluid_interface, wall_interface;  ///< the same points one by one, clamped ones too
 };
 
 /// Transfers diag(P_m, P_f, P_s) from each level to the next. The interface is coarsened once, and its weights are the

@@ -16,19 +16,19 @@ namespace fsi {
 
 /// P = diag(P_m, P_f, P_s) between two levels ([Langer2018], section 4.2.1); restriction is the transpose.
 struct CoupledTransfer {
-  std::shared_ptr<const NodeTransfer> mesh, flow, wall;
+  std::shared_ptr<const NodeTransfer> mesh, fluid, wall;
 };
 
 /// One level of the coupled hierarchy: its matrix, its sub-solvers and what the cycle works on.
 template <int n>
 struct CoupledLevel {
-  CoupledLevel(const CoupledMatrix<n>& k_, std::unique_ptr<SubSolver> mesh_, std::unique_ptr<SubSolver> flow_,
+  CoupledLevel(const CoupledMatrix<n>& k_, std::unique_ptr<SubSolver> mesh_, std::unique_ptr<SubSolver> fluid_,
                std::unique_ptr<SubSolver> wall_)
       : k(k_),
         mesh(std::move(mesh_)),
-        flow(std::move(flow_)),
+        fluid(std::move(fluid_)),
         wall(std::move(wall_)),
-        smoother(k, {*mesh, *flow, *wall}),
+        smoother(k, {*mesh, *fluid, *wall}),
         b(k.zero_vector()),
         x(b),
         r(b),
@@ -38,7 +38,7 @@ struct CoupledLevel {
   CoupledLevel& operator=(const CoupledLevel&) = delete;
 
   CoupledMatrix<n> k;
-  std::unique_ptr<SubSolver> mesh, flow, wall;
+  std::unique_ptr<SubSolver> mesh, fluid, wall;
   BlockGaussSeidel<n> smoother;
   std::vector<BlockDamping> pre_smoothing, post_smoothing;  ///< one entry a step
   CoupledTransfer coarser;                                  ///< to the next level; unused on the coarsest
@@ -83,13 +83,13 @@ class CoupledCycle : public CoupledPreconditioner {
     auto& coarse = *levels_[l + 1];
     level.k.residual(b, x, level.r);
     restrict_to<n, n>(*level.coarser.mesh, level.r.mesh, coarse.b.mesh);
-    restrict_to<n + 1, n>(*level.coarser.flow, level.r.flow, coarse.b.flow);
-    restrict_to<n + 1, n>(*level.coarser.wall, level.r.wall, coarse.b.wall);
+    restrict_to<MixedLayout<n>::entries, n>(*level.coarser.fluid, level.r.fluid, coarse.b.fluid);
+    restrict_to<MixedLayout<n>::entries, n>(*level.coarser.wall, level.r.wall, coarse.b.wall);
     coarse.x.set_zero();
     correct(l + 1);
     prolongate_add<n, n>(*level.coarser.mesh, coarse.x.mesh, x.mesh);
-    prolongate_add<n + 1, n>(*level.coarser.flow, coarse.x.flow, x.flow);
-    prolongate_add<n + 1, n>(*level.coarser.wall, coarse.x.wall, x.wall);
+    prolongate_add<MixedLayout<n>::entries, n>(*level.coarser.fluid, coarse.x.fluid, x.fluid);
+    prolongate_add<MixedLayout<n>::entries, n>(*level.coarser.wall, coarse.x.wall, x.wall);
 
     for (const auto& damping : level.post_smoothing) level.smoother.sweep(b, x, damping);
   }

@@ -11,17 +11,17 @@ namespace fsi {
 template <class Element>
 CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
                                             const CoupledMultigridOptions& options)
-    : mesh_(options.mesh), flow_(options.flow), wall_(options.wall) {
+    : mesh_(options.mesh), fluid_(options.fluid), wall_(options.wall) {
   const auto transfers = coarsen_coupled(finest_nodes(system, blocks), options.coarsening);
-  std::vector<std::shared_ptr<const NodeTransfer>> mesh, flow, wall;
+  std::vector<std::shared_ptr<const NodeTransfer>> mesh, fluid, wall;
   for (const auto& t : transfers) {
     mesh.push_back(t.mesh);
-    flow.push_back(t.flow);
+    fluid.push_back(t.fluid);
     wall.push_back(t.wall);
   }
   const auto& finest = system.matrix();
   mesh_.build(*finest.mesh, mesh);
-  flow_.build(*finest.flow, flow);
+  fluid_.build(*finest.fluid, fluid);
   wall_.build(*finest.wall, wall);
 
   CoupledMatrix<n> k = finest;
@@ -30,7 +30,7 @@ CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system
     if (l == transfers.size()) break;
     const auto& t = transfers[l];
     couplings_.push_back(std::make_unique<Couplings>(k, t));
-    k = couplings_.back()->coarse(mesh_.matrix(static_cast<int>(l) + 1), flow_.matrix(static_cast<int>(l) + 1),
+    k = couplings_.back()->coarse(mesh_.matrix(static_cast<int>(l) + 1), fluid_.matrix(static_cast<int>(l) + 1),
                                   wall_.matrix(static_cast<int>(l) + 1));
   }
   transfers_ = transfers;
@@ -41,7 +41,7 @@ CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system
 template <class Element>
 void CoupledMultigrid<Element>::update() {
   mesh_.update();
-  flow_.update();
+  fluid_.update();
   wall_.update();
   for (auto& c : couplings_) c->update();
 }
@@ -68,8 +68,8 @@ long long CoupledMultigrid<Element>::mesh_cycles() const {
 }
 
 template <class Element>
-long long CoupledMultigrid<Element>::flow_cycles() const {
-  return sum([](const auto& level) { return level.flow->cycles(); });
+long long CoupledMultigrid<Element>::fluid_cycles() const {
+  return sum([](const auto& level) { return level.fluid->cycles(); });
 }
 
 template <class Element>
@@ -86,7 +86,7 @@ double CoupledMultigrid<Element>::operator_complexity() const {
 
 template <class Element>
 double CoupledMultigrid<Element>::memory_mib() const {
-  std::size_t bytes = mesh_.bytes() + flow_.bytes() + wall_.bytes();
+  std::size_t bytes = mesh_.bytes() + fluid_.bytes() + wall_.bytes();
   for (const auto& c : couplings_) bytes += c->bytes();
   return static_cast<double>(bytes) / (1 << 20);
 }
@@ -95,7 +95,7 @@ template <class Element>
 CoupledNodes CoupledMultigrid<Element>::finest_nodes(const CoupledSystem<Element>& system,
                                                      const JacobianBlocks<Element>& blocks) {
   const auto& k = system.matrix();
-  CoupledNodes nodes{k.mesh->graph.get(), k.flow->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
+  CoupledNodes nodes{k.mesh->graph.get(), k.fluid->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
   nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
   nodes.wall_marks = NodeMarks(k.wall_nodes());
   nodes.mesh_marks.prescribed = whole_nodes<n>(system.constraints().mesh_fixed);
@@ -109,7 +109,7 @@ CoupledNodes CoupledMultigrid<Element>::finest_nodes(const CoupledSystem<Element
     nodes.mesh_marks.interface[node.fluid] = nodes.flow_marks.interface[node.fluid] = 1;
     nodes.wall_marks.interface[node.wall] = 1;
   }
-  nodes.flow_interface = nodes.mesh_interface;
+  nodes.fluid_interface = nodes.mesh_interface;
   return nodes;
 }
 
@@ -117,10 +117,10 @@ template <class Element>
 void CoupledMultigrid<Element>::make_levels() {
   for (std::size_t l = 0; l < matrices_.size(); ++l) {
     const int at = static_cast<int>(l);
-    levels_.push_back(std::make_unique<CoupledLevel<n>>(matrices_[l],
-                                                        std::make_unique<AmgSubSolver<EllipticAmg<n, n>>>(mesh_, at),
-                                                        std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(flow_, at),
-                                                        std::make_unique<AmgSubSolver<SaddleAmg<n + 1>>>(wall_, at)));
+    levels_.push_back(std::make_unique<CoupledLevel<n>>(
+        matrices_[l], std::make_unique<AmgSubSolver<EllipticAmg<n, n>>>(mesh_, at),
+        std::make_unique<AmgSubSolver<SaddleAmg<MixedLayout<n>::entries>>>(fluid_, at),
+        std::make_unique<AmgSubSolver<SaddleAmg<MixedLayout<n>::entries>>>(wall_, at)));
     if (l < transfers_.size()) levels_.back()->coarser = transfers_[l];
   }
 }
@@ -131,7 +131,7 @@ double CoupledMultigrid<Element>::largest_eigenvalue(CoupledLevel<n>& level, int
   CoupledVector &x = level.inner_x, &zero = level.inner_b;
   zero.set_zero();
   RoughSequence rough;
-  for (auto* part : {&x.mesh, &x.flow, &x.wall})
+  for (auto* part : {&x.mesh, &x.fluid, &x.wall})
     for (double& value : *part) value = rough();
   const int third = std::max(iterations / 3, 1);
   const auto growth = power_iteration(3 * third, [&] {
@@ -140,7 +140,7 @@ double CoupledMultigrid<Element>::largest_eigenvalue(CoupledLevel<n>& level, int
     level.smoother.sweep(zero, x, {1, 1, 1});
     const double after = norm(x.wall);
     if (!(before > 0 && after > 0)) return 0.0;
-    for (auto* part : {&x.mesh, &x.flow, &x.wall}) scale(1 / after, *part);
+    for (auto* part : {&x.mesh, &x.fluid, &x.wall}) scale(1 / after, *part);
     return after / before;
   });
   if (!(growth.back() > 0)) return 0;

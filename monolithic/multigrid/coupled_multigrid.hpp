@@ -32,7 +32,7 @@ class AmgSubSolver : public SubSolver {
 struct CoupledMultigridOptions {
   CoupledCoarseningOptions coarsening;
   EllipticAmgOptions mesh = mesh_amg_options();  ///< of these three: cycle, smoother; the coarsening is the coupled one
-  SaddleAmgOptions flow = fluid_amg_options(), wall = wall_amg_options();
+  SaddleAmgOptions fluid = fluid_amg_options(), wall = wall_amg_options();
 };
 
 /// Best damping omega = omega_f = omega_s of the block Gauss-Seidel iteration whose undamped form has the eigenvalues
@@ -70,10 +70,10 @@ class CoupledMultigrid {
   void set_smoothing(const CoupledSmoothingOptions& options);
 
   Levels& levels() { return levels_; }
-  SubSolvers finest_sub_solvers() { return {*levels_[0]->mesh, *levels_[0]->flow, *levels_[0]->wall}; }
+  SubSolvers finest_sub_solvers() { return {*levels_[0]->mesh, *levels_[0]->fluid, *levels_[0]->wall}; }
 
   long long mesh_cycles() const;
-  long long flow_cycles() const;
+  long long fluid_cycles() const;
   long long wall_cycles() const;
   /// Stored numbers of all levels over those of the finest.
   double operator_complexity() const;
@@ -88,36 +88,37 @@ class CoupledMultigrid {
     Couplings(const CoupledMatrix<n>& fine, const CoupledTransfer& t)
         : fine_(fine),
           mesh_wall_product_(*fine.mesh_wall->graph, t.mesh, t.wall),
-          wall_flow_product_(*fine.wall_flow->graph, t.wall, t.flow),
-          flow_mesh_product_(*fine.flow_mesh->graph, t.flow, t.mesh),
-          flow_wall_product_(*fine.flow_wall->graph, t.flow, t.wall),
+          wall_fluid_product_(*fine.wall_fluid->graph, t.wall, t.fluid),
+          fluid_mesh_product_(*fine.fluid_mesh->graph, t.fluid, t.mesh),
+          fluid_wall_product_(*fine.fluid_wall->graph, t.fluid, t.wall),
           mesh_wall_(mesh_wall_product_.make_coarse()),
-          wall_flow_(wall_flow_product_.make_coarse()),
-          flow_mesh_(flow_mesh_product_.make_coarse()),
-          flow_wall_(flow_wall_product_.make_coarse()) {}
-    CoupledMatrix<n> coarse(const BlockMatrix<1, n>& mesh, const BlockMatrix<n + 1, n + 1>& flow,
-                            const BlockMatrix<n + 1, n + 1>& wall) const {
-      return {&mesh, &mesh_wall_, &flow_mesh_, &flow, &flow_wall_, &wall_flow_, &wall};
+          wall_fluid_(wall_fluid_product_.make_coarse()),
+          fluid_mesh_(fluid_mesh_product_.make_coarse()),
+          fluid_wall_(fluid_wall_product_.make_coarse()) {}
+    CoupledMatrix<n> coarse(const BlockMatrix<1, n>& mesh,
+                            const BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& fluid,
+                            const BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& wall) const {
+      return {&mesh, &mesh_wall_, &fluid_mesh_, &fluid, &fluid_wall_, &wall_fluid_, &wall};
     }
     void update() {
       mesh_wall_product_.compute(*fine_.mesh_wall, mesh_wall_);
-      wall_flow_product_.compute(*fine_.wall_flow, wall_flow_);
-      flow_mesh_product_.compute(*fine_.flow_mesh, flow_mesh_);
-      flow_wall_product_.compute(*fine_.flow_wall, flow_wall_);
+      wall_fluid_product_.compute(*fine_.wall_fluid, wall_fluid_);
+      fluid_mesh_product_.compute(*fine_.fluid_mesh, fluid_mesh_);
+      fluid_wall_product_.compute(*fine_.fluid_wall, fluid_wall_);
     }
     std::size_t bytes() const {
-      return 8 * (mesh_wall_.values.size() + wall_flow_.values.size() + flow_mesh_.values.size() +
-                  flow_wall_.values.size());
+      return 8 * (mesh_wall_.values.size() + wall_fluid_.values.size() + fluid_mesh_.values.size() +
+                  fluid_wall_.values.size());
     }
 
    private:
     CoupledMatrix<n> fine_;
-    GalerkinProduct<1, 1, 1, 1> mesh_wall_product_, wall_flow_product_;
-    GalerkinProduct<n + 1, n, n, n> flow_mesh_product_;
-    GalerkinProduct<n, n + 1, n, n> flow_wall_product_;
-    BlockMatrix<1, 1> mesh_wall_, wall_flow_;
-    BlockMatrix<n + 1, n> flow_mesh_;
-    BlockMatrix<n, n + 1> flow_wall_;
+    GalerkinProduct<1, 1, 1, 1> mesh_wall_product_, wall_fluid_product_;
+    GalerkinProduct<MixedLayout<n>::entries, n, n, n> fluid_mesh_product_;
+    GalerkinProduct<n, MixedLayout<n>::entries, n, n> fluid_wall_product_;
+    BlockMatrix<1, 1> mesh_wall_, wall_fluid_;
+    BlockMatrix<MixedLayout<n>::entries, n> fluid_mesh_;
+    BlockMatrix<n, MixedLayout<n>::entries> fluid_wall_;
   };
 
   static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks);
@@ -136,7 +137,7 @@ class CoupledMultigrid {
   }
 
   EllipticAmg<n, n> mesh_;
-  SaddleAmg<n + 1> flow_, wall_;
+  SaddleAmg<MixedLayout<n>::entries> fluid_, wall_;
   std::vector<CoupledTransfer> transfers_;
   std::vector<std::unique_ptr<Couplings>> couplings_;
   std::vector<CoupledMatrix<n>> matrices_;

@@ -94,10 +94,10 @@ double difference(const Numbering& numbering, const std::vector<double>& a, cons
     if (size > 0) largest = std::max(largest, std::sqrt(error / size));
   };
   compare(numbering.mesh, n, 0, n);
-  compare(numbering.flow, n + 1, 0, n);
-  compare(numbering.flow, n + 1, n, n + 1);
-  compare(numbering.wall, n + 1, 0, n);
-  compare(numbering.wall, n + 1, n, n + 1);
+  compare(numbering.fluid, MixedLayout<n>::entries, 0, n);
+  compare(numbering.fluid, MixedLayout<n>::entries, n, n + 1);
+  compare(numbering.wall, MixedLayout<n>::entries, 0, n);
+  compare(numbering.wall, MixedLayout<n>::entries, n, n + 1);
   return largest;
 }
 
@@ -217,9 +217,9 @@ class LinearStudy {
                    {"time_ms", time},
                    {"unknowns",
                     {{"mesh", k_x.mesh.size()},
-                     {"flow", k_x.flow.size()},
+                     {"flow", k_x.fluid.size()},
                      {"wall", k_x.wall.size()},
-                     {"total", k_x.mesh.size() + k_x.flow.size() + k_x.wall.size()},
+                     {"total", k_x.mesh.size() + k_x.fluid.size() + k_x.wall.size()},
                      {"condensed", b.size()}}},
                    {"product_seconds", product},
                    {"right_hand_side", norm_b}};
@@ -259,7 +259,7 @@ class LinearStudy {
                       {"work_units", seconds / product},
                       {"cycles",
                        {{"mesh", after.mesh_cycles - before.mesh_cycles},
-                        {"flow", after.flow_cycles - before.flow_cycles},
+                        {"flow", after.fluid_cycles - before.fluid_cycles},
                         {"wall", after.wall_cycles - before.wall_cycles}}},
                       {"operator_complexity", after.operator_complexity},
                       {"levels", after.levels},
@@ -320,7 +320,7 @@ class LinearStudy {
       say(fmt::format("multigrid of the {} alone: {} settings", problem, rows.size()));
     };
     add("mesh", study_elliptic_multigrid<n>(*k.mesh, mesh, mesh_amg_options(), range));
-    add("fluid", study_saddle_multigrid(*k.flow, fluid, fluid_amg_options(), range));
+    add("fluid", study_saddle_multigrid(*k.fluid, fluid, fluid_amg_options(), range));
     for (const auto& [name, smoother] : saddle_smoother_kinds().rows()) {
       range.smoothers = {name};
       add("wall", study_saddle_multigrid(*k.wall, wall, wall_amg_options(smoother), range));

@@ -34,7 +34,7 @@ class DirichletNeumann : public InterfaceProblem<Element> {
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k)
         // The velocity of the mesh, so that no fluid crosses the interface whatever the last step's tolerance left.
-        state_->now.flow[Base::flow_entry(scene_.interface[i], k)] = data_->rates.interface.velocity(
+        state_->now.fluid[Base::fluid_entry(scene_.interface[i], k)] = data_->rates.interface.velocity(
             d[i * n + k], data_->rates.mesh_reference[Base::mesh_entry(scene_.interface[i], k)]);
     return refine(accuracy);
   }

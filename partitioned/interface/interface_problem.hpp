@@ -70,16 +70,16 @@ class InterfaceProblem {
   double force_residual() {
     const Stopwatch watch(cost.fluid_seconds);
     const auto phase = scene_.profile.phase("assembly: interface balance");
-    Solution moved{state_->now.mesh, state_->now.flow, {}};
+    Solution moved{state_->now.mesh, state_->now.fluid, {}};
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) {
         const double gap = state_->now.wall[wall_entry(node, k)] - state_->now.mesh[mesh_entry(node, k)];
         moved.mesh[mesh_entry(node, k)] += gap;
-        moved.flow[flow_entry(node, k)] += data_->rates.interface.velocity_change(gap);
+        moved.fluid[fluid_entry(node, k)] += data_->rates.interface.velocity_change(gap);
       }
     FluidInput in = scene_.fluid_input(*state_, data_->rates);
     in.mesh = moved.mesh.data();
-    in.flow = moved.flow.data();
+    in.fluid = moved.fluid.data();
     std::vector<double> rows;
     scene_.fluid->assemble(in, data_->opening_pressures, rows);
     double gap = 0, force = 0;
@@ -87,7 +87,7 @@ class InterfaceProblem {
       for (int k = 0; k < n; ++k) {
         if (wall_.numbering().wall_rows[wall_entry(node, k)].index < 0) continue;
         const double load = data_->interface_load[wall_entry(node, k)];
-        const double lack = rows[flow_entry(node, k)] - load;
+        const double lack = rows[fluid_entry(node, k)] - load;
         gap += lack * lack;
         force += load * load;
       }
@@ -108,7 +108,7 @@ class InterfaceProblem {
 
  protected:
   static std::size_t mesh_entry(const InterfaceNode& node, int k) { return VectorLayout<n>::vector(node.fluid, k); }
-  static std::size_t flow_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.fluid, k); }
+  static std::size_t fluid_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.fluid, k); }
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
@@ -137,7 +137,7 @@ class InterfaceProblem {
     const Stopwatch watch(cost.wall_seconds);
     data_->interface_load.assign(state_->now.wall.size(), 0.0);
     for (const auto& node : scene_.interface)
-      for (int k = 0; k < n; ++k) data_->interface_load[wall_entry(node, k)] = fluid_rows[flow_entry(node, k)];
+      for (int k = 0; k < n; ++k) data_->interface_load[wall_entry(node, k)] = fluid_rows[fluid_entry(node, k)];
     if (accuracy.linearised_wall) {
       state_->now.wall = first_wall_;
       solve_linearised("wall", wall_, linearised_tolerance, cost.wall_newton, cost.wall_linear);

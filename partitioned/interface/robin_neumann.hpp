@@ -50,8 +50,8 @@ class RobinNeumann : public InterfaceProblem<Element> {
     const auto weights = extrapolation_weights(*state_, order, data_->time);
     std::vector<double> x = Base::wall_displacement(state_->now);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto entry = Base::flow_entry(scene_.interface[i / n], static_cast<int>(i % n));
-      if (fluid_.numbering().flow[entry].index < 0 || robin_.impedance[i / n] == 0) continue;
+      const auto entry = Base::fluid_entry(scene_.interface[i / n], static_cast<int>(i % n));
+      if (fluid_.numbering().fluid[entry].index < 0 || robin_.impedance[i / n] == 0) continue;
       double load = 0;
       for (int level = 0; level < 3; ++level) load += weights[level] * loads_[level][i];
       x[i] += data_->rates.interface.displacement(load / robin_.impedance[i / n], 0.0);
@@ -88,7 +88,7 @@ class RobinNeumann : public InterfaceProblem<Element> {
     std::swap(loads_[1], loads_[0]);
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k)
-        loads_[0][i * n + k] = fluid_.fluid_residual()[Base::flow_entry(scene_.interface[i], k)];
+        loads_[0][i * n + k] = fluid_.fluid_residual()[Base::fluid_entry(scene_.interface[i], k)];
   }
 
   Memory memory() const override {
@@ -125,7 +125,7 @@ class RobinNeumann : public InterfaceProblem<Element> {
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k)
         state.now.mesh[Base::mesh_entry(node, k)] = data_->rates.interface.displacement(
-            state.now.flow[Base::flow_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
+            state.now.fluid[Base::fluid_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
     Base::mesh_motion_.solve(state.now.mesh);
   }
 

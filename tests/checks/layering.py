@@ -19,7 +19,7 @@ FLOORS = (
     ("common/solvers",),
     ("common/fem",),
     ("common/materials",),
-    ("common/fluid", "common/structure", "common/mesh_motion"),
+    ("common/fluid", "common/wall", "common/mesh_motion"),
     ("common/case",),
     ("common/time",),
     ("common/scene",),

@@ -14,7 +14,7 @@ CLEAN = {
     "common/mesh/mesh.hpp": '#include "base/error.hpp"\n',
     "common/mesh/gmsh/reader.cpp": '#include "mesh/mesh.hpp"\n#include "gmsh.h"\n',
     "common/fluid/fluid.hpp": '#include "mesh/mesh.hpp"\n',
-    "common/structure/wall.hpp": '#include "mesh/mesh.hpp"\n',
+    "common/wall/wall.hpp": '#include "mesh/mesh.hpp"\n',
     "common/scene/case.hpp": '#include "mesh/mesh.hpp"\n#include "fluid/fluid.hpp"\n',
     "common/io/case_file.cpp": '#include "case/case.hpp"\n#include "base/version.hpp"\n',
     "monolithic/main.cpp": '#include "case/case.hpp"\n#include "monolithic/newton.hpp"\n',
@@ -72,7 +72,7 @@ class Layering(unittest.TestCase):
         self.assert_problem("common/mesh/other.hpp:1")
 
     def test_sideways(self):
-        self.write("common/fluid/fluid.cpp", '#include "structure/wall.hpp"\n')
+        self.write("common/fluid/fluid.cpp", '#include "wall/wall.hpp"\n')
         self.assert_problem("common/fluid/fluid.cpp:1", "from common/fluid; allowed:")
 
     def test_drivers_do_not_know_each_other(self):

@@ -60,7 +60,7 @@ class AxisymmetricArtery {
 
   int node(int i, int k) const { return k * static_cast<int>(radii_.size()) + i; }
   double on_axis(int k) const {
-    return state_.now.flow[MixedLayout<2>::scalar(scene_->fluid->part().local_node[node(0, k)])];
+    return state_.now.fluid[MixedLayout<2>::scalar(scene_->fluid->part().local_node[node(0, k)])];
   }
   double radial(int k) const {
     return state_.now.wall[MixedLayout<2>::vector(scene_->wall->part().local_node[node(fluid_cells_, k)])];

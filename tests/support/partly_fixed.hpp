@@ -16,7 +16,7 @@ Numbering without_unknowns(Numbering numbering, Dropped dropped) {
   std::int64_t next = 0;
   for (std::int64_t i = 0; i < numbering.size; ++i)
     if (!dropped(i)) number[i] = next++;
-  for (UnknownMap* map : {&numbering.mesh_rows, &numbering.mesh, &numbering.flow_rows, &numbering.flow,
+  for (UnknownMap* map : {&numbering.mesh_rows, &numbering.mesh, &numbering.fluid_rows, &numbering.fluid,
                           &numbering.wall_rows, &numbering.wall})
     for (Unknown& unknown : *map)
       if (unknown.index >= 0) unknown.index = number[unknown.index];
@@ -48,7 +48,7 @@ class PartlyFixedSystem {
   PartlyFixedSystem(Scene<Element>& scene, Numbering numbering, bool vectors, bool scalars, double share = 0.2) {
     Random random(5);
     std::vector<char> dropped(static_cast<std::size_t>(numbering.size), 0);
-    drop_some<n>(numbering.flow, vectors, scalars, share, random, dropped);
+    drop_some<n>(numbering.fluid, vectors, scalars, share, random, dropped);
     drop_some<n>(numbering.wall, vectors, scalars, share, random, dropped);
     numbering = without_unknowns(numbering, [&](std::int64_t i) { return dropped[i] != 0; });
     system_ = std::make_unique<System<Element>>("coupled", scene, std::move(numbering));
@@ -57,7 +57,7 @@ class PartlyFixedSystem {
     data.rates = scene.integrator->rates(state, 0.125);
     if (scene.fluid) data.opening_pressures = {1.332};
     if (scene.fluid) {
-      state.now.flow = random_field(scene.fluid->part().nodes, n + 1, 0.3, 1e-3, 1);
+      state.now.fluid = random_field(scene.fluid->part().nodes, n + 1, 0.3, 1e-3, 1);
       if (scene.coupled()) state.now.mesh = random_field(scene.fluid->part().nodes, n, 1e-3, 1e-5, 2);
     }
     if (scene.wall) state.now.wall = random_field(scene.wall->part().nodes, n + 1, 1e-3, 1e-5, 3);

@@ -12,8 +12,8 @@
 #include "fluid/fluid_problem.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "solvers/newton.hpp"
-#include "structure/wall_problem.hpp"
 #include "support/nodal_arrays.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi::test {
 
@@ -113,9 +113,9 @@ inline FluidInput euler_input(const std::vector<double>* mesh, const std::vector
     in.mesh_reference = mesh_old->data();
     in.mesh_factor = 1 / step;
   }
-  in.flow = flow.data();
-  in.flow_reference = flow_old.data();
-  in.flow_factor = 1 / step;
+  in.fluid = flow.data();
+  in.fluid_reference = flow_old.data();
+  in.fluid_factor = 1 / step;
   in.step = step;
   return in;
 }
@@ -142,10 +142,10 @@ class FluidStep : public SubProblem {
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
     return fluid_.assemble(euler_input(&mesh, &mesh_old, at, flow_old, fluid_.form().step), pressures, residual,
-                           derivatives ? FluidDerivatives::flow : FluidDerivatives::none);
+                           derivatives ? FluidDerivatives::fluid : FluidDerivatives::none);
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
-    gather_blocks(builder, fluid_.jacobian(FluidDerivatives::flow).flow, map, map);
+    gather_blocks(builder, fluid_.jacobian(FluidDerivatives::fluid).fluid, map, map);
   }
 
   FluidProblem<Element>& fluid_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "structure/wall_problem.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi::test {
 

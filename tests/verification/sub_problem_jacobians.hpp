@@ -6,10 +6,10 @@
 #include "fluid/fluid_problem.hpp"
 #include "mesh_motion/harmonic.hpp"
 #include "mesh_motion/mesh_motion.hpp"
-#include "structure/wall_problem.hpp"
 #include "support/differences.hpp"
 #include "support/problems.hpp"
 #include "support/random.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi::test {
 
@@ -51,9 +51,9 @@ void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>&
   constexpr int n = Element::components;
   const auto& x = fluid.part().nodes;
   std::vector<double> at_state;
-  const auto assembled = fluid.assemble(state.input(), {}, at_state, FluidDerivatives::flow_and_domain);
+  const auto assembled = fluid.assemble(state.input(), {}, at_state, FluidDerivatives::fluid_and_domain);
   ASSERT_FALSE(assembled.inverted());
-  const auto jacobian = fluid.jacobian(FluidDerivatives::flow_and_domain);
+  const auto jacobian = fluid.jacobian(FluidDerivatives::fluid_and_domain);
 
   std::vector<double> without_derivatives;
   fluid.assemble(state.input(), {}, without_derivatives);
@@ -74,11 +74,11 @@ void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>&
       } else {
         const bool velocity = std::string(block.column) == "velocity";
         direction = only(random_field(x, n + 1, 4.0, 1.0, 200 + seed), n + 1, velocity ? 0 : n, velocity ? n : 1);
-        product = multiply(jacobian.flow, direction);
+        product = multiply(jacobian.fluid, direction);
       }
       const auto residual = [&](double t) {
         FluidState<Element> there = state;
-        (domain ? there.mesh : there.flow) = moved(domain ? state.mesh : state.flow, t, direction);
+        (domain ? there.mesh : there.fluid) = moved(domain ? state.mesh : state.fluid, t, direction);
         std::vector<double> r;
         fluid.assemble(there.input(), {}, r);
         return only(r, n + 1, block.first_row, block.rows);

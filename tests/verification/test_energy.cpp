@@ -35,7 +35,7 @@ Case lively_case(const std::string& material) {
 void impose_boundary(const Scene<Tet>& scene, Solution& level) {
   for (int a = 0; a < scene.fluid->node_count(); ++a)
     for (int k = 0; k < 3; ++k) {
-      if (scene.velocity_conditions.fixes(a)) level.flow[4 * a + k] = 0;
+      if (scene.velocity_conditions.fixes(a)) level.fluid[4 * a + k] = 0;
       if (scene.mesh_conditions.fixes(a)) level.mesh[3 * a + k] = 0;
     }
   for (int a = 0; a < scene.wall->node_count(); ++a)
@@ -58,7 +58,7 @@ class ArbitraryStep {
       return fields;
     };
     const auto add = [](Solution& a, const Solution& b) {
-      a = {moved(a.mesh, 1, b.mesh), moved(a.flow, 1, b.flow), moved(a.wall, 1, b.wall)};
+      a = {moved(a.mesh, 1, b.mesh), moved(a.fluid, 1, b.fluid), moved(a.wall, 1, b.wall)};
     };
     Solution& old = state_.before[0];
     old = level(1, 1);
@@ -82,11 +82,11 @@ class ArbitraryStep {
     std::vector<double> fluid, wall, wall_old;
     scene_->fluid->assemble(scene_->fluid_input(state_, data.rates), data.opening_pressures, fluid);
     scene_->wall->assemble(scene_->wall_input(state_, data.rates), 0, state_.now.wall, wall);
-    StructureInput old = scene_->wall_input(state_, data.rates);
+    WallInput old = scene_->wall_input(state_, data.rates);
     old.wall = state_.before[0].wall.data();
     scene_->wall->assemble(old, 0, state_.before[0].wall, wall_old);
     double sum = 0;
-    for (std::size_t i = 0; i < fluid.size(); ++i) sum += (i % 4 == 3 ? -step : step) * fluid[i] * state_.now.flow[i];
+    for (std::size_t i = 0; i < fluid.size(); ++i) sum += (i % 4 == 3 ? -step : step) * fluid[i] * state_.now.fluid[i];
     for (std::size_t i = 0; i < wall.size(); ++i)
       sum += i % 4 == 3 ? -(wall[i] - wall_old[i]) * state_.now.wall[i]
                         : wall[i] * (state_.now.wall[i] - state_.before[0].wall[i]);

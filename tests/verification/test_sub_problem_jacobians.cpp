@@ -35,10 +35,10 @@ TEST(FluidJacobian, OnARigidDomainIsThatOfAnUnmovedOne) {
   std::fill(state.mesh.begin(), state.mesh.end(), 0.0);
   state.mesh_old = state.mesh;
   std::vector<double> unmoved, rigid;
-  fluid.assemble(state.input(), {}, unmoved, FluidDerivatives::flow_and_domain);
-  const auto unmoved_jacobian = fluid.jacobian(FluidDerivatives::flow).flow.values;
-  fluid.assemble(euler_input(nullptr, nullptr, state.flow, state.flow_old, 0.5), {}, rigid, FluidDerivatives::flow);
-  const auto& rigid_jacobian = fluid.jacobian(FluidDerivatives::flow).flow.values;
+  fluid.assemble(state.input(), {}, unmoved, FluidDerivatives::fluid_and_domain);
+  const auto unmoved_jacobian = fluid.jacobian(FluidDerivatives::fluid).fluid.values;
+  fluid.assemble(euler_input(nullptr, nullptr, state.fluid, state.flow_old, 0.5), {}, rigid, FluidDerivatives::fluid);
+  const auto& rigid_jacobian = fluid.jacobian(FluidDerivatives::fluid).fluid.values;
   EXPECT_LT(norm(difference(unmoved, rigid)), 1e-14 * norm(rigid));
   EXPECT_LT(norm(difference(unmoved_jacobian, rigid_jacobian)), 1e-14 * norm(rigid_jacobian));
 }
@@ -52,7 +52,7 @@ TEST(FluidJacobian, StatesMakeEveryTermOfTauMatter) {
   for (const auto& pack : fluid.packs().of_thread(0)) {
     NodalVector<Tet> d{}, u{};
     gather<VectorLayout<3>>(d, pack, state.mesh.data());
-    gather<MixedLayout<3>>(u, pack, state.flow.data());
+    gather<MixedLayout<3>>(u, pack, state.fluid.data());
     const auto g = Tet::at(pack.geometry, 0);
     const auto k = form.prepare(gradient_of(d, g), gradient_of(u, g), Vec3<Pack>{}, pack.geometry.metric);
     const auto c = value_of(u, g);
@@ -137,14 +137,14 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfTheLoad) {
   const auto part = whole(mesh);
   const auto facets = facets_where(mesh, "fluid", [](const Point&) { return true; });
   const auto solution = random_field(mesh.nodes, 4, 0.2, 0.05, 31);
-  const auto load = [&](const std::vector<double>& at, StructureMatrix<Tet>* jacobian = nullptr) {
+  const auto load = [&](const std::vector<double>& at, WallMatrix<Tet>* jacobian = nullptr) {
     std::vector<double> r(at.size(), 0.0);
     add_follower_pressure<Tet>(mesh.nodes, facets, 1.7, at, r, jacobian);
     return r;
   };
   std::vector<int> cell_nodes;
   for (const auto& cell : part.cells) cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
-  StructureMatrix<Tet> jacobian(std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4)));
+  WallMatrix<Tet> jacobian(std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4)));
   load(solution, &jacobian);
   for (unsigned seed : {1, 2, 3}) {
     const auto direction = random_field(mesh.nodes, 4, 0.3, 0.1, seed);

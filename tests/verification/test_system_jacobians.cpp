@@ -69,7 +69,7 @@ class Line {
     system_.work_on(there, from_.data);  // the numbering's factors are the step's
     const auto& numbering = system_.numbering();
     if (!numbering.mesh.empty()) add_to_field(numbering.mesh, direction_, t, there.now.mesh);
-    if (!numbering.flow.empty()) add_to_field(numbering.flow, direction_, t, there.now.flow);
+    if (!numbering.fluid.empty()) add_to_field(numbering.fluid, direction_, t, there.now.fluid);
     if (!numbering.wall.empty()) add_to_field(numbering.wall, direction_, t, there.now.wall);
     EXPECT_TRUE(std::isfinite(system_.evaluate()));
     return system_.residual();
@@ -90,9 +90,9 @@ std::vector<Group> groups_of(const Numbering& numbering, const Scenario& scenari
     for (std::size_t i = 0; i < map.size(); ++i)
       if (map[i].index >= 0) group[map[i].index] = static_cast<int>(i) % entries < 3 ? vector : scalar;
   };
-  set(numbering.flow_rows, 4, Group::flow, Group::fluid_pressure);
+  set(numbering.fluid_rows, 4, Group::fluid, Group::fluid_pressure);
   set(numbering.wall_rows, 4, Group::displacement, Group::wall_pressure);
-  if (!numbering.flow.empty() && !numbering.wall.empty())
+  if (!numbering.fluid.empty() && !numbering.wall.empty())
     for (const auto& node : scenario.scene->interface)
       for (int k = 0; k < 3; ++k) {
         const auto unknown = numbering.wall[4 * node.wall + k].index;
@@ -110,7 +110,7 @@ std::vector<double> part_of(const std::vector<double>& all, const std::vector<Gr
 
 /// A random change of all unknowns: displacements a tenth of an element, velocities of order 1, pressures of order 5.
 std::vector<double> direction_for(const std::vector<Group>& groups, unsigned seed) {
-  static const std::map<Group, double> scales{{Group::mesh, 0.1},         {Group::flow, 2},
+  static const std::map<Group, double> scales{{Group::mesh, 0.1},         {Group::fluid, 2},
                                               {Group::fluid_pressure, 5}, {Group::interface, 0.1},
                                               {Group::displacement, 0.1}, {Group::wall_pressure, 5}};
   Random random(seed);
@@ -120,7 +120,7 @@ std::vector<double> direction_for(const std::vector<Group>& groups, unsigned see
 }
 
 const std::map<Group, const char*> names{
-    {Group::mesh, "mesh motion"},           {Group::flow, "momentum"},
+    {Group::mesh, "mesh motion"},           {Group::fluid, "momentum"},
     {Group::fluid_pressure, "continuity"},  {Group::interface, "interface momentum"},
     {Group::displacement, "wall momentum"}, {Group::wall_pressure, "wall volume"}};
 
@@ -239,12 +239,12 @@ SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
-  auto& fluid = scenario.scene->fluid->jacobian(FluidDerivatives::flow_and_domain);
+  auto& fluid = scenario.scene->fluid->jacobian(FluidDerivatives::fluid_and_domain);
   spoil(numbering, fluid);
   GatheredMatrix::Builder builder(numbering.size);
   gather_blocks(builder, scenario.scene->wall->jacobian(), numbering.wall_rows, numbering.wall);
-  gather_blocks(builder, fluid.flow, numbering.flow_rows, numbering.flow);
-  gather_blocks(builder, fluid.shape_derivatives, numbering.flow_rows, numbering.mesh);
+  gather_blocks(builder, fluid.fluid, numbering.fluid_rows, numbering.fluid);
+  gather_blocks(builder, fluid.shape_derivatives, numbering.fluid_rows, numbering.mesh);
   gather_diagonal_blocks(builder, scenario.scene->mesh_motion, numbering.mesh_rows, numbering.mesh);
   GatheredMatrix gathered(std::move(builder));
   gathered.update();
@@ -267,7 +267,7 @@ TEST(JacobianControl, MissingTermsAreDetected) {
   expect_detected(check("control, interface velocity without 1/dt",
                         [&](Numbering& numbering, Fluid&) {
                           for (const auto& node : scenario.scene->interface)
-                            for (int k = 0; k < 3; ++k) numbering.flow[4 * node.fluid + k].factor = 1;
+                            for (int k = 0; k < 3; ++k) numbering.fluid[4 * node.fluid + k].factor = 1;
                         }),
                   1e-3);
   expect_detected(check("control, one shape derivative of one node pair off by 1 %",

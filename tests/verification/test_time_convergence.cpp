@@ -115,7 +115,7 @@ TEST(TimeConvergence, CoupledMotionIsOfFirstOrder) {
     setup.time->step = first_step / (1 << halvings);
     const auto state = march(setup, mesh);
     walls.push_back(only(state.now.wall, 4, 0, 3));
-    flows.push_back(only(state.now.flow, 4, 0, 3));
+    flows.push_back(only(state.now.fluid, 4, 0, 3));
   }
   EXPECT_NEAR(orders_of("displacement of a wall above a viscous fluid", walls, first_step).back(), 1, 0.15);
   EXPECT_NEAR(orders_of("velocity of the fluid", flows, first_step).back(), 1, 0.15);

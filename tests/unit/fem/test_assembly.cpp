@@ -4,11 +4,11 @@
 
 #include "fem/gather_blocks.hpp"
 #include "scene/build_scene.hpp"
-#include "structure/structure_assembly.hpp"
 #include "support/meshes.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/problems.hpp"
 #include "support/random.hpp"
+#include "wall/wall_assembly.hpp"
 
 namespace fsi::test {
 
@@ -30,9 +30,9 @@ Assembled assemble_with(int thread_count) {
   EXPECT_EQ(fluid.packs().thread_count(), thread_count);
   const auto d = random_field(x, 3, 0.1, 0.02, 1), d_old = random_field(x, 3, 0.1, 0.02, 2);
   const auto u = random_field(x, 4, 3, 0.5, 3), u_old = random_field(x, 4, 3, 0.5, 4);
-  fluid.assemble(euler_input(&d, &d_old, u, u_old, 0.5), {}, all.fluid, FluidDerivatives::flow_and_domain);
-  all.fluid_flow = fluid.jacobian(FluidDerivatives::flow_and_domain).flow.values;
-  all.fluid_mesh = fluid.jacobian(FluidDerivatives::flow_and_domain).shape_derivatives.values;
+  fluid.assemble(euler_input(&d, &d_old, u, u_old, 0.5), {}, all.fluid, FluidDerivatives::fluid_and_domain);
+  all.fluid_flow = fluid.jacobian(FluidDerivatives::fluid_and_domain).fluid.values;
+  all.fluid_mesh = fluid.jacobian(FluidDerivatives::fluid_and_domain).shape_derivatives.values;
 
   const CylinderAxis axis{{{-0.7, -0.4, 0}}, {{0, 0, 1}}};
   WallProblem<Tet> wall(whole(mesh), {1.2, 50, 0.5}, {{0, Artery{3, 2.4, 0.8, 1, 29}}}, axis);
@@ -91,17 +91,17 @@ TEST(ElementPacks, EmptyLanesAddNothing) {
   for (const auto& cell : mesh.cells) cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
   const auto graph = std::make_shared<const NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4));
   const auto solution = random_field(mesh.nodes, 4, 0.1, 0.02, 5);
-  const auto assemble = [&](const std::vector<int>& cells, StructureMatrix<Tet>& matrix) {
+  const auto assemble = [&](const std::vector<int>& cells, WallMatrix<Tet>& matrix) {
     std::vector<WallLayer<Tet>> layers;
     layers.push_back({ElementPacks<Tet>(mesh.nodes, mesh.cells, cells, *graph), NeoHookean{3}, {}});
     EXPECT_EQ(layers[0].packs.element_count(), cells.size());
     std::vector<double> residual(4 * mesh.nodes.size(), 0.0);
-    assemble_structure<Tet>({1.2, 50, 0.5}, layers, {solution.data(), nullptr, 0}, residual, &matrix);
+    assemble_wall<Tet>({1.2, 50, 0.5}, layers, {solution.data(), nullptr, 0}, residual, &matrix);
     return residual;
   };
   std::vector<int> all(mesh.cells.size());
   std::vector<double> sum(4 * mesh.nodes.size(), 0.0);
-  StructureMatrix<Tet> whole_matrix(graph), matrix(graph), matrix_sum(graph);
+  WallMatrix<Tet> whole_matrix(graph), matrix(graph), matrix_sum(graph);
   for (std::size_t c = 0; c < all.size(); ++c) {
     all[c] = static_cast<int>(c);
     sum = moved(sum, 1, assemble({all[c]}, matrix));

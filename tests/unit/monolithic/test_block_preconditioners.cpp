@@ -27,7 +27,7 @@ struct Factorised {
     multigrid = std::make_unique<CoupledMultigrid<Tet>>(system, linearised_box().blocks(), options);
     b = system.matrix().zero_vector();
     int i = 0;
-    for (auto* part : {&b.mesh, &b.flow, &b.wall})
+    for (auto* part : {&b.mesh, &b.fluid, &b.wall})
       for (double& value : *part) value = std::sin(1.0 + 0.3 * i++);
   }
   SubSolvers inverse() { return multigrid->finest_sub_solvers(); }
@@ -71,9 +71,9 @@ TEST_F(BlockPreconditioner, DiagonalLacksAllCouplings) {
   expect_inverse("diagonal", [&](const CoupledVector& x, CoupledVector& r) {
     CoupledVector t = k.zero_vector();  // R = -(couplings)
     k.subtract_mesh_wall(x.wall, t.mesh);
-    k.subtract_flow_mesh(x.mesh, t.flow);
-    k.subtract_flow_wall(x.wall, t.flow);
-    k.subtract_wall_flow(x.flow, t.wall);
+    k.subtract_fluid_mesh(x.mesh, t.fluid);
+    k.subtract_fluid_wall(x.wall, t.fluid);
+    k.subtract_wall_fluid(x.fluid, t.wall);
     axpy(-1, t, r);
   });
 }
@@ -82,7 +82,7 @@ TEST_F(BlockPreconditioner, LowerLacksTheUpperCouplings) {
   expect_inverse("lower", [&](const CoupledVector& x, CoupledVector& r) {
     CoupledVector t = k.zero_vector();
     k.subtract_mesh_wall(x.wall, t.mesh);
-    k.subtract_flow_wall(x.wall, t.flow);
+    k.subtract_fluid_wall(x.wall, t.fluid);
     axpy(-1, t, r);
   });
 }
@@ -90,8 +90,8 @@ TEST_F(BlockPreconditioner, LowerLacksTheUpperCouplings) {
 TEST_F(BlockPreconditioner, UpperLacksTheLowerCouplings) {
   expect_inverse("upper", [&](const CoupledVector& x, CoupledVector& r) {
     CoupledVector t = k.zero_vector();
-    k.subtract_flow_mesh(x.mesh, t.flow);
-    k.subtract_wall_flow(x.flow, t.wall);
+    k.subtract_fluid_mesh(x.mesh, t.fluid);
+    k.subtract_wall_fluid(x.fluid, t.wall);
     axpy(-1, t, r);
   });
 }
@@ -101,10 +101,10 @@ TEST_F(BlockPreconditioner, SsorHasThePapersRemainder) {
   expect_inverse("ssor", [&](const CoupledVector& x, CoupledVector& r) {
     const auto inverse = problem.inverse();
     const auto z = solve(inverse.mesh, minus(x.mesh.size(), [&](auto& y) { k.subtract_mesh_wall(x.wall, y); }));
-    const auto w = solve(inverse.flow, minus(x.flow.size(), [&](auto& y) { k.subtract_flow_wall(x.wall, y); }));
+    const auto w = solve(inverse.fluid, minus(x.fluid.size(), [&](auto& y) { k.subtract_fluid_wall(x.wall, y); }));
     CoupledVector t = k.zero_vector();  // z = -Am^-1 Ams x_s, w = -Af^-1 Afs x_s: t = R x
-    k.subtract_flow_mesh(z, t.flow);
-    k.subtract_wall_flow(w, t.wall);
+    k.subtract_fluid_mesh(z, t.fluid);
+    k.subtract_wall_fluid(w, t.wall);
     axpy(-1, t, r);
   });
 }
@@ -115,12 +115,12 @@ TEST_F(BlockPreconditioner, IluHasThePapersRemainder) {
   expect_inverse("ilu", [&](const CoupledVector& x, CoupledVector& r) {
     const auto inverse = problem.inverse();
     const auto z = solve(inverse.mesh, minus(x.mesh.size(), [&](auto& y) { k.subtract_mesh_wall(x.wall, y); }));
-    const auto w = solve(inverse.flow, minus(x.flow.size(), [&](auto& y) {
-                           k.subtract_flow_wall(x.wall, y);
-                           k.subtract_flow_mesh(z, y);
+    const auto w = solve(inverse.fluid, minus(x.fluid.size(), [&](auto& y) {
+                           k.subtract_fluid_wall(x.wall, y);
+                           k.subtract_fluid_mesh(z, y);
                          }));
     CoupledVector t = k.zero_vector();  // w = -Af^-1 (Afs - Afm Am^-1 Ams) x_s: t = R x
-    k.subtract_wall_flow(w, t.wall);
+    k.subtract_wall_fluid(w, t.wall);
     axpy(-1, t, r);
   });
 }
@@ -136,11 +136,11 @@ TEST_F(BlockPreconditioner, UndampedSmootherFromZeroIsLower) {
 
 TEST_F(BlockPreconditioner, CountsItsSubProblemSolves) {
   const auto count = [&](const std::string& name) {
-    const long long before[] = {problem.multigrid->mesh_cycles(), problem.multigrid->flow_cycles(),
+    const long long before[] = {problem.multigrid->mesh_cycles(), problem.multigrid->fluid_cycles(),
                                 problem.multigrid->wall_cycles()};
     problem.apply(name);
     return std::vector<long long>{problem.multigrid->mesh_cycles() - before[0],
-                                  problem.multigrid->flow_cycles() - before[1],
+                                  problem.multigrid->fluid_cycles() - before[1],
                                   problem.multigrid->wall_cycles() - before[2]};
   };
   const std::vector<long long> once{1, 1, 1}, twice{2, 2, 1};

@@ -28,7 +28,7 @@ struct PaperForm {
 CoupledVector waves(const CoupledMatrix<3>& k) {
   CoupledVector x = k.zero_vector();
   int i = 0;
-  for (auto* part : {&x.mesh, &x.flow, &x.wall})
+  for (auto* part : {&x.mesh, &x.fluid, &x.wall})
     for (double& value : *part) value = std::sin(1.0 + 0.7 * i++);
   return x;
 }
@@ -51,7 +51,7 @@ TEST(CoupledMatrix, HasTheSolutionOfTheCondensedSystem) {
     for (int i = 0; i < 3; ++i) {
       const double d = x.wall[4 * pair.wall + i];
       EXPECT_NEAR(x.mesh[3 * pair.fluid + i], d, 1e-14);
-      EXPECT_NEAR(x.flow[4 * pair.fluid + i], d / paper.box.setup().time->step, 1e-13);
+      EXPECT_NEAR(x.fluid[4 * pair.fluid + i], d / paper.box.setup().time->step, 1e-13);
     }
 }
 
@@ -71,9 +71,9 @@ TEST(CoupledMatrix, BlockProductsAreTheSparseMatrix) {
 TEST(CoupledMatrix, HasTheBlockPatternOfThePaper) {
   PaperForm paper;
   const auto& k = paper.system.matrix();
-  const std::int64_t flow0 = 3 * k.fluid_nodes(), wall0 = flow0 + 4 * k.fluid_nodes();
+  const std::int64_t fluid0 = 3 * k.fluid_nodes(), wall0 = fluid0 + 4 * k.fluid_nodes();
   const SparseMatrix sparse = sparse_matrix(k);
-  const auto part = [&](std::int64_t i) { return i < flow0 ? 0 : i < wall0 ? 1 : 2; };
+  const auto part = [&](std::int64_t i) { return i < fluid0 ? 0 : i < wall0 ? 1 : 2; };
   long long entries[3][3] = {};
   for (std::int64_t c = 0; c < sparse.size(); ++c)
     for (std::int64_t at = sparse.offsets[c]; at < sparse.offsets[c + 1]; ++at)
@@ -95,7 +95,7 @@ TEST(CoupledMatrix, PrescribedEntriesHaveIdentityRowsAndZeroColumns) {
   for (int a = 0; a < k.fluid_nodes(); ++a)
     for (int i = 0; i < 3; ++i) {
       if (scene.mesh_conditions.fixes(a)) only_prescribed.mesh[3 * a + i] = 1;
-      if (scene.velocity_conditions.fixes(a)) only_prescribed.flow[4 * a + i] = 1;
+      if (scene.velocity_conditions.fixes(a)) only_prescribed.fluid[4 * a + i] = 1;
     }
   for (int a = 0; a < k.wall_nodes(); ++a)
     for (int i = 0; i < 3; ++i)

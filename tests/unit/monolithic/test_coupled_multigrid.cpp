@@ -21,7 +21,7 @@ struct Hierarchy {
     CoupledMultigridOptions options;
     options.coarsening.kind = kind;
     options.coarsening.coarsest_nodes = 20;
-    options.flow.stabilisation_growth = options.wall.stabilisation_growth = 0;
+    options.fluid.stabilisation_growth = options.wall.stabilisation_growth = 0;
     multigrid = std::make_unique<CoupledMultigrid<Tet>>(system, linearised_box().blocks(), options);
   }
 };
@@ -29,7 +29,7 @@ struct Hierarchy {
 CoupledVector waves(const CoupledMatrix<3>& k) {
   CoupledVector x = k.zero_vector();
   int i = 0;
-  for (auto* part : {&x.mesh, &x.flow, &x.wall})
+  for (auto* part : {&x.mesh, &x.fluid, &x.wall})
     for (double& value : *part) value = std::sin(1.0 + 0.7 * i++);
   return x;
 }
@@ -38,7 +38,7 @@ CoupledVector waves(const CoupledMatrix<3>& k) {
 CoupledVector prolongated(const CoupledTransfer& p, const CoupledVector& y, CoupledVector x) {
   x.set_zero();
   prolongate_add<3, 3>(*p.mesh, y.mesh, x.mesh);
-  prolongate_add<4, 3>(*p.flow, y.flow, x.flow);
+  prolongate_add<4, 3>(*p.fluid, y.fluid, x.fluid);
   prolongate_add<4, 3>(*p.wall, y.wall, x.wall);
   return x;
 }
@@ -60,12 +60,12 @@ TEST_P(CoupledHierarchy, CoarseMatricesAreGalerkinProducts) {
           for (int k = 0; k < 3; ++k) part[static_cast<std::size_t>(c) * entries + k] = 0;
     };
     clear(*p.mesh, 3, y.mesh);
-    clear(*p.flow, 4, y.flow);
+    clear(*p.fluid, 4, y.fluid);
     clear(*p.wall, 4, y.wall);
     CoupledVector r = fine.zero_vector(), expected = coarse.zero_vector(), found = coarse.zero_vector();
     fine.residual(fine.zero_vector(), prolongated(p, y, fine.zero_vector()), r);
     restrict_to<3, 3>(*p.mesh, r.mesh, expected.mesh);
-    restrict_to<4, 3>(*p.flow, r.flow, expected.flow);
+    restrict_to<4, 3>(*p.fluid, r.fluid, expected.fluid);
     restrict_to<4, 3>(*p.wall, r.wall, expected.wall);
     coarse.residual(coarse.zero_vector(), y, found);
     const double size = norm(expected);
@@ -113,7 +113,7 @@ TEST_P(CoupledHierarchy, CoarseInterfaceConditionsAreTheFineOnes) {
       EXPECT_GT(pairs, 0);
     };
     follow(origins(levels, l, &CoupledTransfer::mesh), 3, 1, x.mesh);
-    follow(origins(levels, l, &CoupledTransfer::flow), 4, rate, x.flow);
+    follow(origins(levels, l, &CoupledTransfer::fluid), 4, rate, x.fluid);
 
     CoupledVector r = k.zero_vector();
     k.residual(k.zero_vector(), x, r);
@@ -122,7 +122,7 @@ TEST_P(CoupledHierarchy, CoarseInterfaceConditionsAreTheFineOnes) {
         for (std::size_t i = 0; i < 3 && tie.graph->offsets[row] < tie.graph->offsets[row + 1]; ++i)
           EXPECT_NEAR(rows[static_cast<std::size_t>(row) * entries + i], 0, 1e-12 * rate) << "level " << l;
     };
-    expect_held(*k.wall_flow, 4, r.wall);
+    expect_held(*k.wall_fluid, 4, r.wall);
     expect_held(*k.mesh_wall, 3, r.mesh);
   }
 }
@@ -159,7 +159,7 @@ TEST(CoupledCycle, VAndWCyclesAreLinear) {
     cycle.factorise_coarsest();
     const auto& k = hierarchy.system.matrix();
     CoupledVector a = waves(k), b = k.zero_vector(), sum = a, xa = b, xb = b, x = b;
-    for (auto* part : {&b.mesh, &b.flow, &b.wall})
+    for (auto* part : {&b.mesh, &b.fluid, &b.wall})
       for (std::size_t i = 0; i < part->size(); ++i) (*part)[i] = std::cos(0.3 * static_cast<double>(i));
     axpy(2, b, sum);
     cycle.apply(a, xa);

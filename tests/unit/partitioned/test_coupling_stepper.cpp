@@ -59,7 +59,7 @@ TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
     for (std::size_t n = 0; n < 3; ++n) {
       const Solution &a = parts[n].before[0], &b = whole[n].before[0];
       EXPECT_LT(norm(difference(a.wall, b.wall)), 1e-7 * norm(b.wall)) << material << ", step " << n + 1;
-      EXPECT_LT(norm(difference(a.flow, b.flow)), 1e-7 * norm(b.flow)) << material << ", step " << n + 1;
+      EXPECT_LT(norm(difference(a.fluid, b.fluid)), 1e-7 * norm(b.fluid)) << material << ", step " << n + 1;
       EXPECT_LT(norm(difference(a.mesh, b.mesh)), 1e-7 * norm(b.mesh)) << material << ", step " << n + 1;
     }
   }
@@ -80,7 +80,7 @@ TEST_P(EachScheme, GoesOnBitForBitFromItsMemory) {
     EXPECT_EQ(first.newton_iterations, second.newton_iterations);
   }
   EXPECT_EQ(state.now.wall, copy.now.wall);
-  EXPECT_EQ(state.now.flow, copy.now.flow);
+  EXPECT_EQ(state.now.fluid, copy.now.fluid);
   EXPECT_EQ(state.now.mesh, copy.now.mesh);
 }
 
@@ -89,7 +89,7 @@ TEST_P(EachScheme, LeavesASceneWithoutLoadAtRest) {
   setup.inlet.reset();
   for (const State& state : march_partitioned(setup, 2)) {
     EXPECT_EQ(largest(state.now.wall), 0);
-    EXPECT_EQ(largest(state.now.flow), 0);
+    EXPECT_EQ(largest(state.now.fluid), 0);
   }
 }
 

@@ -31,7 +31,7 @@ struct ArteryMatrices {
       for (int a = 0; a < scene->fluid->node_count(); ++a)
         for (int k = 0; k < 3; ++k) {
           state.now.mesh[a * 3 + k] = 0.01 * wave(scene->fluid->part().nodes[a], k);
-          state.now.flow[a * 4 + k] = 0.5 * wave(scene->fluid->part().nodes[a], k + 3);
+          state.now.fluid[a * 4 + k] = 0.5 * wave(scene->fluid->part().nodes[a], k + 3);
         }
       for (int a = 0; a < scene->wall->node_count(); ++a)
         for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene->wall->part().nodes[a], k);
@@ -39,9 +39,10 @@ struct ArteryMatrices {
     Loads loads(setup);
     const StepData data = loads.next(state, *scene->integrator);
     std::vector<double> rows;
-    scene->fluid->assemble(scene->fluid_input(state, data.rates), data.opening_pressures, rows, FluidDerivatives::flow);
+    scene->fluid->assemble(scene->fluid_input(state, data.rates), data.opening_pressures, rows,
+                           FluidDerivatives::fluid);
     scene->wall->assemble(scene->wall_input(state, data.rates), 0, state.now.wall, rows, true);
-    fluid = scene->fluid->jacobian(FluidDerivatives::flow).flow;
+    fluid = scene->fluid->jacobian(FluidDerivatives::fluid).fluid;
     wall = scene->wall->jacobian();
     mesh = BlockMatrix<1, 1>(scene->mesh_motion.graph);
     for (int at = 0; at < mesh.graph->blocks(); ++at) mesh.values[at] = scene->mesh_motion.block(at)[0];

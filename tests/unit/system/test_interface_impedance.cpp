@@ -25,7 +25,7 @@ struct FreeFluid {
   FreeFluid() {
     data.rates = scene->integrator->rates(state, 0.125);
     data.opening_pressures = {1.332};
-    state.now.flow = random_field(scene->fluid->part().nodes, 4, 0.3, 1e-3, 1);
+    state.now.fluid = random_field(scene->fluid->part().nodes, 4, 0.3, 1e-3, 1);
     Random random(2);
     for (const auto& node : scene->interface) {
       impedance.nodes.push_back(node.fluid);
@@ -53,11 +53,11 @@ TEST(InterfaceImpedance, AddsItsRowsToTheResidualAndNotToTheFluids) {
   for (std::size_t i = 0; i < fluid.impedance.nodes.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const std::size_t entry = Mixed::vector(fluid.impedance.nodes[i], k);
-      const auto row = tied->numbering().flow_rows[entry].index;
+      const auto row = tied->numbering().fluid_rows[entry].index;
       if (row < 0) continue;
       ++rows;
       expected[row] +=
-          fluid.impedance.impedance[i] * (fluid.state.now.flow[entry] - fluid.impedance.velocity[3 * i + k]);
+          fluid.impedance.impedance[i] * (fluid.state.now.fluid[entry] - fluid.impedance.velocity[3 * i + k]);
     }
   EXPECT_GT(rows, 0);
   EXPECT_LT(largest(difference(tied->residual(), expected)), 1e-14);
@@ -67,14 +67,14 @@ TEST(InterfaceImpedance, IsTheDerivativeOfItsRows) {
   FreeFluid fluid;
   const auto tied = fluid.system(&fluid.impedance), plain = fluid.system(nullptr);
   plain->linearise();
-  const auto without = plain->blocks().flow->values;
+  const auto without = plain->blocks().fluid->values;
   tied->linearise();
-  const auto& with = *tied->blocks().flow;
+  const auto& with = *tied->blocks().fluid;
   auto rest = with.values;
   for (std::size_t i = 0; i < fluid.impedance.nodes.size(); ++i) {
     const int node = fluid.impedance.nodes[i], at = with.graph->find(node, node);
     for (int k = 0; k < 3; ++k)
-      if (tied->numbering().flow_rows[Mixed::vector(node, k)].index >= 0)
+      if (tied->numbering().fluid_rows[Mixed::vector(node, k)].index >= 0)
         rest[static_cast<std::size_t>(at) * 16 + k * 5] -= fluid.impedance.impedance[i];
   }
   EXPECT_LT(largest(difference(rest, without)), 1e-13);
@@ -99,7 +99,7 @@ TEST(InterfaceImpedance, NormsCanBeEuclidean) {
   FreeFluid fluid;
   const auto tied = fluid.system(&fluid.impedance);
   double sum = 0;
-  for (double value : fluid.state.now.flow) sum += value * value;
+  for (double value : fluid.state.now.fluid) sum += value * value;
   EXPECT_DOUBLE_EQ(tied->size(), std::sqrt(sum));
 }
 

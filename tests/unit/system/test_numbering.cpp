@@ -59,8 +59,8 @@ TEST(Numbering, OfTheSceneCountsEveryUnknownOnce) {
                           counts.fluid_nodes() + counts.free_mesh_nodes());
   // All numbers from 0 to size - 1 appear as unknowns and as equations.
   std::set<std::int64_t> unknowns, equations;
-  for (const auto* map : {&all.mesh, &all.flow, &all.wall}) unknowns.merge(indices(*map));
-  for (const auto* map : {&all.mesh_rows, &all.flow_rows, &all.wall_rows}) equations.merge(indices(*map));
+  for (const auto* map : {&all.mesh, &all.fluid, &all.wall}) unknowns.merge(indices(*map));
+  for (const auto* map : {&all.mesh_rows, &all.fluid_rows, &all.wall_rows}) equations.merge(indices(*map));
   for (const auto* found : {&unknowns, &equations}) {
     EXPECT_EQ(static_cast<std::int64_t>(found->size()), all.size);
     EXPECT_EQ(*found->begin(), 0);
@@ -79,10 +79,10 @@ TEST(Numbering, InterfaceHasOneOwner) {
   for (const auto& node : scene->interface)
     for (int k = 0; k < 3; ++k) {
       const auto &wall = all.wall[4 * node.wall + k], &mesh = all.mesh[3 * node.fluid + k],
-                 &flow = all.flow[4 * node.fluid + k];
+                 &flow = all.fluid[4 * node.fluid + k];
       EXPECT_EQ(mesh.index, wall.index) << "d_m = d_s";
       EXPECT_EQ(flow.index, wall.index) << "u = (d_s - d_s old) / dt";
-      EXPECT_EQ(all.flow_rows[4 * node.fluid + k].index, wall.index) << "one sum of both momentum equations";
+      EXPECT_EQ(all.fluid_rows[4 * node.fluid + k].index, wall.index) << "one sum of both momentum equations";
       EXPECT_EQ(all.mesh_rows[3 * node.fluid + k].index, -1) << "no equation of mesh motion";
       if (node.clamped) {
         EXPECT_EQ(wall.index, -1);
@@ -92,8 +92,8 @@ TEST(Numbering, InterfaceHasOneOwner) {
       EXPECT_EQ(wall.factor, 1);
       EXPECT_EQ(mesh.factor, 1);
       EXPECT_EQ(flow.factor, 1 / step);
-      EXPECT_EQ(all.flow_rows[4 * node.fluid + k].factor, 1);
-      EXPECT_NE(all.flow[4 * node.fluid + 3].index, all.wall[4 * node.wall + 3].index) << "pressures are separate";
+      EXPECT_EQ(all.fluid_rows[4 * node.fluid + k].factor, 1);
+      EXPECT_NE(all.fluid[4 * node.fluid + 3].index, all.wall[4 * node.wall + 3].index) << "pressures are separate";
     }
   EXPECT_EQ(shared, Counts(3).interface_unknowns());
 }
@@ -105,8 +105,8 @@ TEST(Numbering, OfTheFluidAlonePrescribesTheInterfaceVelocity) {
   EXPECT_EQ(part.size, counts.free_velocities() + counts.fluid_nodes());
   EXPECT_TRUE(part.mesh.empty() && part.wall.empty());
   for (const auto& node : scene->interface) {
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(part.flow[4 * node.fluid + k].index, -1);
-    EXPECT_GE(part.flow[4 * node.fluid + 3].index, 0);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(part.fluid[4 * node.fluid + k].index, -1);
+    EXPECT_GE(part.fluid[4 * node.fluid + 3].index, 0);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(Numbering, OfTheWallAloneLeavesTheInterfaceFree) {
   const Counts counts(3);
   const auto part = number_wall(*scene);
   EXPECT_EQ(part.size, counts.wall_displacements() + counts.wall_nodes());
-  EXPECT_TRUE(part.mesh.empty() && part.flow.empty());
+  EXPECT_TRUE(part.mesh.empty() && part.fluid.empty());
   for (const auto& node : scene->interface)
     for (int k = 0; k < 3; ++k) EXPECT_EQ(part.wall[4 * node.wall + k].index >= 0, !node.clamped);
 }
@@ -146,7 +146,7 @@ TEST(Numbering, ScenesOfOneSubProblemHaveNoUnknownsOfTheOther) {
   setup.inlet.reset();
   const auto dry = build_scene(setup, fluid_and_wall_box(3));
   const auto wall = number_scene(*dry);
-  EXPECT_TRUE(wall.flow.empty() && wall.mesh.empty());
+  EXPECT_TRUE(wall.fluid.empty() && wall.mesh.empty());
   EXPECT_EQ(wall.size, Counts(3).wall_displacements() + Counts(3).wall_nodes());
 }
 
@@ -168,10 +168,10 @@ TEST(Numbering, LeavesOutSingleComponents) {
   const auto all = number_scene(*scene);
   EXPECT_EQ(all.size, before.size - 2);
   for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(all.flow[MixedLayout<3>::vector(inside, k)].index >= 0, k != 1);
+    EXPECT_EQ(all.fluid[MixedLayout<3>::vector(inside, k)].index >= 0, k != 1);
     EXPECT_EQ(all.wall[MixedLayout<3>::vector(moving->wall, k)].index >= 0, k != 2);
     EXPECT_EQ(all.mesh[VectorLayout<3>::vector(moving->fluid, k)].index >= 0, k != 2);
-    EXPECT_EQ(all.flow[MixedLayout<3>::vector(moving->fluid, k)].index >= 0, k != 2);
+    EXPECT_EQ(all.fluid[MixedLayout<3>::vector(moving->fluid, k)].index >= 0, k != 2);
   }
 }
 
@@ -203,8 +203,8 @@ TEST(Scene, InterfaceConditionsAreImposedOnEveryComponent) {
     for (int k = 0; k < 3; ++k) {
       const double d = state.now.wall[4 * node.wall + k], d_old = state.before[0].wall[4 * node.wall + k];
       EXPECT_EQ(state.now.mesh[3 * node.fluid + k], d);
-      EXPECT_DOUBLE_EQ(state.now.flow[4 * node.fluid + k], (d - d_old) / 0.25);
-      EXPECT_EQ(state.now.flow[4 * node.fluid + 3], 0) << "pressures are not touched";
+      EXPECT_DOUBLE_EQ(state.now.fluid[4 * node.fluid + k], (d - d_old) / 0.25);
+      EXPECT_EQ(state.now.fluid[4 * node.fluid + 3], 0) << "pressures are not touched";
     }
 }
 

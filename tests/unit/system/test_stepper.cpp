@@ -32,17 +32,17 @@ TEST(NewtonStepper, AdvancesTheCoupledSceneAndKeepsItsInterfaceConditions) {
     EXPECT_EQ(report.outer_iterations, 1);
     EXPECT_EQ(state.step, n);
     EXPECT_DOUBLE_EQ(state.time, 0.125 * n);
-    EXPECT_EQ(state.now.flow, state.before[0].flow);
+    EXPECT_EQ(state.now.fluid, state.before[0].fluid);
     EXPECT_EQ(before.before[0].wall, state.before[1].wall);
     for (const auto& node : scene->interface)
       for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(state.now.mesh[3 * node.fluid + k], state.now.wall[4 * node.wall + k]);
-        EXPECT_EQ(state.now.flow[4 * node.fluid + k],
+        EXPECT_EQ(state.now.fluid[4 * node.fluid + k],
                   (state.now.wall[4 * node.wall + k] - state.before[1].wall[4 * node.wall + k]) / 0.125);
       }
   }
   EXPECT_GT(norm(state.now.wall), 0);
-  EXPECT_GT(-scene->fluid->open_boundary("inlet")->outflow(state.now.flow), 0) << "pressure pushes fluid in";
+  EXPECT_GT(-scene->fluid->open_boundary("inlet")->outflow(state.now.fluid), 0) << "pressure pushes fluid in";
 }
 
 // Uniform mean pressure, no motion left: the extrapolated start of a step is its solution to rounding.
@@ -55,7 +55,7 @@ TEST(NewtonStepper, KeepsGoingInASteadyState) {
   NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   for (int n = 0; n < 40; ++n) ASSERT_NO_THROW(stepper.advance(state)) << n;
-  EXPECT_LT(norm(difference(state.now.flow, state.before[1].flow)), 1e-12 * norm(state.now.flow));
+  EXPECT_LT(norm(difference(state.now.fluid, state.before[1].fluid)), 1e-12 * norm(state.now.fluid));
 }
 
 TEST(NewtonStepper, SceneWithoutLoadStaysAtRest) {
@@ -67,7 +67,7 @@ TEST(NewtonStepper, SceneWithoutLoadStaysAtRest) {
   State state = scene->at_rest();
   for (int n = 0; n < 2; ++n) stepper.advance(state);
   EXPECT_LT(largest(state.now.wall), 1e-14);
-  EXPECT_LT(largest(state.now.flow), 1e-14);
+  EXPECT_LT(largest(state.now.fluid), 1e-14);
 }
 
 TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
@@ -102,7 +102,7 @@ TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
     stepper.advance(state);
     restarted.advance(copy);
     EXPECT_EQ(state.now.wall, copy.now.wall);
-    EXPECT_EQ(state.now.flow, copy.now.flow);
+    EXPECT_EQ(state.now.fluid, copy.now.fluid);
     EXPECT_EQ(state.now.mesh, copy.now.mesh);
   }
 }

@@ -96,13 +96,13 @@ TEST(EulerNewmark, PressuresDoNotEnterTheAcceleration) {
 TEST(EulerNewmark, MeshFlowAndInterfaceAreBackwardEuler) {
   State state = one_node(1, 3, 4);
   state.before[0].mesh = {5};
-  state.before[0].flow = {6, 7};
+  state.before[0].fluid = {6, 7};
   const StepRates rates = EulerNewmark<1>().rates(state, 0.5);
   EXPECT_FALSE(rates.is_static());
-  EXPECT_EQ(rates.flow_factor, 2);
+  EXPECT_EQ(rates.fluid_factor, 2);
   EXPECT_EQ(rates.interface.rate(), 2);
   EXPECT_EQ(rates.mesh_reference, state.before[0].mesh);
-  EXPECT_EQ(rates.flow_reference, state.before[0].flow);
+  EXPECT_EQ(rates.fluid_reference, state.before[0].fluid);
   EXPECT_EQ(rates.wall_reference, state.before[0].wall);
 }
 

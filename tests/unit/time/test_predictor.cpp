@@ -38,7 +38,8 @@ TEST(Predictor, IsExactForPolynomialsOfItsOrderAndNotBeyondWhateverTheSteps) {
         state.now = {{9, 9}, {9}, {9}};
         predict(state, order, times[0]);
         const double error = std::abs(state.now.mesh[0] - exact.mesh[0]) + std::abs(state.now.mesh[1] - exact.mesh[1]) +
-                             std::abs(state.now.flow[0] - exact.flow[0]) + std::abs(state.now.wall[0] - exact.wall[0]);
+                             std::abs(state.now.fluid[0] - exact.fluid[0]) +
+                             std::abs(state.now.wall[0] - exact.wall[0]);
         EXPECT_EQ(error < 1e-11, degree <= order) << order << " " << degree << " " << error;
       }
 }

@@ -7,8 +7,8 @@
 #include "fem/assembly_result.hpp"
 #include "fem/function_space.hpp"
 #include "mesh/submesh.hpp"
-#include "structure/fibre_directions.hpp"
-#include "structure/structure_input.hpp"
+#include "wall/fibre_directions.hpp"
+#include "wall/wall_input.hpp"
 
 namespace fsi {
 
@@ -35,7 +35,7 @@ class WallProblem {
 
   /// Overwrites the residual, in the mixed layout, and the Jacobian if asked.
   /// \param pressure  kPa on the pressurised facets
-  AssemblyResult assemble(const StructureInput& in, double pressure, const std::vector<double>& solution,
+  AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                           std::vector<double>& residual, bool derivatives = false);
 
   WallEnergy energy(const WallStep& in) const;
@@ -43,7 +43,7 @@ class WallProblem {
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const;
 
   /// The Jacobian last assembled; storage appears with the first request.
-  StructureMatrix<Element>& jacobian();
+  WallMatrix<Element>& jacobian();
 
  private:
   Part part_;
@@ -51,7 +51,7 @@ class WallProblem {
   Facets pressurised_;
   FunctionSpace<Element> space_;
   std::vector<WallLayer<Element>> layers_;
-  StructureMatrix<Element> jacobian_;
+  WallMatrix<Element> jacobian_;
 };
 
 }  // namespace fsi

@@ -1,9 +1,9 @@
-#include "structure/wall_problem.hpp"
+#include "wall/wall_problem.hpp"
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
-#include "structure/structure_assembly.hpp"
-#include "structure/wall_energy.hpp"
+#include "wall/wall_assembly.hpp"
+#include "wall/wall_energy.hpp"
 
 namespace fsi {
 
@@ -24,12 +24,11 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
 }
 
 template <class Element>
-AssemblyResult WallProblem<Element>::assemble(const StructureInput& in, double pressure,
-                                              const std::vector<double>& solution, std::vector<double>& residual,
-                                              bool derivatives) {
+AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
+                                              std::vector<double>& residual, bool derivatives) {
   residual.assign(space_.mixed_size(), 0.0);
-  StructureMatrix<Element>* matrix = derivatives ? &jacobian() : nullptr;
-  const auto result = assemble_structure(constants_, layers_, in, residual, matrix);
+  WallMatrix<Element>* matrix = derivatives ? &jacobian() : nullptr;
+  const auto result = assemble_wall(constants_, layers_, in, residual, matrix);
   if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
   return result;
 }
@@ -51,8 +50,8 @@ double WallProblem<Element>::pressure_work(double pressure, const std::vector<do
 }
 
 template <class Element>
-StructureMatrix<Element>& WallProblem<Element>::jacobian() {
-  if (jacobian_.values.empty()) jacobian_ = StructureMatrix<Element>(graph());
+WallMatrix<Element>& WallProblem<Element>::jacobian() {
+  if (jacobian_.values.empty()) jacobian_ = WallMatrix<Element>(graph());
   return jacobian_;
 }
 

@@ -2,7 +2,7 @@
 
 #include "fem/element_sums.hpp"
 #include "fem/interpolation.hpp"
-#include "structure/structure_assembly.hpp"
+#include "wall/wall_assembly.hpp"
 
 namespace fsi {
 

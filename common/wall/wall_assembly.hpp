@@ -6,8 +6,8 @@
 #include "fem/assembly_result.hpp"
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
-#include "structure/hyperelastic.hpp"
-#include "structure/structure_input.hpp"
+#include "wall/hyperelastic.hpp"
+#include "wall/wall_input.hpp"
 
 namespace fsi {
 
@@ -16,8 +16,7 @@ namespace detail {
 template <class Element, bool Derivatives, class M>
 AssemblyResult layer_packs(const Hyperelastic<M>& form,
                            const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                           const std::vector<Fibres>* fibres, const StructureInput& in, double* residual,
-                           double* blocks) {
+                           const std::vector<Fibres>* fibres, const WallInput& in, double* residual, double* blocks) {
   constexpr int n = Element::components;
   using Mixed = MixedLayout<n>;
   constexpr int seeds = Derivatives ? n + 1 : 0;  // displacement, pressure
@@ -65,9 +64,9 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
 /// Adds the wall's residual (momentum, volume) in the mixed layout, without boundary conditions, and overwrites the
 /// Jacobian if one is passed.
 template <class Element>
-AssemblyResult assemble_structure(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
-                                  const StructureInput& in, std::vector<double>& residual,
-                                  StructureMatrix<Element>* jacobian = nullptr) {
+AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
+                             const WallInput& in, std::vector<double>& residual,
+                             WallMatrix<Element>* jacobian = nullptr) {
   if (jacobian) jacobian->set_zero();
   AssemblyResult all;
   for (const auto& layer : layers)

@@ -11,7 +11,7 @@ namespace fsi {
 
 /// What the wall's residual depends on. The acceleration is acceleration_factor d + acceleration_history, as a Newmark
 /// scheme makes it; the history is null in statics.
-struct StructureInput {
+struct WallInput {
   const double* wall = nullptr;                  ///< (d_s, p_s), mixed layout, mm and kPa
   const double* acceleration_history = nullptr;  ///< vector layout, mm/ms^2
   double acceleration_factor = 0;                ///< 1/ms^2
@@ -27,8 +27,7 @@ struct WallLayer {
 
 /// Blocks with rows (momentum, volume) and columns (d, p).
 template <class Element>
-using StructureMatrix =
-    BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>;
+using WallMatrix = BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>;
 
 /// What the layers of a wall have in common.
 struct WallConstants {
