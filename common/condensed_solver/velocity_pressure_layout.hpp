@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/nodal_layout.hpp"
 #include "system/linear_solver.hpp"
 
 namespace fsi {

@@ -7,6 +7,7 @@
 
 #include "algebra/register_blocks.hpp"
 #include "condensed_solver/velocity_pressure_layout.hpp"
+#include "fem/nodal_layout.hpp"
 
 namespace fsi {
 

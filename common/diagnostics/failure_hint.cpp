@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnostics/limit_load.hpp"
+#include "fem/nodal_layout.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "materials/material.hpp"
 #include "mesh/axis.hpp"

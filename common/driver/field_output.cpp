@@ -1,4 +1,5 @@
 #include "driver/field_output.hpp"
+#include "fem/nodal_layout.hpp"
 
 #include <algorithm>
 #include <array>

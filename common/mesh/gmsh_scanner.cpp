@@ -129,7 +129,7 @@ std::string GmshScanner::quoted(const char* what) {
   const std::size_t end =
       position_ < data_.size() && data_[position_] == '"' ? data_.find('"', position_ + 1) : std::string::npos;
   if (end == std::string::npos) fail(fmt::format("expected a {} in quotes at {}", what, place()));
-  const std::string text = data_.substr(position_ + 1, end - position_ - 1);
+  std::string text = data_.substr(position_ + 1, end - position_ - 1);
   if (text.find('\n') != std::string::npos)
     fail(fmt::format("expected a closing quote behind the {} at {}", what, place()));
   position_ = end + 1;

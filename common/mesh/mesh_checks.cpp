@@ -290,7 +290,7 @@ class Checks {
 
   /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.
   void faces_that_meet_unshared() const {
-    const auto free_faces = [&](const std::vector<int>& regions, std::vector<const char*> named) {
+    const auto free_faces = [&](const std::vector<int>& regions, const std::vector<const char*>& named) {
       FacetSet skip;
       for (const char* name : named)
         if (const auto* facets = mesh_.facets(name))

@@ -8,6 +8,7 @@
 
 #include "algebra/block_products.hpp"
 #include "algebra/register_blocks.hpp"
+#include "fem/nodal_layout.hpp"
 
 namespace fsi {
 

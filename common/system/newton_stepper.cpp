@@ -108,7 +108,7 @@ NewtonReport NewtonStepper<Element>::solve(State& state, const StepData& data, i
   scene_.impose_conditions(state.now);
   scene_.impose_interface(state, data.rates);
   system_.work_on(state, data);
-  const NewtonReport solved = newton(system_, options_);
+  NewtonReport solved = newton(system_, options_);
   scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
   report_.newton_iterations += solved.count();
   report_.linear_iterations += solved.linear_iterations();

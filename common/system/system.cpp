@@ -169,12 +169,14 @@ AssemblyResult System<Element>::assemble(bool derivatives) {
     add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
   }
   if (!numbering_.fluid_rows.empty()) {
+    assert(scene_.fluid);
     result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                           fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
     add_to_system(numbering_.fluid_rows, fluid_residual_, residual_);
     if (impedance_) add_impedance(derivatives);
   }
   if (!numbering_.wall_rows.empty()) {
+    assert(scene_.wall);
     result.include(scene_.wall->assemble(scene_.wall_input(*state_, data_->rates), data_->wall_pressure,
                                          state_->now.wall, wall_residual_, derivatives));
     if (!data_->interface_load.empty())

@@ -7,6 +7,7 @@
 #include "algebra/block_matrix.hpp"
 #include "algebra/block_products.hpp"
 #include "algebra/sparse_matrix.hpp"
+#include "fem/nodal_layout.hpp"
 #include "monolithic/block/coupled_vector.hpp"
 
 namespace fsi {

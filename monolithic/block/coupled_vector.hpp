@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
+#include "fem/nodal_layout.hpp"
 
 namespace fsi {
 
