@@ -69,7 +69,7 @@ class VelocityPressureLayout {
         }
         for (int k = 0; k < n; ++k) {
           const auto unknown = map[first + k].index;
-          Entry& entry = entries_[VectorLayout<n>::vector(velocity, k]);
+          Entry& entry = entries_[VectorLayout<n>::vector(velocity, k)];
           if (unknown < 0) {
             partly_fixed_ = true;
           } else if (entry.unknown < 0) {
@@ -103,11 +103,10 @@ class VelocityPressureLayout {
   bool partly_fixed() const { return partly_fixed_; }
   /// Component k of a node of the part is an unknown.
   bool is_free(bool wall, int node, int k) const {
-    return (wall ? numbering_.wall : numbering_.fluid)[MixedLayout<n>::vector(node, k].index) >= 0;
+    return (wall ? numbering_.wall : numbering_.fluid)[MixedLayout<n>::vector(node, k)].index >= 0;
   }
   /// Component k of a velocity node is an unknown, in one medium at least.
-  bool is_free(int velocity, int k) const { return entries_[VectorLayout<n>::vector(velocity, k].unknown) >= 0;
-  }
+  bool is_free(int velocity, int k) const { return entries_[VectorLayout<n>::vector(velocity, k)].unknown >= 0; }
 
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
   std::size_t size() const { return velocity_size() + pressures; }

@@ -47,7 +47,7 @@ class VelocityPressureMatrix {
     for (int v = 0; v < layout_.velocities; ++v)
       for (int i = 0; i < lanes; ++i)
         to[static_cast<std::size_t>(v) * lanes + i] =
-            i < n ? static_cast<float>(factor * from[VectorLayout<n>::vector(v, i])) : 0.0f;
+            i < n ? static_cast<float>(factor * from[VectorLayout<n>::vector(v, i)]) : 0.0f;
     for (int p = 0; p < layout_.pressures; ++p)
       to[velocity_size() + p] = static_cast<float>(factor * from[layout_.velocity_size() + p]);
   }
@@ -56,7 +56,7 @@ class VelocityPressureMatrix {
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v)
       for (int k = 0; k < n; ++k)
-        to[VectorLayout<n>::vector(v, k]) = factor * from[static_cast<std::size_t>(v) * lanes + k];
+        to[VectorLayout<n>::vector(v, k)] = factor * from[static_cast<std::size_t>(v) * lanes + k];
     for (int p = 0; p < layout_.pressures; ++p) to[layout_.velocity_size() + p] = factor * from[velocity_size() + p];
   }
 

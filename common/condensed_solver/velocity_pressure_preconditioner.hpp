@@ -162,7 +162,7 @@ class VelocityPressurePreconditioner {
         for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
         // Viscosity drops out of the lumped sum: where it dominates, the diagonal is larger.
         const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
-        inverse_lumped_[VectorLayout<n>::vector(v, k]) = 1 / d;
+        inverse_lumped_[VectorLayout<n>::vector(v, k)] = 1 / d;
       }
       if (layout_.fluid_of_velocity[v] < 0) {
         int k = 0;  // a component that can move
@@ -199,14 +199,15 @@ class VelocityPressurePreconditioner {
                                      if (v < 0) return;
                                      double divergence[n];  // a row of B D^-1
                                      for (int k = 0; k < n; ++k)
-                divergence[k] =
-                    scale * factor * block[MixedLayout<n>::in_block(n, k)] * inverse_lumped_[VectorLayout<n>::vector(v, k]);
-              for (int at = matrix_.gradient_offsets()[v]; at < matrix_.gradient_offsets()[v + 1]; ++at) {
-              const float* g = matrix_.gradient(at);
-              double sum = 0;
-              for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
-              schur_.values[position[matrix_.gradient_columns()[at]]] -= sum;
-              }
+                                       divergence[k] = scale * factor * block[MixedLayout<n>::in_block(n, k)] *
+                                                       inverse_lumped_[VectorLayout<n>::vector(v, k)];
+                                     for (int at = matrix_.gradient_offsets()[v];
+                                          at < matrix_.gradient_offsets()[v + 1]; ++at) {
+                                       const float* g = matrix_.gradient(at);
+                                       double sum = 0;
+                                       for (int k = 0; k < n; ++k) sum += divergence[k] * g[k];
+                                       schur_.values[position[matrix_.gradient_columns()[at]]] -= sum;
+                                     }
                                    });
       }
     }

@@ -91,7 +91,7 @@ void HarmonicExtension<n>::set_up(Group& group) {
   const int component = group.components.front();
   group.row.assign(graph.rows(), -1);
   for (int a = 0; a < graph.rows(); ++a)
-    if (inner_[VectorLayout<n>::vector(a, component])) {
+    if (inner_[VectorLayout<n>::vector(a, component)]) {
       group.row[a] = static_cast<int>(group.node.size());
       group.node.push_back(a);
     }
@@ -169,7 +169,7 @@ void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<
   group.solver.solve_each(group.columns, right_, solution_);
   for (std::size_t c = 0; c < group.components.size(); ++c)
     for (std::size_t i = 0; i < rows; ++i)
-      field[VectorLayout<n>::vector(group.node[i], group.components[c]]) = solution_[c][i];
+      field[VectorLayout<n>::vector(group.node[i], group.components[c])] = solution_[c][i];
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old
@@ -241,7 +241,7 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   if (!done()) return false;
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < m; ++k)
-      field[VectorLayout<n>::vector(group.node[i], group.components[k]]) = x[static_cast<std::size_t>(i) * m + k];
+      field[VectorLayout<n>::vector(group.node[i], group.components[k])] = x[static_cast<std::size_t>(i) * m + k];
   return true;
 }
 

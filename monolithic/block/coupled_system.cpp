@@ -54,8 +54,7 @@ CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : b
   fixed_tractions_.assign(constraints_.velocity_fixed.size(), 0);
   for (const InterfacePair& pair : interface_)  // no equations, where the wall is held
     for (int k = 0; k < n; ++k)
-      fixed_tractions_[VectorLayout<n>::vector(pair.fluid, k]) =
-          wall_zero_[VectorLayout<n>::vector(pair.wall, k]);
+      fixed_tractions_[VectorLayout<n>::vector(pair.fluid, k)] = wall_zero_[VectorLayout<n>::vector(pair.wall, k)];
 }
 
 template <class Element>
@@ -100,7 +99,7 @@ void CoupledSystem<Element>::expand(const std::vector<double>& condensed, Couple
   take(numbering.fluid_rows, b.fluid);
   take(numbering.wall_rows, b.wall);
   for (const auto& pair : interface_)  // their equation is the flow's
-    for (int k = 0; k < n; ++k) b.wall[MixedLayout<n>::vector(pair.wall, k]) = 0;
+    for (int k = 0; k < n; ++k) b.wall[MixedLayout<n>::vector(pair.wall, k)] = 0;
 }
 
 template <class Element>
@@ -169,8 +168,8 @@ void CoupledSystem<Element>::impose_diagonal() {
   for (int a = 0; a < graph.rows(); ++a)
     for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
       for (int k = 0; k < n; ++k)
-        if (constraints_.mesh_fixed[VectorLayout<n>::vector(a, k]) ||
-            mesh_zero_[VectorLayout<n>::vector(graph.columns[at], k]))
+        if (constraints_.mesh_fixed[VectorLayout<n>::vector(a, k)] ||
+            mesh_zero_[VectorLayout<n>::vector(graph.columns[at], k)])
           mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
 }
 

@@ -106,7 +106,7 @@ class SubProblem : public NewtonProblem {
 /// What the fluid's residual depends on in a backward Euler step; no meshes: a rigid domain.
 /// \param step  ms
 inline FluidInput euler_input(const std::vector<double>* mesh, const std::vector<double>* mesh_old,
-                              const std::vector<double>& flow, const std::vector<double>& flow_old, double step) {
+                              const std::vector<double>& flow, const std::vector<double>& fluid_old, double step) {
   FluidInput in;
   if (mesh) {
     in.mesh = mesh->data();
@@ -114,7 +114,7 @@ inline FluidInput euler_input(const std::vector<double>* mesh, const std::vector
     in.mesh_factor = 1 / step;
   }
   in.fluid = flow.data();
-  in.fluid_reference = flow_old.data();
+  in.fluid_reference = fluid_old.data();
   in.fluid_factor = 1 / step;
   in.step = step;
   return in;
@@ -124,7 +124,7 @@ inline FluidInput euler_input(const std::vector<double>* mesh, const std::vector
 template <class Element>
 class FluidStep : public SubProblem {
  public:
-  std::vector<double> mesh, mesh_old, flow_old;
+  std::vector<double> mesh, mesh_old, fluid_old;
   std::vector<double> pressures;  ///< kPa, of the fluid's open boundaries
 
   template <class Prescribed>
@@ -136,12 +136,12 @@ class FluidStep : public SubProblem {
       : SubProblem(std::move(numbered.first), numbered.second), fluid_(fluid) {
     const auto nodes = static_cast<std::size_t>(fluid.node_count());
     solution.assign(nodes * (Element::components + 1), 0.0);
-    flow_old = solution;
+    fluid_old = solution;
     mesh.assign(nodes * Element::components, 0.0);
     mesh_old = mesh;
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool derivatives) override {
-    return fluid_.assemble(euler_input(&mesh, &mesh_old, at, flow_old, fluid_.form().step), pressures, residual,
+    return fluid_.assemble(euler_input(&mesh, &mesh_old, at, fluid_old, fluid_.form().step), pressures, residual,
                            derivatives ? FluidDerivatives::fluid : FluidDerivatives::none);
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {

@@ -16,16 +16,16 @@ namespace fsi::test {
 /// Deformed, moving, convecting: nothing vanishes and the three terms of tau are of like size.
 template <class Element>
 struct FluidState {
-  std::vector<double> mesh, mesh_old, flow, flow_old;
+  std::vector<double> mesh, mesh_old, fluid, fluid_old;
 
   explicit FluidState(const std::vector<Point>& x) {
     constexpr int n = Element::components;
     mesh = random_field(x, n, 0.15, 0.02, 1);
     mesh_old = random_field(x, n, 0.15, 0.02, 2);
-    flow = random_field(x, n + 1, 3.0, 0.5, 3);
-    flow_old = random_field(x, n + 1, 3.0, 0.5, 4);
+    fluid = random_field(x, n + 1, 3.0, 0.5, 3);
+    fluid_old = random_field(x, n + 1, 3.0, 0.5, 4);
   }
-  FluidInput input() const { return euler_input(&mesh, &mesh_old, flow, flow_old, 0.5); }
+  FluidInput input() const { return euler_input(&mesh, &mesh_old, fluid, fluid_old, 0.5); }
 };
 
 /// (2/dt)^2 = 16, c . G c about 30 and 36 nu^2 G : G about 10 on a unit box with three elements a side.

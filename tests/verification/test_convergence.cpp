@@ -128,8 +128,8 @@ void check_fluid_convergence(bool grad_div) {
         if (boundary[a]) step.solution[4 * a + i] = u.value[i];
         // The flow is steady in space. Its old nodal values are those that make du/dt - (grad u) w vanish at the nodes,
         // so that the error of the time scheme does not hide that of the elements while the mesh moves.
-        step.flow_old[4 * a + i] = u.value[i];
-        for (int j = 0; j < 3; ++j) step.flow_old[4 * a + i] -= form.step * u.gradient[i][j] * w[j];
+        step.fluid_old[4 * a + i] = u.value[i];
+        for (int j = 0; j < 3; ++j) step.fluid_old[4 * a + i] -= form.step * u.gradient[i][j] * w[j];
       }
     }
     step.load = flow.load(now, mesh.cells, form, 0, mesh_velocity);

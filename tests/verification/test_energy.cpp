@@ -1,6 +1,7 @@
 // The energy balance (docs/energy.md): its terms are evaluated one by one, so what is left over of them tells of every
 // mistake in any.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -185,7 +185,7 @@ TEST(FluidPatch, LinearShearFlowIsReproducedOnADeformedMesh) {
     box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, 1);
     box.step.mesh_old = box.step.mesh;
     const auto exact = box.nodal([](const Point& x) { return Flow{2 * x[2] + 0.3, 0.0, 0.0, 1.7}; }, box.step.mesh);
-    box.step.flow_old = exact;
+    box.step.fluid_old = exact;
     EXPECT_LT(box.solve_and_compare(exact), 1e-10);
   }
 }
@@ -203,7 +203,7 @@ TEST(FluidPatch, AnyLinearSolenoidalFieldIsReproducedInCreepingFlow) {
         return Flow{u[0], u[1], u[2], 1.7};
       },
       box.step.mesh);
-  box.step.flow_old = exact;
+  box.step.fluid_old = exact;
   EXPECT_LT(box.solve_and_compare(exact), 1e-10);
 }
 
@@ -223,7 +223,7 @@ TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
   for (const auto& [name, flow] : flows) {
     const std::vector<double> at_rest(3 * box.mesh.nodes.size(), 0.0);
     box.step.mesh = at_rest;
-    box.step.flow_old = box.nodal(flow, box.step.mesh);
+    box.step.fluid_old = box.nodal(flow, box.step.mesh);
     double error = 0, smallest = 1, greatest = 1;
     for (unsigned n = 1; n <= 5; ++n) {
       box.step.mesh_old = box.step.mesh;
@@ -238,7 +238,7 @@ TEST(GeometricConservation, UniformAndShearFlowSurviveArbitraryMeshMotion) {
           smallest = std::min(smallest, j[lane]), greatest = std::max(greatest, j[lane]);
       }
       error = std::max(error, box.solve_and_compare(exact));
-      box.step.flow_old = box.step.solution;
+      box.step.fluid_old = box.step.solution;
     }
     fmt::print("{} flow, 5 steps, J from {:.2f} to {:.2f}: error {:.1e}\n", name, smallest, greatest, error);
     EXPECT_LT(smallest, 0.5);
@@ -258,12 +258,12 @@ TEST(GeometricConservation, UniformlyAcceleratedFlowWithItsLinearPressure) {
     };
   };
   box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, 1);
-  box.step.flow_old = box.nodal(flow(0), box.step.mesh);
+  box.step.fluid_old = box.nodal(flow(0), box.step.mesh);
   for (unsigned n = 1; n <= 3; ++n) {
     box.step.mesh_old = box.step.mesh;
     box.step.mesh = random_field(box.mesh.nodes, 3, 0.3, 0.01, n + 1);
     EXPECT_LT(box.solve_and_compare(box.nodal(flow(n * 0.125), box.step.mesh)), 1e-11);
-    box.step.flow_old = box.step.solution;
+    box.step.fluid_old = box.step.solution;
   }
 }
 
@@ -291,7 +291,7 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
     EXPECT_TRUE(report.converged) << report.failure;
     EXPECT_LT(largest(only(step.solution, 4, 0, 3)), 1e-12);
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) EXPECT_NEAR(step.solution[4 * a + 3], 1.332, 1e-11);
-    step.flow_old = step.solution;
+    step.fluid_old = step.solution;
   }
 }
 

@@ -37,7 +37,7 @@ TEST(FluidJacobian, OnARigidDomainIsThatOfAnUnmovedOne) {
   std::vector<double> unmoved, rigid;
   fluid.assemble(state.input(), {}, unmoved, FluidDerivatives::fluid_and_domain);
   const auto unmoved_jacobian = fluid.jacobian(FluidDerivatives::fluid).fluid.values;
-  fluid.assemble(euler_input(nullptr, nullptr, state.fluid, state.flow_old, 0.5), {}, rigid, FluidDerivatives::fluid);
+  fluid.assemble(euler_input(nullptr, nullptr, state.fluid, state.fluid_old, 0.5), {}, rigid, FluidDerivatives::fluid);
   const auto& rigid_jacobian = fluid.jacobian(FluidDerivatives::fluid).fluid.values;
   EXPECT_LT(norm(difference(unmoved, rigid)), 1e-14 * norm(rigid));
   EXPECT_LT(norm(difference(unmoved_jacobian, rigid_jacobian)), 1e-14 * norm(rigid_jacobian));

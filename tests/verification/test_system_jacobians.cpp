@@ -81,7 +81,7 @@ class Line {
   std::vector<double> direction_;
 };
 
-enum class Group { mesh, flow, fluid_pressure, interface, displacement, wall_pressure };
+enum class Group { mesh, fluid, fluid_pressure, interface, displacement, wall_pressure };
 
 /// What each equation, and the unknown of its number, stands for.
 std::vector<Group> groups_of(const Numbering& numbering, const Scenario& scenario) {

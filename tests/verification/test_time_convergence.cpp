@@ -59,7 +59,7 @@ TEST(TimeConvergence, FlowOnAPulsatingMeshIsOfFirstOrder) {
     FluidStep<Tet> step(fluid, [&](int a, int i) { return i < 3 && boundary[a] && !open_face(mesh.nodes[a]); });
     for (int s = 0; s <= steps; ++s) {
       step.mesh_old = step.mesh;
-      step.flow_old = step.solution;
+      step.fluid_old = step.solution;
       auto now = mesh.nodes;
       std::vector<double> mesh_velocity(3 * now.size());
       for (std::size_t a = 0; a < now.size(); ++a) {
