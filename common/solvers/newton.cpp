@@ -100,9 +100,9 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     report.iterations.push_back(iteration);
     if (reference == 0) reference = increment;
 
-    const bool small =
-        iteration.step == 1 && (iteration.increment <= options.tolerance * reference ||
-                                iteration.increment <= rounding_increment * problem.size() || new_residual <= rounding);
+    const bool small = iteration.step == 1 && (iteration.increment <= options.tolerance * reference ||
+                                               iteration.increment <= rounding_increment * problem.size() ||
+                                               (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {

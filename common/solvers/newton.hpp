@@ -47,6 +47,7 @@ struct NewtonOptions {
   int max_halvings = 8;          ///< of the step in backtracking
   double linear_tolerance = 0;   ///< of every linear solve; 0: inexact Newton, forcing terms as below
   double largest_forcing = 0.1;  ///< loosest linear tolerance of inexact Newton
+  bool stop_at_rounding = true;  ///< a residual that is all rounding ends the iteration, whatever the increment
   /// Sees each new linear system before it is solved: the number of the iteration, from 1. None: nobody looks.
   std::function<void(int iteration)> observe_system;
 };
