@@ -267,7 +267,7 @@ void require_folder(const CommandLine& line) {
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
                const StepperFactory& make_stepper, const OtherTask& other) {
-  sleep_while_waiting(argv);
+  wait_briefly(argv);
   return run_program(program, [&] {
     const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
