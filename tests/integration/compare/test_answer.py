@@ -62,7 +62,7 @@ class Lines(unittest.TestCase):
         found = {run.folder: error for run, error in zip(runs, errors)}
         coarse = accuracy(PaperRuns(runs[:2]), found)
         self.assertIn("by 60 to 70 % in pressure and 50 to 55 % in displacement on the coarse mesh", coarse)
-        self.assertIn("reference's own error is about 2 to 3 %", coarse)
+        self.assertIn("reference's own error is estimated as 2 to 3 %", coarse)
         self.assertIn("not what an artery does", coarse)
         both = accuracy(PaperRuns(runs), found)
         self.assertIn("; by 8 % in pressure and 6 % in displacement on the fine mesh", both)
