@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cassert>
-#include <utility>
+#include <map>
 #include <vector>
 
 #include "fem/nodal_layout.hpp"
@@ -23,12 +23,7 @@ class DirichletConditions {
     const std::size_t at = Layout::vector(node, component);
     assert(at < fixed_.size());
     fixed_[at] = 1;
-    for (auto& [entry, given] : values_)
-      if (entry == at) {
-        given = value;
-        return;
-      }
-    if (value != 0) values_.emplace_back(at, value);
+    if (value != 0 || values_.count(at) > 0) values_[at] = value;
   }
   /// The whole vector, to zero.
   void fix(int node) {
@@ -54,8 +49,8 @@ class DirichletConditions {
   }
 
  private:
-  std::vector<char> fixed_;                             ///< in the vector layout
-  std::vector<std::pair<std::size_t, double>> values_;  ///< entry and value, where not zero
+  std::vector<char> fixed_;               ///< in the vector layout
+  std::map<std::size_t, double> values_;  ///< entry and value, where not zero
 };
 
 }  // namespace fsi
