@@ -34,16 +34,16 @@ inline Case artery(const std::string& material) {
 }
 
 /// A deformed, flowing state, smooth in space, so that no term vanishes.
-inline State moved(const Scene<P1Tetrahedron>& scene) {
+inline State moved(const Scene<3>& scene) {
   State state = scene.at_rest();
   const auto wave = [](const Point& x, int k) { return std::sin(0.7 * x[0] + 0.4 * x[1] + 0.3 * x[2] + k); };
   for (int a = 0; a < scene.fluid->node_count(); ++a)
     for (int k = 0; k < 3; ++k) {
-      state.now.mesh[a * 3 + k] = 0.01 * wave(scene.fluid->part().nodes[a], k);
-      state.now.fluid[a * 4 + k] = 0.5 * wave(scene.fluid->part().nodes[a], k + 3);
+      state.now.mesh[a * 3 + k] = 0.01 * wave(scene.fluid->nodes().nodes[a], k);
+      state.now.fluid[a * 4 + k] = 0.5 * wave(scene.fluid->nodes().nodes[a], k + 3);
     }
   for (int a = 0; a < scene.wall->node_count(); ++a)
-    for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene.wall->part().nodes[a], k);
+    for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene.wall->nodes().nodes[a], k);
   return state;
 }
 

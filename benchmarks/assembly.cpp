@@ -3,6 +3,7 @@
 
 #include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "scene/build_scene.hpp"
 
 namespace {
@@ -11,14 +12,14 @@ using namespace fsi;
 
 struct Setup {
   Case setup;
-  std::unique_ptr<Scene<P1Tetrahedron>> scene;
+  std::unique_ptr<Scene<3>> scene;
   State state;
   StepData data;
   std::vector<double> fluid_residual, wall_residual;
 
   Setup(const std::string& material, int thread_count) : setup(artery(material)) {
     set_threads(thread_count);
-    scene = build_scene(setup, generate_artery(artery_level("intermediate")));
+    scene = build_scene<P1Tetrahedron>(setup, generate_artery(artery_level("intermediate")));
     state = moved(*scene);
     data.rates = scene->integrator->rates(state, setup.time->step);
   }
@@ -38,13 +39,13 @@ void rate(benchmark::State& run, std::size_t elements) {
 void fluid(benchmark::State& run, FluidDerivatives derivatives) {
   Setup s("neo-hookean", static_cast<int>(run.range(0)));
   for (auto _ : run) s.fluid(derivatives);
-  rate(run, s.scene->fluid->part().cells.size());
+  rate(run, s.scene->fluid->element_count());
 }
 
 void wall(benchmark::State& run, const std::string& material, bool derivatives) {
   Setup s(material, static_cast<int>(run.range(0)));
   for (auto _ : run) s.wall(derivatives);
-  rate(run, s.scene->wall->part().cells.size());
+  rate(run, s.scene->wall->element_count());
 }
 
 void coupled(benchmark::State& run, const std::string& material) {
@@ -53,7 +54,7 @@ void coupled(benchmark::State& run, const std::string& material) {
     s.fluid(FluidDerivatives::fluid_and_domain);
     s.wall(true);
   }
-  rate(run, s.scene->fluid->part().cells.size() + s.scene->wall->part().cells.size());
+  rate(run, s.scene->fluid->element_count() + s.scene->wall->element_count());
 }
 
 #define FSI_BENCHMARK(...) BENCHMARK_CAPTURE(__VA_ARGS__)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)

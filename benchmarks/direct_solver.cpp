@@ -3,6 +3,7 @@
 
 #include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "system/system.hpp"
 #include "time/loads.hpp"
@@ -14,23 +15,22 @@ using namespace fsi;
 /// One coupled system with its first Jacobian assembled and analysed.
 struct Coupled {
   Case setup = artery("neo-hookean");
-  std::unique_ptr<Scene<P1Tetrahedron>> scene;
+  std::unique_ptr<Scene<3>> scene;
   std::unique_ptr<Loads> loads;
-  std::unique_ptr<System<P1Tetrahedron>> system;
-  const DirectLinearSolver<P1Tetrahedron>* solver = nullptr;  ///< the system's
+  std::unique_ptr<System<3>> system;
+  const DirectLinearSolver<3>* solver = nullptr;  ///< the system's
   State state;
   StepData data;
 
   Coupled(const std::string& level, const DirectSolver::Options& options, int thread_count) {
     set_dense_threads(set_threads(thread_count));
-    scene = build_scene(setup, generate_artery(artery_level(level)));
+    scene = build_scene<P1Tetrahedron>(setup, generate_artery(artery_level(level)));
     loads = std::make_unique<Loads>(setup);
-    system = std::make_unique<System<P1Tetrahedron>>(
-        "coupled", *scene, number_scene(*scene), [&](const JacobianBlocks<P1Tetrahedron>& blocks) {
-          auto direct = std::make_unique<DirectLinearSolver<P1Tetrahedron>>(blocks, options);
-          solver = direct.get();
-          return direct;
-        });
+    system = std::make_unique<System<3>>("coupled", *scene, number_scene(*scene), [&](const JacobianBlocks<3>& blocks) {
+      auto direct = std::make_unique<DirectLinearSolver<3>>(blocks, options);
+      solver = direct.get();
+      return direct;
+    });
     state = scene->at_rest();
     data = loads->next(state, *scene->integrator);
     system->work_on(state, data);

@@ -3,6 +3,7 @@
 
 #include "base/threads.hpp"
 #include "benchmarks/artery_case.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "system/numbering.hpp"
 
@@ -12,7 +13,7 @@ using namespace fsi;
 
 void extend(benchmark::State& run, const char* level, bool iterative) {
   set_dense_threads(set_threads(static_cast<int>(run.range(0))));
-  const auto scene = build_scene(artery("neo-hookean"), generate_artery(artery_level(level)));
+  const auto scene = build_scene<P1Tetrahedron>(artery("neo-hookean"), generate_artery(artery_level(level)));
   const Numbering numbering = number_mesh_motion(*scene);
   std::vector<char> inner;
   for (const Unknown& unknown : numbering.mesh_rows) inner.push_back(unknown.index >= 0);

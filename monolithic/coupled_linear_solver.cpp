@@ -3,22 +3,21 @@
 #include <memory>
 #include <utility>
 
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 
 namespace fsi {
 
-template <class Element>
-CoupledLinearSolver<Element>::CoupledLinearSolver(const JacobianBlocks<Element>& blocks,
-                                                  const CoupledSolverOptions& options)
+template <int n>
+CoupledLinearSolver<n>::CoupledLinearSolver(const JacobianBlocks<n>& blocks, const CoupledSolverOptions& options)
     : blocks_(blocks), options_(options), system_(blocks), b_(system_.matrix().zero_vector()), in_(b_), out_(b_) {
   zero_ = b_;
 }
 
-template <class Element>
-void CoupledLinearSolver<Element>::update() {
+template <int n>
+void CoupledLinearSolver<n>::update() {
   system_.update();
   if (!multigrid_)
-    multigrid_ = std::make_unique<CoupledMultigrid<Element>>(system_, blocks_, options_.multigrid);
+    multigrid_ = std::make_unique<CoupledMultigrid<n>>(system_, blocks_, options_.multigrid);
   else
     multigrid_->update();
   if (options_.block_preconditioner.empty()) {
@@ -34,9 +33,8 @@ void CoupledLinearSolver<Element>::update() {
   mesh_motion_is_set_up();
 }
 
-template <class Element>
-LinearReport CoupledLinearSolver<Element>::solve(const std::vector<double>& b, double tolerance,
-                                                 std::vector<double>& x) {
+template <int n>
+LinearReport CoupledLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   if (set_up_ != *blocks_.mesh_laplacian_version) {
     system_.update_mesh_motion();
     multigrid_->update_mesh_motion();
@@ -67,8 +65,8 @@ LinearReport CoupledLinearSolver<Element>::solve(const std::vector<double>& b, d
   return {done.converged, done.iterations, done.relative_residual, done.failure};
 }
 
-template <class Element>
-LinearStatistics CoupledLinearSolver<Element>::statistics() const {
+template <int n>
+LinearStatistics CoupledLinearSolver<n>::statistics() const {
   LinearStatistics s;
   s.memory_mib = system_.matrix().memory_mib() +
                  static_cast<double>(gmres_.bytes() + fgmres_.bytes() + richardson_.bytes()) / (1 << 20) +
@@ -83,13 +81,13 @@ LinearStatistics CoupledLinearSolver<Element>::statistics() const {
   return s;
 }
 
-template <class Element>
-void CoupledLinearSolver<Element>::mesh_motion_is_set_up() {
+template <int n>
+void CoupledLinearSolver<n>::mesh_motion_is_set_up() {
   set_up_ = *blocks_.mesh_laplacian_version;
   if (blocks_.profile) blocks_.profile->count("mesh motion set-ups");
 }
 
-#define FSI_INSTANTIATE(Element) template class CoupledLinearSolver<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class CoupledLinearSolver<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

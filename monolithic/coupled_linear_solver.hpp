@@ -25,12 +25,10 @@ struct CoupledSolverOptions {
 
 /// Solves the linearised coupled equations in the paper's form K x = b by a preconditioned iteration ([Langer2018],
 /// section 4): the tolerance is on its true residual |b - K x| / |b|, rows of all units as assembled.
-template <class Element>
+template <int n>
 class CoupledLinearSolver : public LinearSolver {
  public:
-  static constexpr int n = Element::components;
-
-  CoupledLinearSolver(const JacobianBlocks<Element>& blocks, const CoupledSolverOptions& options);
+  CoupledLinearSolver(const JacobianBlocks<n>& blocks, const CoupledSolverOptions& options);
 
   void update() override;
   bool ready() const override { return preconditioner_ != nullptr; }
@@ -39,15 +37,15 @@ class CoupledLinearSolver : public LinearSolver {
 
   LinearStatistics statistics() const override;
 
-  const CoupledSystem<Element>& system() const { return system_; }
+  const CoupledSystem<n>& system() const { return system_; }
 
  private:
   void mesh_motion_is_set_up();
 
-  JacobianBlocks<Element> blocks_;
+  JacobianBlocks<n> blocks_;
   CoupledSolverOptions options_;
-  CoupledSystem<Element> system_;
-  std::unique_ptr<CoupledMultigrid<Element>> multigrid_;
+  CoupledSystem<n> system_;
+  std::unique_ptr<CoupledMultigrid<n>> multigrid_;
   std::unique_ptr<CoupledPreconditioner> preconditioner_;
   Richardson richardson_;
   Gmres gmres_;

@@ -10,9 +10,8 @@ namespace fsi {
 /// equation of mesh motion. This is the system of [Langer2018], section 3.4, with its two identity rows eliminated:
 /// Newton's iterates are the same, the factorisation is smaller (docs/theory.md, section 9.1). A scene of one medium
 /// has that one's numbering.
-template <class Element>
-Numbering number_scene(const Scene<Element>& scene) {
-  constexpr int n = Element::components;
+template <int n>
+Numbering number_scene(const Scene<n>& scene) {
   if (!scene.coupled()) return number_single_medium(scene);
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;

@@ -5,8 +5,7 @@
 #include <string_view>
 
 #include "condensed_solver/fast_or_direct.hpp"
-#include "fem/p1_axisymmetric_triangle.hpp"
-#include "fem/p1_tetrahedron.hpp"
+#include "fem/dimensions.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 
 namespace fsi {
@@ -67,22 +66,21 @@ CoupledSolverOptions options_for(const CoupledMethod& method, const MonolithicDa
 
 }  // namespace
 
-template <class Element>
+template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
-                                                 const JacobianBlocks<Element>& blocks) {
+                                                 const JacobianBlocks<n>& blocks) {
   const auto known = linear_solver_names();
   if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name("monolithic.linear_solver", name, known);
   for (const auto& method : coupled_methods) {
     if (method.name != name) continue;
     if (!blocks.coupled()) break;  // not for one medium: the message comes below
-    return std::make_unique<CoupledLinearSolver<Element>>(blocks, options_for(method, setup.monolithic));
+    return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup.monolithic));
   }
   return make_fast_or_direct(name, setup, blocks);
 }
 
-template std::unique_ptr<LinearSolver> make_linear_solver(const std::string&, const Case&,
-                                                          const JacobianBlocks<P1Tetrahedron>&);
-template std::unique_ptr<LinearSolver> make_linear_solver(const std::string&, const Case&,
-                                                          const JacobianBlocks<P1AxisymmetricTriangle>&);
+#define FSI_INSTANTIATE(n) \
+  template std::unique_ptr<LinearSolver> make_linear_solver(const std::string&, const Case&, const JacobianBlocks<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

@@ -16,8 +16,8 @@ namespace fsi {
 ///                                   inverse; with _exact at the end of the name, factorisations
 ///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
 /// \throws InputError when the solver needs fluid and wall and the scene lacks one of them
-template <class Element>
+template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
-                                                 const JacobianBlocks<Element>& blocks);
+                                                 const JacobianBlocks<n>& blocks);
 
 }  // namespace fsi

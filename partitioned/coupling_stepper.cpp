@@ -6,15 +6,15 @@
 
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
 
-template <class Element>
-CouplingStepper<Element>::CouplingStepper(Scene<Element>& scene, const Loads& loads, const Case& setup)
+template <int n>
+CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
     : scene_(scene),
       loads_(loads),
       options_(setup.partitioned),
@@ -28,13 +28,13 @@ CouplingStepper<Element>::CouplingStepper(Scene<Element>& scene, const Loads& lo
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
   if (scheme_.robin)
-    problem_ = std::make_unique<RobinNeumann<Element>>(scene, options_);
+    problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
-    problem_ = std::make_unique<DirichletNeumann<Element>>(scene, options_);
+    problem_ = std::make_unique<DirichletNeumann<n>>(scene, options_);
 }
 
-template <class Element>
-StepReport CouplingStepper<Element>::advance(State& state) {
+template <int n>
+StepReport CouplingStepper<n>::advance(State& state) {
   StepData data = loads_.next(state, *scene_.integrator);
   report_ = {};
   coupling_ = {};
@@ -83,8 +83,8 @@ StepReport CouplingStepper<Element>::advance(State& state) {
   give_up(state, data, "did not converge");
 }
 
-template <class Element>
-Memory CouplingStepper<Element>::memory() const {
+template <int n>
+Memory CouplingStepper<n>::memory() const {
   Memory memory = problem_->memory();
   accelerator_->remember(memory);
   memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
@@ -97,8 +97,8 @@ Memory CouplingStepper<Element>::memory() const {
   return memory;
 }
 
-template <class Element>
-void CouplingStepper<Element>::recall(const Memory& memory) {
+template <int n>
+void CouplingStepper<n>::recall(const Memory& memory) {
   problem_->recall(memory);
   if (!memory.step_changed) accelerator_->recall(memory);
   const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
@@ -110,35 +110,35 @@ void CouplingStepper<Element>::recall(const Memory& memory) {
   velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
 }
 
-template <class Element>
-double CouplingStepper<Element>::demand() const {
+template <int n>
+double CouplingStepper<n>::demand() const {
   return options_.force_tolerance > 0 ? std::min(options_.tolerance, options_.force_tolerance) : options_.tolerance;
 }
 
-template <class Element>
-void CouplingStepper<Element>::start(State& state, StepData& data) {
+template <int n>
+void CouplingStepper<n>::start(State& state, StepData& data) {
   predict(state, order_, data.time);
   scene_.impose_conditions(state.now);
   scene_.impose_interface(state, data.rates);
   problem_->start(state, data);
 }
 
-template <class Element>
-void CouplingStepper<Element>::measure(const Pass& pass) {
+template <int n>
+void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = norm(pass.residual);
   coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
   coupling_.force_residual = problem_->force_residual();
 }
 
-template <class Element>
-bool CouplingStepper<Element>::agrees() const {
+template <int n>
+bool CouplingStepper<n>::agrees() const {
   return (coupling_.displacement_residual <= options_.tolerance ||
           coupling_.displacement_gap <= options_.absolute_tolerance) &&
          (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
 }
 
-template <class Element>
-void CouplingStepper<Element>::log_pass() {
+template <int n>
+void CouplingStepper<n>::log_pass() {
   const AcceleratorStatus status = accelerator_->status();
   const CouplingCost& cost = problem_->cost;
   report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
@@ -149,8 +149,8 @@ void CouplingStepper<Element>::log_pass() {
                                         cost.fluid_newton, cost.wall_newton));
 }
 
-template <class Element>
-void CouplingStepper<Element>::give_up(const State& state, const StepData& data, const char* what) const {
+template <int n>
+void CouplingStepper<n>::give_up(const State& state, const StepData& data, const char* what) const {
   throw ConvergenceError(
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
                   "{:.2e}, wanted {:g}; force {:.2e}{}",
@@ -160,8 +160,8 @@ void CouplingStepper<Element>::give_up(const State& state, const StepData& data,
       scheme_.advice);
 }
 
-template <class Element>
-void CouplingStepper<Element>::check_march(const State& state, const StepData& data) {
+template <int n>
+void CouplingStepper<n>::check_march(const State& state, const StepData& data) {
   const auto give_up = [&](const std::string& what) {
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling {}", state.step + 1, data.time, scheme_.name, what),
@@ -180,9 +180,9 @@ void CouplingStepper<Element>::check_march(const State& state, const StepData& d
                     velocity_gap_.steps(), options_.velocity_gap, velocity_gap_.last()));
 }
 
-template <class Element>
-void CouplingStepper<Element>::retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
-                                       const std::vector<double>& good_x, const Solution& good) {
+template <int n>
+void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
+                                 const std::vector<double>& good_x, const Solution& good) {
   const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
   report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", report_.outer_iterations, failure.what()));
@@ -203,9 +203,8 @@ void CouplingStepper<Element>::retreat(const PassFailure& failure, State& state,
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = good_x[i] + retreat_factor * (x[i] - good_x[i]);
 }
 
-template <class Element>
-void CouplingStepper<Element>::accept(State& state, const StepData& data, const std::vector<double>& x,
-                                      const Pass& pass) {
+template <int n>
+void CouplingStepper<n>::accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass) {
   {
     const Stopwatch watch(coupling_.algebra_seconds);
     accelerator_->accept(x, pass.residual);
@@ -229,10 +228,10 @@ void CouplingStepper<Element>::accept(State& state, const StepData& data, const 
   report_.coupling = coupling_;
 }
 
-template <class Element>
-CouplingStepper<Element>::~CouplingStepper() = default;
+template <int n>
+CouplingStepper<n>::~CouplingStepper() = default;
 
-#define FSI_INSTANTIATE(Element) template class CouplingStepper<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class CouplingStepper<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

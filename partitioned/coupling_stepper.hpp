@@ -14,17 +14,17 @@
 
 namespace fsi {
 
-template <class Element>
+template <int n>
 class InterfaceProblem;
 struct Pass;
 class PassFailure;
 
 /// Advances fluid and wall in turn: passes through the sub-problems from an extrapolated guess, accelerated by the
 /// case's scheme, until they agree on the interface.
-template <class Element>
+template <int n>
 class CouplingStepper : public Stepper {
  public:
-  CouplingStepper(Scene<Element>& scene, const Loads& loads, const Case& setup);
+  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup);
 
   ~CouplingStepper() override;
 
@@ -74,13 +74,13 @@ class CouplingStepper : public Stepper {
 
   void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass);
 
-  Scene<Element>& scene_;
+  Scene<n>& scene_;
   const Loads& loads_;
   PartitionedData options_;
   std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for
   const CouplingScheme& scheme_;
   std::unique_ptr<Accelerator> accelerator_;
-  std::unique_ptr<InterfaceProblem<Element>> problem_;
+  std::unique_ptr<InterfaceProblem<n>> problem_;
   CouplingReport coupling_;
   DivergenceMonitor monitor_;        ///< of the step's passes
   AlternationMonitor march_;         ///< of the steps, with one pass each,

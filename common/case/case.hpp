@@ -48,9 +48,10 @@ struct MaterialData {
 
 /// [structure]
 struct StructureData {
-  double density = 0;             ///< mg/mm^3
-  double bulk_modulus = 0;        ///< kPa
-  double stabilisation = 0.5;     ///< alpha in tau = alpha h^2 / (2 mu)
+  double density = 0;          ///< mg/mm^3
+  double bulk_modulus = 0;     ///< kPa
+  double stabilisation = 0.5;  ///< alpha in tau = alpha h^2 / (2 mu)
+  LayerPressure layer_pressure = LayerPressure::continuous;
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
   std::map<std::string, MaterialData> layers;
@@ -120,7 +121,8 @@ struct EconomyData {
 struct Case {
   std::filesystem::path path;  ///< of the case file
   std::string title;
-  std::string element = "p1";
+  ElementPair element = ElementPair::p1;
+  Geometry geometry = Geometry::three_dimensional;
   MeshData mesh;
   std::optional<FluidData> fluid;
   std::optional<StructureData> structure;

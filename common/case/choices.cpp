@@ -31,6 +31,24 @@ std::vector<std::string> output_field_names() {
   return strings(output_field_list);
 }
 
+const NameTable<ElementPair>& element_pairs() {
+  static const NameTable<ElementPair> table{"element", {{"p1", ElementPair::p1}, {"p2p1", ElementPair::p2p1}}};
+  return table;
+}
+
+const NameTable<Geometry>& geometries() {
+  static const NameTable<Geometry> table{
+      "geometry",
+      {{"3d", Geometry::three_dimensional}, {"axisymmetric", Geometry::axisymmetric}, {"plane", Geometry::plane}}};
+  return table;
+}
+
+const NameTable<LayerPressure>& layer_pressures() {
+  static const NameTable<LayerPressure> table{
+      "structure.layer_pressure", {{"continuous", LayerPressure::continuous}, {"separate", LayerPressure::separate}}};
+  return table;
+}
+
 const NameTable<bool>& constant_operator_modes() {
   static const NameTable<bool> table{"economy.constant_operators", {{"kept", true}, {"rebuilt", false}}};
   return table;

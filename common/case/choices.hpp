@@ -30,6 +30,23 @@ inline constexpr std::array<std::string_view, 9> coupling_scheme_list{
 /// Fields of output.fields. Their table: driver/field_output.cpp.
 inline constexpr std::array<std::string_view, 3> output_field_list{"displacement", "velocity", "pressure"};
 
+/// element: the fields' shape functions.
+enum class ElementPair {
+  p1,   ///< linear, equal order, stabilised
+  p2p1  ///< Taylor-Hood: quadratic vectors, linear scalars
+};
+/// geometry: the space of a scene.
+enum class Geometry { three_dimensional, axisymmetric, plane };
+/// structure.layer_pressure: the wall's pressure where layers meet.
+enum class LayerPressure {
+  continuous,
+  separate  ///< each layer its own: it may jump
+};
+
+const NameTable<ElementPair>& element_pairs();
+const NameTable<Geometry>& geometries();
+const NameTable<LayerPressure>& layer_pressures();
+
 std::vector<std::string> general_solver_names();
 std::vector<std::string> linear_solver_names();  ///< of monolithic.linear_solver: general and coupled ones
 std::vector<std::string> coupling_scheme_names();

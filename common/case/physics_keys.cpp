@@ -149,6 +149,8 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
       leaf("stabilisation", optional, "alpha in tau = alpha h^2/(2 mu), default {}",
            number(at(&StructureData::stabilisation), positive)),
+      leaf("layer_pressure", optional, "the pressure where layers meet: {}",
+           name_from(at(&StructureData::layer_pressure), layer_pressures())),
       leaf("axis_origin", optional, "point on the artery's axis in {unit}, default {}",
            point(at(&StructureData::axis_origin), false)),
       leaf("axis_direction", optional, "direction of the artery's axis, default {}",
@@ -297,7 +299,8 @@ CaseKey<Case> scene_section(const std::string& name, const std::string& about, c
 std::vector<CaseKey<Case>> physics_keys() {
   return {
       leaf("title", optional, "what the case is, for people", any_text(at(&Case::title)), KeyRole::running),
-      leaf("element", optional, "element pair: {}", name_from(at(&Case::element), {"p1"}, {"p2p1"})),
+      leaf("element", optional, "element pair: {}", name_from(at(&Case::element), element_pairs())),
+      leaf("geometry", optional, "of the scene: {}", name_from(at(&Case::geometry), geometries())),
       section<MeshData, Case>(
           "mesh", required, "where the mesh comes from", mesh_keys(),
           [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },

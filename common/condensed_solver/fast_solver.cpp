@@ -7,19 +7,19 @@
 
 #include "algebra/vector_operations.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "solvers/krylov/single_gmres.hpp"
 #include "system/jacobian_product.hpp"
 
 namespace fsi {
 
-template <class Element>
-struct FastSolver<Element>::Iterative {
-  VelocityPressureLayout<Element> layout;
-  VelocityPressureMatrix<Element> matrix;
-  VelocityPressurePreconditioner<Element> preconditioner;
-  JacobianProduct<Element> jacobian;
+template <int n>
+struct FastSolver<n>::Iterative {
+  VelocityPressureLayout<n> layout;
+  VelocityPressureMatrix<n> matrix;
+  VelocityPressurePreconditioner<n> preconditioner;
+  JacobianProduct<n> jacobian;
   std::unique_ptr<HarmonicExtension<n>> extension;  ///< null without mesh motion
   int extension_version = 0;                        ///< of the operator that it was made of
   bool shape_derivatives = false;                   ///< they are not all zero (as they are at rest)
@@ -28,7 +28,7 @@ struct FastSolver<Element>::Iterative {
   std::vector<double> right, solution, residual, jacobian_times_x, correction;
   std::vector<double> mesh, mesh_right, fluid_rows;
 
-  explicit Iterative(const JacobianBlocks<Element>& blocks)
+  explicit Iterative(const JacobianBlocks<n>& blocks)
       : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
     if (blocks.mesh_laplacian) {
       std::vector<char> inner(blocks.numbering.mesh_rows.size());
@@ -40,25 +40,25 @@ struct FastSolver<Element>::Iterative {
       fluid_rows.resize(blocks.numbering.fluid.size());
     }
   }
-  void count_extension(const JacobianBlocks<Element>& blocks) {
+  void count_extension(const JacobianBlocks<n>& blocks) {
     extension_version = *blocks.mesh_laplacian_version;
     if (blocks.profile) blocks.profile->count("mesh motion factorisations");
   }
 };
 
-template <class Element>
-FastSolver<Element>::FastSolver(const JacobianBlocks<Element>& blocks, const FastOptions& options)
+template <int n>
+FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
     : blocks_(blocks), options_(options) {
-  if (blocks.numbering.size < options.direct_below) direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks);
+  if (blocks.numbering.size < options.direct_below) direct_ = std::make_unique<DirectLinearSolver<n>>(blocks);
 }
 
-template <class Element>
-const char* FastSolver<Element>::preparation() const {
+template <int n>
+const char* FastSolver<n>::preparation() const {
   return direct_ && !iterative_ ? direct_->preparation() : LinearSolver::preparation();
 }
 
-template <class Element>
-void FastSolver<Element>::update() {
+template <int n>
+void FastSolver<n>::update() {
   if (iterative_) direct_.reset();
   if (direct_) {
     direct_->update();
@@ -72,8 +72,8 @@ void FastSolver<Element>::update() {
   ready_ = true;
 }
 
-template <class Element>
-LinearReport FastSolver<Element>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+template <int n>
+LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   if (direct_) return direct_->solve(b, tolerance, x);
   LinearReport report = iterate(b, tolerance, x);
   if (report.converged) return report;
@@ -85,7 +85,7 @@ LinearReport FastSolver<Element>::solve(const std::vector<double>& b, double tol
     report = second;
   }
   // From here on a factorisation, however long it takes: better than no answer.
-  direct_ = std::make_unique<DirectLinearSolver<Element>>(blocks_);
+  direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
   direct_->update();
   const LinearReport third = direct_->solve(b, tolerance, x);
   report.converged = third.converged;
@@ -93,13 +93,13 @@ LinearReport FastSolver<Element>::solve(const std::vector<double>& b, double tol
   return report;
 }
 
-template <class Element>
-double FastSolver<Element>::keep_contraction() const {
+template <int n>
+double FastSolver<n>::keep_contraction() const {
   return direct_ ? direct_->keep_contraction() : LinearSolver::keep_contraction();
 }
 
-template <class Element>
-LinearStatistics FastSolver<Element>::statistics() const {
+template <int n>
+LinearStatistics FastSolver<n>::statistics() const {
   LinearStatistics s;
   if (direct_) s = direct_->statistics();
   if (iterative_) {
@@ -113,9 +113,9 @@ LinearStatistics FastSolver<Element>::statistics() const {
   return s;
 }
 
-template <class Element>
-void FastSolver<Element>::set_up_preconditioner(bool strong) {
-  typename VelocityPressurePreconditioner<Element>::Options options;
+template <int n>
+void FastSolver<n>::set_up_preconditioner(bool strong) {
+  typename VelocityPressurePreconditioner<n>::Options options;
   options.momentum_sweeps = strong ? options_.strong_sweeps : options_.momentum_sweeps;
   if (strong) options.coarse_from = 0;
   iterative_->preconditioner.options() = options;
@@ -123,8 +123,8 @@ void FastSolver<Element>::set_up_preconditioner(bool strong) {
   strengthened_ = strong;
 }
 
-template <class Element>
-void FastSolver<Element>::find_shape_derivatives() {
+template <int n>
+void FastSolver<n>::find_shape_derivatives() {
   iterative_->shape_derivatives = false;
   if (blocks_.shape_derivatives)
     for (double value : blocks_.shape_derivatives->values)
@@ -134,8 +134,8 @@ void FastSolver<Element>::find_shape_derivatives() {
       }
 }
 
-template <class Element>
-LinearReport FastSolver<Element>::iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+template <int n>
+LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   Iterative& it = *iterative_;
   LinearReport report;
   report.converged = false;
@@ -178,8 +178,8 @@ LinearReport FastSolver<Element>::iterate(const std::vector<double>& b, double t
   return report;
 }
 
-template <class Element>
-void FastSolver<Element>::correct(double tolerance, double relative, LinearReport& report) {
+template <int n>
+void FastSolver<n>::correct(double tolerance, double relative, LinearReport& report) {
   Iterative& it = *iterative_;
   const Numbering& numbering = blocks_.numbering;
   it.layout.take(it.residual, it.right);
@@ -213,8 +213,8 @@ void FastSolver<Element>::correct(double tolerance, double relative, LinearRepor
   }
 }
 
-template <class Element>
-void FastSolver<Element>::subtract_mesh_rows(double tolerance) {
+template <int n>
+void FastSolver<n>::subtract_mesh_rows(double tolerance) {
   Iterative& it = *iterative_;
   const Numbering& numbering = blocks_.numbering;
   bool any = false;
@@ -236,10 +236,10 @@ void FastSolver<Element>::subtract_mesh_rows(double tolerance) {
   axpy(-1, it.solution, it.right);
 }
 
-template <class Element>
-FastSolver<Element>::~FastSolver() = default;
+template <int n>
+FastSolver<n>::~FastSolver() = default;
 
-#define FSI_INSTANTIATE(Element) template class FastSolver<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class FastSolver<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

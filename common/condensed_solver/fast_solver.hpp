@@ -16,12 +16,10 @@ namespace fsi {
 /// from GMRES in single precision for velocities and pressures of both media without shape derivatives,
 /// preconditioned by VelocityPressurePreconditioner. The shape derivatives, small against the rest, come back through
 /// the residual. Small systems are factorised; so is one that defeats the iteration.
-template <class Element>
+template <int n>
 class FastSolver : public LinearSolver {
  public:
-  static constexpr int n = Element::components;
-
-  explicit FastSolver(const JacobianBlocks<Element>& blocks, const FastOptions& options = {});
+  explicit FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options = {});
 
   ~FastSolver() override;
 
@@ -65,10 +63,10 @@ class FastSolver : public LinearSolver {
   /// rounding, or what an iterative extension left.
   void subtract_mesh_rows(double tolerance);
 
-  JacobianBlocks<Element> blocks_;
+  JacobianBlocks<n> blocks_;
   FastOptions options_;
   std::unique_ptr<Iterative> iterative_;
-  std::unique_ptr<DirectLinearSolver<Element>> direct_;
+  std::unique_ptr<DirectLinearSolver<n>> direct_;
   bool ready_ = false;
   bool strengthened_ = false;  ///< the preconditioner, for a system that defeated the usual one
 };

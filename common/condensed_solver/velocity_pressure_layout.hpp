@@ -16,11 +16,9 @@ namespace fsi {
 /// here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the whole mesh, so
 /// that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A node
 /// of which only some components are unknowns has a place for all n; the others stay zero.
-template <class Element>
+template <int n>
 class VelocityPressureLayout {
  public:
-  static constexpr int n = Element::components;
-
   int velocities = 0;  ///< nodes that can move
   int pressures = 0;
   std::vector<int> velocity_of_fluid, velocity_of_wall;  ///< per node of the part; -1 where it is prescribed
@@ -30,7 +28,7 @@ class VelocityPressureLayout {
   std::vector<char> wall_pressure;                       ///< per pressure: it is the wall's
   double wall_factor = 1;                                ///< d = wall_factor v, as of the last update()
 
-  explicit VelocityPressureLayout(const JacobianBlocks<Element>& blocks) : numbering_(blocks.numbering) {
+  explicit VelocityPressureLayout(const JacobianBlocks<n>& blocks) : numbering_(blocks.numbering) {
     struct Node {
       int place;  ///< in the whole mesh; the fluid first where both are
       bool wall;
@@ -41,8 +39,8 @@ class VelocityPressureLayout {
     assert(same_places(numbering_.fluid, numbering_.fluid_rows) && same_places(numbering_.wall, numbering_.wall_rows));
     const int fluid_nodes = blocks.fluid ? blocks.fluid->graph->rows() : 0;
     const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
-    for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({(*blocks.fluid_nodes.places)[a], false, a});
-    for (int a = 0; a < wall_nodes; ++a) nodes.push_back({(*blocks.wall_nodes.places)[a], true, a});
+    for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({blocks.fluid_nodes->mesh_node[a], false, a});
+    for (int a = 0; a < wall_nodes; ++a) nodes.push_back({blocks.wall_nodes->mesh_node[a], true, a});
     std::sort(nodes.begin(), nodes.end(),
               [](const Node& a, const Node& b) { return std::pair(a.place, a.wall) < std::pair(b.place, b.wall); });
     velocity_of_fluid.assign(fluid_nodes, -1);

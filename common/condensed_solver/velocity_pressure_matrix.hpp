@@ -14,17 +14,16 @@ namespace fsi {
 /// The Jacobian of velocities and pressures, F = [A G; B C], mesh motion left out, in single precision. Half the memory
 /// of the assembled matrices, and arranged so that products and smoothers run over whole registers. Vectors hold
 /// `lanes` floats a velocity node (padded with zero), then one a pressure.
-template <class Element>
+template <int n>
 class VelocityPressureMatrix {
  public:
-  static constexpr int n = Element::components;
   static constexpr int lanes = padded<n>;  ///< floats of a nodal vector
   using Nodal = Register<n>;               ///< one nodal vector in a register
 
   static Nodal load(const float* from) { return fsi::load<n>(from); }
   static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
 
-  VelocityPressureMatrix(const JacobianBlocks<Element>& blocks, const VelocityPressureLayout<Element>& layout)
+  VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout)
       : blocks_(blocks), layout_(layout) {
     make_momentum_pattern();
     make_continuity_pattern();
@@ -34,9 +33,9 @@ class VelocityPressureMatrix {
     compressibility_.resize(continuity_velocities_.size());
   }
 
-  const VelocityPressureLayout<Element>& layout() const { return layout_; }
+  const VelocityPressureLayout<n>& layout() const { return layout_; }
   /// Places at rest of the wall's nodes, mm; there must be a wall.
-  const std::vector<std::array<double, 3>>& wall_points() const { return *blocks_.wall_nodes.points; }
+  const std::vector<std::array<double, 3>>& wall_points() const { return blocks_.wall_nodes->nodes; }
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
@@ -251,8 +250,8 @@ class VelocityPressureMatrix {
     }
   }
 
-  JacobianBlocks<Element> blocks_;
-  const VelocityPressureLayout<Element>& layout_;
+  JacobianBlocks<n> blocks_;
+  const VelocityPressureLayout<n>& layout_;
   RegisterBlocks<n, n> momentum_;  ///< A
   std::vector<int> gradient_offsets_, gradient_columns_;
   std::vector<float> gradient_;  ///< `lanes` numbers a block

@@ -20,12 +20,12 @@ namespace fsi {
 /// the fluid the mass matrix dominates A, and D is its lumped form; in the wall and on the interface D is A's diagonal,
 /// since there the stiffness has the same weight. One scalar problem holds the pressures of fluid and wall: they meet
 /// through the interface velocity, which carries the added mass.
-template <class Element>
+template <int n>
 class VelocityPressurePreconditioner {
  public:
-  using Matrix = VelocityPressureMatrix<Element>;
+  using Matrix = VelocityPressureMatrix<n>;
   using Nodal = typename Matrix::Nodal;
-  static constexpr int n = Matrix::n, lanes = Matrix::lanes;
+  static constexpr int lanes = Matrix::lanes;
 
   struct Options {
     /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
@@ -66,7 +66,7 @@ class VelocityPressurePreconditioner {
     if (!stiff) {
       coarse_.reset();
     } else {
-      if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<Element>>(matrix_);
+      if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<n>>(matrix_);
       coarse_->set_up(options_.wall);
     }
     sweeps_ = options_.momentum_sweeps > 0                        ? options_.momentum_sweeps
@@ -264,12 +264,12 @@ class VelocityPressurePreconditioner {
   }
 
   const Matrix& matrix_;
-  const VelocityPressureLayout<Element>& layout_;
+  const VelocityPressureLayout<n>& layout_;
   static constexpr double largest_stiffness = 1e4;
 
   Options options_;
   int sweeps_ = 1;
-  std::unique_ptr<WallCoarseCorrection<Element>> coarse_;  ///< null where sweeps do
+  std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do
   SweepChunks chunks_;
   std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
   std::vector<double> inverse_lumped_;   ///< D^-1

@@ -11,11 +11,11 @@ namespace fsi {
 /// Coarse levels of the wall's momentum equations. They take up what Gauss-Seidel sweeps leave where the wall's
 /// stiffness exceeds its inertia: large time steps, statics. The fluid's velocities, which the mass matrix dominates,
 /// stay on the finest level.
-template <class Element>
+template <int n>
 class WallCoarseCorrection {
  public:
-  using Matrix = VelocityPressureMatrix<Element>;
-  static constexpr int n = Matrix::n, lanes = Matrix::lanes;
+  using Matrix = VelocityPressureMatrix<n>;
+  static constexpr int lanes = Matrix::lanes;
 
   explicit WallCoarseCorrection(const Matrix& matrix) : matrix_(matrix) {
     const auto& layout = matrix.layout();

@@ -11,11 +11,11 @@ namespace fsi {
 
 /// Follows the energy of a scene from step to step (docs/energy.md). Reads states only: it can change no solution. What
 /// it keeps of the last step it can make again of a restored state, bit for bit.
-template <class Element>
+template <int n>
 class EnergyBalance {
  public:
   /// \param state  the one that the next step starts from
-  EnergyBalance(const Scene<Element>& scene, const Loads& loads, const State& state)
+  EnergyBalance(const Scene<n>& scene, const Loads& loads, const State& state)
       : scene_(scene), loads_(loads), acceleration_(state.wall_acceleration) {
     energy_ = terms(state).energy();
     parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static()};
@@ -93,7 +93,7 @@ class EnergyBalance {
     return record;
   }
 
-  const Scene<Element>& scene_;
+  const Scene<n>& scene_;
   const Loads& loads_;
   EnergyParts parts_;
   double energy_ = 0;                 ///< at the last step's end

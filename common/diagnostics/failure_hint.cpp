@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "diagnostics/limit_load.hpp"
+#include "fem/dimensions.hpp"
 #include "fem/nodal_layout.hpp"
-#include "fem/p1_tetrahedron.hpp"
 #include "materials/material.hpp"
 #include "mesh/axis.hpp"
 #include "mesh/point_math.hpp"
@@ -28,34 +28,50 @@ struct Extreme {
   Point where;
 };
 
-/// Position of a node after its displacement; `stride` numbers per node.
-Point moved(const Submesh<3>& part, const std::vector<double>& displacement, int stride, int node) {
-  const double* d = &displacement[static_cast<std::size_t>(node) * stride];
-  return part.nodes[node] + Point{d[0], d[1], d[2]};
+/// Positions of the nodes after their displacement; `stride` numbers per node, the components along `axes`.
+template <std::size_t n>
+std::vector<Point> moved(const std::vector<Point>& points, const std::vector<double>& displacement, std::size_t stride,
+                         const std::array<int, n>& axes) {
+  std::vector<Point> now = points;
+  for (std::size_t node = 0; node < points.size(); ++node)
+    for (std::size_t k = 0; k < n; ++k) now[node][axes[k]] += displacement[node * stride + k];
+  return now;
 }
 
-Extreme largest_stretch(const Submesh<3>& part, const std::vector<double>& displacement, int stride) {
+/// \param vertices  of the elements, `per_cell` numbers each
+Extreme largest_stretch(const std::vector<int>& vertices, int per_cell, const std::vector<Point>& at_rest,
+                        const std::vector<Point>& now) {
   Extreme largest{1, {}};
-  for (const auto& cell : part.cells)
-    for (int a = 0; a < 4; ++a)
+  for (std::size_t cell = 0; cell < vertices.size(); cell += per_cell)
+    for (int a = 0; a < per_cell; ++a)
       for (int b = 0; b < a; ++b) {
-        const Point &x = part.nodes[cell[a]], &y = part.nodes[cell[b]];
-        const double stretch =
-            distance(moved(part, displacement, stride, cell[a]), moved(part, displacement, stride, cell[b])) /
-            distance(x, y);
-        if (stretch > largest.value) largest = {stretch, 0.5 * (x + y)};
+        const int i = vertices[cell + a], j = vertices[cell + b];
+        const double stretch = distance(now[i], now[j]) / distance(at_rest[i], at_rest[j]);
+        if (stretch > largest.value) largest = {stretch, 0.5 * (at_rest[i] + at_rest[j])};
       }
   return largest;
 }
 
-Extreme smallest_volume(const Submesh<3>& part, const std::vector<double>& displacement, int stride) {
+/// Volume of a tetrahedron, or area of a triangle, of these vertices, up to a factor; signed by `like`.
+double simplex_size(const int* vertex, int per_cell, const std::vector<Point>& x, const std::vector<Point>& like) {
+  if (per_cell == 4) return tetrahedron_volume(x[vertex[0]], x[vertex[1]], x[vertex[2]], x[vertex[3]]);
+  const auto normal = [&](const std::vector<Point>& y) {
+    return cross(y[vertex[1]] - y[vertex[0]], y[vertex[2]] - y[vertex[0]]);
+  };
+  return dot(normal(x), normal(like));
+}
+
+Extreme smallest_volume(const std::vector<int>& vertices, int per_cell, const std::vector<Point>& at_rest,
+                        const std::vector<Point>& now) {
   Extreme smallest{1, {}};
-  for (const auto& cell : part.cells) {
-    const auto now = [&](int a) { return moved(part, displacement, stride, cell[a]); };
-    const auto& x = part.nodes;
-    const double ratio = tetrahedron_volume(now(0), now(1), now(2), now(3)) /
-                         tetrahedron_volume(x[cell[0]], x[cell[1]], x[cell[2]], x[cell[3]]);
-    if (ratio < smallest.value) smallest = {ratio, 0.25 * (x[cell[0]] + x[cell[1]] + x[cell[2]] + x[cell[3]])};
+  for (std::size_t cell = 0; cell < vertices.size(); cell += per_cell) {
+    const int* vertex = &vertices[cell];
+    const double ratio =
+        simplex_size(vertex, per_cell, now, at_rest) / simplex_size(vertex, per_cell, at_rest, at_rest);
+    if (ratio >= smallest.value) continue;
+    Point centre{0, 0, 0};
+    for (int a = 0; a < per_cell; ++a) centre = centre + (1.0 / per_cell) * at_rest[vertex[a]];
+    smallest = {ratio, centre};
   }
   return smallest;
 }
@@ -107,27 +123,32 @@ std::string wall_hint(const WallAtFailure& wall, std::optional<double> limit, bo
 
 }  // namespace
 
-std::string failure_hint(const Case& setup, const TetrahedralMesh& mesh, const Scene<P1Tetrahedron>& scene,
-                         const Loads& loads, const State& state) {
+template <int n>
+std::string failure_hint(const Case& setup, const Scene<n>& scene, const Loads& loads, const State& state) {
+  constexpr int per_cell = n + 1;
   std::vector<std::string> found;
   const Axis axis = setup.structure ? Axis{setup.structure->axis_origin, setup.structure->axis_direction} : Axis{};
   const AxisFrame frame(axis);
   if (scene.wall) {
+    const auto vertices = scene.wall->cell_vertices();
+    const auto& at_rest = scene.wall->nodes().nodes;
     std::array<Extreme, 3> levels;
     for (int k = 0; k < 3; ++k)
-      levels[k] =
-          largest_stretch(scene.wall->part(), state.before[k].wall, MixedLayout<Scene<P1Tetrahedron>::n>::entries);
+      levels[k] = largest_stretch(vertices, per_cell, at_rest,
+                                  moved(at_rest, state.before[k].wall, MixedLayout<n>::entries, scene.axes));
     WallAtFailure wall{levels[0]};
     wall.growing = state.step >= 3 && levels[0].value > levels[1].value && levels[1].value > levels[2].value &&
                    levels[2].value > already_stretched;
     wall.axial = frame.axial(wall.stretch.where);
-    const bool at_rest = setup.static_load.has_value();
-    add_load(wall, loads, state.step + 1, at_rest);
-    const auto text = wall_hint(wall, tube_limit_load(*setup.structure, mesh), at_rest);
+    const bool is_static = setup.static_load.has_value();
+    add_load(wall, loads, state.step + 1, is_static);
+    const auto text = wall_hint(wall, tube_limit_load(*setup.structure, *scene.wall), is_static);
     if (!text.empty()) found.push_back(text);
   }
   if (scene.coupled()) {
-    const Extreme volume = smallest_volume(scene.fluid->part(), state.before[0].mesh, Scene<P1Tetrahedron>::n);
+    const auto& at_rest = scene.fluid->nodes().nodes;
+    const Extreme volume = smallest_volume(scene.fluid->cell_vertices(), per_cell, at_rest,
+                                           moved(at_rest, state.before[0].mesh, n, scene.axes));
     if (volume.value <= squeezed)
       found.push_back(
           fmt::format("a mesh element of the fluid near z = {:.1f} mm has {:.2g} % of its volume left: the mesh "
@@ -136,5 +157,8 @@ std::string failure_hint(const Case& setup, const TetrahedralMesh& mesh, const S
   }
   return fmt::format("{}", fmt::join(found, "; "));
 }
+
+#define FSI_INSTANTIATE(n) template std::string failure_hint(const Case&, const Scene<n>&, const Loads&, const State&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

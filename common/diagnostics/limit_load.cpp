@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/dimensions.hpp"
 #include "materials/material.hpp"
 #include "mesh/axis.hpp"
-#include "mesh/point_math.hpp"
 
 namespace fsi {
 
@@ -26,37 +26,36 @@ struct TubeLayer {
   }
 };
 
-TubeLayer measure(const TetrahedralMesh& mesh, int region, const AxisFrame& frame) {
+TubeLayer measure(const LayerData& data, const std::vector<Point>& points, const AxisFrame& frame) {
   TubeLayer layer;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    if (mesh.cell_region[c] != region) continue;
-    const auto& cell = mesh.cells[c];
-    layer.volume +=
-        tetrahedron_volume(mesh.nodes[cell[0]], mesh.nodes[cell[1]], mesh.nodes[cell[2]], mesh.nodes[cell[3]]);
-    for (const int node : cell) {
-      const double radius = frame.radius(mesh.nodes[node]), along = frame.axial(mesh.nodes[node]);
-      layer.inner = std::min(layer.inner, radius);
-      layer.outer = std::max(layer.outer, radius);
-      layer.first = std::min(layer.first, along);
-      layer.last = std::max(layer.last, along);
-    }
+  layer.volume = data.volume;
+  for (const int node : data.nodes) {
+    const double radius = frame.radius(points[node]), along = frame.axial(points[node]);
+    layer.inner = std::min(layer.inner, radius);
+    layer.outer = std::max(layer.outer, radius);
+    layer.first = std::min(layer.first, along);
+    layer.last = std::max(layer.last, along);
   }
   return layer;
 }
 
 }  // namespace
 
-std::optional<double> tube_limit_load(const StructureData& wall, const TetrahedralMesh& mesh) {
-  const AxisFrame frame({wall.axis_origin, wall.axis_direction});
+template <int n>
+std::optional<double> tube_limit_load(const StructureData& data, const Wall<n>& wall) {
+  const AxisFrame frame({data.axis_origin, data.axis_direction});
   double limit = 0;
-  for (const auto& [name, data] : wall.layers) {
-    const auto modulus = inflation_modulus(make_material(data.material, data.values));
+  for (const LayerData& measured : wall.layer_data()) {
+    const auto modulus = inflation_modulus(measured.material);
     if (!modulus) return std::nullopt;
-    const TubeLayer layer = measure(mesh, mesh.region_index(name), frame);
+    const TubeLayer layer = measure(measured, wall.nodes().nodes, frame);
     if (!layer.is_tube()) return std::nullopt;
     limit += *modulus * std::log(layer.outer / layer.inner);
   }
   return limit;
 }
+
+#define FSI_INSTANTIATE(n) template std::optional<double> tube_limit_load(const StructureData&, const Wall<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

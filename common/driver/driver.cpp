@@ -21,13 +21,12 @@
 #include "driver/console.hpp"
 #include "driver/field_output.hpp"
 #include "driver/interruption.hpp"
-#include "driver/load_mesh.hpp"
+#include "driver/load_scene.hpp"
 #include "driver/observables.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
-#include "scene/build_scene.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {
@@ -40,8 +39,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-nlohmann::json scene_json(const std::string& program, const Case& setup, const TetrahedralMesh& mesh,
-                          const Scene<P1Tetrahedron>& scene) {
+template <int n>
+nlohmann::json scene_json(const std::string& program, const Case& setup, const MeshFacts& mesh, const Scene<n>& scene) {
   nlohmann::json json;
   json["program"] = program;
   json["version"] = version;
@@ -49,10 +48,12 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const T
   json["case"] = setup.path.string();
   json["case_hash"] = hash_of_case(setup);
   json["threads"] = threads();
-  json["mesh"] = {{"name", mesh_name(setup)},
-                  {"hash", hash_of_mesh(mesh)},
-                  {"nodes", mesh.nodes.size()},
-                  {"tetrahedra", mesh.cells.size()},
+  json["element"] = element_pairs().name_of(setup.element);
+  json["geometry"] = geometries().name_of(setup.geometry);
+  json["mesh"] = {{"name", mesh.name},
+                  {"hash", mesh.hash},
+                  {"nodes", mesh.nodes},
+                  {mesh.cell, mesh.cells},
                   {"fluid_nodes", scene.fluid ? scene.fluid->node_count() : 0},
                   {"wall_nodes", scene.wall ? scene.wall->node_count() : 0},
                   {"interface_nodes", scene.interface.size()}};
@@ -66,21 +67,22 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const T
 }
 
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
+template <int n>
 class Run {
  public:
   /// \param watch  of the cores, from the program's start on
-  Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperFactory& make_stepper,
+  Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
       const CoreWatch& watch)
       : program_(program),
         line_(line),
         setup_(setup),
-        mesh_(load_mesh(setup)),
-        threads_(set_as_chosen(choose_threads(line.threads, mesh_.cells.size(), watch))),
-        scene_(build_scene(setup, mesh_)),
+        loaded_(load_scene<n>(
+            setup, [&](std::size_t cells) { threads_ = set_as_chosen(choose_threads(line.threads, cells, watch)); })),
+        scene_(loaded_.scene.get()),
         loads_(setup),
-        stepper_(make_stepper(*scene_, loads_, setup)),
+        stepper_(make_stepper.make(*scene_, loads_, setup)),
         state_(scene_->at_rest()),
-        observables_(setup, mesh_, *scene_) {}
+        observables_(loaded_.points, *scene_) {}
 
   /// To the last step or a signal; returns the program's exit code.
   int march() {
@@ -96,10 +98,10 @@ class Run {
     ResultFolder folder =
         restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
-    FieldOutput fields(setup_, *scene_, loads_.axis(), line_.output, line_.restart, state_.step);
+    FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart, state_.step);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
-    summary_ = scene_json(program_, setup_, mesh_, *scene_);
+    summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
     if (restarted) summary_["restarted_from_step"] = state_.step;
     write("running");
     announce(console, log);
@@ -108,7 +110,7 @@ class Run {
       while (state_.step < loads_.steps() && !interruption) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
       for (const auto& entry : stepper_->report().history) log.info("  " + entry);
-      const std::string hint = failure_hint(setup_, mesh_, *scene_, loads_, state_);
+      const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
       const std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
       log.error(said);
       if (state_.step > 0) save();
@@ -147,7 +149,7 @@ class Run {
     return interrupted_exit_code(signal);
   }
 
-  void step(ResultFolder& folder, FieldOutput& fields, Console& console, RunLog& log) {
+  void step(ResultFolder& folder, FieldOutput<n>& fields, Console& console, RunLog& log) {
     const auto start = Clock::now();
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
     const StepReport report = stepper_->advance(state_);
@@ -181,8 +183,8 @@ class Run {
   }
 
   void announce(Console& console, RunLog& log) {
-    const auto text = fmt::format("{} {}: {} | {} nodes, {} tetrahedra, {} unknowns, {} threads, {} steps", program_,
-                                  version, setup_.title, mesh_.nodes.size(), mesh_.cells.size(),
+    const auto text = fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {} steps", program_, version,
+                                  setup_.title, loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell,
                                   summary_["unknowns"]["coupled"].get<long>(), threads(), loads_.steps());
     console.line(text);
     log.info(text);
@@ -200,7 +202,7 @@ class Run {
     Checkpoint checkpoint;
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
-    checkpoint.mesh_hash = hash_of_mesh(mesh_);
+    checkpoint.mesh_hash = loaded_.mesh.hash;
     store(state_, stepper_->memory(), loads_.axis().stretches(), checkpoint);
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
@@ -208,7 +210,7 @@ class Run {
   void recall() {
     const auto file = checkpoint_file(line_.restart);
     const Checkpoint checkpoint = read_checkpoint(file);
-    require_same_run(file, checkpoint, program_, hash_of_case(setup_), hash_of_mesh(mesh_));
+    require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash);
     Memory memory = restore(file, checkpoint, state_);
     const auto stretches = stored_stretches(file, checkpoint);
     memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time);
@@ -242,14 +244,14 @@ class Run {
   std::string program_;
   const CommandLine& line_;
   const Case& setup_;
-  TetrahedralMesh mesh_;
   ThreadChoice threads_;
-  std::unique_ptr<Scene<P1Tetrahedron>> scene_;
+  LoadedScene<n> loaded_;
+  Scene<n>* scene_;
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
-  Observables observables_;
-  std::optional<EnergyBalance<P1Tetrahedron>> energy_;
+  Observables<n> observables_;
+  std::optional<EnergyBalance<n>> energy_;
   StepRecord total_;
   std::string step_change_;  ///< said when the run goes on with another step
   nlohmann::json summary_;
@@ -266,7 +268,7 @@ void require_folder(const CommandLine& line) {
 }  // namespace
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
-               const StepperFactory& make_stepper, const OtherTask& other) {
+               const StepperMaker& make_stepper, const OtherTask& other) {
   wait_briefly(argv);
   return run_program(program, [&] {
     const CoreWatch watch;
@@ -278,7 +280,8 @@ int run_driver(const std::string& program, const std::string& description, int a
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
     require_folder(*line);
-    return Run(program, *line, setup, make_stepper, watch).march();
+    return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch).march()
+                                     : Run<3>(program, *line, setup, make_stepper, watch).march();
   });
 }
 

@@ -8,16 +8,19 @@
 
 #include "case/case.hpp"
 #include "driver/command_line.hpp"
-#include "fem/p1_tetrahedron.hpp"
 #include "scene/scene.hpp"
 #include "time/loads.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
 
-/// Makes the stepper that tells one driver from another.
-using StepperFactory =
-    std::function<std::unique_ptr<Stepper>(Scene<P1Tetrahedron>& scene, const Loads& loads, const Case& setup)>;
+/// Makes the stepper that tells one driver from another, for scenes of two and of three dimensions.
+class StepperMaker {
+ public:
+  virtual ~StepperMaker() = default;
+  virtual std::unique_ptr<Stepper> make(Scene<2>& scene, const Loads& loads, const Case& setup) const = 0;
+  virtual std::unique_ptr<Stepper> make(Scene<3>& scene, const Loads& loads, const Case& setup) const = 0;
+};
 
 /// Something that a program can do with a case in place of a run.
 struct OtherTask {
@@ -29,6 +32,6 @@ struct OtherTask {
 /// The whole of a driver: parse the command line, read case and mesh, build the scene, march it in time, write the
 /// results. Returns the exit code.
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
-               const StepperFactory& make_stepper, const OtherTask& other = {});
+               const StepperMaker& make_stepper, const OtherTask& other = {});
 
 }  // namespace fsi

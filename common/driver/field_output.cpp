@@ -1,75 +1,82 @@
 #include "driver/field_output.hpp"
-#include "fem/nodal_layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
+#include <utility>
+
+#include "fem/dimensions.hpp"
+#include "fem/mid_edge_nodes.hpp"
+#include "fem/nodal_layout.hpp"
 
 namespace fsi {
 
 namespace {
 
-constexpr int n = P1Tetrahedron::components;
-
-FieldGrid grid_of(const std::string& name, const Submesh<3>& part) {
-  FieldGrid grid;
-  grid.name = name;
-  grid.points = part.nodes;
-  for (const auto& cell : part.cells) grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
-  grid.layer = part.cell_region;
-  return grid;
+/// The vectors of a nodal array as vectors of space.
+template <class Layout, std::size_t n>
+std::vector<double> vectors(const std::vector<double>& from, const std::array<int, n>& axes) {
+  const int nodes = static_cast<int>(from.size()) / Layout::entries;
+  std::vector<double> to(VectorLayout<3>::size(nodes), 0.0);
+  for (int node = 0; node < nodes; ++node)
+    for (std::size_t k = 0; k < n; ++k)
+      to[VectorLayout<3>::vector(node, axes[k])] = from[Layout::vector(node, static_cast<int>(k))];
+  return to;
 }
 
-/// `count` numbers per node out of arrays with `stride` numbers per node.
-std::vector<double> taken(const std::vector<double>& from, int stride, int first, int count) {
-  std::vector<double> to;
-  to.reserve(from.size() / stride * count);
-  for (std::size_t node = 0; node < from.size() / stride; ++node)
-    for (int k = 0; k < count; ++k) to.push_back(from[node * stride + first + k]);
+template <class Layout>
+std::vector<double> scalars(const std::vector<double>& from) {
+  const int nodes = static_cast<int>(from.size()) / Layout::entries;
+  std::vector<double> to(static_cast<std::size_t>(nodes));
+  for (int node = 0; node < nodes; ++node) to[node] = from[Layout::scalar(node)];
   return to;
 }
 
 /// A field of output.fields: which grids have it, and its values.
+template <int n>
 struct OutputField {
   std::string_view name;
   int components;
   const char* unit;
   bool (*exists)(bool moves, bool flows);
-  std::vector<double> (*values)(const State& state, bool fluid);
+  std::vector<double> (*values)(const State& state, bool fluid, const std::array<int, n>& axes);
 };
 
-constexpr std::array<OutputField, 3> output_fields{
-    {{"displacement", n, "mm", [](bool moves, bool) { return moves; },
-      [](const State& state, bool fluid) {
-        return fluid ? state.now.mesh : taken(state.now.wall, MixedLayout<n>::entries, 0, n);
+template <int n>
+constexpr std::array<OutputField<n>, 3> output_fields{
+    {{"displacement", 3, "mm", [](bool moves, bool) { return moves; },
+      [](const State& state, bool fluid, const std::array<int, n>& axes) {
+        return fluid ? vectors<VectorLayout<n>>(state.now.mesh, axes) : vectors<MixedLayout<n>>(state.now.wall, axes);
       }},
-     {"velocity", n, "mm/ms", [](bool, bool flows) { return flows; },
-      [](const State& state, bool fluid) {
-        return fluid ? taken(state.now.fluid, MixedLayout<n>::entries, 0, n) : state.wall_velocity;
+     {"velocity", 3, "mm/ms", [](bool, bool flows) { return flows; },
+      [](const State& state, bool fluid, const std::array<int, n>& axes) {
+        return fluid ? vectors<MixedLayout<n>>(state.now.fluid, axes)
+                     : vectors<VectorLayout<n>>(state.wall_velocity, axes);
       }},
      {"pressure", 1, "kPa", [](bool, bool) { return true; },
-      [](const State& state, bool fluid) {
-        return taken(fluid ? state.now.fluid : state.now.wall, MixedLayout<n>::entries, n, 1);
+      [](const State& state, bool fluid, const std::array<int, n>&) {
+        return scalars<MixedLayout<n>>(fluid ? state.now.fluid : state.now.wall);
       }}}};
-static_assert(names_match(output_field_list, output_fields), "case/choices.hpp owns these names");
+static_assert(names_match(output_field_list, output_fields<3>), "case/choices.hpp owns these names");
 
 }  // namespace
 
-FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, const TimeAxis& axis,
-                         const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
-                         int first_step)
-    : scene_(scene) {
+template <int n>
+FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids,
+                            const TimeAxis& axis, const std::filesystem::path& folder,
+                            const std::filesystem::path& restarted_from, int first_step)
+    : axes_(scene.axes) {
   if (setup.output.every == 0 || setup.output.fields.empty()) return;
   const auto& wanted = setup.output.fields;
-  const auto describe = [&](FieldGrid grid, bool moves, bool flows) {
-    for (const auto& field : output_fields)
+  for (auto& grid : grids) {
+    const bool fluid = grid.name == "fluid";
+    const bool moves = fluid ? scene.coupled() : true, flows = fluid ? true : !scene.is_static();
+    for (const auto& field : output_fields<n>)
       if (std::find(wanted.begin(), wanted.end(), field.name) != wanted.end() && field.exists(moves, flows))
         grid.fields.push_back({std::string(field.name), field.components, field.unit});
     if (!grid.fields.empty()) grids_.push_back(std::move(grid));
-  };
-  if (scene.fluid) describe(grid_of("fluid", scene.fluid->part()), scene.coupled(), true);
-  if (scene.wall) describe(grid_of("wall", scene.wall->part()), true, !scene.is_static());
+  }
   if (grids_.empty()) return;
+  for (const auto& grid : grids_) middles_.push_back(middles_of(grid));
   const auto planned = planned_field_steps(axis.steps(), setup.output.every,
                                            [&](std::int64_t step) { return axis.time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
@@ -78,14 +85,41 @@ FieldOutput::FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, c
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, first_step);
 }
 
-void FieldOutput::write(const State& state) {
+template <int n>
+void FieldOutput<n>::write(const State& state) {
   if (!writer_ || !writer_->wants(state.step)) return;
   FieldValues values;
-  for (const auto& grid : grids_)
-    for (const auto& field : grid.fields)
-      for (const auto& known : output_fields)
-        if (known.name == field.name) values[{grid.name, field.name}] = known.values(state, grid.name == "fluid");
+  for (std::size_t g = 0; g < grids_.size(); ++g)
+    for (const auto& field : grids_[g].fields)
+      for (const auto& known : output_fields<n>) {
+        if (known.name != field.name) continue;
+        auto numbers = known.values(state, grids_[g].name == "fluid", axes_);
+        if (field.components == 1)
+          for (const Middle& middle : middles_[g])
+            numbers[middle.node] = 0.5 * (numbers[middle.ends[0]] + numbers[middle.ends[1]]);
+        values[{grids_[g].name, field.name}] = std::move(numbers);
+      }
   writer_->write(state.step, values);
 }
+
+template <int n>
+auto FieldOutput<n>::middles_of(const FieldGrid& grid) -> std::vector<Middle> {
+  constexpr int dim = n;  // of the cells: triangles have two components, tetrahedra three
+  std::vector<Middle> middles;
+  if (grid.nodes_per_cell != nodes_of_simplex(dim, 2)) return middles;
+  std::vector<char> seen(grid.points.size(), 0);
+  for (std::size_t cell = 0; cell < grid.cells.size(); cell += grid.nodes_per_cell)
+    for (std::size_t edge = 0; edge < SimplexEdges<dim>::vertices.size(); ++edge) {
+      const int node = grid.cells[cell + dim + 1 + edge];
+      if (seen[node]) continue;
+      seen[node] = 1;
+      const auto& [a, b] = SimplexEdges<dim>::vertices[edge];
+      middles.push_back({node, {grid.cells[cell + a], grid.cells[cell + b]}});
+    }
+  return middles;
+}
+
+#define FSI_INSTANTIATE(n) template class FieldOutput<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

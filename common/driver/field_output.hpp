@@ -1,30 +1,42 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "case/case.hpp"
-#include "fem/p1_tetrahedron.hpp"
 #include "io/fields_writer.hpp"
 #include "scene/scene.hpp"
 #include "time/time_axis.hpp"
 
 namespace fsi {
 
-/// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium.
+/// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
+/// keep their mid-edge nodes; there a scalar is the mean of the edge's ends, as its shape functions have it.
+template <int n>
 class FieldOutput {
  public:
   /// Nothing is written when the case wants no fields.
+  /// \param grids           of the media, without fields
   /// \param restarted_from  result folder that the run continues; empty: a new run
   /// \param first_step      last step of the checkpoint, or 0
-  FieldOutput(const Case& setup, const Scene<P1Tetrahedron>& scene, const TimeAxis& axis,
+  FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids, const TimeAxis& axis,
               const std::filesystem::path& folder, const std::filesystem::path& restarted_from, int first_step);
 
   /// Writes the state's fields if its step is a planned one.
   void write(const State& state);
 
  private:
-  const Scene<P1Tetrahedron>& scene_;
+  /// A node in the middle of an edge.
+  struct Middle {
+    int node;
+    std::array<int, 2> ends;
+  };
+  static std::vector<Middle> middles_of(const FieldGrid& grid);
+
+  std::array<int, n> axes_;
   std::vector<FieldGrid> grids_;
+  std::vector<std::vector<Middle>> middles_;  ///< per grid
   std::unique_ptr<FieldsWriter> writer_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "algebra/node_graph.hpp"
@@ -11,47 +11,34 @@
 
 namespace fsi {
 
-/// The fields of one medium on its part of the mesh: vectors at all nodes, scalars at the first
-/// Element::scalar_nodes of each cell. It owns which nodes carry what, how many numbers arrays have, which nodes
-/// couple, and how large the node of a norm is. Where the numbers stand is said by VectorLayout and MixedLayout.
-template <class Element>
+/// The fields of one medium on its part of the mesh, vectors with n components: which nodes carry what, how many
+/// numbers arrays have, which nodes couple, and how large the node of a norm is. Where the numbers stand is said by
+/// VectorLayout and MixedLayout.
+template <int n>
 class FunctionSpace {
  public:
-  static constexpr int n = Element::components;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
 
-  /// \param part  read here only, but for the number of its cells
-  explicit FunctionSpace(const Submesh<Element::dim, Element::order>& part)
-      : nodes_(part.node_count()), cells_(part.cells.size()) {
-    carries_scalar_.assign(part.nodes.size(), 0);
-    std::vector<int> cell_nodes;
-    cell_nodes.reserve(part.cells.size() * Element::nodes);
-    for (const auto& cell : part.cells) {
-      cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
-      for (int a = 0; a < Element::scalar_nodes; ++a) carries_scalar_[cell[a]] = 1;
-    }
-    graph_ = std::make_shared<NodeGraph>(graph_of_cells(nodes_, cell_nodes, Element::nodes));
-  }
+  /// \param carries_scalar  per node
+  /// \param graph           nodes that share a cell
+  /// \param volumes         nodal_volumes(), mm^3
+  FunctionSpace(std::vector<char> carries_scalar, std::shared_ptr<const NodeGraph> graph, std::vector<double> volumes)
+      : carries_scalar_(std::move(carries_scalar)), graph_(std::move(graph)), volumes_(std::move(volumes)) {}
 
-  int node_count() const { return nodes_; }
+  int node_count() const { return static_cast<int>(carries_scalar_.size()); }
   bool carries_scalar(int node) const { return carries_scalar_[node] != 0; }
-  std::size_t vector_size() const { return Vector::size(nodes_); }
-  std::size_t mixed_size() const { return Mixed::size(nodes_); }
+  std::size_t vector_size() const { return Vector::size(node_count()); }
+  std::size_t mixed_size() const { return Mixed::size(node_count()); }
   /// Nodes that share a cell.
   const std::shared_ptr<const NodeGraph>& graph() const { return graph_; }
-
-  std::vector<int> all_cells() const {
-    std::vector<int> all(cells_);
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
+  /// The volume that belongs to each node, mm^3 (nodal_volumes).
+  const std::vector<double>& volumes() const { return volumes_; }
 
  private:
-  int nodes_;
-  std::size_t cells_;
   std::vector<char> carries_scalar_;
   std::shared_ptr<const NodeGraph> graph_;
+  std::vector<double> volumes_;
 };
 
 /// The volume that belongs to each node, mm^3: positive, and adding up to the part's; weights of lumped L2 norms. The
@@ -83,6 +70,21 @@ std::vector<double> nodal_volumes(const Submesh<Element::dim, Element::order>& p
       for (int a = 0; a < Element::nodes; ++a) volumes[cell[a]] += total * square[a] / squares;
   }
   return volumes;
+}
+
+/// The space of an element on a part: vectors at all nodes, scalars at the first Element::scalar_nodes of each cell.
+/// \param part  read here only
+template <class Element>
+FunctionSpace<Element::components> function_space(const Submesh<Element::dim, Element::order>& part) {
+  std::vector<char> carries_scalar(part.nodes.size(), 0);
+  std::vector<int> cell_nodes;
+  cell_nodes.reserve(part.cells.size() * Element::nodes);
+  for (const auto& cell : part.cells) {
+    cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
+    for (int a = 0; a < Element::scalar_nodes; ++a) carries_scalar[cell[a]] = 1;
+  }
+  auto graph = std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, Element::nodes));
+  return {std::move(carries_scalar), std::move(graph), nodal_volumes<Element>(part)};
 }
 
 }  // namespace fsi

@@ -14,7 +14,7 @@ namespace detail {
 
 template <class Element, FluidDerivatives Derivatives, bool Moving>
 AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                           const FluidInput& in, double* residual, FluidJacobian<Element>* jacobian) {
+                           const FluidInput& in, double* residual, FluidJacobian<Element::components>* jacobian) {
   constexpr int n = Element::components;
   constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
   // Seeds of one node, in this order: mesh displacement (if asked for), velocity, pressure.
@@ -80,7 +80,7 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
 template <class Element>
 AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in,
                               std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,
-                              FluidJacobian<Element>* jacobian = nullptr) {
+                              FluidJacobian<Element::components>* jacobian = nullptr) {
   form.step = in.step;
   if (derivatives != FluidDerivatives::none) jacobian->fluid.set_zero();
   if (derivatives == FluidDerivatives::fluid_and_domain) jacobian->shape_derivatives.set_zero();

@@ -20,11 +20,11 @@ struct FluidInput {
 };
 
 /// Derivatives of the fluid's residual with respect to its own unknowns (u, p) and to the mesh displacement.
-template <class Element>
+template <int n>
 struct FluidJacobian {
-  static constexpr int own = MixedLayout<Element::components>::entries;
-  BlockMatrix<own, own> fluid;                              ///< columns (u, p)
-  BlockMatrix<own, Element::components> shape_derivatives;  ///< columns d_m; empty where not asked for
+  static constexpr int own = MixedLayout<n>::entries;
+  BlockMatrix<own, own> fluid;            ///< columns (u, p)
+  BlockMatrix<own, n> shape_derivatives;  ///< columns d_m; empty where not asked for
 };
 
 /// Which derivatives an element loop is asked for.

@@ -10,19 +10,12 @@
 namespace fsi {
 
 template <class Element>
-FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<Element>> open)
+FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open)
     : part_(std::move(part)),
       form_(form),
-      space_(part_),
-      packs_(part_.nodes, part_.cells, space_.all_cells(), *space_.graph()),
+      space_(function_space<Element>(part_)),
+      packs_(part_.nodes, part_.cells, all_cells(part_), *space_.graph()),
       open_(std::move(open)) {}
-
-template <class Element>
-const OpenBoundary<Element>* FluidProblem<Element>::open_boundary(const std::string& name) const {
-  for (const auto& boundary : open_)
-    if (boundary.name() == name) return &boundary;
-  return nullptr;
-}
 
 template <class Element>
 AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::vector<double>& pressures,
@@ -36,17 +29,29 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
 }
 
 template <class Element>
-FluidJacobian<Element>& FluidProblem<Element>::jacobian(FluidDerivatives derivatives) {
+auto FluidProblem<Element>::jacobian(FluidDerivatives derivatives) -> FluidJacobian<n>& {
   if (derivatives != FluidDerivatives::none && jacobian_.fluid.values.empty())
-    jacobian_.fluid = decltype(jacobian_.fluid)(graph());
+    jacobian_.fluid = decltype(jacobian_.fluid)(this->graph());
   if (derivatives == FluidDerivatives::fluid_and_domain && jacobian_.shape_derivatives.values.empty())
-    jacobian_.shape_derivatives = decltype(jacobian_.shape_derivatives)(graph());
+    jacobian_.shape_derivatives = decltype(jacobian_.shape_derivatives)(this->graph());
   return jacobian_;
 }
 
 template <class Element>
 FluidEnergy FluidProblem<Element>::energy(const FluidInput& in) const {
   return fluid_energy(form_, packs_, in);
+}
+
+template <class Element>
+double FluidProblem<Element>::volume() const {
+  double sum = 0;
+  for (double v : space_.volumes()) sum += v;
+  return sum;
+}
+
+template <class Element>
+std::vector<int> FluidProblem<Element>::cell_vertices() const {
+  return vertices_of_cells(part_);
 }
 
 #define FSI_INSTANTIATE(Element) template class FluidProblem<Element>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -10,21 +11,21 @@
 
 namespace fsi {
 
-/// A surface of the fluid, by name, through which fluid may pass. It does not move.
-template <class Element>
+/// A surface of the fluid, by name, through which fluid may pass. It does not move. Vectors have n components.
+template <int n>
 class OpenBoundary {
  public:
-  static constexpr int n = Element::components;
   using Layout = MixedLayout<n>;
-  using Facets = std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>;
+  /// Integral of |u|^2/2 u . n for nodes (reference positions, mm) and a flow array, mm^5/ms^3.
+  using KineticFlux = std::function<double(const std::vector<Point>& nodes, const std::vector<double>& flow)>;
 
-  /// \param nodes   reference positions of the fluid's nodes, mm
-  /// \param facets  in their numbers, normals outward
-  OpenBoundary(std::string name, const std::vector<Point>& nodes, Facets facets)
+  /// \param normals  integrals of N_a n, as flow arrays, mm^2
+  /// \param areas    integrals of the scalar fields' shape functions per node, mm^2
+  OpenBoundary(std::string name, std::vector<double> normals, std::vector<double> areas, KineticFlux kinetic_flux)
       : name_(std::move(name)),
-        facets_(std::move(facets)),
-        normals_(normal_weights<Element, Layout>(nodes, facets_)),
-        areas_(scalar_weights<Element>(nodes, facets_)) {}
+        normals_(std::move(normals)),
+        areas_(std::move(areas)),
+        kinetic_flux_(std::move(kinetic_flux)) {}
 
   const std::string& name() const { return name_; }
 
@@ -49,14 +50,27 @@ class OpenBoundary {
   }
   /// Integral of |u|^2/2 u . n, mm^5/ms^3: times the density the kinetic energy that flows out, uJ/ms.
   double kinetic_outflow(const std::vector<Point>& nodes, const std::vector<double>& flow) const {
-    return kinetic_flux<Element>(nodes, facets_, flow);
+    return kinetic_flux_(nodes, flow);
   }
 
  private:
   std::string name_;
-  Facets facets_;
   std::vector<double> normals_;  ///< as flow arrays
   std::vector<double> areas_;    ///< per node
+  KineticFlux kinetic_flux_;
 };
+
+/// \param nodes   reference positions of the fluid's nodes, mm
+/// \param facets  in their numbers, normals outward
+template <class Element>
+OpenBoundary<Element::components> open_boundary(
+    std::string name, const std::vector<Point>& nodes,
+    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets) {
+  return {std::move(name), normal_weights<Element, MixedLayout<Element::components>>(nodes, facets),
+          scalar_weights<Element>(nodes, facets),
+          [facets](const std::vector<Point>& at, const std::vector<double>& flow) {
+            return kinetic_flux<Element>(at, facets, flow);
+          }};
+}
 
 }  // namespace fsi

@@ -13,7 +13,10 @@ inline constexpr const char* outlet = "outlet";
 inline constexpr const char* wall_ends = "wall_ends";  ///< clamped end faces of all wall layers
 inline constexpr const char* outer = "outer";          ///< free outer face of the wall, optional
 inline constexpr const char* inner = "inner";          ///< loaded face of a wall without fluid
-inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};
+/// Planes of symmetry normal to the x, y and z axis of space, which also carry what may slide along them.
+inline constexpr std::array<const char*, 3> symmetry_planes{"symmetry_x", "symmetry_y", "symmetry_z"};
+inline constexpr std::array<const char*, 8> surfaces{inlet, outlet,       wall_ends,    outer,
+                                                     inner, "symmetry_x", "symmetry_y", "symmetry_z"};
 }  // namespace group
 
 }  // namespace fsi

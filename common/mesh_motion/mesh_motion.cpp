@@ -7,7 +7,7 @@
 namespace fsi {
 
 template <class Element>
-void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element>& matrix) {
+void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix) {
   constexpr int n = Element::components;
   matrix.set_zero();
   for_each_thread(packs, serial_jacobian_elements, [&](int, const auto& mine) {
@@ -31,7 +31,7 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
 }
 
 #define FSI_INSTANTIATE(Element) \
-  template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element>&);
+  template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element::components>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 FSI_INSTANTIATE(P2P1Tetrahedron)  // ready before the weak forms of fluid and wall are
 #undef FSI_INSTANTIATE

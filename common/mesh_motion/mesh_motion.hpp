@@ -10,18 +10,36 @@ namespace fsi {
 
 /// The operator of the mesh motion: components do not couple, each node pair holds one number per component. Constant,
 /// so assembled once, unless a case wants to see what that saves.
-template <class Element>
-using MeshMotionMatrix = BlockMatrix<1, Element::components>;
+template <int n>
+using MeshMotionMatrix = BlockMatrix<1, n>;
+
+/// What moves the mesh of the fluid between its boundaries.
+template <int n>
+class MeshMotion {
+ public:
+  virtual ~MeshMotion() = default;
+  /// Overwrites the operator, without boundary conditions.
+  virtual void assemble(MeshMotionMatrix<n>& matrix) const = 0;
+};
 
 /// Assembles the operator of the harmonic mesh motion, without boundary conditions.
 template <class Element>
-void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element>& matrix);
+void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix);
+
+/// Harmonic mesh motion on the elements of the fluid, which must outlive it.
+template <class Element>
+class MeshMotionOfElements : public MeshMotion<Element::components> {
+ public:
+  explicit MeshMotionOfElements(const ElementPacks<Element>& packs) : packs_(packs) {}
+  void assemble(MeshMotionMatrix<Element::components>& matrix) const override { assemble_mesh_motion(packs_, matrix); }
+
+ private:
+  const ElementPacks<Element>& packs_;
+};
 
 /// r = A d, both in the vector layout.
-template <class Element>
-void multiply_mesh_motion(const MeshMotionMatrix<Element>& matrix, const std::vector<double>& d,
-                          std::vector<double>& r) {
-  constexpr int n = Element::components;
+template <int n>
+void multiply_mesh_motion(const MeshMotionMatrix<n>& matrix, const std::vector<double>& d, std::vector<double>& r) {
   const auto& graph = *matrix.graph;
 #pragma omp parallel for schedule(static) if (graph.blocks() > 200000)
   for (int row = 0; row < graph.rows(); ++row) {

@@ -1,105 +1,165 @@
 #include "scene/boundary_conditions.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
+#include "fem/elements.hpp"
+#include "fem/facet_load.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh/facets.hpp"
 #include "mesh/group_names.hpp"
 
 namespace fsi {
 
 namespace {
 
-using Facets = std::vector<TetrahedralMesh::Facet>;
+/// A facet's vertices in ascending order.
+template <class Element>
+using VertexKey = std::array<int, Element::dim>;
+template <class Element>
+VertexKey<Element> vertex_key(const typename MeshOf<Element>::Facet& facet) {
+  VertexKey<Element> key;
+  std::copy_n(facet.begin(), key.size(), key.begin());
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// The facet with its normal turned round.
+template <class Element>
+typename MeshOf<Element>::Facet reversed(typename MeshOf<Element>::Facet facet) {
+  constexpr int first = Element::dim - 2;  // two vertices change places, and with them the edges that they do not share
+  std::swap(facet[first], facet[first + 1]);
+  if constexpr (Element::dim == 3 && Element::order == 2) std::swap(facet[3], facet[5]);
+  return facet;
+}
 
 /// One flag per node of a part: on these facets of the whole mesh.
-std::vector<char> nodes_on(const Submesh<3>& part, const Facets& facets) {
+template <class Element>
+std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets) {
   std::vector<char> marks(part.nodes.size(), 0);
   for (const auto& facet : facets)
-    for (int node : facet) {
-      assert(part.local_node[node] >= 0);
-      marks[part.local_node[node]] = 1;
-    }
+    for (int node : facet)
+      if (part.local_node[node] >= 0) marks[part.local_node[node]] = 1;
+  part.spread_to_copies(marks);
   return marks;
 }
 
-/// Facets of the fluid's boundary that are in none of the given sets.
-Facets closed_facets(const TetrahedralMesh& mesh, const std::vector<const Facets*>& others) {
-  std::vector<TetrahedralMesh::Facet> known;
-  for (const Facets* facets : others)
-    for (const auto& facet : *facets) known.push_back(facet_key(facet));
+/// Fixes the component along one axis of space on all nodes of a part that lie on a symmetry plane normal to it, and of
+/// an axisymmetric part the radial one on the axis.
+template <class Element>
+void fix_normal_components(const MeshOf<Element>& mesh, const PartOf<Element>& part,
+                           const std::vector<DirichletConditions<Element::components>*>& conditions) {
+  for (int k = 0; k < Element::components; ++k) {
+    auto on = nodes_on<Element>(part, group_facets(mesh, group::symmetry_planes[Element::axis[k]]));
+    if constexpr (Element::axisymmetric)
+      if (k == 0)
+        for (int a = 0; a < part.node_count(); ++a) on[a] = on[a] || part.nodes[a][0] == 0;
+    for (int a = 0; a < part.node_count(); ++a)
+      if (on[a])
+        for (auto* condition : conditions) condition->fix(a, k);
+  }
+}
+
+/// Facets of the fluid's boundary at which it sticks: those in none of the given sets and not on the axis.
+template <class Element>
+FacetsOf<Element> closed_facets(const MeshOf<Element>& mesh, const std::vector<FacetsOf<Element>>& others) {
+  std::vector<VertexKey<Element>> known;
+  for (const auto& facets : others)
+    for (const auto& facet : facets) known.push_back(vertex_key<Element>(facet));
   std::sort(known.begin(), known.end());
-  Facets closed;
-  for (const auto& facet : boundary_facets(mesh, {mesh.region_index(group::fluid)}))
-    if (!std::binary_search(known.begin(), known.end(), facet_key(facet.nodes))) closed.push_back(facet.nodes);
+  FacetsOf<Element> closed;
+  for (const auto& facet : boundary_facets(mesh, {mesh.region_index(group::fluid)})) {
+    if (std::binary_search(known.begin(), known.end(), vertex_key<Element>(facet.nodes))) continue;
+    if constexpr (Element::axisymmetric)
+      if (std::all_of(facet.nodes.begin(), facet.nodes.end(), [&](int node) { return mesh.nodes[node][0] == 0; }))
+        continue;
+    closed.push_back(facet.nodes);
+  }
   return closed;
 }
 
 }  // namespace
 
-const Facets& group_facets(const TetrahedralMesh& mesh, const std::string& name) {
-  static const Facets none;
-  const auto* facets = mesh.facets(name);
-  return facets ? *facets : none;
-}
-
-Facets in_part(const Submesh<3>& part, const Facets& facets) {
-  Facets local;
+template <class Element>
+FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& facets) {
+  FacetsOf<Element> local;
   local.reserve(facets.size());
   for (const auto& facet : facets) local.push_back(part.local(facet));
   return local;
 }
 
-Facets inner_surface(const TetrahedralMesh& mesh, const std::vector<int>& wall_regions) {
+template <class Element>
+FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions) {
   const int fluid = mesh.region_index(group::fluid);
   if (fluid < 0) return group_facets(mesh, group::inner);
-  Facets facets = interface_facets(mesh, fluid, wall_regions);
-  for (auto& facet : facets) std::swap(facet[1], facet[2]);
+  FacetsOf<Element> facets = interface_facets(mesh, fluid, wall_regions);
+  for (auto& facet : facets) facet = reversed<Element>(facet);
   return facets;
 }
 
-DirichletConditions<3> wall_conditions(const TetrahedralMesh& mesh, const Submesh<3>& wall) {
-  DirichletConditions<3> conditions(wall.node_count());
-  const auto ends = nodes_on(wall, group_facets(mesh, group::wall_ends));
+template <class Element>
+DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall) {
+  DirichletConditions<Element::components> conditions(wall.node_count());
+  const auto ends = nodes_on<Element>(wall, group_facets(mesh, group::wall_ends));
   for (int a = 0; a < wall.node_count(); ++a)
     if (ends[a]) conditions.fix(a);
+  fix_normal_components<Element>(mesh, wall, {&conditions});
   return conditions;
 }
 
-FluidBoundary fluid_boundary(const std::vector<OpeningData>& openings, const TetrahedralMesh& mesh,
-                             const Submesh<3>& fluid, const Facets& interface, const Submesh<3>* wall,
-                             const DirichletConditions<3>* wall_conditions) {
+template <class Element>
+FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, const MeshOf<Element>& mesh,
+                                      const PartOf<Element>& fluid, const FacetsOf<Element>& interface,
+                                      const PartOf<Element>* wall,
+                                      const DirichletConditions<Element::components>* wall_conditions) {
+  constexpr int n = Element::components;
   const int nodes = fluid.node_count();
-  FluidBoundary boundary;
-  boundary.velocity = boundary.mesh = DirichletConditions<3>(nodes);
-  std::vector<const Facets*> not_closed{&interface};
+  FluidBoundary<Element> boundary;
+  boundary.velocity = boundary.mesh = DirichletConditions<n>(nodes);
+  std::vector<FacetsOf<Element>> not_closed{interface};
+  for (const char* plane : group::symmetry_planes) not_closed.push_back(group_facets(mesh, plane));
   for (const auto& opening : openings) {
-    const Facets& facets = group_facets(mesh, opening.surface);
-    not_closed.push_back(&facets);
-    boundary.open.emplace_back(opening.surface, fluid.nodes, in_part(fluid, facets));
-    const auto on = nodes_on(fluid, facets);
+    const FacetsOf<Element> facets = group_facets(mesh, opening.surface);
+    not_closed.push_back(facets);
+    boundary.open.push_back(open_boundary<Element>(opening.surface, fluid.nodes, in_part<Element>(fluid, facets)));
+    const auto on = nodes_on<Element>(fluid, facets);
     for (int a = 0; a < nodes; ++a)
       if (on[a]) boundary.mesh.fix(a);
   }
-  const auto closed = nodes_on(fluid, closed_facets(mesh, not_closed));
+  const auto closed = nodes_on<Element>(fluid, closed_facets<Element>(mesh, not_closed));
   for (int a = 0; a < nodes; ++a)
     if (closed[a]) {
       boundary.velocity.fix(a);
       boundary.mesh.fix(a);
     }
-  const auto wet = nodes_on(fluid, interface);
+  fix_normal_components<Element>(mesh, fluid, {&boundary.velocity, &boundary.mesh});
+  const auto wet = nodes_on<Element>(fluid, interface);
+  const auto areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, interface));
   for (int a = 0; a < nodes; ++a) {
     if (!wet[a]) continue;
     const int wall_node = wall->local_node[fluid.mesh_node[a]];
     const bool clamped = wall_conditions->fixes(wall_node);
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < n; ++k)
       if (wall_conditions->fixes(wall_node, k) || boundary.velocity.fixes(a, k)) {
         boundary.velocity.fix(a, k);
         boundary.mesh.fix(a, k);
       }
     boundary.interface.push_back({a, wall_node, clamped});
+    boundary.interface_areas.push_back(areas[a]);
   }
   return boundary;
 }
+
+#define FSI_INSTANTIATE(Element)                                                                                 \
+  template FacetsOf<Element> in_part<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                 \
+  template FacetsOf<Element> inner_surface<Element>(const MeshOf<Element>&, const std::vector<int>&);            \
+  template DirichletConditions<Element::components> wall_conditions<Element>(const MeshOf<Element>&,             \
+                                                                             const PartOf<Element>&);            \
+  template FluidBoundary<Element> fluid_boundary<Element>(                                                       \
+      const std::vector<OpeningData>&, const MeshOf<Element>&, const PartOf<Element>&, const FacetsOf<Element>&, \
+      const PartOf<Element>*, const DirichletConditions<Element::components>*);
+FSI_INSTANTIATE(P1Tetrahedron)
+#undef FSI_INSTANTIATE
 
 }  // namespace fsi

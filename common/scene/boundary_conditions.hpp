@@ -1,40 +1,59 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "case/openings.hpp"
-#include "fem/p1_tetrahedron.hpp"
 #include "mesh/submesh.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
 
+template <class Element>
+using MeshOf = SimplexMesh<Element::dim, Element::order>;
+template <class Element>
+using PartOf = Submesh<Element::dim, Element::order>;
+template <class Element>
+using FacetsOf = std::vector<typename MeshOf<Element>::Facet>;
+
 /// The facets of a group; none when the mesh has no group of that name.
-const std::vector<TetrahedralMesh::Facet>& group_facets(const TetrahedralMesh& mesh, const std::string& name);
+template <class Mesh>
+std::vector<typename Mesh::Facet> group_facets(const Mesh& mesh, const std::string& name) {
+  const auto* facets = mesh.facets(name);
+  return facets ? *facets : std::vector<typename Mesh::Facet>{};
+}
 
 /// Facets of the whole mesh in the node numbers of a part.
-std::vector<TetrahedralMesh::Facet> in_part(const Submesh<3>& part, const std::vector<TetrahedralMesh::Facet>& facets);
+template <class Element>
+FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& facets);
 
 /// Where pressure acts on a wall without fluid: its interface with the fluid volume if the mesh has one, else the group
 /// `inner`; normals out of the wall, nodes of the whole mesh.
-std::vector<TetrahedralMesh::Facet> inner_surface(const TetrahedralMesh& mesh, const std::vector<int>& wall_regions);
+template <class Element>
+FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions);
 
-/// The wall's displacement is zero on the clamped ends.
-DirichletConditions<3> wall_conditions(const TetrahedralMesh& mesh, const Submesh<3>& wall);
+/// The wall's displacement is zero on the clamped ends; on symmetry planes and on the axis its normal component is.
+template <class Element>
+DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall);
 
 /// What bounds the fluid.
+template <class Element>
 struct FluidBoundary {
-  DirichletConditions<3> velocity, mesh;
+  DirichletConditions<Element::components> velocity, mesh;
   std::vector<InterfaceNode> interface;
-  std::vector<OpenBoundary<P1Tetrahedron>> open;
+  std::vector<double> interface_areas;  ///< that belongs to each of its nodes, mm^2
+  std::vector<OpenBoundary<Element::components>> open;
 };
 
-/// No slip on every facet that is neither open nor interface, and on the rims where the wall's clamped ends meet the
-/// fluid; a mesh at rest there and on the open boundaries.
+/// No slip on every facet that is neither open nor interface nor on a symmetry plane or the axis, and on the rims where
+/// the wall's clamped ends meet the fluid; a mesh at rest there and on the open boundaries. On symmetry planes and on
+/// the axis the normal components are zero, of the velocity and of the mesh.
 /// \param interface   facets between fluid and wall, nodes of the whole mesh
 /// \param wall        the wall's part and its conditions; null pointers without wall
-FluidBoundary fluid_boundary(const std::vector<OpeningData>& openings, const TetrahedralMesh& mesh,
-                             const Submesh<3>& fluid, const std::vector<TetrahedralMesh::Facet>& interface,
-                             const Submesh<3>* wall, const DirichletConditions<3>* wall_conditions);
+template <class Element>
+FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, const MeshOf<Element>& mesh,
+                                      const PartOf<Element>& fluid, const FacetsOf<Element>& interface,
+                                      const PartOf<Element>* wall,
+                                      const DirichletConditions<Element::components>* wall_conditions);
 
 }  // namespace fsi

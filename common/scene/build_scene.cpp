@@ -3,10 +3,13 @@
 #include <cmath>
 #include <utility>
 
+#include "fem/elements.hpp"
+#include "fluid/fluid_problem.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "time/euler_newmark.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi {
 
@@ -25,10 +28,11 @@ CylinderAxis cylinder_axis(const StructureData& data) {
 
 }  // namespace
 
-std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const TetrahedralMesh& mesh) {
-  constexpr int n = P1Tetrahedron::components;
-  using Facets = std::vector<TetrahedralMesh::Facet>;
-  auto scene = std::make_unique<Scene<P1Tetrahedron>>();
+template <class Element>
+std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const MeshOf<Element>& mesh) {
+  constexpr int n = Element::components;
+  auto scene = std::make_unique<Scene<n>>();
+  for (int k = 0; k < n; ++k) scene->axes[k] = Element::axis[k];
   if (setup.time) {
     scene->integrator =
         std::make_unique<EulerNewmark<n>>(NewmarkParameters{setup.time->newmark_beta, setup.time->newmark_gamma});
@@ -40,40 +44,51 @@ std::unique_ptr<Scene<P1Tetrahedron>> build_scene(const Case& setup, const Tetra
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
 
+  PartOf<Element> wall_part;
   if (setup.structure) {
-    auto part = submesh(mesh, wall_regions);
-    scene->wall_conditions = wall_conditions(mesh, part);
+    wall_part = submesh(mesh, wall_regions);
+    if (setup.structure->layer_pressure == LayerPressure::separate) wall_part = split_between_regions(wall_part);
+    scene->wall_conditions = wall_conditions<Element>(mesh, wall_part);
     std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
       layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
-    const Facets pressurised = setup.load ? in_part(part, inner_surface(mesh, wall_regions)) : Facets{};
+    const auto pressurised =
+        setup.load ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions)) : FacetsOf<Element>{};
     const auto& s = *setup.structure;
-    scene->wall = std::make_unique<WallProblem<P1Tetrahedron>>(
-        std::move(part), WallConstants{s.density, s.bulk_modulus, s.stabilisation}, layers, cylinder_axis(s),
-        pressurised);
-    scene->profile.count("structure elements", static_cast<std::int64_t>(scene->wall->part().cells.size()));
-    for (const auto& layer : scene->wall->layers())
+    auto wall = std::make_unique<WallProblem<Element>>(
+        wall_part, WallConstants{s.density, s.bulk_modulus, s.stabilisation}, layers, cylinder_axis(s), pressurised);
+    scene->profile.count("structure elements", static_cast<std::int64_t>(wall->element_count()));
+    for (const auto& layer : wall->layers())
       if (!layer.fibres.empty())
         scene->profile.count("elements with fibres", static_cast<std::int64_t>(layer.packs.element_count()));
+    scene->wall = std::move(wall);
   }
 
   if (setup.fluid) {
     auto part = submesh(mesh, {fluid_region});
-    const Facets interface = setup.structure ? interface_facets(mesh, fluid_region, wall_regions) : Facets{};
-    FluidBoundary boundary =
-        fluid_boundary(openings_of(setup), mesh, part, interface, scene->wall ? &scene->wall->part() : nullptr,
-                       scene->wall ? &scene->wall_conditions : nullptr);
+    const auto interface = setup.structure ? interface_facets(mesh, fluid_region, wall_regions) : FacetsOf<Element>{};
+    auto boundary =
+        fluid_boundary<Element>(openings_of(setup), mesh, part, interface, scene->wall ? &wall_part : nullptr,
+                                scene->wall ? &scene->wall_conditions : nullptr);
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
     scene->interface = std::move(boundary.interface);
+    scene->interface_areas = std::move(boundary.interface_areas);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
-    scene->fluid = std::make_unique<FluidProblem<P1Tetrahedron>>(std::move(part), form, std::move(boundary.open));
-    scene->profile.count("fluid elements", static_cast<std::int64_t>(scene->fluid->part().cells.size()));
+    auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open));
+    scene->profile.count("fluid elements", static_cast<std::int64_t>(fluid->element_count()));
+    if (scene->wall) scene->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid->packs());
+    scene->fluid = std::move(fluid);
   }
 
   scene->keep_constant_operators = setup.economy.keep_constant_operators;
   if (scene->coupled()) scene->assemble_mesh_motion();
   return scene;
 }
+
+#define FSI_INSTANTIATE(Element) \
+  template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, const MeshOf<Element>&);
+FSI_INSTANTIATE(P1Tetrahedron)
+#undef FSI_INSTANTIATE
 
 }  // namespace fsi

@@ -1,14 +1,15 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "base/profile.hpp"
-#include "fluid/fluid_problem.hpp"
+#include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "scene/dirichlet_conditions.hpp"
 #include "time/time_integrator.hpp"
-#include "wall/wall_problem.hpp"
+#include "wall/wall.hpp"
 
 namespace fsi {
 
@@ -20,23 +21,25 @@ struct InterfaceNode {
 
 /// The sub-problems of one scene with their boundary conditions: what both drivers march in time. Parts that the case
 /// does not have are not built.
-template <class Element>
+template <int n>
 class Scene {
  public:
-  static constexpr int n = Element::components;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   using Conditions = DirichletConditions<n>;
 
-  std::unique_ptr<FluidProblem<Element>> fluid;
-  std::unique_ptr<WallProblem<Element>> wall;
-  MeshMotionMatrix<Element> mesh_motion;  ///< empty unless fluid and wall meet
-  int mesh_motion_assemblies = 0;         ///< what is made of the matrix is as old as the count it was made at
-  bool keep_constant_operators = true;    ///< false: assembled at each use, to see what keeping them saves
-  std::vector<InterfaceNode> interface;   ///< ascending in the fluid's numbers
-  Conditions velocity_conditions;         ///< of the fluid's velocity
-  Conditions mesh_conditions;             ///< of the mesh displacement
-  Conditions wall_conditions;             ///< of the wall's displacement
+  std::unique_ptr<Fluid<n>> fluid;
+  std::unique_ptr<Wall<n>> wall;
+  std::unique_ptr<MeshMotion<n>> mesh_motion_problem;  ///< null unless fluid and wall meet
+  MeshMotionMatrix<n> mesh_motion;                     ///< its operator; empty unless fluid and wall meet
+  int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
+  bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
+  std::vector<InterfaceNode> interface;  ///< ascending in the fluid's numbers
+  std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
+  std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
+  Conditions velocity_conditions;        ///< of the fluid's velocity
+  Conditions mesh_conditions;            ///< of the mesh displacement
+  Conditions wall_conditions;            ///< of the wall's displacement
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
   int predictor = 1;        ///< order of the extrapolated start of each step
   mutable Profile profile;  ///< also of those who only read the scene
@@ -47,8 +50,8 @@ class Scene {
   /// Assembles the mesh motion's operator; its storage stays in place.
   void assemble_mesh_motion() {
     const auto phase = profile.phase("assembly: mesh motion");
-    if (mesh_motion.values.empty()) mesh_motion = MeshMotionMatrix<Element>(fluid->graph());
-    fsi::assemble_mesh_motion(fluid->packs(), mesh_motion);
+    if (mesh_motion.values.empty()) mesh_motion = MeshMotionMatrix<n>(fluid->graph());
+    mesh_motion_problem->assemble(mesh_motion);
     ++mesh_motion_assemblies;
   }
   /// To be called before each use of operators that never change.

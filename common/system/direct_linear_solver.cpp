@@ -2,13 +2,13 @@
 
 #include <utility>
 
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "fem/gather_blocks.hpp"
 
 namespace fsi {
 
-template <class Element>
-GatheredMatrix gather_jacobian(const JacobianBlocks<Element>& blocks) {
+template <int n>
+GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks) {
   const Numbering& numbering = blocks.numbering;
   GatheredMatrix::Builder builder(numbering.size);
   if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
@@ -19,13 +19,12 @@ GatheredMatrix gather_jacobian(const JacobianBlocks<Element>& blocks) {
   return GatheredMatrix(std::move(builder));
 }
 
-template <class Element>
-DirectLinearSolver<Element>::DirectLinearSolver(const JacobianBlocks<Element>& blocks,
-                                                const DirectSolver::Options& options)
+template <int n>
+DirectLinearSolver<n>::DirectLinearSolver(const JacobianBlocks<n>& blocks, const DirectSolver::Options& options)
     : blocks_(blocks), options_(options), solver_(options) {}
 
-template <class Element>
-void DirectLinearSolver<Element>::update() {
+template <int n>
+void DirectLinearSolver<n>::update() {
   if (matrix_.matrix().size() <= 0 || gathered_ != blocks_.numbering.version) {
     matrix_ = gather_jacobian(blocks_);
     gathered_ = blocks_.numbering.version;
@@ -35,22 +34,22 @@ void DirectLinearSolver<Element>::update() {
   solver_.factorise(matrix_.matrix());
 }
 
-template <class Element>
-LinearReport DirectLinearSolver<Element>::solve(const std::vector<double>& b, double, std::vector<double>& x) {
+template <int n>
+LinearReport DirectLinearSolver<n>::solve(const std::vector<double>& b, double, std::vector<double>& x) {
   solver_.solve(matrix_.matrix(), b, x);
   return {};
 }
 
-template <class Element>
-LinearStatistics DirectLinearSolver<Element>::statistics() const {
+template <int n>
+LinearStatistics DirectLinearSolver<n>::statistics() const {
   LinearStatistics s;
   s.memory_mib = (16.0 * solver_.factor_nonzeros() + 24.0 * matrix_.matrix().nonzeros()) / (1 << 20);
   return s;
 }
 
-#define FSI_INSTANTIATE(Element)                                           \
-  template GatheredMatrix gather_jacobian(const JacobianBlocks<Element>&); \
-  template class DirectLinearSolver<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n)                                           \
+  template GatheredMatrix gather_jacobian(const JacobianBlocks<n>&); \
+  template class DirectLinearSolver<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

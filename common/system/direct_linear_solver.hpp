@@ -11,15 +11,15 @@
 namespace fsi {
 
 /// Gathers the Jacobian in the unknowns of its numbering.
-template <class Element>
-GatheredMatrix gather_jacobian(const JacobianBlocks<Element>& blocks);
+template <int n>
+GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks);
 
 /// `direct`: sparse LU factorisation of the Jacobian. On the interface it works with one unknown, as the numbering
 /// does.
-template <class Element>
+template <int n>
 class DirectLinearSolver : public LinearSolver {
  public:
-  explicit DirectLinearSolver(const JacobianBlocks<Element>& blocks, const DirectSolver::Options& options = {});
+  explicit DirectLinearSolver(const JacobianBlocks<n>& blocks, const DirectSolver::Options& options = {});
 
   void update() override;
   const char* preparation() const override { return "factorisation"; }
@@ -35,7 +35,7 @@ class DirectLinearSolver : public LinearSolver {
   long long factor_nonzeros() const { return solver_.factor_nonzeros(); }
 
  private:
-  JacobianBlocks<Element> blocks_;
+  JacobianBlocks<n> blocks_;
   DirectSolver::Options options_;
   GatheredMatrix matrix_;
   int gathered_ = 0;  ///< version of the numbering whose factors it holds

@@ -1,12 +1,12 @@
 #include "system/jacobian_product.hpp"
 
 #include "algebra/block_products.hpp"
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 
 namespace fsi {
 
-template <class Element>
-JacobianProduct<Element>::JacobianProduct(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
+template <int n>
+JacobianProduct<n>::JacobianProduct(const JacobianBlocks<n>& blocks) : blocks_(blocks) {
   fluid_.resize(blocks.numbering.fluid.size());
   mesh_.resize(blocks.numbering.mesh.size());
   wall_.resize(blocks.numbering.wall.size());
@@ -15,8 +15,8 @@ JacobianProduct<Element>::JacobianProduct(const JacobianBlocks<Element>& blocks)
   wall_rows_ = wall_;
 }
 
-template <class Element>
-void JacobianProduct<Element>::multiply(const std::vector<double>& x, std::vector<double>& y) {
+template <int n>
+void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<double>& y) {
   const Numbering& numbering = blocks_.numbering;
   y.assign(static_cast<std::size_t>(numbering.size), 0.0);
   if (blocks_.shape_derivatives || blocks_.mesh_laplacian) values(numbering.mesh, x, mesh_);
@@ -37,13 +37,13 @@ void JacobianProduct<Element>::multiply(const std::vector<double>& x, std::vecto
   }
 }
 
-template <class Element>
-void JacobianProduct<Element>::values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field) {
+template <int n>
+void JacobianProduct<n>::values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field) {
 #pragma omp parallel for schedule(static) if (map.size() > 16384)
   for (std::size_t i = 0; i < map.size(); ++i) field[i] = map[i].index < 0 ? 0 : map[i].factor * x[map[i].index];
 }
 
-#define FSI_INSTANTIATE(Element) template class JacobianProduct<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class JacobianProduct<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

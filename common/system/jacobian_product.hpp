@@ -8,12 +8,10 @@
 namespace fsi {
 
 /// Products with a Jacobian in the unknowns of its numbering, from its block matrices.
-template <class Element>
+template <int n>
 class JacobianProduct {
  public:
-  static constexpr int n = Element::components;
-
-  explicit JacobianProduct(const JacobianBlocks<Element>& blocks);
+  explicit JacobianProduct(const JacobianBlocks<n>& blocks);
 
   /// y = J x, y resized.
   void multiply(const std::vector<double>& x, std::vector<double>& y);
@@ -21,7 +19,7 @@ class JacobianProduct {
  private:
   static void values(const UnknownMap& map, const std::vector<double>& x, std::vector<double>& field);
 
-  JacobianBlocks<Element> blocks_;
+  JacobianBlocks<n> blocks_;
   std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
 };
 

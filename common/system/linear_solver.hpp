@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,15 +8,10 @@
 #include "algebra/block_matrix.hpp"
 #include "base/profile.hpp"
 #include "fem/nodal_layout.hpp"
+#include "mesh/submesh.hpp"
 #include "system/field_numbering.hpp"
 
 namespace fsi {
-
-/// The nodes of one part of the mesh, as far as solvers look at them. Null where there is no such part.
-struct PartNodes {
-  const std::vector<std::array<double, 3>>* points = nullptr;  ///< where they are at rest, mm
-  const std::vector<int>* places = nullptr;                    ///< their numbers in the whole mesh, ascending
-};
 
 /// A node of the interface in the numbers of both parts.
 struct InterfacePair {
@@ -28,9 +22,8 @@ struct InterfacePair {
 /// imposed) and the numbering that imposes them: all that a linear solver sees of a scene. A solver is made for one of
 /// these; the arrays keep their place, their values change with each linearisation. Absent parts are null, and so are
 /// parts without unknowns.
-template <class Element>
+template <int n>
 struct JacobianBlocks {
-  static constexpr int n = Element::components;
   static constexpr int mixed = MixedLayout<n>::entries;
 
   /// Its factors and its interface's kinematics hold for the values that update() finds, and may differ at the next.
@@ -39,7 +32,8 @@ struct JacobianBlocks {
   const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
   const BlockMatrix<1, n>* mesh_laplacian = nullptr;         ///< of the mesh motion, one number per component
   const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
-  PartNodes fluid_nodes = {}, wall_nodes = {};
+  const PartNodes* fluid_nodes = nullptr;
+  const PartNodes* wall_nodes = nullptr;
   const std::vector<InterfacePair>* interface = nullptr;  ///< all of it, clamped nodes too; null for one part alone
   /// How often the mesh motion's operator was assembled: what is made of it is as old as the count it was made at.
   const int* mesh_laplacian_version = nullptr;
@@ -87,7 +81,7 @@ class LinearSolver {
 };
 
 /// Makes the solver of one System.
-template <class Element>
-using LinearSolverFactory = std::function<std::unique_ptr<LinearSolver>(const JacobianBlocks<Element>&)>;
+template <int n>
+using LinearSolverFactory = std::function<std::unique_ptr<LinearSolver>(const JacobianBlocks<n>&)>;
 
 }  // namespace fsi

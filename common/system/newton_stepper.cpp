@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
@@ -49,16 +49,16 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   return true;
 }
 
-template <class Element>
-NewtonStepper<Element>::NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options,
-                                      Numbering numbering, const LinearSolverFactory<Element>& make_solver)
+template <int n>
+NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
+                                const LinearSolverFactory<n>& make_solver)
     : scene_(scene),
       loads_(loads),
       options_(std::move(options)),
       system_("coupled", scene, std::move(numbering), make_solver) {}
 
-template <class Element>
-StepReport NewtonStepper<Element>::advance(State& state) {
+template <int n>
+StepReport NewtonStepper<n>::advance(State& state) {
   const StepData data = loads_.next(state, *scene_.integrator);
   report_ = {};
   NewtonReport solved = solve(state, data, scene_.predictor);
@@ -75,35 +75,35 @@ StepReport NewtonStepper<Element>::advance(State& state) {
   return report_;
 }
 
-template <class Element>
-Memory NewtonStepper<Element>::memory() const {
+template <int n>
+Memory NewtonStepper<n>::memory() const {
   Memory memory;
   if (options_.keep_jacobian && system_.linearised()) remember("kept", system_.linearisation_point(), memory);
   return memory;
 }
 
-template <class Element>
-void NewtonStepper<Element>::recall(const Memory& memory) {
+template <int n>
+void NewtonStepper<n>::recall(const Memory& memory) {
   LinearisationPoint point;
   if (fsi::recall("kept", memory, point)) system_.linearise_at(point);
 }
 
-template <class Element>
-std::string NewtonStepper<Element>::name_of_step(const State& state, const StepData& data) const {
+template <int n>
+std::string NewtonStepper<n>::name_of_step(const State& state, const StepData& data) const {
   return scene_.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
                             : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
 }
 
-template <class Element>
-std::string NewtonStepper<Element>::remedy(const NewtonReport& failed) const {
+template <int n>
+std::string NewtonStepper<n>::remedy(const NewtonReport& failed) const {
   std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
   if (options_.keep_jacobian) text += ", or monolithic.mode = \"full\"";
   if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
   return text;
 }
 
-template <class Element>
-NewtonReport NewtonStepper<Element>::solve(State& state, const StepData& data, int predictor) {
+template <int n>
+NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int predictor) {
   predict(state, predictor, data.time);
   scene_.impose_conditions(state.now);
   scene_.impose_interface(state, data.rates);
@@ -117,7 +117,7 @@ NewtonReport NewtonStepper<Element>::solve(State& state, const StepData& data, i
   return solved;
 }
 
-#define FSI_INSTANTIATE(Element) template class NewtonStepper<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class NewtonStepper<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

@@ -19,14 +19,14 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
 
 /// Advances a whole scene at once by Newton's method: the monolithic method for fluid and wall, and the only one there
 /// is for a scene with one of them.
-template <class Element>
+template <int n>
 class NewtonStepper : public Stepper {
  public:
   /// \param numbering  of the whole scene
-  NewtonStepper(Scene<Element>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
-                const LinearSolverFactory<Element>& make_solver = {});
+  NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
+                const LinearSolverFactory<n>& make_solver = {});
 
-  const System<Element>& system() const { return system_; }
+  const System<n>& system() const { return system_; }
 
   StepReport advance(State& state) override;
 
@@ -42,10 +42,10 @@ class NewtonStepper : public Stepper {
   /// \param predictor  order of the extrapolated start
   NewtonReport solve(State& state, const StepData& data, int predictor);
 
-  Scene<Element>& scene_;
+  Scene<n>& scene_;
   const Loads& loads_;
   NewtonOptions options_;
-  System<Element> system_;
+  System<n> system_;
 };
 
 }  // namespace fsi

@@ -35,8 +35,8 @@ UnknownMap number_vectors(int nodes, std::int64_t& next, Fixed fixed) {
 }
 
 /// The scene's fluid-wall interface as a flag per fluid node.
-template <class Element>
-std::vector<char> on_interface(const Scene<Element>& scene) {
+template <int n>
+std::vector<char> on_interface(const Scene<n>& scene) {
   std::vector<char> on(static_cast<std::size_t>(scene.fluid->node_count()), 0);
   for (const auto& node : scene.interface) on[node.fluid] = 1;
   return on;
@@ -45,12 +45,12 @@ std::vector<char> on_interface(const Scene<Element>& scene) {
 }  // namespace detail
 
 /// The fluid alone, its velocity free on the interface or prescribed there (Dirichlet side of the partitioned split).
-template <class Element>
-Numbering number_fluid(const Scene<Element>& scene, bool free_interface = false) {
+template <int n>
+Numbering number_fluid(const Scene<n>& scene, bool free_interface = false) {
   Numbering part;
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
-  part.fluid = detail::number_nodes<Element::components>(
+  part.fluid = detail::number_nodes<n>(
       scene.fluid->node_count(), part.size,
       [&](int a, int k) { return scene.velocity_conditions.fixes(a, k) || (wet[a] && !free_interface); },
       [&](int a) { return space.carries_scalar(a); });
@@ -59,11 +59,11 @@ Numbering number_fluid(const Scene<Element>& scene, bool free_interface = false)
 }
 
 /// The wall alone, free on the interface (Neumann side of the partitioned split).
-template <class Element>
-Numbering number_wall(const Scene<Element>& scene) {
+template <int n>
+Numbering number_wall(const Scene<n>& scene) {
   Numbering part;
   const auto& space = scene.wall->space();
-  part.wall = detail::number_nodes<Element::components>(
+  part.wall = detail::number_nodes<n>(
       scene.wall->node_count(), part.size, [&](int a, int k) { return scene.wall_conditions.fixes(a, k); },
       [&](int a) { return space.carries_scalar(a); });
   part.wall_rows = part.wall;
@@ -71,19 +71,19 @@ Numbering number_wall(const Scene<Element>& scene) {
 }
 
 /// The mesh motion alone, displacement prescribed on the whole boundary.
-template <class Element>
-Numbering number_mesh_motion(const Scene<Element>& scene) {
+template <int n>
+Numbering number_mesh_motion(const Scene<n>& scene) {
   Numbering part;
   const auto wet = detail::on_interface(scene);
-  part.mesh = detail::number_vectors<Element::components>(
-      scene.fluid->node_count(), part.size, [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
+  part.mesh = detail::number_vectors<n>(scene.fluid->node_count(), part.size,
+                                        [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
   part.mesh_rows = part.mesh;
   return part;
 }
 
 /// The one medium of a scene that has only one.
-template <class Element>
-Numbering number_single_medium(const Scene<Element>& scene) {
+template <int n>
+Numbering number_single_medium(const Scene<n>& scene) {
   assert(!scene.coupled());
   return scene.fluid ? number_fluid(scene) : number_wall(scene);
 }

@@ -8,16 +8,15 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "fem/function_space.hpp"
 #include "system/direct_linear_solver.hpp"
 
 namespace fsi {
 
-template <class Element>
-System<Element>::System(std::string name, Scene<Element>& scene, Numbering numbering,
-                        const LinearSolverFactory<Element>& make_solver, SystemNorm norm,
-                        const InterfaceImpedance* impedance)
+template <int n>
+System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver,
+                  SystemNorm norm, const InterfaceImpedance* impedance)
     : name_(std::move(name)),
       scene_(scene),
       numbering_(std::move(numbering)),
@@ -27,22 +26,22 @@ System<Element>::System(std::string name, Scene<Element>& scene, Numbering numbe
       interface_(interface_pairs(scene)),
       norm_(norm),
       impedance_(impedance),
-      solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<Element>>(blocks())),
+      solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<n>>(blocks())),
       increment_(numbering_.size),
       weights_(norm_weights()) {}
 
-template <class Element>
-JacobianBlocks<Element> System<Element>::blocks() {
-  JacobianBlocks<Element> blocks{numbering_};
+template <int n>
+JacobianBlocks<n> System<n>::blocks() {
+  JacobianBlocks<n> blocks{numbering_};
   if (!numbering_.wall_rows.empty()) {
     blocks.wall = &scene_.wall->jacobian();
-    blocks.wall_nodes = {&scene_.wall->part().nodes, &scene_.wall->part().mesh_node};
+    blocks.wall_nodes = &scene_.wall->nodes();
   }
   if (!numbering_.fluid_rows.empty()) {
     auto& jacobian = scene_.fluid->jacobian(derivatives_);
     blocks.fluid = &jacobian.fluid;
     if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
-    blocks.fluid_nodes = {&scene_.fluid->part().nodes, &scene_.fluid->part().mesh_node};
+    blocks.fluid_nodes = &scene_.fluid->nodes();
   }
   if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
   if (blocks.fluid && blocks.wall) blocks.interface = &interface_;
@@ -51,16 +50,16 @@ JacobianBlocks<Element> System<Element>::blocks() {
   return blocks;
 }
 
-template <class Element>
-void System<Element>::work_on(State& state, const StepData& data) {
+template <int n>
+void System<n>::work_on(State& state, const StepData& data) {
   state_ = &state;
   data_ = &data;
   if (numbering_.follow(data.rates.interface)) weights_ = norm_weights();
   if (rates_differ(data.rates)) usable_ = false;
 }
 
-template <class Element>
-double System<Element>::evaluate() {
+template <int n>
+double System<n>::evaluate() {
   if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
   if (impedance_ && impedance_->before_evaluation) impedance_->before_evaluation(*state_);
   const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
@@ -71,8 +70,8 @@ double System<Element>::evaluate() {
   return std::sqrt(sum);
 }
 
-template <class Element>
-void System<Element>::linearise() {
+template <int n>
+void System<n>::linearise() {
   {
     const auto phase = scene_.profile.phase("assembly: " + name_ + " jacobian");
     assemble(true);
@@ -88,8 +87,8 @@ void System<Element>::linearise() {
   usable_ = true;
 }
 
-template <class Element>
-void System<Element>::linearise_at(const LinearisationPoint& point) {
+template <int n>
+void System<n>::linearise_at(const LinearisationPoint& point) {
   State state;
   state.now = point.now;
   StepData data;
@@ -103,8 +102,8 @@ void System<Element>::linearise_at(const LinearisationPoint& point) {
   data_ = nullptr;
 }
 
-template <class Element>
-double System<Element>::solve(double tolerance) {
+template <int n>
+double System<n>::solve(double tolerance) {
   const auto phase = scene_.profile.phase("solve: " + name_);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
@@ -116,22 +115,22 @@ double System<Element>::solve(double tolerance) {
   return std::sqrt(sum);
 }
 
-template <class Element>
-void System<Element>::move(double step) {
+template <int n>
+void System<n>::move(double step) {
   if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
   if (!numbering_.fluid.empty()) add_to_field(numbering_.fluid, increment_, step, state_->now.fluid);
   if (!numbering_.wall.empty()) add_to_field(numbering_.wall, increment_, step, state_->now.wall);
 }
 
-template <class Element>
-double System<Element>::size() const {
+template <int n>
+double System<n>::size() const {
   return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
                    weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
                    weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
 }
 
-template <class Element>
-double System<Element>::rounding() {
+template <int n>
+double System<n>::rounding() {
   std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
   const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
     for (std::size_t i = 0; i < map.size(); ++i)
@@ -152,20 +151,20 @@ double System<Element>::rounding() {
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-template <class Element>
-std::vector<InterfacePair> System<Element>::interface_pairs(const Scene<Element>& scene) {
+template <int n>
+std::vector<InterfacePair> System<n>::interface_pairs(const Scene<n>& scene) {
   std::vector<InterfacePair> pairs;
   for (const auto& node : scene.interface) pairs.push_back({node.fluid, node.wall});
   return pairs;
 }
 
-template <class Element>
-AssemblyResult System<Element>::assemble(bool derivatives) {
+template <int n>
+AssemblyResult System<n>::assemble(bool derivatives) {
   AssemblyResult result;
   residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
   if (!numbering_.mesh_rows.empty()) {
     mesh_residual_.resize(state_->now.mesh.size());
-    multiply_mesh_motion<Element>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
+    multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
     add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
   }
   if (!numbering_.fluid_rows.empty()) {
@@ -186,8 +185,8 @@ AssemblyResult System<Element>::assemble(bool derivatives) {
   return result;
 }
 
-template <class Element>
-void System<Element>::add_impedance(bool derivatives) {
+template <int n>
+void System<n>::add_impedance(bool derivatives) {
   assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
@@ -204,9 +203,9 @@ void System<Element>::add_impedance(bool derivatives) {
   }
 }
 
-template <class Element>
-void System<Element>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
-  const JacobianBlocks<Element> j = blocks();
+template <int n>
+void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
+  const JacobianBlocks<n> j = blocks();
   const auto add = [&](const auto& matrix, const UnknownMap& rows, const UnknownMap& columns, bool by_component) {
     constexpr int r = std::decay_t<decltype(matrix)>::rows, c = std::decay_t<decltype(matrix)>::columns;
     const auto& graph = *matrix.graph;
@@ -231,33 +230,33 @@ void System<Element>::add_absolute_products(const std::vector<double>& x, std::v
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
 }
 
-template <class Element>
-std::vector<double> System<Element>::norm_weights() {
+template <int n>
+std::vector<double> System<n>::norm_weights() {
   std::vector<double> weights(static_cast<std::size_t>(numbering_.size), 0.0);
   const auto add = [&](const UnknownMap& map, const std::vector<double>& volumes, int entries) {
     for (std::size_t i = 0; i < map.size(); ++i)
       if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
   };
-  const auto weights_of = [&](const auto& part) {
-    return norm_ == SystemNorm::volumes ? nodal_volumes<Element>(part) : std::vector<double>(part.nodes.size(), 1.0);
+  const auto weights_of = [&](const FunctionSpace<n>& space) {
+    return norm_ == SystemNorm::volumes ? space.volumes() : std::vector<double>(space.volumes().size(), 1.0);
   };
   if ((!numbering_.fluid.empty() || !numbering_.mesh.empty()) && fluid_volumes_.empty())
-    mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->part());
-  if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->part());
+    mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->space());
+  if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->space());
   add(numbering_.mesh, mesh_volumes_, Vector::entries);
   add(numbering_.fluid, fluid_volumes_, Mixed::entries);
   add(numbering_.wall, wall_volumes_, Mixed::entries);
   return weights;
 }
 
-template <class Element>
-bool System<Element>::rates_differ(const StepRates& rates) const {
+template <int n>
+bool System<n>::rates_differ(const StepRates& rates) const {
   const StepRates& of_jacobian = point_.rates;
   return rates.step != of_jacobian.step || rates.interface.period != of_jacobian.interface.period ||
          rates.fluid_factor != of_jacobian.fluid_factor || rates.acceleration_factor != of_jacobian.acceleration_factor;
 }
 
-#define FSI_INSTANTIATE(Element) template class System<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class System<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

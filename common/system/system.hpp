@@ -32,10 +32,9 @@ enum class SystemNorm {
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
 /// solve, as Newton's method asks for them. Works on a State that it does not own.
-template <class Element>
+template <int n>
 class System : public NewtonProblem {
  public:
-  static constexpr int n = Element::components;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
 
@@ -43,9 +42,8 @@ class System : public NewtonProblem {
   /// \param make_solver  of the linearised equations; none: the direct one
   /// \param impedance    adds to the fluid's equations, and must outlive this; null: nothing. Its c may change with
   ///                     the rates of a step
-  System(std::string name, Scene<Element>& scene, Numbering numbering,
-         const LinearSolverFactory<Element>& make_solver = {}, SystemNorm norm = SystemNorm::volumes,
-         const InterfaceImpedance* impedance = nullptr);
+  System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver = {},
+         SystemNorm norm = SystemNorm::volumes, const InterfaceImpedance* impedance = nullptr);
   System(const System&) = delete;  // the solver refers to the numbering
   System& operator=(const System&) = delete;
 
@@ -54,7 +52,7 @@ class System : public NewtonProblem {
   const LinearSolver& solver() const { return *solver_; }
   const LinearReport& linear_report() const { return linear_report_; }
   /// The Jacobian, for as long as the system lives; its values are those of the last linearise().
-  JacobianBlocks<Element> blocks();
+  JacobianBlocks<n> blocks();
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
@@ -86,7 +84,7 @@ class System : public NewtonProblem {
   double rounding() override;
 
  private:
-  static std::vector<InterfacePair> interface_pairs(const Scene<Element>& scene);
+  static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
 
   AssemblyResult assemble(bool derivatives);
 
@@ -111,7 +109,7 @@ class System : public NewtonProblem {
   bool rates_differ(const StepRates& rates) const;
 
   std::string name_;
-  Scene<Element>& scene_;
+  Scene<n>& scene_;
   Numbering numbering_;
   FluidDerivatives derivatives_;
   std::vector<InterfacePair> interface_;

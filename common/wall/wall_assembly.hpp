@@ -66,7 +66,7 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
 template <class Element>
 AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
                              const WallInput& in, std::vector<double>& residual,
-                             WallMatrix<Element>* jacobian = nullptr) {
+                             WallMatrix<Element::components>* jacobian = nullptr) {
   if (jacobian) jacobian->set_zero();
   AssemblyResult all;
   for (const auto& layer : layers)

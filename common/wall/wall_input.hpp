@@ -26,8 +26,8 @@ struct WallLayer {
 };
 
 /// Blocks with rows (momentum, volume) and columns (d, p).
-template <class Element>
-using WallMatrix = BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>;
+template <int n>
+using WallMatrix = BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>;
 
 /// What the layers of a wall have in common.
 struct WallConstants {

@@ -1,5 +1,7 @@
 #include "wall/wall_problem.hpp"
 
+#include <algorithm>
+
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
 #include "wall/wall_assembly.hpp"
@@ -7,16 +9,46 @@
 
 namespace fsi {
 
+namespace {
+
+template <class Element, class Part>
+double volume_of(const Part& part, const std::vector<int>& cells) {
+  double volume = 0;
+  for (int c : cells) {
+    Vec3<Pack> x[Element::nodes];
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int i = 0; i < 3; ++i) x[a][i] = Pack(part.nodes[part.cells[c][a]][i]);
+    const auto geometry = Element::geometry(x);
+    for (int q = 0; q < Element::points; ++q) volume += Element::at(geometry, q).weight[0];
+  }
+  return volume;
+}
+
+template <class Element, class Part>
+LayerData measured_layer(const Part& part, const std::vector<int>& cells, const Material& material) {
+  LayerData data{material, cells.size(), volume_of<Element>(part, cells), {}};
+  for (int c : cells) data.nodes.insert(data.nodes.end(), part.cells[c].begin(), part.cells[c].end());
+  std::sort(data.nodes.begin(), data.nodes.end());
+  data.nodes.erase(std::unique(data.nodes.begin(), data.nodes.end()), data.nodes.end());
+  return data;
+}
+
+}  // namespace
+
 template <class Element>
 WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
                                   const std::vector<std::pair<int, Material>>& layers, const CylinderAxis& axis,
                                   Facets pressurised)
-    : part_(std::move(part)), constants_(constants), pressurised_(std::move(pressurised)), space_(part_) {
+    : part_(std::move(part)),
+      constants_(constants),
+      pressurised_(std::move(pressurised)),
+      space_(function_space<Element>(part_)) {
   for (const auto& [region, material] : layers) {
     std::vector<int> cells;
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
-    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *graph()), material, {}});
+    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph()), material, {}});
+    layer_data_.push_back(measured_layer<Element>(part_, cells, material));
     if (has_fibres(material))
       layers_.back().fibres =
           fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, fibre_angle(material));
@@ -27,7 +59,7 @@ template <class Element>
 AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                                               std::vector<double>& residual, bool derivatives) {
   residual.assign(space_.mixed_size(), 0.0);
-  WallMatrix<Element>* matrix = derivatives ? &jacobian() : nullptr;
+  WallMatrix<n>* matrix = derivatives ? &jacobian() : nullptr;
   const auto result = assemble_wall(constants_, layers_, in, residual, matrix);
   if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
   return result;
@@ -50,9 +82,14 @@ double WallProblem<Element>::pressure_work(double pressure, const std::vector<do
 }
 
 template <class Element>
-WallMatrix<Element>& WallProblem<Element>::jacobian() {
-  if (jacobian_.values.empty()) jacobian_ = WallMatrix<Element>(graph());
+auto WallProblem<Element>::jacobian() -> WallMatrix<n>& {
+  if (jacobian_.values.empty()) jacobian_ = WallMatrix<n>(space_.graph());
   return jacobian_;
+}
+
+template <class Element>
+std::vector<int> WallProblem<Element>::cell_vertices() const {
+  return vertices_of_cells(part_);
 }
 
 #define FSI_INSTANTIATE(Element) template class WallProblem<Element>;

@@ -1,21 +1,16 @@
 #pragma once
 
-#include <memory>
 #include <utility>
 #include <vector>
 
-#include "fem/assembly_result.hpp"
-#include "fem/function_space.hpp"
-#include "mesh/submesh.hpp"
 #include "wall/fibre_directions.hpp"
-#include "wall/wall_input.hpp"
+#include "wall/wall.hpp"
 
 namespace fsi {
 
-/// The wall sub-problem on its part of the mesh: residual and Jacobian without boundary conditions but with the
-/// follower pressure on `pressurised` facets.
+/// The wall discretised by an element, on its part of the mesh.
 template <class Element>
-class WallProblem {
+class WallProblem : public Wall<Element::components> {
  public:
   static constexpr int dim = Element::dim, n = Element::components;
   using Part = Submesh<Element::dim, Element::order>;
@@ -27,31 +22,30 @@ class WallProblem {
               const CylinderAxis& axis, Facets pressurised = {});
 
   const Part& part() const { return part_; }
-  const WallConstants& constants() const { return constants_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
-  const FunctionSpace<Element>& space() const { return space_; }
-  const std::shared_ptr<const NodeGraph>& graph() const { return space_.graph(); }
-  int node_count() const { return part_.node_count(); }
 
-  /// Overwrites the residual, in the mixed layout, and the Jacobian if asked.
-  /// \param pressure  kPa on the pressurised facets
+  const PartNodes& nodes() const override { return part_; }
+  const FunctionSpace<n>& space() const override { return space_; }
+  const WallConstants& constants() const override { return constants_; }
+  const std::vector<LayerData>& layer_data() const override { return layer_data_; }
+
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
-                          std::vector<double>& residual, bool derivatives = false);
+                          std::vector<double>& residual, bool derivatives = false) override;
+  WallEnergy energy(const WallStep& in) const override;
+  double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
+  WallMatrix<n>& jacobian() override;
 
-  WallEnergy energy(const WallStep& in) const;
-  /// Work of the pressure on the pressurised facets, as they are at the step's end, in a step from `old` to `now`; uJ.
-  double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const;
-
-  /// The Jacobian last assembled; storage appears with the first request.
-  WallMatrix<Element>& jacobian();
+  std::size_t element_count() const override { return part_.cells.size(); }
+  std::vector<int> cell_vertices() const override;
 
  private:
   Part part_;
   WallConstants constants_;
   Facets pressurised_;
-  FunctionSpace<Element> space_;
+  FunctionSpace<n> space_;
   std::vector<WallLayer<Element>> layers_;
-  WallMatrix<Element> jacobian_;
+  std::vector<LayerData> layer_data_;
+  WallMatrix<n> jacobian_;
 };
 
 }  // namespace fsi

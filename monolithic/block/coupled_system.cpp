@@ -4,12 +4,12 @@
 #include <cassert>
 #include <utility>
 
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 
 namespace fsi {
 
-template <class Element>
-CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : blocks_(blocks) {
+template <int n>
+CoupledSystem<n>::CoupledSystem(const JacobianBlocks<n>& blocks) : blocks_(blocks) {
   assert(blocks.coupled());
   const Numbering& numbering = blocks.numbering;
   mesh_ = BlockMatrix<1, n>(blocks.mesh_laplacian->graph);
@@ -57,8 +57,8 @@ CoupledSystem<Element>::CoupledSystem(const JacobianBlocks<Element>& blocks) : b
       fixed_tractions_[VectorLayout<n>::vector(pair.fluid, k)] = wall_zero_[VectorLayout<n>::vector(pair.wall, k)];
 }
 
-template <class Element>
-void CoupledSystem<Element>::update() {
+template <int n>
+void CoupledSystem<n>::update() {
   const double rate = blocks_.numbering.interface.rate();
   const auto one = [](std::size_t) { return 1.0; };
   update_mesh_motion();
@@ -82,14 +82,14 @@ void CoupledSystem<Element>::update() {
   impose_scalars(wall_, no_wall_pressure_);
 }
 
-template <class Element>
-void CoupledSystem<Element>::update_mesh_motion() {
+template <int n>
+void CoupledSystem<n>::update_mesh_motion() {
   copy(*blocks_.mesh_laplacian, mesh_);
   impose_diagonal();
 }
 
-template <class Element>
-void CoupledSystem<Element>::expand(const std::vector<double>& condensed, CoupledVector& b) const {
+template <int n>
+void CoupledSystem<n>::expand(const std::vector<double>& condensed, CoupledVector& b) const {
   const auto& numbering = blocks_.numbering;
   const auto take = [&](const UnknownMap& rows, std::vector<double>& part) {
     part.resize(rows.size());
@@ -102,8 +102,8 @@ void CoupledSystem<Element>::expand(const std::vector<double>& condensed, Couple
     for (int k = 0; k < n; ++k) b.wall[MixedLayout<n>::vector(pair.wall, k)] = 0;
 }
 
-template <class Element>
-void CoupledSystem<Element>::compress(const CoupledVector& x, std::vector<double>& condensed) const {
+template <int n>
+void CoupledSystem<n>::compress(const CoupledVector& x, std::vector<double>& condensed) const {
   const auto& numbering = blocks_.numbering;
   condensed.assign(static_cast<std::size_t>(numbering.size), 0.0);
   const auto give = [&](const UnknownMap& unknowns, const std::vector<double>& part) {
@@ -115,8 +115,8 @@ void CoupledSystem<Element>::compress(const CoupledVector& x, std::vector<double
   give(numbering.wall, x.wall);  // last: it owns the interface
 }
 
-template <class Element>
-BlockMatrix<1, 1> CoupledSystem<Element>::tie(const std::vector<int>& partner) {
+template <int n>
+BlockMatrix<1, 1> CoupledSystem<n>::tie(const std::vector<int>& partner) {
   auto graph = std::make_shared<NodeGraph>();
   graph->offsets.assign(1, 0);
   for (int other : partner) {
@@ -128,24 +128,24 @@ BlockMatrix<1, 1> CoupledSystem<Element>::tie(const std::vector<int>& partner) {
   return matrix;
 }
 
-template <class Element>
-std::vector<char> CoupledSystem<Element>::without_unknown(const UnknownMap& map, int entries) {
+template <int n>
+std::vector<char> CoupledSystem<n>::without_unknown(const UnknownMap& map, int entries) {
   std::vector<char> flags(map.size() / entries * n);
   for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = map[i / n * entries + i % n].index < 0;
   return flags;
 }
 
-template <class Element>
-std::vector<int> CoupledSystem<Element>::without_scalar(const UnknownMap& map) {
+template <int n>
+std::vector<int> CoupledSystem<n>::without_scalar(const UnknownMap& map) {
   std::vector<int> nodes;
   for (std::size_t a = 0; a < map.size() / MixedLayout<n>::entries; ++a)
     if (map[MixedLayout<n>::scalar(static_cast<int>(a))].index < 0) nodes.push_back(static_cast<int>(a));
   return nodes;
 }
 
-template <class Element>
-void CoupledSystem<Element>::impose_scalars(BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& matrix,
-                                            const std::vector<int>& nodes) {
+template <int n>
+void CoupledSystem<n>::impose_scalars(BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>& matrix,
+                                      const std::vector<int>& nodes) {
   const auto& graph = *matrix.graph;
   for (int a : nodes)
     for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
@@ -161,8 +161,8 @@ void CoupledSystem<Element>::impose_scalars(BlockMatrix<MixedLayout<n>::entries,
     }
 }
 
-template <class Element>
-void CoupledSystem<Element>::impose_diagonal() {
+template <int n>
+void CoupledSystem<n>::impose_diagonal() {
   const auto& graph = *mesh_.graph;
 #pragma omp parallel for schedule(static) if (graph.blocks() > 50000)
   for (int a = 0; a < graph.rows(); ++a)
@@ -173,7 +173,7 @@ void CoupledSystem<Element>::impose_diagonal() {
           mesh_.block(at)[k] = graph.columns[at] == a ? 1.0 : 0.0;
 }
 
-#define FSI_INSTANTIATE(Element) template class CoupledSystem<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class CoupledSystem<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

@@ -29,12 +29,10 @@ std::vector<char> whole_nodes(const std::vector<char>& components) {
 
 /// The paper's K x = b made from the Jacobian of a scene, which numbers one unknown on the interface: matrix, and the
 /// ways of right-hand sides and solutions to and fro. Fluid and wall must both be there.
-template <class Element>
+template <int n>
 class CoupledSystem {
  public:
-  static constexpr int n = Element::components;
-
-  explicit CoupledSystem(const JacobianBlocks<Element>& blocks);
+  explicit CoupledSystem(const JacobianBlocks<n>& blocks);
 
   CoupledSystem(const CoupledSystem&) = delete;  // the matrix refers to its blocks
   CoupledSystem& operator=(const CoupledSystem&) = delete;
@@ -101,7 +99,7 @@ class CoupledSystem {
 
   void impose_diagonal();
 
-  JacobianBlocks<Element> blocks_;
+  JacobianBlocks<n> blocks_;
   BlockMatrix<1, n> mesh_;
   BlockMatrix<1, 1> mesh_wall_, wall_fluid_;
   BlockMatrix<MixedLayout<n>::entries, n> fluid_mesh_;

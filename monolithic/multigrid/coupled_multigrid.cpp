@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "fem/elements.hpp"
+#include "fem/dimensions.hpp"
 #include "solvers/power_iteration.hpp"
 
 namespace fsi {
 
-template <class Element>
-CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
-                                            const CoupledMultigridOptions& options)
+template <int n>
+CoupledMultigrid<n>::CoupledMultigrid(const CoupledSystem<n>& system, const JacobianBlocks<n>& blocks,
+                                      const CoupledMultigridOptions& options)
     : mesh_(options.mesh), fluid_(options.fluid), wall_(options.wall) {
   const auto transfers = coarsen_coupled(finest_nodes(system, blocks), options.coarsening);
   std::vector<std::shared_ptr<const NodeTransfer>> mesh, fluid, wall;
@@ -38,16 +38,16 @@ CoupledMultigrid<Element>::CoupledMultigrid(const CoupledSystem<Element>& system
   for (auto& c : couplings_) c->update();
 }
 
-template <class Element>
-void CoupledMultigrid<Element>::update() {
+template <int n>
+void CoupledMultigrid<n>::update() {
   mesh_.update();
   fluid_.update();
   wall_.update();
   for (auto& c : couplings_) c->update();
 }
 
-template <class Element>
-void CoupledMultigrid<Element>::set_smoothing(const CoupledSmoothingOptions& options) {
+template <int n>
+void CoupledMultigrid<n>::set_smoothing(const CoupledSmoothingOptions& options) {
   radii_.clear();
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
     auto& level = *levels_[l];
@@ -62,38 +62,37 @@ void CoupledMultigrid<Element>::set_smoothing(const CoupledSmoothingOptions& opt
   }
 }
 
-template <class Element>
-long long CoupledMultigrid<Element>::mesh_cycles() const {
+template <int n>
+long long CoupledMultigrid<n>::mesh_cycles() const {
   return sum([](const auto& level) { return level.mesh->cycles(); });
 }
 
-template <class Element>
-long long CoupledMultigrid<Element>::fluid_cycles() const {
+template <int n>
+long long CoupledMultigrid<n>::fluid_cycles() const {
   return sum([](const auto& level) { return level.fluid->cycles(); });
 }
 
-template <class Element>
-long long CoupledMultigrid<Element>::wall_cycles() const {
+template <int n>
+long long CoupledMultigrid<n>::wall_cycles() const {
   return sum([](const auto& level) { return level.wall->cycles(); });
 }
 
-template <class Element>
-double CoupledMultigrid<Element>::operator_complexity() const {
+template <int n>
+double CoupledMultigrid<n>::operator_complexity() const {
   double entries = 0;
   for (const auto& k : matrices_) entries += static_cast<double>(k.nonzeros());
   return entries / static_cast<double>(matrices_.front().nonzeros());
 }
 
-template <class Element>
-double CoupledMultigrid<Element>::memory_mib() const {
+template <int n>
+double CoupledMultigrid<n>::memory_mib() const {
   std::size_t bytes = mesh_.bytes() + fluid_.bytes() + wall_.bytes();
   for (const auto& c : couplings_) bytes += c->bytes();
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-template <class Element>
-CoupledNodes CoupledMultigrid<Element>::finest_nodes(const CoupledSystem<Element>& system,
-                                                     const JacobianBlocks<Element>& blocks) {
+template <int n>
+CoupledNodes CoupledMultigrid<n>::finest_nodes(const CoupledSystem<n>& system, const JacobianBlocks<n>& blocks) {
   const auto& k = system.matrix();
   CoupledNodes nodes{k.mesh->graph.get(), k.fluid->graph.get(), k.wall->graph.get(), {}, {}, {}, {}, {}, {}};
   nodes.mesh_marks = nodes.flow_marks = NodeMarks(k.fluid_nodes());
@@ -113,8 +112,8 @@ CoupledNodes CoupledMultigrid<Element>::finest_nodes(const CoupledSystem<Element
   return nodes;
 }
 
-template <class Element>
-void CoupledMultigrid<Element>::make_levels() {
+template <int n>
+void CoupledMultigrid<n>::make_levels() {
   for (std::size_t l = 0; l < matrices_.size(); ++l) {
     const int at = static_cast<int>(l);
     levels_.push_back(std::make_unique<CoupledLevel<n>>(
@@ -125,8 +124,8 @@ void CoupledMultigrid<Element>::make_levels() {
   }
 }
 
-template <class Element>
-double CoupledMultigrid<Element>::largest_eigenvalue(CoupledLevel<n>& level, int iterations) const {
+template <int n>
+double CoupledMultigrid<n>::largest_eigenvalue(CoupledLevel<n>& level, int iterations) const {
   constexpr double largest_extrapolation = 0.25;
   CoupledVector &x = level.inner_x, &zero = level.inner_b;
   zero.set_zero();
@@ -147,7 +146,7 @@ double CoupledMultigrid<Element>::largest_eigenvalue(CoupledLevel<n>& level, int
   return extrapolated_limit(growth[third - 1], growth[2 * third - 1], growth.back(), largest_extrapolation);
 }
 
-#define FSI_INSTANTIATE(Element) template class CoupledMultigrid<Element>;
-FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#define FSI_INSTANTIATE(n) template class CoupledMultigrid<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

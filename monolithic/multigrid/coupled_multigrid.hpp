@@ -49,14 +49,13 @@ inline double damping_for(double largest) {
 /// The hierarchy of the coupled system ([Langer2018], section 4.2.1): Galerkin products K_(l+1) = R K_l P of the whole
 /// matrix, with its coupling blocks, and the multigrid hierarchies of the three sub-problems, which share its
 /// diagonal blocks.
-template <class Element>
+template <int n>
 class CoupledMultigrid {
  public:
-  static constexpr int n = Element::components;
   using Levels = typename CoupledCycle<n>::Levels;
 
   /// \param system  updated; must outlive this
-  CoupledMultigrid(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks,
+  CoupledMultigrid(const CoupledSystem<n>& system, const JacobianBlocks<n>& blocks,
                    const CoupledMultigridOptions& options);
   CoupledMultigrid(const CoupledMultigrid&) = delete;
   CoupledMultigrid& operator=(const CoupledMultigrid&) = delete;
@@ -121,7 +120,7 @@ class CoupledMultigrid {
     BlockMatrix<n, MixedLayout<n>::entries> fluid_wall_;
   };
 
-  static CoupledNodes finest_nodes(const CoupledSystem<Element>& system, const JacobianBlocks<Element>& blocks);
+  static CoupledNodes finest_nodes(const CoupledSystem<n>& system, const JacobianBlocks<n>& blocks);
 
   void make_levels();
 

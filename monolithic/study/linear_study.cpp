@@ -18,13 +18,12 @@
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
-#include "driver/load_mesh.hpp"
+#include "driver/load_scene.hpp"
 #include "io/atomic_file.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "scene/build_scene.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
 #include "system/jacobian_product.hpp"
 #include "system/newton_stepper.hpp"
@@ -33,7 +32,7 @@ namespace fsi {
 
 namespace {
 
-using Element = P1Tetrahedron;
+constexpr int n = 3;  // components: of three-dimensional scenes only
 using Json = nlohmann::json;
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -81,7 +80,6 @@ double parse_tolerance(const std::string& text) {
 
 /// Largest over the fields of |a - b| / |b|, each field in the 2-norm: no field hides behind another's units.
 double difference(const Numbering& numbering, const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr int n = Element::components;
   double largest = 0;
   const auto compare = [&](const UnknownMap& map, int entries, int from, int to) {
     double error = 0, size = 0;
@@ -112,8 +110,8 @@ class LinearStudy {
         tolerance_(tolerance),
         with_sub_problems_(sub_problems),
         quiet_(quiet),
-        mesh_(load_mesh(setup)),
-        scene_(build_scene(setup, mesh_)),
+        loaded_(load_scene<n>(setup)),
+        scene_(loaded_.scene.get()),
         loads_(setup) {
     if (!scene_->coupled())
       throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
@@ -132,21 +130,19 @@ class LinearStudy {
     json["case_hash"] = hash_of_case(setup_);
     json["threads"] = threads();
     json["tolerance"] = tolerance_;
-    json["mesh"] = {{"name", mesh_name(setup_)},
-                    {"hash", hash_of_mesh(mesh_)},
-                    {"nodes", mesh_.nodes.size()},
-                    {"tetrahedra", mesh_.cells.size()},
+    json["mesh"] = {{"name", loaded_.mesh.name},
+                    {"hash", loaded_.mesh.hash},
+                    {"nodes", loaded_.mesh.nodes},
+                    {"tetrahedra", loaded_.mesh.cells},
                     {"fluid_nodes", scene_->fluid->node_count()},
                     {"wall_nodes", scene_->wall->node_count()},
                     {"interface_nodes", scene_->interface.size()}};
     json["newton"] = Json::array();
     json["systems"] = Json::array();
-    const auto make_fast = [&](const JacobianBlocks<Element>& blocks) {
-      return make_linear_solver("fast", setup_, blocks);
-    };
+    const auto make_fast = [&](const JacobianBlocks<n>& blocks) { return make_linear_solver("fast", setup_, blocks); };
     NewtonOptions options = setup_.monolithic.newton;
-    NewtonStepper<Element> stepper(*scene_, loads_, options, number_scene(*scene_), make_fast);
-    System<Element> system("coupled", *scene_, number_scene(*scene_), make_fast);
+    NewtonStepper<n> stepper(*scene_, loads_, options, number_scene(*scene_), make_fast);
+    System<n> system("coupled", *scene_, number_scene(*scene_), make_fast);
     State state = scene_->at_rest();
     while (state.step < systems_.back().step) {
       const int step = state.step + 1;
@@ -164,7 +160,7 @@ class LinearStudy {
 
  private:
   /// The next step by Newton's method with a new Jacobian in each iteration; named systems are studied as they come.
-  Json study_step(System<Element>& system, State& state, Json& answers) {
+  Json study_step(System<n>& system, State& state, Json& answers) {
     const StepData data = loads_.next(state, *scene_->integrator);
     predict(state, scene_->predictor, data.time);
     scene_->impose_conditions(state.now);
@@ -200,13 +196,13 @@ class LinearStudy {
   }
 
   /// The system that `system` holds, solved with every solver.
-  Json study(System<Element>& system, const NamedSystem& named, double time) {
+  Json study(System<n>& system, const NamedSystem& named, double time) {
     const auto blocks = system.blocks();
     std::vector<double> b = system.residual();
     for (double& value : b) value = -value;
     const double norm_b = norm(b);
 
-    CoupledSystem<Element> paper(blocks);
+    CoupledSystem<n> paper(blocks);
     paper.update();
     auto k_x = paper.matrix().zero_vector(), k_y = k_x;
     paper.expand(b, k_x);
@@ -225,7 +221,7 @@ class LinearStudy {
                    {"product_seconds", product},
                    {"right_hand_side", norm_b}};
     if (with_sub_problems_ && sub_problems_.empty()) study_sub_problems(paper);
-    JacobianProduct<Element> jacobian(blocks);
+    JacobianProduct<n> jacobian(blocks);
     std::vector<double> x, y, reference;
     // The direct solution first, whatever its place in the list: it is what the others are compared with.
     std::vector<std::string> order = solvers_;
@@ -289,8 +285,7 @@ class LinearStudy {
 
   /// The multigrid of each sub-problem of the first named system as a solver of its own. Large meshes get a smaller
   /// range, for time.
-  void study_sub_problems(const CoupledSystem<Element>& paper) {
-    constexpr int n = Element::components;
+  void study_sub_problems(const CoupledSystem<n>& paper) {
     const auto& k = paper.matrix();
     NodeMarks fluid(k.fluid_nodes()), wall(k.wall_nodes()), mesh(k.fluid_nodes());
     fluid.prescribed = whole_nodes<n>(paper.constraints().velocity_fixed);
@@ -302,7 +297,7 @@ class LinearStudy {
     }
     MultigridStudyRange range;
     range.max_iterations = 40;
-    if (mesh_.nodes.size() > 20000) {
+    if (loaded_.mesh.nodes > 20000) {
       range.coarsenings = {"colouring"};
       range.cycles = {"v"};
     }
@@ -339,8 +334,8 @@ class LinearStudy {
   double tolerance_;
   bool with_sub_problems_, quiet_;
   Json sub_problems_ = Json::array();
-  TetrahedralMesh mesh_;
-  std::unique_ptr<Scene<Element>> scene_;
+  LoadedScene<n> loaded_;
+  Scene<n>* scene_;
   Loads loads_;
   bool complete_ = true;
 };

@@ -10,15 +10,13 @@ namespace fsi {
 /// Dirichlet-Neumann (docs/theory.md, section 10.1), x = d: mesh motion from the interface displacement d; fluid with
 /// u = (d - d^(n-1)) / dt on the interface; the fluid's interface residual as load on the wall; the wall's answer d~;
 /// r = d~ - d.
-template <class Element>
-class DirichletNeumann : public InterfaceProblem<Element> {
-  using Base = InterfaceProblem<Element>;
+template <int n>
+class DirichletNeumann : public InterfaceProblem<n> {
+  using Base = InterfaceProblem<n>;
   using Base::cost, Base::scene_, Base::state_, Base::data_;
 
  public:
-  static constexpr int n = Element::components;
-
-  DirichletNeumann(Scene<Element>& scene, const PartitionedData& options)
+  DirichletNeumann(Scene<n>& scene, const PartitionedData& options)
       : Base(scene, options), fluid_("fluid", scene, number_fluid(scene), Base::solver_factory(options)) {}
 
   void start(State& state, StepData& data) override {
@@ -64,7 +62,7 @@ class DirichletNeumann : public InterfaceProblem<Element> {
   }
 
  private:
-  System<Element> fluid_;
+  System<n> fluid_;
   std::vector<double> d_;
 };
 

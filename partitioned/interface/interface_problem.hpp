@@ -28,12 +28,10 @@ struct PassAccuracy {
 
 /// One time step as an equation r(x) = 0 for an interface vector x, evaluated by one pass through the sub-problems. At
 /// its root fluid and wall have one displacement and their forces balance: the monolithic solution.
-template <class Element>
+template <int n>
 class InterfaceProblem {
  public:
-  static constexpr int n = Element::components;
-
-  InterfaceProblem(Scene<Element>& scene, const PartitionedData& options)
+  InterfaceProblem(Scene<n>& scene, const PartitionedData& options)
       : scene_(scene), mesh_motion_(scene), wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
   virtual ~InterfaceProblem() = default;
 
@@ -112,8 +110,8 @@ class InterfaceProblem {
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
-  static LinearSolverFactory<Element> solver_factory(const PartitionedData& options) {
-    return general_solver_factory<Element>(options.linear_solver, options.fast);
+  static LinearSolverFactory<n> solver_factory(const PartitionedData& options) {
+    return general_solver_factory<n>(options.linear_solver, options.fast);
   }
 
   /// The wall's displacement on the interface in a solution.
@@ -151,9 +149,9 @@ class InterfaceProblem {
     solve_sub_problem("wall", wall_, accuracy.tolerance, options, cost.wall_newton, cost.wall_linear);
   }
 
-  Scene<Element>& scene_;
-  MeshMotionSolver<Element> mesh_motion_;
-  System<Element> wall_;
+  Scene<n>& scene_;
+  MeshMotionSolver<n> mesh_motion_;
+  System<n> wall_;
   State* state_ = nullptr;
   StepData* data_ = nullptr;
 

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <vector>
 
-#include "fem/facet_load.hpp"
+#include "materials/material.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -41,71 +38,15 @@ struct Membrane {
   }
 };
 
-namespace detail {
-
-template <class Element>
-double volume_of_lane(const typename ElementPacks<Element>::ElementPack& pack, int lane) {
-  double volume = 0;
-  for (int q = 0; q < Element::points; ++q) volume += Element::at(pack.geometry, q).weight[lane];
-  return volume;
-}
-
-/// Volume of the elements of some packs, mm^3. Threads share packs; each element counts once.
-template <class Element>
-double volume_of(const ElementPacks<Element>& packs, std::size_t cells) {
-  std::vector<char> seen(cells, 0);
-  double volume = 0;
-  for (int t = 0; t < packs.thread_count(); ++t)
-    for (const auto& pack : packs.of_thread(t))
-      for (int lane = 0; lane < pack_width; ++lane) {
-        if (seen[pack.cell[lane]]) continue;
-        seen[pack.cell[lane]] = 1;
-        volume += volume_of_lane<Element>(pack, lane);
-      }
-  return volume;
-}
-
-/// Facets of the fluid's boundary with all nodes on the interface.
-template <class Element>
-auto wet_facets(const Scene<Element>& scene) {
-  using Facet = typename SimplexMesh<Element::dim>::Facet;
-  std::vector<char> wet(scene.fluid->node_count(), 0);
-  for (const auto& node : scene.interface) wet[node.fluid] = 1;
-  std::map<Facet, int> count;
-  for (const auto& cell : scene.fluid->part().cells)
-    for (std::size_t left_out = 0; left_out < cell.size(); ++left_out) {
-      Facet facet;
-      std::size_t at = 0;
-      bool all_wet = true;
-      for (std::size_t a = 0; a < cell.size(); ++a)
-        if (a != left_out) {
-          facet[at++] = cell[a];
-          all_wet = all_wet && wet[cell[a]];
-        }
-      if (!all_wet) continue;
-      std::sort(facet.begin(), facet.end());
-      ++count[facet];
-    }
-  std::vector<Facet> facets;
-  for (const auto& [facet, cells] : count)
-    if (cells == 1) facets.push_back(facet);
-  return facets;
-}
-
-}  // namespace detail
-
-template <class Element>
-Membrane membrane_of(const Scene<Element>& scene) {
+template <int n>
+Membrane membrane_of(const Scene<n>& scene) {
   Membrane m;
-  const auto areas = nodal_areas<Element>(scene.fluid->part().nodes, detail::wet_facets(scene));
-  for (const auto& node : scene.interface) {
-    m.node_areas.push_back(areas[node.fluid]);
-    m.area += areas[node.fluid];
-  }
+  m.node_areas = scene.interface_areas;
+  for (double area : m.node_areas) m.area += area;
   m.density = scene.wall->constants().density;
-  m.radius = 2 * detail::volume_of(scene.fluid->packs(), scene.fluid->part().cells.size()) / m.area;
-  for (const auto& layer : scene.wall->layers()) {
-    const double h = detail::volume_of(layer.packs, scene.wall->part().cells.size()) / m.area;
+  m.radius = 2 * scene.fluid->volume() / m.area;
+  for (const auto& layer : scene.wall->layer_data()) {
+    const double h = layer.volume / m.area;
     const double mu = shear_modulus(layer.material), kappa = scene.wall->constants().bulk_modulus;
     const double nu = (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
     const double young = 2 * mu * (1 + nu) + fibre_stiffness(layer.material);

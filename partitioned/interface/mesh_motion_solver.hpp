@@ -11,12 +11,10 @@ namespace fsi {
 
 /// Takes the fluid's mesh along with its interface: a harmonic extension, prepared once per run or as often as the
 /// scene assembles its operator.
-template <class Element>
+template <int n>
 class MeshMotionSolver {
  public:
-  static constexpr int n = Element::components;
-
-  explicit MeshMotionSolver(Scene<Element>& scene) : scene_(scene) {
+  explicit MeshMotionSolver(Scene<n>& scene) : scene_(scene) {
     const Numbering numbering = number_mesh_motion(scene);
     std::vector<char> inner(numbering.mesh_rows.size());
     for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = numbering.mesh_rows[i].index >= 0;
@@ -39,7 +37,7 @@ class MeshMotionSolver {
   }
 
  private:
-  Scene<Element>& scene_;
+  Scene<n>& scene_;
   std::unique_ptr<HarmonicExtension<n>> extension_;
   int version_ = 0;  ///< the assembly whose operator it is
   std::vector<double> zero_;

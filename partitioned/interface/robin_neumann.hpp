@@ -20,15 +20,13 @@ namespace fsi {
 /// and stiffness that will answer it, and the added mass does no harm. The datum g is written as a displacement,
 /// x = d^(n-1) + dt g / c. The next datum is then x~ = x + (d~ - d_f), d_f being the displacement that the fluid gave
 /// the interface: r = d~ - d_f.
-template <class Element>
-class RobinNeumann : public InterfaceProblem<Element> {
-  using Base = InterfaceProblem<Element>;
+template <int n>
+class RobinNeumann : public InterfaceProblem<n> {
+  using Base = InterfaceProblem<n>;
   using Base::cost, Base::scene_, Base::state_, Base::data_;
 
  public:
-  static constexpr int n = Element::components;
-
-  RobinNeumann(Scene<Element>& scene, const PartitionedData& options)
+  RobinNeumann(Scene<n>& scene, const PartitionedData& options)
       : Base(scene, options),
         membrane_(membrane_of(scene)),
         fluid_("fluid", scene, number_fluid(scene, /*free_interface=*/true), Base::solver_factory(options),
@@ -131,7 +129,7 @@ class RobinNeumann : public InterfaceProblem<Element> {
 
   Membrane membrane_;
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
-  System<Element> fluid_;
+  System<n> fluid_;
   std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first
 };
 

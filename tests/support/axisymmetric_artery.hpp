@@ -35,14 +35,15 @@ class AxisymmetricArtery {
     setup_.time->end = 12;
     make_scene(material);
     loads_ = std::make_unique<Loads>(setup_);
-    stepper_ = std::make_unique<NewtonStepper<Element>>(*scene_, *loads_, NewtonOptions{}, number_scene(*scene_));
+    stepper_ =
+        std::make_unique<NewtonStepper<Element::components>>(*scene_, *loads_, NewtonOptions{}, number_scene(*scene_));
     state_ = scene_->at_rest();
   }
 
   void step() { stepper_->advance(state_); }
   double time() const { return state_.time; }
   const Case& setup() const { return setup_; }
-  Scene<Element>& scene() { return *scene_; }
+  Scene<Element::components>& scene() { return *scene_; }
   std::int64_t unknowns() const { return stepper_->system().numbering().size; }
 
   /// Pressure on the axis in Pa at z = 0, 0.1, ..., 18 mm.
@@ -60,10 +61,10 @@ class AxisymmetricArtery {
 
   int node(int i, int k) const { return k * static_cast<int>(radii_.size()) + i; }
   double on_axis(int k) const {
-    return state_.now.fluid[MixedLayout<2>::scalar(scene_->fluid->part().local_node[node(0, k)])];
+    return state_.now.fluid[MixedLayout<2>::scalar(scene_->fluid->nodes().local_node[node(0, k)])];
   }
   double radial(int k) const {
-    return state_.now.wall[MixedLayout<2>::vector(scene_->wall->part().local_node[node(fluid_cells_, k)])];
+    return state_.now.wall[MixedLayout<2>::vector(scene_->wall->nodes().local_node[node(fluid_cells_, k)])];
   }
 
   /// Of nodal values per station, at z = 0, 0.1, ..., 18 mm.
@@ -107,7 +108,7 @@ class AxisymmetricArtery {
   }
 
   void make_scene(const std::string& material) {
-    scene_ = std::make_unique<Scene<Element>>();
+    scene_ = std::make_unique<Scene<Element::components>>();
     scene_->integrator = std::make_unique<EulerNewmark<Element::components>>();
     auto fluid = submesh(mesh_, {0}), wall = submesh(mesh_, {1, 2});
     std::vector<TriangleMesh::Facet> inlet, outlet;
@@ -129,10 +130,12 @@ class AxisymmetricArtery {
     scene_->wall = std::make_unique<WallProblem<Element>>(
         std::move(wall), WallConstants{1.2, 1e5, alpha_},
         std::vector<std::pair<int, Material>>{{1, layer(material, true)}, {2, layer(material, false)}}, CylinderAxis{});
-    std::vector<OpenBoundary<Element>> open{{"inlet", fluid.nodes, inlet}, {"outlet", fluid.nodes, outlet}};
-    scene_->fluid = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3}, std::move(open));
-    scene_->mesh_motion = MeshMotionMatrix<Element>(scene_->fluid->graph());
-    assemble_mesh_motion(scene_->fluid->packs(), scene_->mesh_motion);
+    std::vector<OpenBoundary<2>> open{open_boundary<Element>("inlet", fluid.nodes, inlet),
+                                      open_boundary<Element>("outlet", fluid.nodes, outlet)};
+    auto problem = std::make_unique<FluidProblem<Element>>(std::move(fluid), AleFluid{1.0, 3.5e-3}, std::move(open));
+    scene_->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(problem->packs());
+    scene_->fluid = std::move(problem);
+    scene_->assemble_mesh_motion();
   }
 
   int axial_cells_, fluid_cells_ = 0;
@@ -140,9 +143,9 @@ class AxisymmetricArtery {
   std::vector<double> radii_;
   TriangleMesh mesh_;
   Case setup_;
-  std::unique_ptr<Scene<Element>> scene_;
+  std::unique_ptr<Scene<Element::components>> scene_;
   std::unique_ptr<Loads> loads_;
-  std::unique_ptr<NewtonStepper<Element>> stepper_;
+  std::unique_ptr<NewtonStepper<Element::components>> stepper_;
   State state_;
 };
 

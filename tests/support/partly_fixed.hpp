@@ -45,36 +45,37 @@ class PartlyFixedSystem {
  public:
   static constexpr int n = Element::components;
 
-  PartlyFixedSystem(Scene<Element>& scene, Numbering numbering, bool vectors, bool scalars, double share = 0.2) {
+  PartlyFixedSystem(Scene<Element::components>& scene, Numbering numbering, bool vectors, bool scalars,
+                    double share = 0.2) {
     Random random(5);
     std::vector<char> dropped(static_cast<std::size_t>(numbering.size), 0);
     drop_some<n>(numbering.fluid, vectors, scalars, share, random, dropped);
     drop_some<n>(numbering.wall, vectors, scalars, share, random, dropped);
     numbering = without_unknowns(numbering, [&](std::int64_t i) { return dropped[i] != 0; });
-    system_ = std::make_unique<System<Element>>("coupled", scene, std::move(numbering));
+    system_ = std::make_unique<System<Element::components>>("coupled", scene, std::move(numbering));
     State state = scene.at_rest();
     StepData data;
     data.rates = scene.integrator->rates(state, 0.125);
     if (scene.fluid) data.opening_pressures = {1.332};
     if (scene.fluid) {
-      state.now.fluid = random_field(scene.fluid->part().nodes, n + 1, 0.3, 1e-3, 1);
-      if (scene.coupled()) state.now.mesh = random_field(scene.fluid->part().nodes, n, 1e-3, 1e-5, 2);
+      state.now.fluid = random_field(scene.fluid->nodes().nodes, n + 1, 0.3, 1e-3, 1);
+      if (scene.coupled()) state.now.mesh = random_field(scene.fluid->nodes().nodes, n, 1e-3, 1e-5, 2);
     }
-    if (scene.wall) state.now.wall = random_field(scene.wall->part().nodes, n + 1, 1e-3, 1e-5, 3);
+    if (scene.wall) state.now.wall = random_field(scene.wall->nodes().nodes, n + 1, 1e-3, 1e-5, 3);
     system_->work_on(state, data);
     system_->evaluate();
     system_->linearise();
     for (std::int64_t i = 0; i < system_->numbering().size; ++i) b.push_back(random());
-    DirectLinearSolver<Element> direct(blocks());
+    DirectLinearSolver<Element::components> direct(blocks());
     direct.update();
     direct.solve(b, 0, solution);
   }
 
-  JacobianBlocks<Element> blocks() { return system_->blocks(); }
+  JacobianBlocks<Element::components> blocks() { return system_->blocks(); }
   std::vector<double> b, solution;  ///< random, and J^-1 b by sparse factorisation
 
  private:
-  std::unique_ptr<System<Element>> system_;
+  std::unique_ptr<System<Element::components>> system_;
 };
 
 }  // namespace fsi::test

@@ -182,24 +182,25 @@ template <class Element>
 class MeshMotionEquilibrium : public SubProblem {
  public:
   template <class Prescribed>
-  MeshMotionEquilibrium(const MeshMotionMatrix<Element>& matrix, Prescribed prescribed)
+  MeshMotionEquilibrium(const MeshMotionMatrix<Element::components>& matrix, Prescribed prescribed)
       : MeshMotionEquilibrium(matrix, number_entries(matrix.graph->rows(), Element::components, prescribed)) {}
 
  private:
-  MeshMotionEquilibrium(const MeshMotionMatrix<Element>& matrix, std::pair<UnknownMap, std::int64_t> numbered)
+  MeshMotionEquilibrium(const MeshMotionMatrix<Element::components>& matrix,
+                        std::pair<UnknownMap, std::int64_t> numbered)
       : SubProblem(std::move(numbered.first), numbered.second), matrix_(matrix) {
     solution.assign(static_cast<std::size_t>(matrix.graph->rows()) * Element::components, 0.0);
   }
   AssemblyResult assemble(const std::vector<double>& at, std::vector<double>& residual, bool) override {
     residual.resize(at.size());
-    multiply_mesh_motion<Element>(matrix_, at, residual);
+    multiply_mesh_motion<Element::components>(matrix_, at, residual);
     return {};
   }
   void gather(GatheredMatrix::Builder& builder, const UnknownMap& map) override {
     gather_diagonal_blocks(builder, matrix_, map, map);
   }
 
-  const MeshMotionMatrix<Element>& matrix_;
+  const MeshMotionMatrix<Element::components>& matrix_;
 };
 
 }  // namespace fsi::test

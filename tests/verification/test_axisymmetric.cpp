@@ -49,7 +49,7 @@ TEST(AxisymmetricJacobian, OfTheWallInEveryBlock) {
 TEST(AxisymmetricJacobian, OfTheMeshMotion) {
   const auto mesh = irregular_ring(3);
   FluidProblem<Triangle> fluid(whole(mesh), strongly_coupled_fluid(false), {});
-  MeshMotionMatrix<Triangle> matrix(fluid.graph());
+  MeshMotionMatrix<2> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   const auto state = random_field(mesh.nodes, 2, 0.3, 0.1, 41), direction = random_field(mesh.nodes, 2, 0.3, 0.1, 42);
   std::vector<double> product(direction.size());
@@ -64,7 +64,7 @@ TEST(AxisymmetricPatch, MeshMotionReproducesHomogeneousStretch) {
   const auto mesh = irregular_ring(4);
   const auto boundary = boundary_marks(mesh);
   FluidProblem<Triangle> fluid(whole(mesh), {}, {});
-  MeshMotionMatrix<Triangle> matrix(fluid.graph());
+  MeshMotionMatrix<2> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   MeshMotionEquilibrium<Triangle> problem(matrix, [&](int a, int) { return boundary[a] != 0; });
   std::vector<double> exact(problem.solution.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "beltrami_flow.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "math/kinematics.hpp"
 #include "scene/build_scene.hpp"
 #include "support/errors.hpp"
@@ -78,7 +79,7 @@ TEST(MeshMotionConvergence, SecondOrderInL2FirstInH1) {
     const auto mesh = irregular_cube(n);
     const auto boundary = boundary_marks(mesh);
     FluidProblem<Tet> fluid(whole(mesh), {}, {});
-    MeshMotionMatrix<Tet> matrix(fluid.graph());
+    MeshMotionMatrix<3> matrix(fluid.graph());
     assemble_mesh_motion(fluid.packs(), matrix);
     MeshMotionEquilibrium<Tet> problem(matrix, [&](int a, int) { return boundary[a] != 0; });
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnostics/energy_balance.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
@@ -33,7 +34,7 @@ Case lively_case(const std::string& material) {
   return setup;
 }
 
-void impose_boundary(const Scene<Tet>& scene, Solution& level) {
+void impose_boundary(const Scene<3>& scene, Solution& level) {
   for (int a = 0; a < scene.fluid->node_count(); ++a)
     for (int k = 0; k < 3; ++k) {
       if (scene.velocity_conditions.fixes(a)) level.fluid[4 * a + k] = 0;
@@ -47,9 +48,10 @@ void impose_boundary(const Scene<Tet>& scene, Solution& level) {
 /// A step between two states that solve nothing.
 class ArbitraryStep {
  public:
-  explicit ArbitraryStep(const Case& setup) : loads_(setup), scene_(build_scene(setup, fluid_and_wall_box(3))) {
-    const auto& x = scene_->fluid->part().nodes;
-    const auto& y = scene_->wall->part().nodes;
+  explicit ArbitraryStep(const Case& setup)
+      : loads_(setup), scene_(build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3))) {
+    const auto& x = scene_->fluid->nodes().nodes;
+    const auto& y = scene_->wall->nodes().nodes;
     state_ = scene_->at_rest();
     const auto level = [&](double scale, unsigned seed) {
       Solution fields{random_field(x, 3, 0.06 * scale, 0.01 * scale, seed),
@@ -95,7 +97,7 @@ class ArbitraryStep {
   }
 
   EnergyRecord balance() {
-    EnergyBalance<Tet> energy(*scene_, loads_, state_);
+    EnergyBalance<3> energy(*scene_, loads_, state_);
     State next = state_;
     scene_->integrator->accept(next, loads_.next(state_, *scene_->integrator));
     return energy.step_to(next);
@@ -103,7 +105,7 @@ class ArbitraryStep {
 
  private:
   Loads loads_;
-  std::unique_ptr<Scene<Tet>> scene_;
+  std::unique_ptr<Scene<3>> scene_;
   State state_;
 };
 
@@ -130,13 +132,14 @@ TEST(EnergyBalance, LeavesOverTheTestedResidualOfArbitraryStates) {
 
 /// A case marched to its end, and its balances.
 std::vector<EnergyRecord> march(const Case& setup, const TetrahedralMesh& mesh, const Case* measured_as = nullptr) {
-  const auto scene = build_scene(setup, mesh), other = build_scene(measured_as ? *measured_as : setup, mesh);
+  const auto scene = build_scene<P1Tetrahedron>(setup, mesh),
+             other = build_scene<P1Tetrahedron>(measured_as ? *measured_as : setup, mesh);
   const Loads loads(setup);
   NewtonOptions options;
   options.tolerance = 1e-11;
-  NewtonStepper<Tet> stepper(*scene, loads, options, number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options, number_scene(*scene));
   State state = scene->at_rest();
-  EnergyBalance<Tet> balance(*other, loads, state);
+  EnergyBalance<3> balance(*other, loads, state);
   std::vector<EnergyRecord> records;
   while (state.step < loads.steps()) {
     stepper.advance(state);

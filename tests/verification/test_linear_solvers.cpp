@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/vector_operations.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "mesh/artery_generator.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "support/axisymmetric_artery.hpp"
@@ -28,14 +29,14 @@ Case artery_case(const std::string& material) {
 LinearisedScene<P1Tetrahedron>& artery_system(const std::string& material, const std::string& level, int finished_steps,
                                               int iteration) {
   struct Made {
-    std::unique_ptr<Scene<P1Tetrahedron>> scene;
+    std::unique_ptr<Scene<3>> scene;
     std::unique_ptr<LinearisedScene<P1Tetrahedron>> system;
   };
   static std::map<std::string, Made> made;
   auto& entry = made[material + level + std::to_string(finished_steps) + ":" + std::to_string(iteration)];
   if (!entry.system) {
     const Case setup = artery_case(material);
-    entry.scene = build_scene(setup, generate_artery(artery_level(level)));
+    entry.scene = build_scene<P1Tetrahedron>(setup, generate_artery(artery_level(level)));
     entry.system = std::make_unique<LinearisedScene<P1Tetrahedron>>(setup, *entry.scene, finished_steps, iteration);
   }
   return *entry.system;

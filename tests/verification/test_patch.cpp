@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "scene/build_scene.hpp"
 #include "support/meshes.hpp"
 #include "support/problems.hpp"
@@ -301,7 +302,7 @@ TEST(MeshMotionPatch, AffineDisplacementIsReproduced) {
   const auto mesh = irregular_cube(4, 0.2);
   const auto boundary = boundary_marks(mesh);
   FluidProblem<Tet> fluid(whole(mesh), {}, {});
-  MeshMotionMatrix<Tet> matrix(fluid.graph());
+  MeshMotionMatrix<3> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   MeshMotionEquilibrium<Tet> problem(matrix, [&](int a, int) { return boundary[a] != 0; });
   const Matrix g{{{0.3, -0.2, 0.1}, {0.4, 0.1, -0.3}, {-0.1, 0.2, 0.5}}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "scene/build_scene.hpp"
 #include "sub_problem_jacobians.hpp"
 #include "support/meshes.hpp"
@@ -137,14 +138,14 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfTheLoad) {
   const auto part = whole(mesh);
   const auto facets = facets_where(mesh, "fluid", [](const Point&) { return true; });
   const auto solution = random_field(mesh.nodes, 4, 0.2, 0.05, 31);
-  const auto load = [&](const std::vector<double>& at, WallMatrix<Tet>* jacobian = nullptr) {
+  const auto load = [&](const std::vector<double>& at, WallMatrix<3>* jacobian = nullptr) {
     std::vector<double> r(at.size(), 0.0);
     add_follower_pressure<Tet>(mesh.nodes, facets, 1.7, at, r, jacobian);
     return r;
   };
   std::vector<int> cell_nodes;
   for (const auto& cell : part.cells) cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
-  WallMatrix<Tet> jacobian(std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4)));
+  WallMatrix<3> jacobian(std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4)));
   load(solution, &jacobian);
   for (unsigned seed : {1, 2, 3}) {
     const auto direction = random_field(mesh.nodes, 4, 0.3, 0.1, seed);
@@ -167,7 +168,7 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfTheLoad) {
 TEST(MeshMotionJacobian, OperatorIsTheDerivativeOfItsWeakForm) {
   const auto mesh = irregular_cube(3);
   FluidProblem<Tet> fluid(whole(mesh), strongly_coupled_fluid(false), {});
-  MeshMotionMatrix<Tet> matrix(fluid.graph());
+  MeshMotionMatrix<3> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   const auto state = random_field(mesh.nodes, 3, 0.3, 0.1, 41);
   for (unsigned seed : {1, 2}) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fem/gather_blocks.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
@@ -23,7 +24,7 @@ using Tet = P1Tetrahedron;
 /// A scene in the middle of a step, every field and history nonzero and nothing in equilibrium. Softer volume, more
 /// viscous fluid and longer step than the artery's, so that no term drowns in another.
 struct Scenario {
-  std::unique_ptr<Scene<Tet>> scene;
+  std::unique_ptr<Scene<3>> scene;
   State state;
   StepData data;
 
@@ -36,10 +37,10 @@ struct Scenario {
     setup.structure->axis_origin = {0.4, 0.5,
                                     -1.0};  // fibres lie in planes near the layers', turning from element to element
     setup.structure->axis_direction = {0, 1, 0};
-    scene = build_scene(setup, fluid_and_wall_box(3));
+    scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
     state = scene->at_rest();
-    const auto& x = scene->fluid->part().nodes;
-    const auto& y = scene->wall->part().nodes;
+    const auto& x = scene->fluid->nodes().nodes;
+    const auto& y = scene->wall->nodes().nodes;
     const auto wall_field = [&](double scale, unsigned seed) {
       auto field = random_field(y, 4, scale, 0.1 * scale, seed);
       for (std::size_t i = 3; i < field.size(); i += 4) field[i] *= 20;  // kPa
@@ -61,7 +62,7 @@ struct Scenario {
 /// x -> R(x + t direction) of a system around a state.
 class Line {
  public:
-  Line(System<Tet>& system, const Scenario& from, std::vector<double> direction)
+  Line(System<3>& system, const Scenario& from, std::vector<double> direction)
       : system_(system), from_(from), direction_(std::move(direction)) {}
 
   std::vector<double> operator()(double t) const {
@@ -76,7 +77,7 @@ class Line {
   }
 
  private:
-  System<Tet>& system_;
+  System<3>& system_;
   const Scenario& from_;
   std::vector<double> direction_;
 };
@@ -129,7 +130,7 @@ constexpr double first_step = 0.05;  // larger ones leave the range of second or
 /// The assembled matrix against differences of the assembled residual, whole and group of equations by group: a block
 /// of small entries cannot hide behind one of large ones.
 void check_system(const Scenario& scenario, Numbering numbering, const std::string& name) {
-  System<Tet> system(name, *scenario.scene, std::move(numbering));
+  System<3> system(name, *scenario.scene, std::move(numbering));
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
@@ -165,7 +166,7 @@ constexpr double stretched = 0.7, slack = 1.4;
 /// Stretched and slack fibres of the wall.
 std::pair<int, int> fibre_count(const Scenario& scenario) {
   int tight = 0, loose = 0;
-  for (const auto& layer : scenario.scene->wall->layers())
+  for (const auto& layer : static_cast<const WallProblem<Tet>&>(*scenario.scene->wall).layers())
     for (std::size_t p = 0; !layer.fibres.empty() && p < layer.fibres[0].size(); ++p) {
       const auto& pack = layer.packs.of_thread(0)[p];
       NodalVector<Tet> d{};
@@ -213,12 +214,12 @@ TEST(WallSystemJacobian, WithFollowerPressureAndWithoutFluid) {
   setup.structure->axis_origin = {0.4, 0.5, -1.0};
   setup.structure->axis_direction = {0, 1, 0};
   Scenario scenario("artery", stretched);
-  scenario.scene = build_scene(setup, fluid_and_wall_box(3));
+  scenario.scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
   scenario.data.wall_pressure = 40;  // of the size of the stresses of the random state
   check_system(scenario, number_scene(*scenario.scene), "wall under pressure");
 
   // The load must be seen: without it the residual differs.
-  System<Tet> system("wall", *scenario.scene, number_scene(*scenario.scene));
+  System<3> system("wall", *scenario.scene, number_scene(*scenario.scene));
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.evaluate();
@@ -235,7 +236,7 @@ template <class Spoil>
 SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
   auto numbering = number_scene(*scenario.scene);
   numbering.follow(scenario.data.rates.interface);
-  System<Tet> system("coupled", *scenario.scene, numbering);
+  System<3> system("coupled", *scenario.scene, numbering);
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
@@ -253,13 +254,13 @@ SparseMatrix spoiled_matrix(const Scenario& scenario, Spoil spoil) {
 
 TEST(JacobianControl, MissingTermsAreDetected) {
   const Scenario scenario("neo-hookean");
-  System<Tet> system("coupled", *scenario.scene, number_scene(*scenario.scene));
+  System<3> system("coupled", *scenario.scene, number_scene(*scenario.scene));
   const auto direction = direction_for(groups_of(system.numbering(), scenario), 1);
   const Line line(system, scenario, direction);
   const auto check = [&](const char* name, auto spoil) {
     return central_differences(name, line, product(spoiled_matrix(scenario, spoil), direction));
   };
-  using Fluid = FluidJacobian<Tet>;
+  using Fluid = FluidJacobian<3>;
   expect_second_order(check("control, nothing spoiled", [](Numbering&, Fluid&) {}));
   expect_detected(
       check("control, shape derivatives dropped", [](Numbering&, Fluid& fluid) { fluid.shape_derivatives.set_zero(); }),

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "beltrami_flow.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/errors.hpp"
 #include "support/problems.hpp"
@@ -88,11 +89,11 @@ TEST(TimeConvergence, FlowOnAPulsatingMeshIsOfFirstOrder) {
 
 /// Marches a case to its end.
 State march(const Case& setup, const TetrahedralMesh& mesh) {
-  const auto scene = build_scene(setup, mesh);
+  const auto scene = build_scene<P1Tetrahedron>(setup, mesh);
   const Loads loads(setup);
   NewtonOptions options;
   options.tolerance = 1e-10;
-  NewtonStepper<Tet> stepper(*scene, loads, options, number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options, number_scene(*scene));
   State state = scene->at_rest();
   for (int step = 0; step < loads.steps(); ++step) stepper.advance(state);
   EXPECT_DOUBLE_EQ(state.time, setup.time->end);

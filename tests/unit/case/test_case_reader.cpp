@@ -20,7 +20,7 @@ using Points = std::vector<std::pair<double, double>>;
 TEST(CaseReader, ReadsThePapersCases) {
   const fs::path folder = FSI_CASE_FILES;
   const auto neo = read_case(folder / "neo-hookean.toml");
-  EXPECT_EQ(neo.element, "p1");
+  EXPECT_EQ(neo.element, ElementPair::p1);
   EXPECT_EQ(neo.mesh.level, "coarse");
   ASSERT_TRUE(neo.fluid && neo.structure && neo.inlet && neo.time);
   EXPECT_EQ(neo.fluid->viscosity, 3.5e-3);

@@ -7,6 +7,7 @@
 #include "base/threads.hpp"
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/p1_axisymmetric_triangle.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "mesh/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
@@ -39,13 +40,13 @@ LinearisedScene<Tet>& artery() {
     auto setup = coupled_case("artery");
     ArteryOptions options;
     options.length = 6;
-    return LinearisedScene<Tet>(setup, build_scene(setup, generate_artery(options)), 2);
+    return LinearisedScene<Tet>(setup, build_scene<P1Tetrahedron>(setup, generate_artery(options)), 2);
   }();
   return scene;
 }
 
 TEST(FastSolver, SolvesTheCoupledSystemAtADeformedState) {
-  FastSolver<Tet> solver(artery().blocks(), iterative());
+  FastSolver<3> solver(artery().blocks(), iterative());
   EXPECT_FALSE(solver.ready());
   solver.update();
   EXPECT_TRUE(solver.ready());
@@ -59,10 +60,10 @@ TEST(FastSolver, SolvesTheCoupledSystemAtADeformedState) {
 }
 
 TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
-  FastSolver<Tet> solver(artery().blocks(), iterative());
+  FastSolver<3> solver(artery().blocks(), iterative());
   solver.update();
   std::vector<double> x, product;
-  JacobianProduct<Tet> jacobian(artery().blocks());
+  JacobianProduct<3> jacobian(artery().blocks());
   int last = 0;
   for (double tolerance : {1e-1, 1e-3, 1e-6}) {
     const auto report = solver.solve(artery().b(), tolerance, x);
@@ -75,7 +76,7 @@ TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
 }
 
 TEST(FastSolver, ZeroRightHandSide) {
-  FastSolver<Tet> solver(artery().blocks(), iterative());
+  FastSolver<3> solver(artery().blocks(), iterative());
   solver.update();
   std::vector<double> x{1};
   const std::vector<double> zero(artery().b().size(), 0.0);
@@ -84,7 +85,7 @@ TEST(FastSolver, ZeroRightHandSide) {
 }
 
 TEST(FastSolver, SmallSystemsAreFactorised) {
-  FastSolver<Tet> solver(artery().blocks());
+  FastSolver<3> solver(artery().blocks());
   solver.update();
   EXPECT_TRUE(solver.uses_factorisation());
   EXPECT_STREQ(solver.preparation(), "factorisation");
@@ -96,7 +97,7 @@ TEST(FastSolver, SmallSystemsAreFactorised) {
 TEST(FastSolver, AFactorisationFollowsWhenTheIterationFails) {
   FastOptions options = iterative();
   options.max_iterations = 2;
-  FastSolver<Tet> solver(artery().blocks(), options);
+  FastSolver<3> solver(artery().blocks(), options);
   solver.update();
   std::vector<double> x;
   const auto report = solver.solve(artery().b(), 1e-9, x);
@@ -110,7 +111,7 @@ TEST(FastSolver, SameBitsForAnyNumberOfThreads) {
   std::vector<double> one, two;
   for (const auto& [count, x] : {std::pair(1, &one), std::pair(2, &two)}) {
     set_threads(count);
-    FastSolver<Tet> solver(artery().blocks(), iterative());
+    FastSolver<3> solver(artery().blocks(), iterative());
     solver.update();
     solver.solve(artery().b(), 1e-8, *x);
   }
@@ -120,8 +121,8 @@ TEST(FastSolver, SameBitsForAnyNumberOfThreads) {
 
 /// A sub-problem of the artery under its own numbering, assembled at the coupled state.
 template <class Element>
-void expect_sub_problem_solved(Scene<Element>& scene, Numbering numbering, int most_iterations) {
-  System<Element> system("part", scene, std::move(numbering));
+void expect_sub_problem_solved(Scene<Element::components>& scene, Numbering numbering, int most_iterations) {
+  System<Element::components> system("part", scene, std::move(numbering));
   State state = scene.at_rest();
   StepData data;
   data.rates = scene.integrator->rates(state, 0.125);
@@ -130,11 +131,11 @@ void expect_sub_problem_solved(Scene<Element>& scene, Numbering numbering, int m
   system.work_on(state, data);
   system.evaluate();
   system.linearise();
-  DirectLinearSolver<Element> direct(system.blocks());
+  DirectLinearSolver<Element::components> direct(system.blocks());
   direct.update();
   std::vector<double> expected, x;
   direct.solve(system.residual(), 0, expected);
-  FastSolver<Element> solver(system.blocks(), iterative());
+  FastSolver<Element::components> solver(system.blocks(), iterative());
   solver.update();
   const auto report = solver.solve(system.residual(), 1e-10, x);
   EXPECT_TRUE(report.converged);
@@ -157,9 +158,9 @@ TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
   setup.time->end = 50;
   ArteryOptions options;
   options.length = 6;
-  const auto parts = build_scene(setup, generate_artery(options));
+  const auto parts = build_scene<P1Tetrahedron>(setup, generate_artery(options));
   LinearisedScene<Tet> scene(setup, *parts, 0, 1);
-  FastSolver<Tet> solver(scene.blocks(), iterative());
+  FastSolver<3> solver(scene.blocks(), iterative());
   solver.update();
   std::vector<double> x;
   const auto report = solver.solve(scene.b(), 1e-10, x);
@@ -171,7 +172,7 @@ TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
 
 /// A static, pressurised wall: no inertia holds the momentum matrix together, so that sweeps without coarse levels need
 /// hundreds of iterations.
-std::unique_ptr<Scene<Tet>> static_wall(const std::string& level) {
+std::unique_ptr<Scene<3>> static_wall(const std::string& level) {
   auto setup = coupled_case("neo-hookean");
   setup.fluid.reset();
   setup.inlet.reset();
@@ -180,7 +181,7 @@ std::unique_ptr<Scene<Tet>> static_wall(const std::string& level) {
   setup.load = PressureTable{{{0.0, 0.1}}};
   ArteryOptions options = artery_level(level);
   options.length = 6;
-  return build_scene(setup, generate_artery(options));
+  return build_scene<P1Tetrahedron>(setup, generate_artery(options));
 }
 
 TEST(FastSolver, SolvesAStaticWallOnACoarseMesh) {
@@ -196,7 +197,7 @@ TEST(FastSolver, SolvesAStaticWallOnAFinerMeshInAboutAsManyIterations) {
 /// Nodes that are held in some components only, and nodes without pressure.
 void expect_partly_fixed_solved(Numbering numbering, bool vectors, bool scalars, int most_iterations) {
   PartlyFixedSystem<Tet> system(artery().scene(), std::move(numbering), vectors, scalars);
-  FastSolver<Tet> solver(system.blocks(), iterative());
+  FastSolver<3> solver(system.blocks(), iterative());
   solver.update();
   std::vector<double> x;
   const auto report = solver.solve(system.b, 1e-10, x);
@@ -222,7 +223,7 @@ TEST(FastSolver, NodesOfThePartsHeldInOneComponentAndWithoutPressure) {
 TEST(FastSolver, TheCoarseLevelsOfAStaticWallKnowHeldComponents) {
   const auto scene = static_wall("coarse");
   PartlyFixedSystem<Tet> system(*scene, number_wall(*scene), true, false, 0.05);
-  FastSolver<Tet> solver(system.blocks(), iterative());
+  FastSolver<3> solver(system.blocks(), iterative());
   solver.update();
   std::vector<double> x;
   const auto report = solver.solve(system.b, 1e-10, x);
@@ -234,10 +235,10 @@ TEST(FastSolver, TheCoarseLevelsOfAStaticWallKnowHeldComponents) {
 
 // The step's length may change from one update to the next: nothing of the last one stays.
 TEST(FastSolver, StepsOfDifferentLength) {
-  Scene<Tet>& scene = artery().scene();
-  System<Tet> system("coupled", scene, number_scene(scene));
-  FastSolver<Tet> fast(system.blocks(), iterative());
-  DirectLinearSolver<Tet> direct(system.blocks());
+  Scene<3>& scene = artery().scene();
+  System<3> system("coupled", scene, number_scene(scene));
+  FastSolver<3> fast(system.blocks(), iterative());
+  DirectLinearSolver<3> direct(system.blocks());
   std::vector<std::vector<double>> solutions;
   for (double step : {0.125, 0.05, 0.125}) {
     State state = scene.at_rest();

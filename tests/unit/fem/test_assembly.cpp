@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fem/gather_blocks.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "scene/build_scene.hpp"
 #include "support/meshes.hpp"
 #include "support/nodal_arrays.hpp"
@@ -40,7 +41,7 @@ Assembled assemble_with(int thread_count) {
   wall.assemble({s.data(), history.data(), 16.0}, 0, s, all.wall, true);
   all.wall_matrix = wall.jacobian().values;
 
-  MeshMotionMatrix<Tet> matrix(fluid.graph());
+  MeshMotionMatrix<3> matrix(fluid.graph());
   assemble_mesh_motion(fluid.packs(), matrix);
   all.mesh_matrix = matrix.values;
   all.mesh_product.resize(d.size());
@@ -91,7 +92,7 @@ TEST(ElementPacks, EmptyLanesAddNothing) {
   for (const auto& cell : mesh.cells) cell_nodes.insert(cell_nodes.end(), cell.begin(), cell.end());
   const auto graph = std::make_shared<const NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, 4));
   const auto solution = random_field(mesh.nodes, 4, 0.1, 0.02, 5);
-  const auto assemble = [&](const std::vector<int>& cells, WallMatrix<Tet>& matrix) {
+  const auto assemble = [&](const std::vector<int>& cells, WallMatrix<3>& matrix) {
     std::vector<WallLayer<Tet>> layers;
     layers.push_back({ElementPacks<Tet>(mesh.nodes, mesh.cells, cells, *graph), NeoHookean{3}, {}});
     EXPECT_EQ(layers[0].packs.element_count(), cells.size());
@@ -101,7 +102,7 @@ TEST(ElementPacks, EmptyLanesAddNothing) {
   };
   std::vector<int> all(mesh.cells.size());
   std::vector<double> sum(4 * mesh.nodes.size(), 0.0);
-  WallMatrix<Tet> whole_matrix(graph), matrix(graph), matrix_sum(graph);
+  WallMatrix<3> whole_matrix(graph), matrix(graph), matrix_sum(graph);
   for (std::size_t c = 0; c < all.size(); ++c) {
     all[c] = static_cast<int>(c);
     sum = moved(sum, 1, assemble({all[c]}, matrix));

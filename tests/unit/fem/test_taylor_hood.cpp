@@ -136,12 +136,12 @@ TEST(FunctionSpace, OfTaylorHoodHasPositiveNodalVolumesAndAreas) {
 TEST(FunctionSpace, KnowsWhichNodesCarryScalars) {
   const auto linear = irregular_cube(2);
   const auto mesh = with_mid_edge_nodes(linear);
-  const FunctionSpace<TaylorHood> space(whole(mesh));
+  const auto space = function_space<TaylorHood>(whole(mesh));
   int scalars = 0;
   for (int a = 0; a < space.node_count(); ++a) scalars += space.carries_scalar(a);
   EXPECT_EQ(scalars, static_cast<int>(linear.nodes.size()));
   EXPECT_EQ(space.node_count(), static_cast<int>(mesh.nodes.size()));
-  const FunctionSpace<P1Tetrahedron> equal_order(whole(linear));
+  const auto equal_order = function_space<P1Tetrahedron>(whole(linear));
   for (int a = 0; a < equal_order.node_count(); ++a) EXPECT_TRUE(equal_order.carries_scalar(a));
 }
 
@@ -150,9 +150,9 @@ TEST(FunctionSpace, KnowsWhichNodesCarryScalars) {
 TEST(MeshMotionPatch, QuadraticHarmonicDisplacementIsReproducedByQuadraticElements) {
   const auto mesh = with_mid_edge_nodes(irregular_cube(3, 0.2));
   const auto part = whole(mesh);
-  const FunctionSpace<TaylorHood> space(part);
-  const ElementPacks<TaylorHood> packs(part.nodes, part.cells, space.all_cells(), *space.graph());
-  MeshMotionMatrix<TaylorHood> matrix(space.graph());
+  const auto space = function_space<TaylorHood>(part);
+  const ElementPacks<TaylorHood> packs(part.nodes, part.cells, all_cells(part), *space.graph());
+  MeshMotionMatrix<3> matrix(space.graph());
   assemble_mesh_motion(packs, matrix);
   const auto boundary = [&](int a) {
     const auto& x = mesh.nodes[a];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/block/block_gauss_seidel.hpp"
 #include "monolithic/block/block_preconditioners.hpp"
 #include "monolithic/multigrid/coupled_multigrid.hpp"
@@ -16,15 +17,15 @@ using Tet = P1Tetrahedron;
 
 /// The box with factorised sub-problems: a hierarchy of one level.
 struct Factorised {
-  CoupledSystem<Tet> system{linearised_box().blocks()};
-  std::unique_ptr<CoupledMultigrid<Tet>> multigrid;
+  CoupledSystem<3> system{linearised_box().blocks()};
+  std::unique_ptr<CoupledMultigrid<3>> multigrid;
   CoupledVector b;
 
   Factorised() {
     system.update();
     CoupledMultigridOptions options;
     options.coarsening.max_levels = 1;
-    multigrid = std::make_unique<CoupledMultigrid<Tet>>(system, linearised_box().blocks(), options);
+    multigrid = std::make_unique<CoupledMultigrid<3>>(system, linearised_box().blocks(), options);
     b = system.matrix().zero_vector();
     int i = 0;
     for (auto* part : {&b.mesh, &b.fluid, &b.wall})

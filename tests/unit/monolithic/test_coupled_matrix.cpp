@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "algebra/direct_solver.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "support/linear_systems.hpp"
 #include "support/nodal_arrays.hpp"
@@ -16,7 +17,7 @@ using Tet = P1Tetrahedron;
 /// The paper's K and b of the box.
 struct PaperForm {
   LinearisedScene<Tet>& box = linearised_box();
-  CoupledSystem<Tet> system{box.blocks()};
+  CoupledSystem<3> system{box.blocks()};
   CoupledVector b = system.matrix().zero_vector();
 
   PaperForm() {

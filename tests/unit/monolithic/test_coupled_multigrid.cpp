@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 #include "support/linear_systems.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 using Tet = P1Tetrahedron;
 
 struct Hierarchy {
-  CoupledSystem<Tet> system{linearised_box().blocks()};
-  std::unique_ptr<CoupledMultigrid<Tet>> multigrid;
+  CoupledSystem<3> system{linearised_box().blocks()};
+  std::unique_ptr<CoupledMultigrid<3>> multigrid;
 
   explicit Hierarchy(CoarseningKind kind) {
     system.update();
@@ -22,7 +23,7 @@ struct Hierarchy {
     options.coarsening.kind = kind;
     options.coarsening.coarsest_nodes = 20;
     options.fluid.stabilisation_growth = options.wall.stabilisation_growth = 0;
-    multigrid = std::make_unique<CoupledMultigrid<Tet>>(system, linearised_box().blocks(), options);
+    multigrid = std::make_unique<CoupledMultigrid<3>>(system, linearised_box().blocks(), options);
   }
 };
 
@@ -173,11 +174,11 @@ TEST(CoupledCycle, VAndWCyclesAreLinear) {
 }
 
 TEST(CoupledCycle, SolvesExactlyWithOneLevel) {
-  CoupledSystem<Tet> system{linearised_box().blocks()};
+  CoupledSystem<3> system{linearised_box().blocks()};
   system.update();
   CoupledMultigridOptions options;
   options.coarsening.max_levels = 1;
-  CoupledMultigrid<Tet> multigrid(system, linearised_box().blocks(), options);
+  CoupledMultigrid<3> multigrid(system, linearised_box().blocks(), options);
   CoupledCycle<3> cycle(multigrid.levels(), {});
   cycle.factorise_coarsest();
   const auto& k = system.matrix();

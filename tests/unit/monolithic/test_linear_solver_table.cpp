@@ -4,6 +4,7 @@
 
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "support/linear_systems.hpp"
@@ -68,8 +69,8 @@ TEST(LinearSolverTable, CoupledSolversAskForFluidAndWall) {
   Case setup = coupled_case("neo-hookean");
   setup.path = "case.toml";
   setup.structure.reset();
-  auto scene = build_scene(setup, fluid_and_wall_box(2));
-  System<Tet> system("fluid", *scene, number_scene(*scene));
+  auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  System<3> system("fluid", *scene, number_scene(*scene));
   try {
     make_linear_solver<Tet>("amg", setup, system.blocks());
     FAIL();

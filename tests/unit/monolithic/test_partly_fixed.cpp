@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/vector_operations.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/partly_fixed.hpp"
@@ -17,9 +18,9 @@ using Tet = P1Tetrahedron;
 
 /// Relative error of the solution to 1e-10 of the residual.
 double error_of(const CoupledSolverOptions& options, bool vectors, bool scalars) {
-  const auto scene = build_scene(coupled_case("artery"), fluid_and_wall_box(5));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("artery"), fluid_and_wall_box(5));
   PartlyFixedSystem<Tet> system(*scene, number_scene(*scene), vectors, scalars);
-  CoupledLinearSolver<Tet> solver(system.blocks(), options);
+  CoupledLinearSolver<3> solver(system.blocks(), options);
   solver.update();
   std::vector<double> x;
   const auto report = solver.solve(system.b, 1e-10, x);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/threads.hpp"
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "support/nodal_arrays.hpp"
@@ -26,7 +27,7 @@ Case partitioned_case(const std::string& scheme, double tolerance, const std::st
 /// Marches a box of fluid and wall; returns the states after each step.
 template <class MakeStepper>
 std::vector<State> march(const Case& setup, int steps, MakeStepper make) {
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
   const auto stepper = make(*scene, loads);
   std::vector<State> states;
@@ -40,8 +41,8 @@ std::vector<State> march(const Case& setup, int steps, MakeStepper make) {
 }
 
 std::vector<State> march_partitioned(const Case& setup, int steps) {
-  return march(setup, steps, [&](Scene<Tet>& scene, const Loads& loads) {
-    return std::make_unique<CouplingStepper<Tet>>(scene, loads, setup);
+  return march(setup, steps, [&](Scene<3>& scene, const Loads& loads) {
+    return std::make_unique<CouplingStepper<3>>(scene, loads, setup);
   });
 }
 
@@ -52,8 +53,8 @@ TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
     const Case setup = partitioned_case(GetParam(), 1e-10, material);
     NewtonOptions newton;
     newton.tolerance = 1e-12;
-    const auto whole = march(setup, 3, [&](Scene<Tet>& scene, const Loads& loads) {
-      return std::make_unique<NewtonStepper<Tet>>(scene, loads, newton, number_scene(scene));
+    const auto whole = march(setup, 3, [&](Scene<3>& scene, const Loads& loads) {
+      return std::make_unique<NewtonStepper<3>>(scene, loads, newton, number_scene(scene));
     });
     const auto parts = march_partitioned(setup, 3);
     for (std::size_t n = 0; n < 3; ++n) {
@@ -67,9 +68,10 @@ TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
 
 TEST_P(EachScheme, GoesOnBitForBitFromItsMemory) {
   const Case setup = partitioned_case(GetParam(), 1e-5);
-  const auto scene = build_scene(setup, fluid_and_wall_box(2)), scene_again = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2)),
+             scene_again = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup), again(*scene_again, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup), again(*scene_again, loads, setup);
   State state = scene->at_rest();
   for (int n = 0; n < 3; ++n) stepper.advance(state);
   State copy = state;
@@ -95,9 +97,9 @@ TEST_P(EachScheme, LeavesASceneWithoutLoadAtRest) {
 
 TEST_P(EachScheme, ReportsWhatItDid) {
   const Case setup = partitioned_case(GetParam(), 1e-6);
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   const StepReport report = stepper.advance(state);
   ASSERT_TRUE(report.coupling);
@@ -124,9 +126,9 @@ INSTANTIATE_TEST_SUITE_P(CouplingStepper, EachScheme,
 
 TEST(CouplingStepper, ExplicitTakesOnePass) {
   const Case setup = partitioned_case("explicit", 1e-6);
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   const StepReport report = stepper.advance(state);
   EXPECT_EQ(report.outer_iterations, 1);
@@ -136,9 +138,9 @@ TEST(CouplingStepper, ExplicitTakesOnePass) {
 TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
   Case setup = partitioned_case("explicit", 1e-6);
   setup.time->predictor = 0;
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  EXPECT_THROW(CouplingStepper<Tet>(*scene, loads, setup), InputError);
+  EXPECT_THROW(CouplingStepper<3>(*scene, loads, setup), InputError);
 }
 
 TEST(CouplingStepper, ADivergingIterationEndsEarly) {
@@ -146,9 +148,9 @@ TEST(CouplingStepper, ADivergingIterationEndsEarly) {
   setup.partitioned.relaxation = 3;             // more than 2 diverges without any added mass
   setup.inlet = PressureTable{{{0.0, 1e-12}}};  // so small that no element is inverted on the way
   setup.partitioned.absolute_tolerance = 0;
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   try {
     stepper.advance(state);
@@ -163,9 +165,9 @@ TEST(CouplingStepper, ADivergingIterationEndsEarly) {
 TEST(CouplingStepper, ObeysTheForceTolerance) {
   Case setup = partitioned_case("iqn-ils", 1e-2);
   setup.partitioned.force_tolerance = 1e-8;
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   const StepReport report = stepper.advance(state);
   EXPECT_LE(report.coupling->force_residual, 1e-8);
@@ -174,9 +176,9 @@ TEST(CouplingStepper, ObeysTheForceTolerance) {
 TEST(CouplingStepper, AbsoluteToleranceIsEnough) {
   Case setup = partitioned_case("iqn-ils", 1e-12);
   setup.partitioned.absolute_tolerance = 1e-4;
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   const StepReport report = stepper.advance(state);
   EXPECT_LE(report.coupling->displacement_gap, 1e-4);
@@ -188,9 +190,9 @@ TEST(CouplingStepper, APassWithoutAnswerIsTriedAgainCloser) {
   Case setup = partitioned_case("iqn-ils", 1e-6);
   setup.partitioned.relaxation = 1.5;
   setup.inlet = PressureTable{{{0.0, 40.0}}};
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   const StepReport report = stepper.advance(state);
   EXPECT_GT(report.coupling->failed_passes, 0);
@@ -200,9 +202,9 @@ TEST(CouplingStepper, APassWithoutAnswerIsTriedAgainCloser) {
 TEST(CouplingStepper, SaysWhenItDoesNotConvergeAndLeavesTheFinishedLevels) {
   Case setup = partitioned_case("iqn-ils", 1e-10);
   setup.partitioned.max_iterations = 2;
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  CouplingStepper<Tet> stepper(*scene, loads, setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   try {
     stepper.advance(state);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "support/scenes.hpp"
 
@@ -23,11 +24,10 @@ TEST(Membrane, ImpedanceIsTheHarmonicMeanOfPushAndShear) {
 
 TEST(Membrane, OfASceneHasItsWallsMass) {
   const Case setup = coupled_case("neo-hookean");
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Membrane wall = membrane_of(*scene);
   double volume = 0;
-  for (const auto& layer : scene->wall->layers())
-    volume += detail::volume_of(layer.packs, scene->wall->part().cells.size());
+  for (const auto& layer : scene->wall->layer_data()) volume += layer.volume;
   EXPECT_GT(volume, 0);
   EXPECT_NEAR(wall.thickness * wall.area, volume, 1e-12 * volume);
   double area = 0;
@@ -43,7 +43,8 @@ TEST(Membrane, OfASceneHasItsWallsMass) {
 TEST(Membrane, FibresStiffenIt) {
   const Case slack = coupled_case("neo-hookean"), fibres = coupled_case("artery");
   const auto mesh = fluid_and_wall_box(2);
-  EXPECT_GT(membrane_of(*build_scene(fibres, mesh)).tension, 1.5 * membrane_of(*build_scene(slack, mesh)).tension);
+  EXPECT_GT(membrane_of(*build_scene<P1Tetrahedron>(fibres, mesh)).tension,
+            1.5 * membrane_of(*build_scene<P1Tetrahedron>(slack, mesh)).tension);
 }
 
 }  // namespace

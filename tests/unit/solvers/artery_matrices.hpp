@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "mesh/artery_generator.hpp"
 #include "scene/build_scene.hpp"
 #include "solvers/amg/transfer.hpp"
@@ -16,7 +17,7 @@ namespace fsi::test {
 /// the interface, the wall and the mesh motion given there.
 struct ArteryMatrices {
   Case setup;
-  std::unique_ptr<Scene<P1Tetrahedron>> scene;
+  std::unique_ptr<Scene<3>> scene;
   BlockMatrix<4, 4> fluid, wall;
   BlockMatrix<1, 1> mesh;
   NodeMarks fluid_marks, wall_marks, mesh_marks;
@@ -24,17 +25,17 @@ struct ArteryMatrices {
   /// \param moving  linearised at a smooth flow and deformation, not at rest
   ArteryMatrices(const ArteryOptions& options, const std::string& material, bool moving = false)
       : setup(coupled_case(material)) {
-    scene = build_scene(setup, generate_artery(options));
+    scene = build_scene<P1Tetrahedron>(setup, generate_artery(options));
     State state = scene->at_rest();
     if (moving) {
       const auto wave = [](const Point& x, int k) { return std::sin(0.7 * x[0] + 0.4 * x[1] + 0.3 * x[2] + k); };
       for (int a = 0; a < scene->fluid->node_count(); ++a)
         for (int k = 0; k < 3; ++k) {
-          state.now.mesh[a * 3 + k] = 0.01 * wave(scene->fluid->part().nodes[a], k);
-          state.now.fluid[a * 4 + k] = 0.5 * wave(scene->fluid->part().nodes[a], k + 3);
+          state.now.mesh[a * 3 + k] = 0.01 * wave(scene->fluid->nodes().nodes[a], k);
+          state.now.fluid[a * 4 + k] = 0.5 * wave(scene->fluid->nodes().nodes[a], k + 3);
         }
       for (int a = 0; a < scene->wall->node_count(); ++a)
-        for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene->wall->part().nodes[a], k);
+        for (int k = 0; k < 3; ++k) state.now.wall[a * 4 + k] = 0.02 * wave(scene->wall->nodes().nodes[a], k);
     }
     Loads loads(setup);
     const StepData data = loads.next(state, *scene->integrator);

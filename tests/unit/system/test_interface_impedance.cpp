@@ -2,6 +2,7 @@
 // and the call before each evaluation.
 #include <gtest/gtest.h>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
@@ -17,7 +18,7 @@ using Mixed = MixedLayout<3>;
 
 /// The fluid of a box at a random state, its velocity free on the interface.
 struct FreeFluid {
-  std::unique_ptr<Scene<Tet>> scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(2));
+  std::unique_ptr<Scene<3>> scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(2));
   State state = scene->at_rest();
   StepData data;
   InterfaceImpedance impedance;
@@ -25,7 +26,7 @@ struct FreeFluid {
   FreeFluid() {
     data.rates = scene->integrator->rates(state, 0.125);
     data.opening_pressures = {1.332};
-    state.now.fluid = random_field(scene->fluid->part().nodes, 4, 0.3, 1e-3, 1);
+    state.now.fluid = random_field(scene->fluid->nodes().nodes, 4, 0.3, 1e-3, 1);
     Random random(2);
     for (const auto& node : scene->interface) {
       impedance.nodes.push_back(node.fluid);
@@ -34,9 +35,9 @@ struct FreeFluid {
     }
     impedance.impedance.front() = 0;
   }
-  std::unique_ptr<System<Tet>> system(const InterfaceImpedance* with) {
-    auto made = std::make_unique<System<Tet>>("fluid", *scene, number_fluid(*scene, true), LinearSolverFactory<Tet>{},
-                                              SystemNorm::entries, with);
+  std::unique_ptr<System<3>> system(const InterfaceImpedance* with) {
+    auto made = std::make_unique<System<3>>("fluid", *scene, number_fluid(*scene, true), LinearSolverFactory<3>{},
+                                            SystemNorm::entries, with);
     made->work_on(state, data);
     return made;
   }

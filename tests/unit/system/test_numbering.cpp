@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/scenes.hpp"
 
@@ -34,16 +35,16 @@ std::set<std::int64_t> indices(const UnknownMap& map) {
 }
 
 TEST(SceneOfABox, HasTheSubProblemsAndBoundaryConditionsOfTheCase) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const Counts counts(3);
   EXPECT_EQ(scene->fluid->node_count(), counts.fluid_nodes());
   EXPECT_EQ(scene->wall->node_count(), counts.wall_nodes());
   EXPECT_EQ(static_cast<int>(scene->interface.size()), counts.plane);
-  EXPECT_EQ(scene->wall->layers().size(), 2u);
+  EXPECT_EQ(scene->wall->layer_data().size(), 2u);
   int clamped = 0;
   for (const auto& node : scene->interface) {
-    EXPECT_EQ(scene->fluid->part().nodes[node.fluid], scene->wall->part().nodes[node.wall]);
-    EXPECT_EQ(scene->fluid->part().nodes[node.fluid][2], 1.0);
+    EXPECT_EQ(scene->fluid->nodes().nodes[node.fluid], scene->wall->nodes().nodes[node.wall]);
+    EXPECT_EQ(scene->fluid->nodes().nodes[node.fluid][2], 1.0);
     clamped += node.clamped;
   }
   EXPECT_EQ(clamped, counts.plane - counts.inner);
@@ -52,7 +53,7 @@ TEST(SceneOfABox, HasTheSubProblemsAndBoundaryConditionsOfTheCase) {
 }
 
 TEST(Numbering, OfTheSceneCountsEveryUnknownOnce) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const Counts counts(3);
   const auto all = number_scene(*scene);
   EXPECT_EQ(all.size, counts.wall_displacements() + counts.wall_nodes() + counts.free_velocities() +
@@ -70,7 +71,7 @@ TEST(Numbering, OfTheSceneCountsEveryUnknownOnce) {
 
 TEST(Numbering, InterfaceHasOneOwner) {
   const double step = 0.25;
-  const auto scene = build_scene(coupled_case("neo-hookean", step), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean", step), fluid_and_wall_box(3));
   auto all = number_scene(*scene);
   EXPECT_TRUE(all.follow({step})) << "the factors are those of the step";
   EXPECT_FALSE(all.follow({step})) << "and stay";
@@ -99,7 +100,7 @@ TEST(Numbering, InterfaceHasOneOwner) {
 }
 
 TEST(Numbering, OfTheFluidAlonePrescribesTheInterfaceVelocity) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const Counts counts(3);
   const auto part = number_fluid(*scene);
   EXPECT_EQ(part.size, counts.free_velocities() + counts.fluid_nodes());
@@ -111,7 +112,7 @@ TEST(Numbering, OfTheFluidAlonePrescribesTheInterfaceVelocity) {
 }
 
 TEST(Numbering, OfTheWallAloneLeavesTheInterfaceFree) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const Counts counts(3);
   const auto part = number_wall(*scene);
   EXPECT_EQ(part.size, counts.wall_displacements() + counts.wall_nodes());
@@ -121,11 +122,11 @@ TEST(Numbering, OfTheWallAloneLeavesTheInterfaceFree) {
 }
 
 TEST(Numbering, OfTheMeshMotionPrescribesTheWholeBoundary) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const auto part = number_mesh_motion(*scene);
   EXPECT_EQ(part.size, Counts(3).free_mesh_nodes());
-  for (std::size_t a = 0; a < scene->fluid->part().nodes.size(); ++a) {
-    const auto& x = scene->fluid->part().nodes[a];
+  for (std::size_t a = 0; a < scene->fluid->nodes().nodes.size(); ++a) {
+    const auto& x = scene->fluid->nodes().nodes[a];
     const bool inside = std::all_of(x.begin(), x.end(), [](double c) { return c > 1e-12 && c < 1 - 1e-12; });
     for (int k = 0; k < 3; ++k) EXPECT_EQ(part.mesh[3 * a + k].index >= 0, inside);
   }
@@ -134,7 +135,7 @@ TEST(Numbering, OfTheMeshMotionPrescribesTheWholeBoundary) {
 TEST(Numbering, ScenesOfOneSubProblemHaveNoUnknownsOfTheOther) {
   auto setup = coupled_case("neo-hookean");
   setup.structure.reset();
-  const auto rigid = build_scene(setup, fluid_and_wall_box(3));
+  const auto rigid = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
   EXPECT_FALSE(rigid->coupled());
   EXPECT_TRUE(rigid->mesh_motion.values.empty()) << "no mesh motion is assembled for a rigid wall";
   const auto fluid = number_scene(*rigid);
@@ -144,7 +145,7 @@ TEST(Numbering, ScenesOfOneSubProblemHaveNoUnknownsOfTheOther) {
   setup = coupled_case("neo-hookean");
   setup.fluid.reset();
   setup.inlet.reset();
-  const auto dry = build_scene(setup, fluid_and_wall_box(3));
+  const auto dry = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
   const auto wall = number_scene(*dry);
   EXPECT_TRUE(wall.fluid.empty() && wall.mesh.empty());
   EXPECT_EQ(wall.size, Counts(3).wall_displacements() + Counts(3).wall_nodes());
@@ -152,9 +153,9 @@ TEST(Numbering, ScenesOfOneSubProblemHaveNoUnknownsOfTheOther) {
 
 // A symmetry plane: one component of the wall's displacement and of the fluid's velocity is prescribed, two are free.
 TEST(Numbering, LeavesOutSingleComponents) {
-  const auto scene = build_scene(coupled_case("neo-hookean"), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const auto before = number_scene(*scene);
-  const auto& x = scene->fluid->part().nodes;
+  const auto& x = scene->fluid->nodes().nodes;
   const int inside = static_cast<int>(std::find_if(x.begin(), x.end(),
                                                    [](const Point& p) {
                                                      return p[0] > 0.1 && p[0] < 0.9 && p[1] > 0.1 && p[1] < 0.9 &&
@@ -194,10 +195,10 @@ TEST(DirichletConditions, HoldComponentsWithTheirValues) {
 }
 
 TEST(Scene, InterfaceConditionsAreImposedOnEveryComponent) {
-  const auto scene = build_scene(coupled_case("neo-hookean", 0.25), fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean", 0.25), fluid_and_wall_box(3));
   State state = scene->at_rest();
-  state.now.wall = random_field(scene->wall->part().nodes, 4, 0.1, 0.1, 1);
-  state.before[0].wall = random_field(scene->wall->part().nodes, 4, 0.1, 0.1, 2);
+  state.now.wall = random_field(scene->wall->nodes().nodes, 4, 0.1, 0.1, 1);
+  state.before[0].wall = random_field(scene->wall->nodes().nodes, 4, 0.1, 0.1, 2);
   scene->impose_interface(state, scene->integrator->rates(state, 0.25));
   for (const auto& node : scene->interface)
     for (int k = 0; k < 3; ++k) {

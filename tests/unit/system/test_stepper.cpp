@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/scenes.hpp"
@@ -21,9 +22,9 @@ NewtonOptions options() {
 
 TEST(NewtonStepper, AdvancesTheCoupledSceneAndKeepsItsInterfaceConditions) {
   const auto setup = coupled_case("artery");
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   for (int n = 1; n <= 3; ++n) {
     const State before = state;
@@ -50,9 +51,9 @@ TEST(NewtonStepper, KeepsGoingInASteadyState) {
   auto setup = coupled_case("neo-hookean", 5.0);
   setup.structure.reset();
   setup.fluid->viscosity = 2;  // at rest again within a fraction of a step
-  const auto scene = build_scene(setup, fluid_and_wall_box(3));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
   const Loads loads(setup);
-  NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   for (int n = 0; n < 40; ++n) ASSERT_NO_THROW(stepper.advance(state)) << n;
   EXPECT_LT(norm(difference(state.now.fluid, state.before[1].fluid)), 1e-12 * norm(state.now.fluid));
@@ -61,9 +62,9 @@ TEST(NewtonStepper, KeepsGoingInASteadyState) {
 TEST(NewtonStepper, SceneWithoutLoadStaysAtRest) {
   auto setup = coupled_case("mooney-rivlin");
   setup.inlet.reset();
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   for (int n = 0; n < 2; ++n) stepper.advance(state);
   EXPECT_LT(largest(state.now.wall), 1e-14);
@@ -75,9 +76,9 @@ TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
   setup.fluid.reset();
   setup.inlet.reset();
   setup.load = PressureTable{{{0, 1e7}}};  // kPa: a million times the wall's stiffness
-  const auto scene = build_scene(setup, fluid_and_wall_box(2));
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
-  NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   const State start = state;
   EXPECT_THROW(stepper.advance(state), ConvergenceError);
@@ -88,14 +89,14 @@ TEST(NewtonStepper, AnImpossibleStepThrowsAndLeavesTheFinishedLevels) {
 TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
   const auto setup = coupled_case("artery");
   const auto mesh = fluid_and_wall_box(2);
-  const auto scene = build_scene(setup, mesh);
+  const auto scene = build_scene<P1Tetrahedron>(setup, mesh);
   const Loads loads(setup);
-  NewtonStepper<Tet> stepper(*scene, loads, options(), number_scene(*scene));
+  NewtonStepper<3> stepper(*scene, loads, options(), number_scene(*scene));
   State state = scene->at_rest();
   for (int n = 0; n < 3; ++n) stepper.advance(state);
 
-  const auto fresh = build_scene(setup, mesh);
-  NewtonStepper<Tet> restarted(*fresh, loads, options(), number_scene(*fresh));
+  const auto fresh = build_scene<P1Tetrahedron>(setup, mesh);
+  NewtonStepper<3> restarted(*fresh, loads, options(), number_scene(*fresh));
   restarted.recall(stepper.memory());
   State copy = state;
   for (int n = 0; n < 2; ++n) {

@@ -1,0 +1,163 @@
+#include "driver/load_scene.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+#include "base/names.hpp"
+#include "fem/elements.hpp"
+#include "fluid/fluid_problem.hpp"
+#include "mesh/artery_generator.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/group_names.hpp"
+#include "mesh/mesh_checks.hpp"
+#include "mesh/renumber.hpp"
+#include "mesh/sampling.hpp"
+#include "scene/boundary_conditions.hpp"
+#include "scene/build_scene.hpp"
+#include "wall/wall_problem.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// What messages and summaries call the mesh: its file, or "level coarse".
+std::string mesh_name(const Case& setup) {
+  return setup.mesh.file.empty() ? "level " + setup.mesh.level : setup.mesh.file.string();
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TetrahedralMesh read_or_make(const Case& setup, const std::vector<std::string>& layers, SceneMeshNeeds& needs) {
+  std::vector<std::string> available;
+  TetrahedralMesh made;
+  if (setup.mesh.file.empty()) {
+    made = generate_artery(artery_level(setup.mesh.level));
+    available = made.regions;
+  } else {
+    available = gmsh_volumes(setup.mesh.file);
+  }
+  for (const auto& layer : layers)
+    if (!contains(available, layer))
+      throw InputError(setup.path.string(), "structure.layers." + layer,
+                       "the mesh " + mesh_name(setup) + " has no such volume", "its volumes are " + one_of(available));
+  auto wanted = layers;
+  // Under a wall alone the fluid volume, where there is one, shows the wall's inner face.
+  const bool fluid_shows_inner_face = !setup.fluid && setup.load && contains(available, "fluid");
+  if (setup.fluid || fluid_shows_inner_face) wanted.push_back("fluid");
+  needs.inner_surface = !setup.fluid && setup.load && !fluid_shows_inner_face;
+  if (!setup.mesh.file.empty()) return read_gmsh(setup.mesh.file, wanted);
+  return made;
+}
+
+/// FNV-1a over nodes, cells and regions.
+template <class Mesh>
+std::string hash_of_mesh(const Mesh& mesh) {
+  Fnv1a hash;
+  hash.add(mesh.nodes.data(), mesh.nodes.size() * sizeof(mesh.nodes[0]));
+  hash.add(mesh.cells.data(), mesh.cells.size() * sizeof(mesh.cells[0]));
+  for (int region : mesh.cell_region) hash.add(mesh.regions[region]);
+  return hash.hex();
+}
+
+/// The mesh of a case, checked against what the scene needs and renumbered (reverse Cuthill-McKee). Volumes that the
+/// scene does not need are left out, save `fluid` under a wall alone: its interface is where the pressure acts.
+template <class Element>
+MeshOf<Element> load_mesh(const Case& setup) {
+  SceneMeshNeeds needs;
+  needs.fluid = setup.fluid.has_value();
+  needs.inlet_outlet = needs.fluid;
+  if (setup.structure)
+    for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
+  const auto mesh = read_or_make(setup, needs.layers, needs);
+  check_scene_mesh(mesh, needs, mesh_name(setup));
+  // Made meshes come in a good order already.
+  auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
+  return bandwidth(ordered) < bandwidth(mesh) ? ordered : mesh;
+}
+
+constexpr int line_points = 181;
+
+template <class Element>
+ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& mesh,
+                                     const Scene<Element::components>& scene) {
+  ObservationPoints points;
+  if (setup.structure) points.axis = {setup.structure->axis_origin, setup.structure->axis_direction};
+  const int fluid_region = mesh.region_index(group::fluid);
+  const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
+  if (scene.fluid && inlet && outlet) {
+    points.centre_z = evenly_spaced(axial_position(mesh.nodes, *inlet, points.axis),
+                                    axial_position(mesh.nodes, *outlet, points.axis), line_points);
+    for (const auto& found : sample_in_cells(mesh, fluid_region, points_on_axis(points.axis, points.centre_z))) {
+      NodalSample sample{{found.nodes.begin(), found.nodes.end()}, {found.weights.begin(), found.weights.end()}};
+      for (int& node : sample.nodes) node = scene.fluid->nodes().local_node[node];
+      points.centre_line.push_back(std::move(sample));
+    }
+  }
+  if (scene.wall) {
+    std::vector<int> wall_regions;
+    for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
+    const auto surface =
+        fluid_region >= 0 ? interface_facets(mesh, fluid_region, wall_regions) : group_facets(mesh, group::inner);
+    if (surface.empty()) return points;
+    const AxisFrame frame(points.axis);
+    double first = frame.axial(mesh.nodes[surface[0][0]]), last = first;
+    for (const auto& facet : surface)
+      for (int node : facet) {
+        first = std::min(first, frame.axial(mesh.nodes[node]));
+        last = std::max(last, frame.axial(mesh.nodes[node]));
+      }
+    points.angles = 16;
+    points.wall_z = evenly_spaced(first, last, line_points);
+    for (const auto& found : wall_samples(mesh.nodes, surface, points.axis, points.wall_z, points.angles)) {
+      NodalSample sample{{found.nodes.begin(), found.nodes.end()}, {found.weights.begin(), found.weights.end()}};
+      for (int& node : sample.nodes) node = scene.wall->nodes().local_node[node];
+      points.wall_line.push_back({std::move(sample), found.direction});
+    }
+  }
+  return points;
+}
+
+template <class Part>
+FieldGrid grid_of(const std::string& name, const Part& part) {
+  FieldGrid grid;
+  grid.name = name;
+  grid.points = part.nodes;
+  grid.nodes_per_cell = static_cast<int>(std::tuple_size_v<typename Part::Cell>);
+  for (const auto& cell : part.cells) grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
+  grid.layer = part.cell_region;
+  return grid;
+}
+
+template <class Element>
+LoadedScene<Element::components> load(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
+  const auto mesh = load_mesh<Element>(setup);
+  if (mesh_known) mesh_known(mesh.cells.size());
+  LoadedScene<Element::components> loaded;
+  loaded.mesh = {mesh_name(setup), hash_of_mesh(mesh), mesh.nodes.size(), mesh.cells.size(),
+                 Element::dim == 3 ? "tetrahedra" : "triangles"};
+  loaded.scene = build_scene<Element>(setup, mesh);
+  loaded.points = observation_points<Element>(setup, mesh, *loaded.scene);
+  const auto& scene = *loaded.scene;
+  if (scene.fluid) loaded.grids.push_back(grid_of("fluid", static_cast<FluidProblem<Element>&>(*scene.fluid).part()));
+  if (scene.wall) loaded.grids.push_back(grid_of("wall", static_cast<WallProblem<Element>&>(*scene.wall).part()));
+  return loaded;
+}
+
+}  // namespace
+
+template <>
+LoadedScene<3> load_scene(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
+  return load<P1Tetrahedron>(setup, mesh_known);
+}
+
+template <>
+LoadedScene<2> load_scene(const Case& setup, const std::function<void(std::size_t)>&) {
+  throw InputError(setup.path.string(), "geometry", "not yet", "");
+}
+
+}  // namespace fsi

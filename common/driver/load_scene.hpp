@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "driver/observation.hpp"
+#include "io/fields_writer.hpp"
+#include "scene/scene.hpp"
+
+namespace fsi {
+
+/// What a run says of its mesh.
+struct MeshFacts {
+  std::string name;  ///< its file, or "level coarse"
+  std::string hash;  ///< tells whether a checkpoint belongs to it
+  std::size_t nodes = 0, cells = 0;
+  const char* cell = "";  ///< "tetrahedra", "triangles"
+};
+
+/// A case on its mesh. Only what stands here knows the element; it is chosen once, by the case.
+template <int n>
+struct LoadedScene {
+  MeshFacts mesh;
+  std::unique_ptr<Scene<n>> scene;
+  ObservationPoints points;
+  std::vector<FieldGrid> grids;  ///< of fluid and wall, where they are, without fields
+};
+
+/// Reads or makes the mesh of a case, checks it and builds the scene on it.
+/// \tparam n          2 for plane and axisymmetric scenes, 3 otherwise: components_of(setup)
+/// \param mesh_known  called with the number of cells before the scene is built
+/// \throws InputError
+template <int n>
+LoadedScene<n> load_scene(const Case& setup, const std::function<void(std::size_t cells)>& mesh_known = {});
+
+/// Components of the vectors of a case.
+inline int components_of(const Case& setup) {
+  return setup.geometry == Geometry::three_dimensional ? 3 : 2;
+}
+
+}  // namespace fsi

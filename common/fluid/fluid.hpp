@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/assembly_result.hpp"
+#include "fem/function_space.hpp"
+#include "fluid/ale_fluid.hpp"
+#include "fluid/fluid_input.hpp"
+#include "fluid/open_boundary.hpp"
+#include "mesh/submesh.hpp"
+
+namespace fsi {
+
+/// The fluid sub-problem as everything above the element loops sees it, vectors with n components: residual and
+/// derivatives without boundary conditions, integrals over its domain and its open boundaries.
+template <int n>
+class Fluid {
+ public:
+  virtual ~Fluid() = default;
+
+  virtual const PartNodes& nodes() const = 0;
+  virtual const FunctionSpace<n>& space() const = 0;
+  virtual const AleFluid& form() const = 0;
+  const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
+  int node_count() const { return nodes().node_count(); }
+
+  virtual const std::vector<OpenBoundary<n>>& open_boundaries() const = 0;
+  /// The open boundary of a name; a null pointer when there is none.
+  const OpenBoundary<n>* open_boundary(const std::string& name) const {
+    for (const auto& boundary : open_boundaries())
+      if (boundary.name() == name) return &boundary;
+    return nullptr;
+  }
+
+  /// Overwrites the residual, in the mixed layout, with all terms but prescribed values; the tractions -p N of the open
+  /// boundaries included.
+  /// \param pressures  kPa, of the open boundaries in their order; missing ones are zero
+  virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
+                                  std::vector<double>& residual,
+                                  FluidDerivatives derivatives = FluidDerivatives::none) = 0;
+
+  /// The derivatives last assembled. Storage appears with the first request.
+  virtual FluidJacobian<n>& jacobian(FluidDerivatives derivatives) = 0;
+
+  virtual FluidEnergy energy(const FluidInput& in) const = 0;
+  /// Kinetic energy that flows out through an open boundary, uJ/ms, for flow arrays (u, p).
+  double kinetic_outflow(const OpenBoundary<n>& open, const std::vector<double>& flow) const {
+    return form().density * open.kinetic_outflow(nodes().nodes, flow);
+  }
+
+  virtual std::size_t element_count() const = 0;
+  virtual double volume() const = 0;  ///< at rest, mm^3
+  /// The elements as vertices, n + 1 numbers each.
+  virtual std::vector<int> cell_vertices() const = 0;
+};
+
+}  // namespace fsi

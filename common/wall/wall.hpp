@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fem/assembly_result.hpp"
+#include "fem/function_space.hpp"
+#include "mesh/submesh.hpp"
+#include "wall/wall_input.hpp"
+
+namespace fsi {
+
+/// What a layer of the wall is, without its element loops.
+struct LayerData {
+  Material material;
+  std::size_t elements = 0;
+  double volume = 0;       ///< at rest, mm^3
+  std::vector<int> nodes;  ///< of the wall's part, ascending
+};
+
+/// The wall sub-problem as everything above the element loops sees it, vectors with n components: residual and Jacobian
+/// without boundary conditions but with the follower pressure on some of its facets.
+template <int n>
+class Wall {
+ public:
+  virtual ~Wall() = default;
+
+  virtual const PartNodes& nodes() const = 0;
+  virtual const FunctionSpace<n>& space() const = 0;
+  virtual const WallConstants& constants() const = 0;
+  virtual const std::vector<LayerData>& layer_data() const = 0;
+  const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
+  int node_count() const { return nodes().node_count(); }
+
+  /// Overwrites the residual, in the mixed layout, and the Jacobian if asked.
+  /// \param pressure  kPa on the pressurised facets
+  virtual AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
+                                  std::vector<double>& residual, bool derivatives = false) = 0;
+
+  virtual WallEnergy energy(const WallStep& in) const = 0;
+  /// Work of the pressure on the pressurised facets, as they are at the step's end, in a step from `old` to `now`; uJ.
+  virtual double pressure_work(double pressure, const std::vector<double>& old,
+                               const std::vector<double>& now) const = 0;
+
+  /// The Jacobian last assembled; storage appears with the first request.
+  virtual WallMatrix<n>& jacobian() = 0;
+
+  virtual std::size_t element_count() const = 0;
+  /// The elements as vertices, n + 1 numbers each.
+  virtual std::vector<int> cell_vertices() const = 0;
+};
+
+}  // namespace fsi
