@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/facet_load.hpp"
+#include "fem/mid_edge_nodes.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -68,23 +69,14 @@ double volume_of(const ElementPacks<Element>& packs, std::size_t cells) {
 /// Facets of the fluid's boundary with all nodes on the interface.
 template <class Element>
 auto wet_facets(const Scene<Element>& scene) {
-  using Facet = typename SimplexMesh<Element::dim>::Facet;
+  using Facet = typename SimplexMesh<Element::dim, Element::order>::Facet;
   std::vector<char> wet(scene.fluid->node_count(), 0);
   for (const auto& node : scene.interface) wet[node.fluid] = 1;
   std::map<Facet, int> count;
   for (const auto& cell : scene.fluid->part().cells)
-    for (std::size_t left_out = 0; left_out < cell.size(); ++left_out) {
-      Facet facet;
-      std::size_t at = 0;
-      bool all_wet = true;
-      for (std::size_t a = 0; a < cell.size(); ++a)
-        if (a != left_out) {
-          facet[at++] = cell[a];
-          all_wet = all_wet && wet[cell[a]];
-        }
-      if (!all_wet) continue;
-      std::sort(facet.begin(), facet.end());
-      ++count[facet];
+    for (int vertex = 0; vertex <= Element::dim; ++vertex) {
+      const Facet facet = facet_opposite<Element::dim, Element::order>(cell, vertex);
+      if (std::all_of(facet.begin(), facet.end(), [&](int node) { return wet[node]; })) ++count[facet];
     }
   std::vector<Facet> facets;
   for (const auto& [facet, cells] : count)
