@@ -8,7 +8,8 @@ namespace fsi {
 
 /// What a weak form returns at a point: the integrand of its residual is
 ///   source . v + flux : grad v + scalar_source q + scalar_flux . grad q
-/// for a vector test function v and a scalar one q, all on the reference domain.
+/// for a vector test function v and a scalar one q, all on the reference domain. Only stabilisation has a scalar flux:
+/// with elements that need none it is not looked at.
 template <class T>
 struct Integrand {
   Vec3<T> source;
@@ -39,11 +40,12 @@ struct ElementRows {
       }
       if constexpr (Element::axisymmetric) at[a][0] += f.flux(1, 1) * (weight * g.vectors().hoop[a]);
     }
-    for (int a = 0; a < Element::scalar_nodes; ++a) {
-      const Vec3<Pack> weighted = weight * g.scalars().gradient[a];
-      at[a][rows - 1] +=
-          f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
-    }
+    if constexpr (Element::stabilised)
+      for (int a = 0; a < Element::scalar_nodes; ++a) {
+        const Vec3<Pack> weighted = weight * g.scalars().gradient[a];
+        at[a][rows - 1] +=
+            f.scalar_flux[0] * weighted[0] + f.scalar_flux[1] * weighted[1] + f.scalar_flux[2] * weighted[2];
+      }
   }
 
   /// Adds the integrand's terms with test values.

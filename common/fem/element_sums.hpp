@@ -8,8 +8,8 @@
 namespace fsi {
 
 /// Integrals of `Count` quantities over one pack, a lane per element: prepare(point geometry) does what depends on
-/// gradients alone and is called once where gradients are constant; densities(prepared, point geometry) returns the
-/// quantities per reference volume.
+/// gradients alone and is called once where gradients are constant; densities(prepared, point geometry, point) returns
+/// the quantities per reference volume.
 template <class Element, std::size_t Count, class Prepare, class Densities>
 inline std::array<Pack, Count> pack_integrals(const typename Element::Geometry& geometry, Prepare prepare,
                                               Densities densities) {
@@ -22,12 +22,12 @@ inline std::array<Pack, Count> pack_integrals(const typename Element::Geometry& 
     const auto prepared = prepare(Element::at(geometry, 0));
     for (int q = 0; q < Element::points; ++q) {
       const auto g = Element::at(geometry, q);
-      add(densities(prepared, g), g.weight);
+      add(densities(prepared, g, q), g.weight);
     }
   } else {
     for (int q = 0; q < Element::points; ++q) {
       const auto g = Element::at(geometry, q);
-      add(densities(prepare(g), g), g.weight);
+      add(densities(prepare(g), g, q), g.weight);
     }
   }
   return total;

@@ -1,10 +1,16 @@
 #pragma once
 
-#include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "fem/p1_triangle.hpp"
+#include "fem/p2p1_tetrahedron.hpp"
+#include "fem/p2p1_triangle.hpp"
 
 /// The elements that the libraries are compiled for: everything that depends on the element is declared in headers and
 /// instantiated once, in its own .cpp file, by INSTANTIATE(element).
 #define FSI_FOR_EACH_ELEMENT(INSTANTIATE) \
   INSTANTIATE(P1Tetrahedron)              \
-  INSTANTIATE(P1AxisymmetricTriangle)
+  INSTANTIATE(P1AxisymmetricTriangle)     \
+  INSTANTIATE(P1PlaneTriangle)            \
+  INSTANTIATE(P2P1Tetrahedron)            \
+  INSTANTIATE(P2P1AxisymmetricTriangle)   \
+  INSTANTIATE(P2P1PlaneTriangle)

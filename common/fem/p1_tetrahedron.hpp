@@ -18,6 +18,7 @@ struct P1Tetrahedron {
   static constexpr int axis[3] = {0, 1, 2};  ///< the space axis of each component
   static constexpr bool constant_gradients = true;
   static constexpr bool axisymmetric = false;
+  static constexpr bool stabilised = true;
 
   /// Constant data of one pack of elements, computed once from the reference coordinates.
   struct Geometry {

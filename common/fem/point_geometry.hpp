@@ -1,8 +1,17 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "math/tensor.hpp"
 
 namespace fsi {
+
+/// Stands where an element that needs no stabilisation has no size and no metric.
+struct Unstabilised {};
+/// What an element has for a metric: Sym3<Pack> or Unstabilised.
+template <class Element>
+using MetricOf = std::decay_t<decltype(std::declval<typename Element::Geometry&>().metric)>;
 
 /// Shape functions of one field at one quadrature point. `hoop` holds N_a / r for axisymmetric elements and is unused
 /// otherwise.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "fem/contributions.hpp"
 #include "math/kinematics.hpp"
 
@@ -13,7 +15,7 @@ namespace fsi {
 ///   sigma = mu (grad u F^-1 + (grad u F^-1)^T) - p I,   r = rho (du/dt + grad u F^-1 c) + F^-T grad p,
 ///   tau = ((2/dt)^2 + c . G c + 36 nu^2 G : G)^(-1/2),  G = F^-T (dxi/dX)^T (dxi/dX) F^-1,
 /// optionally + (rho J tau_C F^-T : grad u, F^-T : grad v), tau_C = 1 / (tau tr G).
-/// Everything is differentiated through, tau included.
+/// Everything is differentiated through, tau included. Elements without a metric (Taylor-Hood) get the first line alone.
 struct AleFluid {
   double density;    ///< mg/mm^3
   double viscosity;  ///< kPa ms
@@ -24,36 +26,46 @@ struct AleFluid {
 
   /// What depends on gradients alone. M: scalar of the domain's motion, T: of everything else.
   template <class M, class T>
-  struct Prepared {
+  struct Galerkin {
+    static constexpr bool stabilised = false;
     Mat3<M> inverse_gradient;   ///< F^-1
     Mat3<M> cofactor_gradient;  ///< J F^-T
     M volume_ratio;             ///< J
-    Sym3<M> metric;             ///< G
-    M viscous_rate_squared;     ///< (2/dt)^2 + 36 nu^2 G : G
     Mat3<T> velocity_gradient;  ///< grad u F^-1
     T divergence;               ///< its trace
+  };
+  /// The same with what stabilisation needs.
+  template <class M, class T>
+  struct Stabilised : Galerkin<M, T> {
+    static constexpr bool stabilised = true;
+    Sym3<M> metric;             ///< G
+    M viscous_rate_squared;     ///< (2/dt)^2 + 36 nu^2 G : G
     Vec3<T> pressure_gradient;  ///< F^-T grad p
   };
+  template <class Metric, class M, class T>
+  using Prepared = std::conditional_t<std::is_same_v<Metric, Unstabilised>, Galerkin<M, T>, Stabilised<M, T>>;
 
   /// \param grad_d, grad_u, grad_p  reference gradients of mesh displacement, velocity and pressure
-  /// \param reference_metric        (dxi/dX)^T (dxi/dX)
-  template <class M, class U>
+  /// \param reference_metric        (dxi/dX)^T (dxi/dX), a Sym3<Pack>, or Unstabilised
+  template <class M, class U, class Metric>
   auto prepare(const Mat3<M>& grad_d, const Mat3<U>& grad_u, const Vec3<U>& grad_p,
-               const Sym3<Pack>& reference_metric) const {
-    Prepared<M, Product<M, U>> k;
+               const Metric& reference_metric) const {
+    Prepared<Metric, M, Product<M, U>> k;
     const auto f = deformation(grad_d);
     k.volume_ratio = f.volume_ratio;
     k.cofactor_gradient = f.cofactor_gradient;
     const M inverse_ratio = Pack(1.0) / f.volume_ratio;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) k.inverse_gradient(i, j) = inverse_ratio * f.cofactor_gradient(j, i);
-    k.metric = congruence(reference_metric, k.inverse_gradient);
-    const double nu = viscosity / density;
-    k.viscous_rate_squared =
-        Pack(4.0 / (step * step)) + Pack(inverse_estimate * nu * nu) * contract(k.metric, k.metric);
+    if constexpr (decltype(k)::stabilised) {
+      k.metric = congruence(reference_metric, k.inverse_gradient);
+      const double nu = viscosity / density;
+      k.viscous_rate_squared =
+          Pack(4.0 / (step * step)) + Pack(inverse_estimate * nu * nu) * contract(k.metric, k.metric);
+    }
     k.velocity_gradient = grad_u * k.inverse_gradient;
     k.divergence = trace(k.velocity_gradient);
-    k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
+    if constexpr (decltype(k)::stabilised) k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
     return k;
   }
 
@@ -61,45 +73,55 @@ struct AleFluid {
   template <class T>
   struct Momentum {
     Vec3<T> inertia;          ///< rho (du/dt + grad u F^-1 c)
-    Vec3<T> strong_residual;  ///< r
-    T tau;                    ///< ms
+    Vec3<T> strong_residual;  ///< r, where there is stabilisation
+    T tau;                    ///< ms, likewise
   };
 
+  /// \param k           Galerkin or Stabilised
   /// \param rate        du/dt at the point, mm/ms^2
   /// \param convection  c = u - w, mm/ms
-  template <class M, class T, class U>
-  Momentum<T> momentum(const Prepared<M, T>& k, const Vec3<U>& rate, const Vec3<T>& convection) const {
+  template <class K, class T, class U>
+  Momentum<T> momentum(const K& k, const Vec3<U>& rate, const Vec3<T>& convection) const {
     Momentum<T> m;
     m.inertia = Pack(density) * (rate + k.velocity_gradient * convection);
-    m.strong_residual = m.inertia + k.pressure_gradient;
-    m.tau = Pack(1.0) / sqrt(k.viscous_rate_squared + dot(convection, k.metric * convection));
+    if constexpr (K::stabilised) {
+      m.strong_residual = m.inertia + k.pressure_gradient;
+      m.tau = Pack(1.0) / sqrt(k.viscous_rate_squared + dot(convection, k.metric * convection));
+    }
     return m;
   }
 
   /// \param pressure  kPa
-  template <class M, class T, class U>
-  Integrand<T> integrand(const Prepared<M, T>& k, const Vec3<U>& rate, const Vec3<T>& convection,
-                         const U& pressure) const {
+  template <class K, class T, class U>
+  Integrand<T> integrand(const K& k, const Vec3<U>& rate, const Vec3<T>& convection, const U& pressure) const {
     const auto& c = convection;
-    const auto [inertia, strong_residual, tau] = momentum(k, rate, c);
+    const Momentum<T> m = momentum(k, rate, c);
 
     // Stress, streamline and (optional) divergence stabilisation share the test gradient: one current tensor, pulled
     // back.
     Mat3<T> stress;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        stress(i, j) = Pack(viscosity) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i)) +
-                       (tau * strong_residual[i]) * c[j];
+      for (int j = 0; j < 3; ++j) {
+        const T viscous = Pack(viscosity) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i));
+        if constexpr (K::stabilised) {
+          stress(i, j) = viscous + (m.tau * m.strong_residual[i]) * c[j];
+        } else {
+          stress(i, j) = viscous;
+        }
+      }
     T isotropic = -pressure + T(0.0);
-    if (grad_div) isotropic += Pack(density) * k.divergence / (tau * trace(k.metric));
+    if constexpr (K::stabilised)
+      if (grad_div) isotropic += Pack(density) * k.divergence / (m.tau * trace(k.metric));
     for (int i = 0; i < 3; ++i) stress(i, i) += isotropic;
 
     Integrand<T> f;
-    f.source = k.volume_ratio * inertia;
+    f.source = k.volume_ratio * m.inertia;
     f.flux = stress * k.cofactor_gradient;
     f.scalar_source = -(k.volume_ratio * k.divergence);
-    const Vec3<T> scaled = (tau * Pack(-1.0 / density)) * strong_residual;
-    f.scalar_flux = transposed_times(k.cofactor_gradient, scaled);  // J F^-1 r
+    if constexpr (K::stabilised) {
+      const Vec3<T> scaled = (m.tau * Pack(-1.0 / density)) * m.strong_residual;
+      f.scalar_flux = transposed_times(k.cofactor_gradient, scaled);  // J F^-1 r
+    }
     return f;
   }
 
@@ -109,17 +131,21 @@ struct AleFluid {
     Pack viscous;        ///< J mu (grad u F^-1 + (grad u F^-1)^T) : grad u F^-1
     Pack stabilisation;  ///< J tau r . (grad u F^-1 c + F^-T grad p / rho), optionally + rho J tau_C (div u)^2
   };
-  Power power(const Prepared<Pack, Pack>& k, const Vec3<Pack>& rate, const Vec3<Pack>& convection) const {
-    const auto [inertia, strong_residual, tau] = momentum(k, rate, convection);
+  template <class K>
+  Power power(const K& k, const Vec3<Pack>& rate, const Vec3<Pack>& convection) const {
+    const Momentum<Pack> m = momentum(k, rate, convection);
     const auto& l = k.velocity_gradient;
     Pack shear(0.0);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) shear += (l(i, j) + l(j, i)) * l(i, j);
     Power power;
     power.viscous = Pack(viscosity) * k.volume_ratio * shear;
-    power.stabilisation = tau * dot(strong_residual, l * convection + Pack(1.0 / density) * k.pressure_gradient);
-    if (grad_div) power.stabilisation += Pack(density) * k.divergence * k.divergence / (tau * trace(k.metric));
-    power.stabilisation *= k.volume_ratio;
+    power.stabilisation = Pack(0.0);
+    if constexpr (K::stabilised) {
+      power.stabilisation = m.tau * dot(m.strong_residual, l * convection + Pack(1.0 / density) * k.pressure_gradient);
+      if (grad_div) power.stabilisation += Pack(density) * k.divergence * k.divergence / (m.tau * trace(k.metric));
+      power.stabilisation *= k.volume_ratio;
+    }
     return power;
   }
 };

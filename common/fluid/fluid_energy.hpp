@@ -6,6 +6,17 @@
 
 namespace fsi {
 
+namespace detail {
+
+template <class Element>
+struct PreparedEnergy {
+  AleFluid::Prepared<MetricOf<Element>, Pack, Pack> form;
+  Pack volume_step;  ///< J_1 - J_0
+  Pack defect;       ///< D - (J_1 - J_0)
+};
+
+}  // namespace detail
+
 /// \param in  of a step by backward Euler, whose references are the last level
 template <class Element>
 FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in) {
@@ -28,22 +39,17 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
         rate.at[a][k] = Pack(in.fluid_factor) * (u.at[a][k] - u_old.at[a][k]);
         convection.at[a][k] = u.at[a][k] - Pack(in.mesh_factor) * (d.at[a][k] - d_old.at[a][k]);
       }
-    struct Prepared {
-      AleFluid::Prepared<Pack, Pack> form;
-      Pack volume_step;  ///< J_1 - J_0
-      Pack defect;       ///< D - (J_1 - J_0)
-    };
     return pack_integrals<Element, 6>(
         pack.geometry,
         [&](const auto& g) {
-          Prepared k;
+          detail::PreparedEnergy<Element> k;
           const Mat3<Pack> h = gradient_of(d, g), h_old = gradient_of(d_old, g);
           k.form = form.prepare(h, gradient_of(u, g), gradient_of(p, g), pack.geometry.metric);
           k.volume_step = volume_change(h) - volume_change(h_old);
           k.defect = contract(k.form.cofactor_gradient, h - h_old) - k.volume_step;
           return k;
         },
-        [&](const Prepared& k, const auto& g) {
+        [&](const detail::PreparedEnergy<Element>& k, const auto& g, int) {
           const Vec3<Pack> now = value_of(u, g), old = value_of(u_old, g), step = now - old;
           const auto power = form.power(k.form, value_of(rate, g), value_of(convection, g));
           const Pack half_density(0.5 * form.density), square = dot(now, now);

@@ -1,7 +1,6 @@
 #include "mesh_motion/mesh_motion.hpp"
 
 #include "fem/elements.hpp"
-#include "fem/p2p1_tetrahedron.hpp"
 #include "mesh_motion/harmonic.hpp"
 
 namespace fsi {
@@ -33,7 +32,6 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
 #define FSI_INSTANTIATE(Element) \
   template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element::components>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
-FSI_INSTANTIATE(P2P1Tetrahedron)  // ready before the weak forms of fluid and wall are
 #undef FSI_INSTANTIATE
 
 }  // namespace fsi

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,35 +15,45 @@ struct CylinderAxis {
   Vec3<double> direction{{0, 0, 1}};  ///< unit length
 };
 
-/// Fibre directions a = cos(alpha) e_theta +- sin(alpha) e_z in the local cylindrical frame at the centre of each
-/// element (docs/theory.md, section 5.6), [thread][pack]. \param angle  alpha in radians, from the circumference
+/// Fibre directions in the elements of a layer, at each quadrature point, [thread][pack][point].
+template <class Element>
+using FibreField = std::vector<std::vector<std::array<Fibres, Element::points>>>;
+
+/// a = cos(alpha) e_theta +- sin(alpha) e_z in the cylindrical frame at a point (docs/theory.md, section 5.6).
+/// \param x      mm, off the axis
+/// \param angle  alpha in radians, from the circumference
+inline std::array<Vec3<double>, 2> fibre_directions_at(const Vec3<double>& x, const CylinderAxis& axis, double angle) {
+  const Vec3<double> offset = x - axis.origin;
+  const Vec3<double> radial = offset - dot(offset, axis.direction) * axis.direction;
+  const Vec3<double> around = cross(axis.direction, radial);  // the radius times e_theta
+  const double cosine = std::cos(angle) / std::sqrt(dot(radial, radial)), sine = std::sin(angle);
+  return {cosine * around + sine * axis.direction, cosine * around - sine * axis.direction};
+}
+
+/// The directions at the isoparametric positions of the elements' quadrature points.
+/// \param x     reference coordinates of the nodes, mm
+/// \param axis  of tetrahedra; of triangles in a plane its origin counts, since it stands upright on them; a body of
+///              revolution has its own: there a = (0, cos(alpha), +-sin(alpha)) everywhere
 template <class Element, class Point, class Cell>
-std::vector<std::vector<Fibres>> fibre_directions(const ElementPacks<Element>& packs, const std::vector<Point>& x,
-                                                  const std::vector<Cell>& cells, const CylinderAxis& axis,
-                                                  double angle) {
-  std::vector<std::vector<Fibres>> all(packs.thread_count());
+FibreField<Element> fibre_directions(const ElementPacks<Element>& packs, const std::vector<Point>& x,
+                                     const std::vector<Cell>& cells, CylinderAxis axis, double angle) {
+  if constexpr (Element::dim == 2) axis.direction = {{0, 0, 1}};
+  if constexpr (Element::axisymmetric) axis.origin = {{0, 0, 0}};
+  FibreField<Element> all(packs.thread_count());
   for (int t = 0; t < packs.thread_count(); ++t)
     for (const auto& pack : packs.of_thread(t)) {
-      Fibres fibres;
-      for (int lane = 0; lane < pack_width; ++lane) {
-        const auto& cell = cells[pack.cell[lane]];
-        Vec3<double> offset{{0, 0, 0}};
-        for (int node : cell)
-          for (int i = 0; i < 3; ++i) offset[i] += x[node][i] / Element::nodes;
-        for (int i = 0; i < 3; ++i) offset[i] -= axis.origin[i];
-        const double along = dot(offset, axis.direction);
-        Vec3<double> radial;
-        for (int i = 0; i < 3; ++i) radial[i] = offset[i] - along * axis.direction[i];
-        const double radius = std::sqrt(dot(radial, radial));
-        for (int i = 0; i < 3; ++i) radial[i] /= radius;
-        const Vec3<double> circumferential = cross(axis.direction, radial);
-        for (int i = 0; i < 3; ++i) {
-          const double hoop = std::cos(angle) * circumferential[i], axial = std::sin(angle) * axis.direction[i];
-          fibres.direction[0][i].set(lane, hoop + axial);
-          fibres.direction[1][i].set(lane, hoop - axial);
+      all[t].emplace_back();
+      for (int q = 0; q < Element::points; ++q) {
+        const auto shapes = Element::at(pack.geometry, q).vectors();
+        for (int lane = 0; lane < pack_width; ++lane) {
+          Vec3<double> at{{0, 0, 0}};
+          for (int a = 0; a < Element::nodes; ++a)
+            for (int i = 0; i < 3; ++i) at[i] += shapes.value[a] * x[cells[pack.cell[lane]][a]][i];
+          const auto directions = fibre_directions_at(at, axis, angle);
+          for (int family = 0; family < 2; ++family)
+            for (int i = 0; i < 3; ++i) all[t].back()[q].direction[family][i].set(lane, directions[family][i]);
         }
       }
-      all[t].push_back(fibres);
     }
   return all;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "fem/contributions.hpp"
 #include "materials/strain.hpp"
 
@@ -11,7 +13,8 @@ namespace fsi {
 ///   (rho a, v) + (F S' - p J F^-T, grad v)
 ///   - (J - 1, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T grad q),
 ///   tau = alpha h^2 / (2 mu).
-/// No inertia in the stabilisation's residual: it would destabilise small steps.
+/// No inertia in the stabilisation's residual: it would destabilise small steps. Elements without a size (Taylor-Hood)
+/// get no stabilisation. Fibre directions vary from point to point, also where gradients are constant.
 template <class Material>
 struct Hyperelastic {
   double density;        ///< mg/mm^3; 0 in statics
@@ -19,32 +22,49 @@ struct Hyperelastic {
   double stabilisation;  ///< alpha
   Material material;
 
+  using FibreData = typename Material::FibreData;
+  static constexpr bool has_fibres = std::is_same_v<FibreData, Fibres>;
+
+  /// What the isochoric stress is computed from at a point: nothing more where there are no fibres, since it is a
+  /// function of gradients alone.
   template <class T>
-  struct Prepared {
-    Mat3<T> isochoric_flux;      ///< F S'
+  struct Isotropic {
+    Mat3<T> isochoric_flux;  ///< F S'
+  };
+  template <class T>
+  struct Anisotropic {
+    Mat3<T> gradient;  ///< F
+    Strain<T> strain;
+  };
+  template <class T>
+  struct Prepared : std::conditional_t<has_fibres, Anisotropic<T>, Isotropic<T>> {
     Mat3<T> cofactor_gradient;   ///< J F^-T
     T volume_change;             ///< J - 1
     T volume_ratio;              ///< J
-    Vec3<T> stabilisation_flux;  ///< -tau J F^-1 F^-T grad p
+    Vec3<T> stabilisation_flux;  ///< -tau J F^-1 F^-T grad p; not set for elements without stabilisation
   };
 
-  /// \param size_squared  h^2 of the reference element, mm^2
-  template <class T>
-  Prepared<T> prepare(const Mat3<T>& grad_d, const Vec3<T>& grad_p, Pack size_squared,
-                      const typename Material::FibreData& fibres) const {
+  /// \param size_squared  h^2 of the reference element, mm^2, a Pack, or Unstabilised
+  template <class T, class Size>
+  Prepared<T> prepare(const Mat3<T>& grad_d, const Vec3<T>& grad_p, const Size& size_squared) const {
     const Deformation<T> f = deformation(grad_d);
     Prepared<T> k;
     k.cofactor_gradient = f.cofactor_gradient;
     k.volume_change = f.volume_change;
     k.volume_ratio = f.volume_ratio;
-    k.isochoric_flux = isochoric_flux(f, strain_of(f), fibres);
-    k.stabilisation_flux = stabilisation_flux(f, grad_p, size_squared);
+    if constexpr (has_fibres) {
+      k.gradient = f.gradient;
+      k.strain = strain_of(f);
+    } else {
+      k.isochoric_flux = isochoric_flux(f, strain_of(f), {});
+    }
+    if constexpr (!std::is_same_v<Size, Unstabilised>)
+      k.stabilisation_flux = stabilisation_flux(f, grad_p, size_squared);
     return k;
   }
 
   template <class T>
-  Mat3<T> isochoric_flux(const Deformation<T>& f, const Strain<T>& strain,
-                         const typename Material::FibreData& fibres) const {
+  Mat3<T> isochoric_flux(const Deformation<T>& f, const Strain<T>& strain, const FibreData& fibres) const {
     return f.gradient * material.stress(strain, fibres);
   }
   template <class T>
@@ -56,11 +76,17 @@ struct Hyperelastic {
 
   /// \param acceleration  mm/ms^2
   /// \param pressure      kPa
+  /// \param fibres    at the point
   template <class T>
-  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure) const {
+  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure,
+                         const FibreData& fibres) const {
     Integrand<T> f;
     f.source = Pack(density) * acceleration;
-    f.flux = k.isochoric_flux - pressure * k.cofactor_gradient;
+    if constexpr (has_fibres) {
+      f.flux = k.gradient * material.stress(k.strain, fibres) - pressure * k.cofactor_gradient;
+    } else {
+      f.flux = k.isochoric_flux - pressure * k.cofactor_gradient;
+    }
     f.scalar_source = -k.volume_change - Pack(1.0 / bulk_modulus) * pressure;
     f.scalar_flux = k.stabilisation_flux;
     return f;

@@ -13,10 +13,22 @@ namespace fsi {
 
 namespace detail {
 
+/// A material's fibres at point q of a pack.
+template <class Element, class M>
+typename M::FibreData fibres_at(const std::vector<std::array<Fibres, Element::points>>* fibres, std::size_t pack,
+                                int q) {
+  if constexpr (std::is_same_v<typename M::FibreData, Fibres>) {
+    return (*fibres)[pack][q];
+  } else {
+    return {};
+  }
+}
+
 template <class Element, bool Derivatives, class M>
 AssemblyResult layer_packs(const Hyperelastic<M>& form,
                            const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                           const std::vector<Fibres>* fibres, const WallInput& in, double* residual, double* blocks) {
+                           const std::vector<std::array<Fibres, Element::points>>* fibres, const WallInput& in,
+                           double* residual, double* blocks) {
   constexpr int n = Element::components;
   using Mixed = MixedLayout<n>;
   constexpr int seeds = Derivatives ? n + 1 : 0;  // displacement, pressure
@@ -28,8 +40,6 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
   ElementRows<Element, T> rows;
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
-    typename M::FibreData fibre{};
-    if constexpr (std::is_same_v<typename M::FibreData, Fibres>) fibre = (*fibres)[index];
     gather<Mixed>(d, pack, in.wall);
     gather<Mixed>(p, pack, in.wall);
     if (in.acceleration_history) {
@@ -41,16 +51,16 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
       integrate(
           rows, pack.geometry,
           [&](const auto& g) {
-            const auto k = form.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
-                                        seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b),
-                                        pack.geometry.size_squared, fibre);
+            const auto k =
+                form.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
+                             seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b), pack.geometry.size_squared);
             if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
             return k;
           },
-          [&](const auto& k, const auto& g, int) {
+          [&](const auto& k, const auto& g, int q) {
             return form.integrand(
                 k, seed_value<Element, seeds, 0>(value_of(acceleration, g), g, b, in.acceleration_factor),
-                seed_value<Element, seeds, n>(value_of(p, g), g, b));
+                seed_value<Element, seeds, n>(value_of(p, g), g, b), fibres_at<Element, M>(fibres, index, q));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, Mixed::entries>(rows, pack, b, blocks);

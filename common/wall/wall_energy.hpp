@@ -18,8 +18,7 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
-    typename M::FibreData fibre{};
-    if constexpr (std::is_same_v<typename M::FibreData, Fibres>) fibre = layer.fibres[thread][index];
+    const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
     NodalVector<Element> d{}, d_old{}, v{}, a{}, a_old{};
     NodalScalar<Element> p{}, p_old{};
     gather<Mixed>(d, pack, in.wall);
@@ -31,33 +30,50 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
       gather<Vector>(a, pack, in.acceleration);
       gather<Vector>(a_old, pack, in.acceleration_old);
     }
-    struct Prepared {
-      Pack energy, stress, stabilisation;  ///< constant parts of the densities
-      Pack defect;                         ///< cof F_1 : grad dd - (J_1 - J_0)
+    struct Stress {
+      Pack energy;  ///< Psi
+      Pack lead;    ///< (F_1 S'_1 - mean of F S' along the step) : grad dd
     };
+    struct Prepared {
+      Mat3<Pack> now, old, step;  ///< grad d_1, grad d_0, grad dd
+      Stress isotropic;           ///< of materials without fibres
+      Pack stabilisation;
+      Pack defect;  ///< cof F_1 : grad dd - (J_1 - J_0)
+    };
+    const auto stress = [&](const Prepared& k, const typename M::FibreData& fibre) {
+      const auto f = deformation(k.now);
+      const auto strain = strain_of(f);
+      Mat3<Pack> lead = Pack(1 - radau_weight[2]) * form.isochoric_flux(f, strain, fibre);
+      for (int point = 0; point < 2; ++point) {
+        const auto f_between = deformation(k.old + Pack(radau_point[point]) * k.step);
+        const auto flux = form.isochoric_flux(f_between, strain_of(f_between), fibre);
+        lead = lead - Pack(radau_weight[point]) * flux;
+      }
+      return Stress{form.material.energy(strain, fibre), contract(lead, k.step)};
+    };
+    constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
     return pack_integrals<Element, 6>(
         pack.geometry,
         [&](const auto& g) {
           const Mat3<Pack> h = gradient_of(d, g), h_old = gradient_of(d_old, g), dh = h - h_old;
           const auto f = deformation(h), f_old = deformation(h_old);
-          const auto strain = strain_of(f);
-          const auto grad_p = gradient_of(p, g);
           Prepared k;
-          k.energy = form.material.energy(strain, fibre);
-          Mat3<Pack> lead = Pack(1 - radau_weight[2]) * form.isochoric_flux(f, strain, fibre);
-          for (int point = 0; point < 2; ++point) {
-            const auto f_between = deformation(h_old + Pack(radau_point[point]) * dh);
-            const auto flux = form.isochoric_flux(f_between, strain_of(f_between), fibre);
-            lead = lead - Pack(radau_weight[point]) * flux;
+          k.now = h;
+          k.old = h_old;
+          k.step = dh;
+          if constexpr (!has_fibres) k.isotropic = stress(k, {});
+          k.stabilisation = Pack(0.0);
+          if constexpr (Element::stabilised) {
+            const auto grad_p = gradient_of(p, g);
+            k.stabilisation = dot(form.stabilisation_flux(f_old, gradient_of(p_old, g), pack.geometry.size_squared) -
+                                      form.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
+                                  grad_p);
           }
-          k.stress = contract(lead, dh);
-          k.stabilisation = dot(form.stabilisation_flux(f_old, gradient_of(p_old, g), pack.geometry.size_squared) -
-                                    form.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
-                                grad_p);
           k.defect = contract(f.cofactor_gradient, dh) - (f.volume_change - f_old.volume_change);
           return k;
         },
-        [&](const Prepared& k, const auto& g) {
+        [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
+          const Stress isochoric = has_fibres ? stress(k, fibres_at<Element, M>(fibres, index, q)) : k.isotropic;
           const Pack pressure = value_of(p, g), dp = pressure - value_of(p_old, g);
           const Vec3<Pack> dd = value_of(d, g) - value_of(d_old, g), velocity = value_of(v, g);
           const Vec3<Pack> now = value_of(a, g), old = value_of(a_old, g);
@@ -66,10 +82,10 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
           const Pack density(form.density), half_compliance(0.5 / form.bulk_modulus);
           return std::array<Pack, 6>{
               Pack(0.5) * density * dot(velocity, velocity),
-              k.energy,
+              isochoric.energy,
               half_compliance * pressure * pressure,
               density * dot(now - old, lag),
-              k.stress - pressure * k.defect + half_compliance * dp * dp,
+              isochoric.lead - pressure * k.defect + half_compliance * dp * dp,
               k.stabilisation,
           };
         });

@@ -6,6 +6,7 @@
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
 #include "materials/material.hpp"
+#include "wall/fibre_directions.hpp"
 
 namespace fsi {
 
@@ -17,12 +18,12 @@ struct WallInput {
   double acceleration_factor = 0;                ///< 1/ms^2
 };
 
-/// One layer of the wall: its elements and its material, with fibre directions per pack where the material has fibres.
+/// One layer of the wall: its elements and its material, with fibre directions where the material has fibres.
 template <class Element>
 struct WallLayer {
   ElementPacks<Element> packs;
   Material material;
-  std::vector<std::vector<Fibres>> fibres;  ///< [thread][pack], empty for materials without
+  FibreField<Element> fibres;  ///< empty for materials without
 };
 
 /// Blocks with rows (momentum, volume) and columns (d, p).

@@ -186,7 +186,7 @@ VectorAt wall_displacement(const Point& x) {
 
 const CylinderAxis wall_axis{{{-1.5, -1.0, 0}}, {{0, 0, 1}}};
 
-/// Exact fibre directions at a point: the elements take those at their centres.
+/// Exact fibre directions at a point.
 Fibres fibres_at(const Point& x, double angle) {
   const double r = std::hypot(x[0] - wall_axis.origin[0], x[1] - wall_axis.origin[1]);
   const double hoop[3] = {-(x[1] - wall_axis.origin[1]) / r, (x[0] - wall_axis.origin[0]) / r, 0};

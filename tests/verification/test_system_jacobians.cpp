@@ -172,9 +172,10 @@ std::pair<int, int> fibre_count(const Scenario& scenario) {
       NodalVector<Tet> d{};
       gather<MixedLayout<3>>(d, pack, scenario.state.now.wall.data());
       const auto strain = strain_of(deformation(gradient_of(d, Tet::at(pack.geometry, 0))));
-      for (const auto& a : layer.fibres[0][p].direction)
-        for (int lane = 0; lane < pack_width; ++lane)
-          ++((strain.isochoric * dot(a, strain.c * a))[lane] > 1 ? tight : loose);
+      for (const auto& point : layer.fibres[0][p])
+        for (const auto& a : point.direction)
+          for (int lane = 0; lane < pack_width; ++lane)
+            ++((strain.isochoric * dot(a, strain.c * a))[lane] > 1 ? tight : loose);
     }
   return {tight, loose};
 }

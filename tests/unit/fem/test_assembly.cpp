@@ -209,14 +209,16 @@ TEST(FibreDirections, LieInTheCylindersTangentPlaneAtTheGivenAngle) {
   const auto fibres = fibre_directions(packs, mesh.nodes, mesh.cells, axis, angle);
   ASSERT_EQ(fibres[0].size(), packs.of_thread(0).size());
   for (std::size_t p = 0; p < fibres[0].size(); ++p)
-    for (int lane = 0; lane < pack_width; ++lane) {
-      Vec3<double> centre{{1, -2, -0.5}}, a[2];
-      for (int node : mesh.cells[packs.of_thread(0)[p].cell[lane]])
-        for (int i = 0; i < 3; ++i) centre[i] += mesh.nodes[node][i] / 4;
+    for (int index = 0; index < pack_width * Tet::points; ++index) {
+      const int q = index / pack_width, at = index % pack_width;
+      Vec3<double> offset{{1, -2, -0.5}}, a[2];
+      const auto& cell = mesh.cells[packs.of_thread(0)[p].cell[at]];
+      for (int node = 0; node < 4; ++node)
+        for (int i = 0; i < 3; ++i) offset[i] += Tet::shape(q, node) * mesh.nodes[cell[node]][i];
       for (int family = 0; family < 2; ++family)
-        for (int i = 0; i < 3; ++i) a[family][i] = fibres[0][p].direction[family][i][lane];
-      const double along = dot(centre, axis.direction);
-      const auto radial = centre - along * axis.direction;
+        for (int i = 0; i < 3; ++i) a[family][i] = fibres[0][p][q].direction[family][i][at];
+      const double along = dot(offset, axis.direction);
+      const auto radial = offset - along * axis.direction;
       const auto hoop = cross(axis.direction, radial);
       const double radius = std::sqrt(dot(radial, radial));
       for (int family = 0; family < 2; ++family) {

@@ -88,7 +88,7 @@ TEST(TaylorHoodTetrahedron, RuleIsExactForDegreeFive) {
       for (int k = 0; i + j + k <= 6; ++k) {
         double integral = 0;
         for (int q = 0; q < TaylorHood::points; ++q) {
-          const auto l = TaylorHood::point(q);
+          const auto& l = TaylorHood::rule.point[q];
           integral += TaylorHood::at(geometry, q).weight[0] * std::pow(l[1], i) * std::pow(l[2], j) * std::pow(l[3], k);
         }
         const double exact = std::tgamma(i + 1) * std::tgamma(j + 1) * std::tgamma(k + 1) / std::tgamma(i + j + k + 4);
@@ -111,7 +111,7 @@ TEST(FunctionSpace, OfTaylorHoodHasPositiveNodalVolumesAndAreas) {
   EXPECT_NEAR(sum(volumes), 1, 1e-13);
   double vertex_integral = 0;
   for (int q = 0; q < TaylorHood::points; ++q)
-    vertex_integral += TaylorHood::rule_weight(q) * TaylorHood::shape(TaylorHood::point(q), 0);
+    vertex_integral += TaylorHood::rule.weight[q] * TaylorHood::Shapes::shape(TaylorHood::rule.point[q], 0);
   EXPECT_NEAR(vertex_integral, -0.05, 1e-15) << "over the volume";
 
   TetrahedralMesh with_face = linear;
