@@ -49,7 +49,7 @@ std::string mesh_name(const Case& setup) {
 TetrahedralMesh load_mesh(const Case& setup) {
   SceneMeshNeeds needs;
   needs.fluid = setup.fluid.has_value();
-  needs.inlet_outlet = needs.fluid;
+  needs.inlet = needs.outlet = needs.fluid;
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const TetrahedralMesh mesh = read_or_make(setup, needs.layers, needs);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fem/mid_edge_nodes.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "fem/point_geometry.hpp"
 
 namespace fsi {
