@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
-#include "fem/mid_edge_nodes.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "fem/nodal_layout.hpp"
 
 namespace fsi {

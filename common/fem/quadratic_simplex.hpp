@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/mid_edge_nodes.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "fem/simplex_rule.hpp"
 #include "math/tensor.hpp"
 

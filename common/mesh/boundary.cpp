@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
 #include <utility>
 
 #include "mesh/facets.hpp"
+#include "mesh/for_each_mesh.hpp"
 
 namespace fsi {
 
 namespace {
 
-std::vector<char> region_flags(const TetrahedralMesh& mesh, const std::vector<int>& regions) {
+template <class Mesh>
+std::vector<char> region_flags(const Mesh& mesh, const std::vector<int>& regions) {
   assert(mesh.cell_region.size() == mesh.cells.size());
   std::vector<char> flags(mesh.regions.size(), regions.empty() ? 1 : 0);
   for (const int region : regions) {
@@ -28,14 +29,16 @@ void sort_unique(std::vector<int>& values) {
 
 }  // namespace
 
-std::vector<BoundaryFacet> boundary_facets(const TetrahedralMesh& mesh, const std::vector<int>& regions) {
+template <int Dim, int Order>
+std::vector<BoundaryFacet<Dim, Order>> boundary_facets(const SimplexMesh<Dim, Order>& mesh,
+                                                       const std::vector<int>& regions) {
   const auto in_set = region_flags(mesh, regions);
   const auto uses = sorted_facet_uses(mesh);
 
   std::vector<std::pair<int, int>> found;  // cell, local facet
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
     int users = 0;
-    const FacetUse* user = nullptr;
+    const FacetUse<Dim>* user = nullptr;
     for (end = begin; end < uses.size() && uses[end].key == uses[begin].key; ++end) {
       if (!in_set[mesh.cell_region[uses[end].cell]]) continue;
       ++users;
@@ -45,14 +48,17 @@ std::vector<BoundaryFacet> boundary_facets(const TetrahedralMesh& mesh, const st
   }
   std::sort(found.begin(), found.end());
 
-  std::vector<BoundaryFacet> boundary;
+  std::vector<BoundaryFacet<Dim, Order>> boundary;
   boundary.reserve(found.size());
-  for (const auto& [cell, local] : found) boundary.push_back({outward_facets(mesh.cells[cell])[local], cell});
+  for (const auto& [cell, local] : found)
+    boundary.push_back({outward_facets<Dim, Order>(mesh.cells[cell])[local], cell});
   return boundary;
 }
 
-std::vector<TetrahedralMesh::Facet> interface_facets(const TetrahedralMesh& mesh, int fluid_region,
-                                                     const std::vector<int>& wall_regions) {
+template <int Dim, int Order>
+std::vector<typename SimplexMesh<Dim, Order>::Facet> interface_facets(const SimplexMesh<Dim, Order>& mesh,
+                                                                      int fluid_region,
+                                                                      const std::vector<int>& wall_regions) {
   if (fluid_region < 0 || wall_regions.empty()) return {};
   const auto wall = region_flags(mesh, wall_regions);
   const auto uses = sorted_facet_uses(mesh);
@@ -66,34 +72,57 @@ std::vector<TetrahedralMesh::Facet> interface_facets(const TetrahedralMesh& mesh
   }
   std::sort(found.begin(), found.end());
 
-  std::vector<TetrahedralMesh::Facet> facets;
+  std::vector<typename SimplexMesh<Dim, Order>::Facet> facets;
   facets.reserve(found.size());
-  for (const auto& [cell, local] : found) facets.push_back(outward_facets(mesh.cells[cell])[local]);
+  for (const auto& [cell, local] : found) facets.push_back(outward_facets<Dim, Order>(mesh.cells[cell])[local]);
   return facets;
 }
 
-std::vector<int> rim_nodes(const std::vector<TetrahedralMesh::Facet>& surface) {
-  std::vector<std::pair<int, int>> edges;
-  edges.reserve(3 * surface.size());
+template <int Dim, std::size_t Nodes>
+std::vector<int> rim_nodes(const std::vector<std::array<int, Nodes>>& surface) {
+  static_assert(Nodes == nodes_of_simplex(Dim - 1, 1) || Nodes == nodes_of_simplex(Dim - 1, 2));
+  // Sides of the facets: two vertices of an edge, or one vertex twice; then the node in the middle, -1 for none.
+  std::vector<std::array<int, 3>> sides;
+  sides.reserve(Dim * surface.size());
   for (const auto& f : surface)
-    for (int i = 0; i < 3; ++i) edges.push_back(std::minmax({f[i], f[(i + 1) % 3]}));
-  std::sort(edges.begin(), edges.end());
+    for (int i = 0; i < Dim; ++i) {
+      const auto [a, b] = Dim == 3 ? std::minmax({f[i], f[(i + 1) % 3]}) : std::make_pair(f[i], f[i]);
+      sides.push_back({a, b, Dim == 3 && Nodes == 6 ? f[(3 + i) % Nodes] : -1});
+    }
+  std::sort(sides.begin(), sides.end());
 
   std::vector<int> rim;
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    for (end = begin; end < edges.size() && edges[end] == edges[begin];) ++end;
-    if (end - begin == 1) rim.insert(rim.end(), {edges[begin].first, edges[begin].second});
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    for (end = begin; end < sides.size() && sides[end][0] == sides[begin][0] && sides[end][1] == sides[begin][1];)
+      ++end;
+    if (end - begin > 1) continue;
+    for (const int node : sides[begin])
+      if (node >= 0) rim.push_back(node);
   }
   sort_unique(rim);
   return rim;
 }
 
-std::vector<int> facet_nodes(const std::vector<TetrahedralMesh::Facet>& surface) {
+template <std::size_t Nodes>
+std::vector<int> facet_nodes(const std::vector<std::array<int, Nodes>>& surface) {
   std::vector<int> nodes;
-  nodes.reserve(3 * surface.size());
+  nodes.reserve(Nodes * surface.size());
   for (const auto& f : surface) nodes.insert(nodes.end(), f.begin(), f.end());
   sort_unique(nodes);
   return nodes;
 }
+
+#define INSTANTIATE(Dim, Order)                                                                              \
+  template std::vector<BoundaryFacet<Dim, Order>> boundary_facets(const SimplexMesh<Dim, Order>&,            \
+                                                                  const std::vector<int>&);                  \
+  template std::vector<SimplexMesh<Dim, Order>::Facet> interface_facets(const SimplexMesh<Dim, Order>&, int, \
+                                                                        const std::vector<int>&);            \
+  template std::vector<int> rim_nodes<Dim>(const std::vector<std::array<int, nodes_of_simplex(Dim - 1, Order)>>&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
+
+template std::vector<int> facet_nodes(const std::vector<std::array<int, 2>>&);
+template std::vector<int> facet_nodes(const std::vector<std::array<int, 3>>&);
+template std::vector<int> facet_nodes(const std::vector<std::array<int, 6>>&);
 
 }  // namespace fsi

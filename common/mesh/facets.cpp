@@ -2,19 +2,28 @@
 
 #include <tuple>
 
+#include "mesh/for_each_mesh.hpp"
+
 namespace fsi {
 
-std::vector<FacetUse> sorted_facet_uses(const TetrahedralMesh& mesh) {
-  std::vector<FacetUse> uses;
-  uses.reserve(4 * mesh.cells.size());
+template <int Dim, int Order>
+std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh) {
+  using Use = FacetUse<Dim>;
+  std::vector<Use> uses;
+  uses.reserve((Dim + 1) * mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto facets = outward_facets(mesh.cells[c]);
-    for (int i = 0; i < 4; ++i) uses.push_back({facet_key(facets[i]), static_cast<int>(c), i});
+    const auto facets = outward_facets<Dim, Order>(mesh.cells[c]);
+    for (int i = 0; i <= Dim; ++i) uses.push_back({facet_key<Dim>(facets[i]), static_cast<int>(c), i});
   }
-  std::sort(uses.begin(), uses.end(), [](const FacetUse& a, const FacetUse& b) {
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
     return std::tie(a.key, a.cell, a.local) < std::tie(b.key, b.cell, b.local);
   });
   return uses;
 }
+
+#define INSTANTIATE(Dim, Order) \
+  template std::vector<FacetUse<Dim>> sorted_facet_uses<Dim, Order>(const SimplexMesh<Dim, Order>&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi

@@ -3,22 +3,43 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "mesh/cell_words.hpp"
+#include "mesh/curved_cells.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/for_each_mesh.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
 
 namespace {
 
-constexpr int triangle_type = 2, tetrahedron_type = 4;
+/// What gmsh calls the simplices of a dimension, of first and second order.
+struct SimplexTypes {
+  int linear, quadratic;
+};
+constexpr SimplexTypes simplex_types[4] = {{15, 15}, {1, 8}, {2, 9}, {4, 11}};
+
+/// 1 or 2 for a simplex of this dimension of first or second order, else 0.
+int order_of(int type, int dimension) {
+  return type == simplex_types[dimension].linear ? 1 : type == simplex_types[dimension].quadratic ? 2 : 0;
+}
+
+/// gmsh lists the last two mid-edge nodes of a tetrahedron the other way round.
+constexpr int place_in_file(int dim, int node) {
+  return dim == 3 && node == 8 ? 9 : dim == 3 && node == 9 ? 8 : node;
+}
 
 /// The way from a node's tag to its place in the file.
 class NodeIndex {
@@ -47,18 +68,29 @@ class NodeIndex {
   std::vector<std::pair<std::int64_t, int>> entries_;
 };
 
-/// Turns a parsed file into a mesh, step by step.
+/// Turns a parsed file into a mesh, step by step. The order of the mesh is at most that of the file's cells.
+template <int Dim, int Order>
 class Reader {
+  using Mesh = SimplexMesh<Dim, Order>;
+  using Cell = typename Mesh::Cell;
+  using Facet = typename Mesh::Facet;
+  using Key = FacetKey<Dim>;
+  using Words = CellWords<Dim>;
+
  public:
-  Reader(const std::filesystem::path& path, const std::vector<std::string>& wanted)
-      : file_(path.string()), gmsh_(parse_gmsh(path)), index_(gmsh_, file_) {
+  Reader(std::string file, GmshFile gmsh, const std::vector<std::string>& wanted, TriangleGeometry geometry)
+      : file_(std::move(file)), gmsh_(std::move(gmsh)), index_(gmsh_, file_), geometry_(geometry) {
     mesh_.regions = wanted;
   }
 
-  TetrahedralMesh read() {
-    find_volumes();
+  Mesh read() {
+    find_regions();
     resolve_node_tags();
     collect_cells();
+    if constexpr (Dim == 2) {
+      lay_into_plane();
+      turn_counter_clockwise();
+    }
     check_shapes();
     check_listed_twice();
     collect_facets();
@@ -71,28 +103,46 @@ class Reader {
     throw InputError(file_, key, problem, remedy);
   }
 
-  /// Which wanted region each physical volume tag stands for.
-  void find_volumes() {
+  /// Which wanted region each physical tag of the cells' dimension stands for.
+  void find_regions() {
     if (gmsh_.names.empty())
       fail("$PhysicalNames", "the file names no physical groups",
-           "name the volumes in gmsh, e.g. Physical Volume(\"fluid\") = {1};");
+           fmt::format("name the {} in gmsh, e.g. {}(\"fluid\") = {{1}};", Words::regions, Words::region_command));
+    check_dimension();
     std::vector<std::string> volumes;
     for (const auto& name : gmsh_.names)
-      if (name.dimension == 3) volumes.push_back(name.name);
+      if (name.dimension == Dim) volumes.push_back(name.name);
     for (std::size_t r = 0; r < mesh_.regions.size(); ++r) {
       const auto& wanted = mesh_.regions[r];
       bool found = false;
       for (const auto& name : gmsh_.names)
-        if (name.dimension == 3 && name.name == wanted) {
+        if (name.dimension == Dim && name.name == wanted) {
           region_of_tag_[name.tag] = static_cast<int>(r);
           found = true;
         }
       if (!found)
-        fail(wanted, "there is no physical volume of this name",
+        fail(wanted, fmt::format("there is no {} of this name", Words::region_group),
              volumes.empty()
-                 ? "the file names no volumes at all"
+                 ? fmt::format("the file names no {} at all", Words::regions)
                  : fmt::format("nearest: {}; the file has {}", nearest_name(wanted, volumes), listed(volumes)));
     }
+  }
+
+  /// Scenes and meshes of different dimensions are the usual reason why groups are not found.
+  void check_dimension() const {
+    const auto has_names = [&](int dimension) {
+      return std::any_of(gmsh_.names.begin(), gmsh_.names.end(),
+                         [&](const auto& name) { return name.dimension == dimension; });
+    };
+    const bool solid = std::any_of(gmsh_.blocks.begin(), gmsh_.blocks.end(), [](const auto& block) {
+      return gmsh_type(block.type)->dimension == 3 && !block.tags.empty();
+    });
+    if (Dim == 2 && has_names(3))
+      fail("geometry", "this mesh is three-dimensional: it names physical volumes",
+           "choose geometry = \"3d\", or a mesh of physical surfaces");
+    if (Dim == 3 && !solid && !has_names(3) && has_names(2))
+      fail("geometry", "this mesh is two-dimensional: it names physical surfaces and has no volumes",
+           "choose geometry = \"axisymmetric\" or \"plane\", or mesh in three dimensions");
   }
 
   static std::string listed(const std::vector<std::string>& names) {
@@ -128,7 +178,7 @@ class Reader {
     in_other_volume_.assign(gmsh_.nodes.size(), 0);
     for (const auto& block : gmsh_.blocks) {
       const auto* type = gmsh_type(block.type);
-      if (type->dimension != 3 || block.tags.empty()) continue;
+      if (type->dimension != Dim || block.tags.empty()) continue;
       std::vector<int> regions;
       for (const int tag : block.physical_tags)
         if (const auto found = region_of_tag_.find(tag); found != region_of_tag_.end())
@@ -141,19 +191,13 @@ class Reader {
       }
       const auto& name = mesh_.regions[regions[0]];
       if (regions.size() > 1)
-        fail(name, fmt::format("element {} is in volume {}, too", block.tags[0], mesh_.regions[regions[1]]),
-             "put every element into one physical volume only");
-      if (block.type != tetrahedron_type) {
-        const bool tetrahedra = std::string(type->name).find("tetrahedra") != std::string::npos;
-        fail(name,
-             fmt::format("element {} and {} more are {} (type {})", block.tags[0], block.tags.size() - 1, type->name,
-                         block.type),
-             tetrahedra ? "save linear tetrahedra: Mesh.ElementOrder = 1"
-                        : "mesh with tetrahedra only, without Recombine or layers of prisms");
-      }
+        fail(name, fmt::format("element {} is in {} {}, too", block.tags[0], region_word, mesh_.regions[regions[1]]),
+             fmt::format("put every element into one {} only", Words::region_group));
+      check_type(block, name);
       for (std::size_t i = 0; i < block.tags.size(); ++i) {
-        TetrahedralMesh::Cell cell;
-        for (int k = 0; k < 4; ++k) cell[k] = static_cast<int>(block.nodes[4 * i + k]);
+        Cell cell;
+        for (std::size_t k = 0; k < cell.size(); ++k)
+          cell[k] = static_cast<int>(block.nodes[type->nodes * i + place_in_file(Dim, static_cast<int>(k))]);
         mesh_.cells.push_back(cell);
         mesh_.cell_region.push_back(regions[0]);
         cell_tags_.push_back(block.tags[i]);
@@ -161,97 +205,186 @@ class Reader {
     }
     for (std::size_t r = 0; r < mesh_.regions.size(); ++r)
       if (std::find(mesh_.cell_region.begin(), mesh_.cell_region.end(), static_cast<int>(r)) == mesh_.cell_region.end())
-        fail(mesh_.regions[r], "the physical volume is empty: no element belongs to it",
-             "assign the volume's entities to the group, mesh in three dimensions, and save without Mesh.SaveAll");
+        fail(mesh_.regions[r], fmt::format("the {} is empty: no element belongs to it", Words::region_group),
+             fmt::format("assign the {}'s entities to the group, mesh in {} dimensions, and save without Mesh.SaveAll",
+                         Dim == 3 ? "volume" : "surface", Words::mesh_dimensions));
+  }
+
+  /// Cells must be simplices, all of one order.
+  void check_type(const GmshFile::Block& block, const std::string& region) {
+    const auto* type = gmsh_type(block.type);
+    const int order = order_of(block.type, Dim);
+    if (order == 0) {
+      const bool simplex = std::string(type->name).find(Words::cells) != std::string::npos;
+      fail(region,
+           fmt::format("element {} and {} more are {} (type {})", block.tags[0], block.tags.size() - 1, type->name,
+                       block.type),
+           simplex    ? fmt::format("save {} of first or second order: Mesh.ElementOrder = 1 or 2", Words::cells)
+           : Dim == 3 ? "mesh with tetrahedra only, without Recombine or layers of prisms"
+                      : "mesh with triangles only, without Recombine");
+    }
+    if (first_block_ == nullptr) first_block_ = &block;
+    if (first_block_->type != block.type)
+      fail(region,
+           fmt::format("element {} is of {} order, element {} of {}: the mesh mixes both", block.tags[0],
+                       order == 1 ? "first" : "second", first_block_->tags[0], order == 1 ? "second" : "first"),
+           "save all of them with one Mesh.ElementOrder, 1 or 2");
+  }
+
+  /// Moves triangles to where meshes of their geometry lie; what is zero to rounding becomes zero.
+  void lay_into_plane() {
+    std::vector<char> used(gmsh_.nodes.size(), 0);
+    for (const auto& cell : mesh_.cells)
+      for (const int node : cell) used[node] = 1;
+    Point most{0, 0, 0}, low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t n = 0; n < used.size(); ++n)
+      if (used[n])
+        for (int d = 0; d < 3; ++d) {
+          most[d] = std::max(most[d], std::abs(gmsh_.nodes[n][d]));
+          low[d] = std::min(low[d], gmsh_.nodes[n][d]);
+          high[d] = std::max(high[d], gmsh_.nodes[n][d]);
+        }
+    const double rounding = 1e-9 * distance(low, high);
+    const bool axisymmetric = geometry_ == TriangleGeometry::axisymmetric;
+    if (axisymmetric && most[1] > rounding && most[2] <= rounding) {  // drawn with the axis along y
+      for (auto& x : gmsh_.nodes) std::swap(x[1], x[2]);
+      std::swap(most[1], most[2]);
+    }
+    const int across = axisymmetric ? 1 : 2;
+    if (most[across] > rounding) {
+      const auto off = [&](std::size_t n) { return used[n] && std::abs(gmsh_.nodes[n][across]) > rounding; };
+      std::size_t first = 0;
+      while (!off(first)) ++first;
+      const Point& x = gmsh_.nodes[first];
+      fail(fmt::format("node {}", gmsh_.node_tags[first]),
+           fmt::format("({:.6g}, {:.6g}, {:.6g}) is out of the plane of the mesh", x[0], x[1], x[2]),
+           axisymmetric
+               ? "an axisymmetric mesh lies in the plane y = 0 (r along x, axis along z) or in the plane z = 0 "
+                 "(r along x, axis along y)"
+               : "a plane mesh lies in the plane z = 0");
+    }
+    for (std::size_t n = 0; n < used.size(); ++n) {
+      if (!used[n]) continue;
+      Point& x = gmsh_.nodes[n];
+      x[across] = 0;
+      if (!axisymmetric) continue;
+      if (x[0] < -rounding)
+        fail(fmt::format("node {}", gmsh_.node_tags[n]), fmt::format("its radius is negative, r = x = {:.6g} mm", x[0]),
+             "draw the half of the section with x >= 0; or choose geometry = \"plane\"");
+      if (x[0] <= rounding) x[0] = 0;
+    }
+  }
+
+  void turn_counter_clockwise() {
+    for (auto& cell : mesh_.cells) {
+      if (triangle_area(gmsh_.nodes[cell[0]], gmsh_.nodes[cell[1]], gmsh_.nodes[cell[2]]) >= 0) continue;
+      std::swap(cell[1], cell[2]);
+      if constexpr (Order == 2) std::swap(cell[3], cell[5]);
+    }
   }
 
   void check_shapes() const {
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      Point x[4];
-      for (int k = 0; k < 4; ++k) x[k] = gmsh_.nodes[mesh_.cells[c][k]];
-      const double volume = tetrahedron_volume(x[0], x[1], x[2], x[3]);
+      std::array<Point, nodes_of_simplex(Dim, Order)> x;
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] = gmsh_.nodes[mesh_.cells[c][k]];
+      const double volume = simplex_volume<Dim>(x.data());
       double longest = 0;
-      for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b) longest = std::max(longest, distance(x[a], x[b]));
-      if (volume > smallest_relative_volume * longest * longest * longest) continue;
-      const auto key = fmt::format("element {} of {}", cell_tags_[c], mesh_.regions[mesh_.cell_region[c]]);
-      if (volume < -smallest_relative_volume * longest * longest * longest)
-        fail(key, fmt::format("inverted tetrahedron, volume {:.6g} mm^3", volume),
+      for (int a = 0; a <= Dim; ++a)
+        for (int b = a + 1; b <= Dim; ++b) longest = std::max(longest, distance(x[a], x[b]));
+      double least = smallest_relative_volume;
+      for (int d = 0; d < Dim; ++d) least *= longest;
+      const auto key = [&] {
+        return fmt::format("element {} of {}", cell_tags_[c], mesh_.regions[mesh_.cell_region[c]]);
+      };
+      if (volume < -least)
+        fail(key(), fmt::format("inverted {}, {} {:.6g} {}", Words::cell, Words::measure, volume, Words::unit),
              "order its nodes so that the volume is positive, or mesh again");
-      fail(key, fmt::format("degenerate tetrahedron, volume {:.6g} mm^3 with edges up to {:.6g} mm", volume, longest),
-           "mesh again, with Mesh.Optimize = 1");
+      if (!(volume > least))
+        fail(key(),
+             fmt::format("degenerate {}, {} {:.6g} {} with edges up to {:.6g} mm", Words::cell, Words::measure, volume,
+                         Words::unit, longest),
+             "mesh again, with Mesh.Optimize = 1");
+      if constexpr (Order == 2)
+        if (const auto jacobian = cell_jacobian<Dim>(x); !jacobian.positive)
+          fail(key(), bad_curved_cell(jacobian), curved_cell_remedy);
     }
   }
 
   /// In version 2.2 an element in two groups is listed once for each of them.
   void check_listed_twice() const {
-    std::vector<std::array<int, 5>> sorted(mesh_.cells.size());
+    constexpr int n = Dim + 1;
+    std::vector<std::array<int, n + 1>> sorted(mesh_.cells.size());  // vertices, cell
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      std::copy(mesh_.cells[c].begin(), mesh_.cells[c].end(), sorted[c].begin());
-      std::sort(sorted[c].begin(), sorted[c].begin() + 4);
-      sorted[c][4] = static_cast<int>(c);
+      std::copy_n(mesh_.cells[c].begin(), n, sorted[c].begin());
+      std::sort(sorted[c].begin(), sorted[c].begin() + n);
+      sorted[c][n] = static_cast<int>(c);
     }
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t i = 1; i < sorted.size(); ++i) {
-      if (!std::equal(sorted[i].begin(), sorted[i].begin() + 4, sorted[i - 1].begin())) continue;
-      const int first = sorted[i - 1][4], second = sorted[i][4];
+      if (!std::equal(sorted[i].begin(), sorted[i].begin() + n, sorted[i - 1].begin())) continue;
+      const int first = sorted[i - 1][n], second = sorted[i][n];
       const auto &name = mesh_.regions[mesh_.cell_region[first]], &other = mesh_.regions[mesh_.cell_region[second]];
       if (name != other)
-        fail(name, fmt::format("element {} is in volume {}, too", cell_tags_[first], other),
-             "put every element into one physical volume only");
+        fail(name, fmt::format("element {} is in {} {}, too", cell_tags_[first], region_word, other),
+             fmt::format("put every element into one {} only", Words::region_group));
       fail(name, fmt::format("elements {} and {} have the same nodes", cell_tags_[first], cell_tags_[second]),
            "remove one of them");
     }
   }
 
   void collect_facets() {
-    std::unordered_map<std::array<int, 3>, TetrahedralMesh::Facet, FacetKeyHash> oriented;
+    const Facet unset = unset_facet();
+    std::unordered_map<Key, Facet, FacetKeyHash> oriented;
     std::vector<std::pair<int, std::string>> names;  // surfaces by tag
     for (const auto& name : gmsh_.names)
-      if (name.dimension == 2) names.emplace_back(name.tag, name.name);
+      if (name.dimension == Dim - 1) names.emplace_back(name.tag, name.name);
     const auto named = [&](int tag) {
       return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == tag; });
     };
     for (const auto& block : gmsh_.blocks) {
-      if (block.type != triangle_type) continue;
+      if (order_of(block.type, Dim - 1) == 0) continue;
       if (std::none_of(block.physical_tags.begin(), block.physical_tags.end(),
                        [&](int tag) { return named(tag) != names.end(); }))
         continue;
-      for (std::size_t i = 0; i < block.tags.size(); ++i) oriented.emplace(facet_key(triangle(block, i)), unset);
+      for (std::size_t i = 0; i < block.tags.size(); ++i) oriented.emplace(key_of(block, i), unset);
     }
 
     const auto is_fluid = [&](int cell) { return mesh_.regions[mesh_.cell_region[cell]] == group::fluid; };
     for (int pass = 0; pass < 2; ++pass)  // fluid cells first: they have the first word on orientation
       for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
         if (is_fluid(static_cast<int>(c)) != (pass == 0)) continue;
-        for (const auto& facet : outward_facets(mesh_.cells[c]))
-          if (const auto found = oriented.find(facet_key(facet)); found != oriented.end() && found->second == unset)
+        for (const auto& facet : outward_facets<Dim, Order>(mesh_.cells[c]))
+          if (const auto found = oriented.find(facet_key<Dim>(facet));
+              found != oriented.end() && found->second == unset)
             found->second = facet;
       }
 
     for (const auto& [tag, name] : names) {
-      TetrahedralMesh::FacetGroup group{name, {}};
-      std::map<std::array<int, 3>, std::int64_t> seen;
+      typename Mesh::FacetGroup group{name, {}};
+      std::map<Key, std::int64_t> seen;
       for (const auto& block : gmsh_.blocks) {
         const auto* type = gmsh_type(block.type);
-        if (type->dimension != 2) continue;
+        if (type->dimension != Dim - 1) continue;
         if (std::find(block.physical_tags.begin(), block.physical_tags.end(), tag) == block.physical_tags.end())
           continue;
         for (std::size_t i = 0; i < block.tags.size(); ++i) {
-          if (block.type == triangle_type) {
-            const auto key = facet_key(triangle(block, i));
+          if (order_of(block.type, Dim - 1) > 0) {
+            const auto key = key_of(block, i);
             const auto& facet = oriented.at(key);
             if (facet != unset) {
               if (const auto [entry, is_new] = seen.emplace(key, block.tags[i]); !is_new)
-                fail(name, fmt::format("triangles {} and {} have the same nodes", entry->second, block.tags[i]),
+                fail(name, fmt::format("{} {} and {} have the same nodes", Words::facets, entry->second, block.tags[i]),
                      "remove one of them");
               group.facets.push_back(facet);
               continue;
             }
           }
           if (has_meaning(name) && !in_other_volume(block, i, type->nodes))
-            fail(name, fmt::format("element {} ({}) is no facet of a tetrahedron", block.tags[i], type->name),
-                 "save surfaces and volumes of one conforming mesh of triangles and tetrahedra");
+            fail(name, fmt::format("element {} ({}) is no facet of a {}", block.tags[i], type->name, Words::cell),
+                 Dim == 3 ? "save surfaces and volumes of one conforming mesh of triangles and tetrahedra"
+                          : "save curves and surfaces of one conforming mesh of triangles");
         }
       }
       if (group.facets.empty()) continue;
@@ -275,9 +408,12 @@ class Reader {
     return true;
   }
 
-  static std::array<int, 3> triangle(const GmshFile::Block& block, std::size_t i) {
-    return {static_cast<int>(block.nodes[3 * i]), static_cast<int>(block.nodes[3 * i + 1]),
-            static_cast<int>(block.nodes[3 * i + 2])};
+  /// The vertices of element i of a block of facets.
+  static Key key_of(const GmshFile::Block& block, std::size_t i) {
+    Key key;
+    for (int k = 0; k < Dim; ++k) key[k] = static_cast<int>(block.nodes[gmsh_type(block.type)->nodes * i + k]);
+    std::sort(key.begin(), key.end());
+    return key;
   }
 
   /// Drops the nodes that only left-out elements use.
@@ -297,28 +433,69 @@ class Reader {
         for (int& node : facet) node = number[node];
   }
 
-  static constexpr TetrahedralMesh::Facet unset{-1, -1, -1};
+  static Facet unset_facet() {
+    Facet facet;
+    facet.fill(-1);
+    return facet;
+  }
+  static constexpr const char* region_word = Dim == 3 ? "volume" : "surface";
 
   std::string file_;
   GmshFile gmsh_;
   NodeIndex index_;
-  TetrahedralMesh mesh_;  // with places in the file as node numbers until the last step
+  TriangleGeometry geometry_;
+  Mesh mesh_;  // with places in the file as node numbers until the last step
   std::map<int, int> region_of_tag_;
   std::vector<std::int64_t> cell_tags_;
-  std::vector<char> in_other_volume_;  // per node in the file
+  std::vector<char> in_other_volume_;             // per node in the file
+  const GmshFile::Block* first_block_ = nullptr;  // of wanted cells
 };
+
+/// Whether the first wanted cells of the file are quadratic; the reader refuses a mixture.
+bool has_quadratic_cells(const GmshFile& gmsh, const std::vector<std::string>& wanted, int dimension) {
+  for (const auto& block : gmsh.blocks) {
+    if (gmsh_type(block.type)->dimension != dimension || block.tags.empty()) continue;
+    for (const auto& name : gmsh.names)
+      if (name.dimension == dimension && std::find(wanted.begin(), wanted.end(), name.name) != wanted.end() &&
+          std::find(block.physical_tags.begin(), block.physical_tags.end(), name.tag) != block.physical_tags.end())
+        return order_of(block.type, dimension) == 2;
+  }
+  return false;
+}
 
 }  // namespace
 
-TetrahedralMesh read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& volumes_wanted) {
-  return Reader(path, volumes_wanted).read();
+template <int Dim, int Order>
+SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted,
+                                  TriangleGeometry geometry) {
+  auto gmsh = parse_gmsh(path);
+  if constexpr (Order == 2)
+    if (!has_quadratic_cells(gmsh, regions_wanted, Dim))
+      return with_mid_edge_nodes(Reader<Dim, 1>(path.string(), std::move(gmsh), regions_wanted, geometry).read());
+  return Reader<Dim, Order>(path.string(), std::move(gmsh), regions_wanted, geometry).read();
+}
+
+std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension) {
+  std::vector<std::string> regions;
+  for (const auto& name : parse_gmsh(path).names)
+    if (name.dimension == dimension) regions.push_back(name.name);
+  return regions;
 }
 
 std::vector<std::string> gmsh_volumes(const std::filesystem::path& path) {
-  std::vector<std::string> volumes;
-  for (const auto& name : parse_gmsh(path).names)
-    if (name.dimension == 3) volumes.push_back(name.name);
-  return volumes;
+  return gmsh_regions(path, 3);
 }
+
+int gmsh_dimension(const std::filesystem::path& path) {
+  int highest = 0;
+  for (const auto& name : parse_gmsh(path).names) highest = std::max(highest, name.dimension);
+  return highest;
+}
+
+#define INSTANTIATE(Dim, Order)                                                                             \
+  template SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path&, const std::vector<std::string>&, \
+                                             TriangleGeometry);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi

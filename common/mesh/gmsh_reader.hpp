@@ -8,24 +8,46 @@
 
 namespace fsi {
 
-/// Reads the tetrahedra of the named physical volumes from a gmsh file (.msh 4.1 or 2.2, ASCII or binary).
+/// Reads the cells of the named physical groups from a gmsh file (.msh 4.1 or 2.2, ASCII or binary): tetrahedra of
+/// physical volumes for Dim = 3, triangles of physical surfaces for Dim = 2. First-order cells give straight edges; read
+/// with Order = 2 they get mid-edge nodes half way. Second-order cells keep their mid-edge nodes with Order = 2 and
+/// lose them with Order = 1.
 ///
-/// `regions` of the result are `volumes_wanted`, in that order. Other volumes are left out, and with them the nodes
-/// that only they use. `facet_groups` are the named physical surfaces as far as their triangles are facets of what was
-/// read (facets of left-out volumes are dropped, and groups that have none left). Facets are oriented out of the cell
-/// they bound; one between two cells that were both read, out of the one in `fluid` if only one is, else out of the
-/// first. Nodes keep the order of the file; cells that of the file, too.
+/// `regions` of the result are `regions_wanted`, in that order. Other groups are left out, and with them the nodes that
+/// only they use. `facet_groups` are the named physical surfaces (for Dim = 2 curves) as far as their elements are
+/// facets of what was read (facets of left-out cells are dropped, and groups that have none left). Facets are oriented
+/// out of the cell they bound; one between two cells that were both read, out of the one in `fluid` if only one is,
+/// else out of the first. Nodes keep the order of the file (mid-edge nodes made here come behind them); cells that of
+/// the file, too.
+///
+/// Triangle meshes are returned as (r, 0, z) or (x, y, 0), cells turned counter-clockwise. A file of an axisymmetric
+/// mesh lies in the plane y = 0 (r along x, axis along z), as fsi-mesh writes it, or in the plane z = 0 (r along x, axis
+/// along y), as it is drawn in gmsh. Radii and coordinates out of the plane that are zero to rounding become zero.
 ///
 /// Throws InputError, naming the file and the group or element at fault, for everything parse_gmsh() throws for and
-/// for: no physical names; a wanted volume that is missing or empty; elements in a wanted volume that are not linear
-/// tetrahedra, are in two wanted volumes, inverted or degenerate; unknown or repeated node tags; nodes that no element
-/// uses; triangles of `inlet`, `outlet`, `wall_ends`, `outer` or `inner` that are no facet of any element.
-TetrahedralMesh read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& volumes_wanted);
+/// for: no physical names; a wanted group that is missing or empty; a mesh of another dimension; elements in a wanted
+/// group that are no tetrahedra (triangles) of first or second order, or of both orders, are in two wanted groups,
+/// inverted (tetrahedra), degenerate, or curved so much that their Jacobian is not positive everywhere; unknown or
+/// repeated node tags; nodes that no element uses; elements of the surfaces named in group_names.hpp that are no facet
+/// of any cell; triangles out of the plane, or with a negative radius.
+/// \param geometry  of triangle meshes
+template <int Dim = 3, int Order = 1>
+SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::vector<std::string>& regions_wanted,
+                                  TriangleGeometry geometry = TriangleGeometry::axisymmetric);
 
-/// Names of the physical volumes that the file has, in the file's order; what a case file may give materials to.
+/// Names of the physical groups of a dimension that the file has, in the file's order: what a case file may give
+/// materials to are the volumes (3) of a three-dimensional mesh, the surfaces (2) of a two-dimensional one.
+std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension);
+
+/// gmsh_regions() of dimension 3.
 std::vector<std::string> gmsh_volumes(const std::filesystem::path& path);
 
-/// A tetrahedron is degenerate when its volume is below this fraction of its longest edge cubed (regular: 0.118).
+/// Highest dimension of the file's physical groups, 0 when it names none: 3 for a mesh of volumes, 2 for one of
+/// surfaces.
+int gmsh_dimension(const std::filesystem::path& path);
+
+/// A cell is degenerate when its volume is below this fraction of its longest edge cubed (regular tetrahedron: 0.118);
+/// a triangle when its area is below this fraction of its longest edge squared.
 inline constexpr double smallest_relative_volume = 1e-12;
 
 }  // namespace fsi

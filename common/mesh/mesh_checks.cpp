@@ -5,23 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/cell_words.hpp"
+#include "mesh/curved_cells.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/facets.hpp"
+#include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
 
 namespace {
-
-using Facet = TetrahedralMesh::Facet;
-using FacetSet = std::unordered_set<std::array<int, 3>, FacetKeyHash>;
 
 constexpr const char* conforming_remedy =
     "mesh fluid and wall together, with one shared surface (gmsh: BooleanFragments or Coherence before meshing)";
@@ -30,38 +31,37 @@ std::string text(const Point& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
 }
 
-Point centroid(const TetrahedralMesh& mesh, const Facet& f) {
-  return (1.0 / 3) * (mesh.nodes[f[0]] + mesh.nodes[f[1]] + mesh.nodes[f[2]]);
-}
-
-double longest_edge(const TetrahedralMesh& mesh, const Facet& f) {
-  double longest = 0;
-  for (int i = 0; i < 3; ++i) longest = std::max(longest, distance(mesh.nodes[f[i]], mesh.nodes[f[(i + 1) % 3]]));
-  return longest;
+double distance_to_segment(const Point& x, const Point& p, const Point& q) {
+  const Point along = q - p;
+  const double t = std::clamp(dot(x - p, along) / dot(along, along), 0.0, 1.0);
+  return distance(x, p + t * along);
 }
 
 /// Distance from x to the triangle abc (C. Ericson, Real-Time Collision Detection, section 5.1.5).
 double distance_to_triangle(const Point& x, const Point& a, const Point& b, const Point& c) {
-  const auto to_segment = [&](const Point& p, const Point& q) {
-    const Point along = q - p;
-    const double t = std::clamp(dot(x - p, along) / dot(along, along), 0.0, 1.0);
-    return distance(x, p + t * along);
-  };
   const Point normal = cross(b - a, c - a);
   const bool above = dot(cross(b - a, x - a), normal) >= 0 && dot(cross(c - b, x - b), normal) >= 0 &&
                      dot(cross(a - c, x - c), normal) >= 0;
   if (above) return std::abs(dot(x - a, normal)) / norm(normal);
-  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
+  return std::min({distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
+template <int Dim, int Order>
 class Checks {
+  using Mesh = SimplexMesh<Dim, Order>;
+  using Facet = typename Mesh::Facet;
+  using Key = FacetKey<Dim>;
+  using FacetSet = std::unordered_set<Key, FacetKeyHash>;
+  using Words = CellWords<Dim>;
+
  public:
-  Checks(const TetrahedralMesh& mesh, const SceneMeshNeeds& needs, const std::string& file)
+  Checks(const Mesh& mesh, const SceneMeshNeeds& needs, const std::string& file)
       : mesh_(mesh), needs_(needs), file_(file) {}
 
   void run() {
     volumes();
     same_place();
+    curved_cells();
     facets_of_cells();
     surfaces();
     fluid_in_one_piece();
@@ -74,6 +74,20 @@ class Checks {
     throw InputError(file_, key, problem, remedy);
   }
 
+  /// Centre of the vertices of a facet.
+  Point centroid(const Facet& f) const {
+    Point sum = mesh_.nodes[f[0]];
+    for (int i = 1; i < Dim; ++i) sum = sum + mesh_.nodes[f[i]];
+    return (1.0 / Dim) * sum;
+  }
+  /// Between two vertices of a facet.
+  double longest_edge(const Facet& f) const {
+    double longest = 0;
+    for (int i = 0; i < Dim; ++i)
+      longest = std::max(longest, distance(mesh_.nodes[f[i]], mesh_.nodes[f[(i + 1) % Dim]]));
+    return longest;
+  }
+
   const std::string& region_of(int cell) const { return mesh_.regions[mesh_.cell_region[cell]]; }
 
   void volumes() {
@@ -81,11 +95,23 @@ class Checks {
       const int region = mesh_.region_index(name);
       if (region < 0 ||
           std::find(mesh_.cell_region.begin(), mesh_.cell_region.end(), region) == mesh_.cell_region.end())
-        fail(name, "the physical volume is missing or empty", "give it tetrahedra, or take it out of the case");
+        fail(name, fmt::format("the {} is missing or empty", Words::region_group),
+             fmt::format("give it {}, or take it out of the case", Words::cells));
       return region;
     };
     if (needs_.fluid) fluid_ = find(group::fluid);
     for (const auto& layer : needs_.layers) layers_.push_back(find(layer));
+  }
+
+  void curved_cells() const {
+    if constexpr (Order == 2)
+      for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+        std::array<Point, nodes_of_simplex(Dim, 2)> x;
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = mesh_.nodes[mesh_.cells[c][i]];
+        if (const auto jacobian = cell_jacobian<Dim>(x); !jacobian.positive)
+          fail(fmt::format("{} {} of {}", Words::cell, c + 1, region_of(static_cast<int>(c))),
+               bad_curved_cell(jacobian), curved_cell_remedy);
+      }
   }
 
   /// Nodes in the same place are a crack in the mesh. Sorted into boxes of a grid much wider than the tolerance; a node
@@ -138,19 +164,19 @@ class Checks {
     for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
       for (end = begin; end < uses.size() && uses[end].key == uses[begin].key;) ++end;
       const auto& first = uses[begin];
-      const auto facet = outward_facets(mesh_.cells[first.cell])[first.local];
-      const auto where = [&] { return fmt::format("facet at {}", text(centroid(mesh_, facet))); };
+      const auto facet = outward_facets<Dim, Order>(mesh_.cells[first.cell])[first.local];
+      const auto where = [&] { return fmt::format("facet at {}", text(centroid(facet))); };
       if (end - begin > 2)
-        fail(where(), fmt::format("{} tetrahedra share it", end - begin),
+        fail(where(), fmt::format("{} {} share it", end - begin, Words::cells),
              "a facet has one or two; remove overlapping volumes and mesh again");
       if (end - begin == 2) {
         const auto& second = uses[begin + 1];
-        const auto other = outward_facets(mesh_.cells[second.cell])[second.local];
+        const auto other = outward_facets<Dim, Order>(mesh_.cells[second.cell])[second.local];
         // Seen from the other side a facet runs the other way round.
-        for (int i = 0; i < 3; ++i)
-          if (other[i] == facet[0] && other[(i + 1) % 3] == facet[1])
+        for (int i = 0; i < Dim; ++i)
+          if (other[i] == facet[0] && (Dim == 2 ? i == 0 : other[(i + 1) % Dim] == facet[1]))
             fail(where(),
-                 fmt::format("its two tetrahedra (in {} and {}) lie on the same side: the mesh is folded",
+                 fmt::format("its two {} (in {} and {}) lie on the same side: the mesh is folded", Words::cells,
                              region_of(first.cell), region_of(second.cell)),
                  "mesh again, with smaller elements where layers are thin");
         pairs_.emplace_back(first.cell, second.cell);
@@ -160,15 +186,16 @@ class Checks {
     }
   }
 
-  /// A surface group that the scene needs, or that is there: each triangle must bound a cell of `regions`, with nothing
+  /// A surface group that the scene needs, or that is there: each facet must bound a cell of `regions`, with nothing
   /// behind it.
   void surface(const std::string& name, const std::vector<int>& regions, const std::string& owner,
                bool required) const {
     const auto* facets = mesh_.facets(name);
     if (facets == nullptr || facets->empty()) {
       if (required)
-        fail(name, "the physical surface is missing or empty",
-             fmt::format("name the faces of {} in gmsh, e.g. Physical Surface(\"{}\") = {{1}};", owner, name));
+        fail(name, fmt::format("the {} is missing or empty", Words::facet_group),
+             fmt::format("name the {} of {} in gmsh, e.g. {}(\"{}\") = {{1}};", Dim == 3 ? "faces" : "sides", owner,
+                         Words::facet_command, name));
       return;
     }
     const auto is_in = [&](int cell) {
@@ -177,10 +204,11 @@ class Checks {
     std::size_t foreign = 0, within = 0;
     const Facet* first = nullptr;
     for (const auto& facet : *facets) {
-      const auto found = cells_of_.find(facet_key(facet));
+      const auto found = cells_of_.find(facet_key<Dim>(facet));
       if (found == cells_of_.end())
-        fail(name, fmt::format("the triangle at {} is no facet of a tetrahedron", text(centroid(mesh_, facet))),
-             "save surfaces and volumes of one conforming mesh");
+        fail(name, fmt::format("the {} at {} is no facet of a {}", Words::facet, text(centroid(facet)), Words::cell),
+             Dim == 3 ? "save surfaces and volumes of one conforming mesh"
+                      : "save curves and surfaces of one conforming mesh");
       const auto [a, b] = found->second;
       const bool bad_owner = !is_in(a) && !is_in(b), bad_side = !bad_owner && b >= 0;
       foreign += bad_owner;
@@ -189,33 +217,92 @@ class Checks {
     }
     if (foreign > 0)
       fail(name,
-           fmt::format("{} of {} triangles do not bound {}, the first at {}", foreign, facets->size(), owner,
-                       text(centroid(mesh_, *first))),
-           fmt::format("put faces of {} only into this group", owner));
+           fmt::format("{} of {} {} do not bound {}, the first at {}", foreign, facets->size(), Words::facets, owner,
+                       text(centroid(*first))),
+           fmt::format("put {} of {} only into this group", Dim == 3 ? "faces" : "sides", owner));
     if (within > 0)
       fail(name,
-           fmt::format("{} of {} triangles lie between two tetrahedra, the first at {}", within, facets->size(),
-                       text(centroid(mesh_, *first))),
-           "put faces on the outside of the mesh only into this group");
+           fmt::format("{} of {} {} lie between two {}, the first at {}", within, facets->size(), Words::facets,
+                       Words::cells, text(centroid(*first))),
+           fmt::format("put {} on the outside of the mesh only into this group", Dim == 3 ? "faces" : "sides"));
   }
 
   void surfaces() const {
     const std::string wall = "the wall";
-    if (needs_.inlet_outlet) {
-      surface(group::inlet, {fluid_}, "the fluid", true);
-      surface(group::outlet, {fluid_}, "the fluid", true);
-      FacetSet inlet;
-      for (const auto& facet : *mesh_.facets(group::inlet)) inlet.insert(facet_key(facet));
-      for (const auto& facet : *mesh_.facets(group::outlet))
-        if (inlet.count(facet_key(facet)))
-          fail(group::outlet, fmt::format("the triangle at {} is in inlet, too", text(centroid(mesh_, facet))),
-               "put every face into one of the two groups only");
+    if (needs_.inlet || needs_.outlet) {
+      surface(group::inlet, {fluid_}, "the fluid", needs_.inlet);
+      surface(group::outlet, {fluid_}, "the fluid", needs_.outlet);
+      disjoint(group::inlet, group::outlet);
     }
     if (!layers_.empty()) {
-      surface(group::wall_ends, layers_, wall, true);
+      surface(group::wall_ends, layers_, wall, !supported_by_symmetry());
       surface(group::outer, layers_, wall, false);
       if (needs_.inner_surface) surface(group::inner, layers_, wall, true);
     }
+    symmetry_planes();
+  }
+
+  /// No facet in both of two groups.
+  void disjoint(const char* first, const char* second) const {
+    const auto *some = mesh_.facets(first), *others = mesh_.facets(second);
+    if (some == nullptr || others == nullptr) return;
+    FacetSet keys;
+    for (const auto& facet : *some) keys.insert(facet_key<Dim>(facet));
+    for (const auto& facet : *others)
+      if (keys.count(facet_key<Dim>(facet)))
+        fail(second, fmt::format("the {} at {} is in {}, too", Words::facet, text(centroid(facet)), first),
+             fmt::format("put every {} into one of the two groups only", Dim == 3 ? "face" : "side"));
+  }
+
+  /// What can hold a wall whose ends are clamped nowhere: an axis or planes of symmetry.
+  bool supported_by_symmetry() const {
+    if (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric) return true;
+    return std::any_of(group::symmetry.begin(), group::symmetry.end(), [&](const char* name) {
+      const auto* facets = mesh_.facets(name);
+      return facets != nullptr && !facets->empty();
+    });
+  }
+
+  void symmetry_planes() const {
+    std::vector<int> all(mesh_.regions.size());
+    std::iota(all.begin(), all.end(), 0);
+    const double tolerance = 1e-6 * size();
+    for (int axis = 0; axis < 3; ++axis) {
+      const char* name = group::symmetry[axis];
+      const auto* facets = mesh_.facets(name);
+      if (facets == nullptr || facets->empty()) continue;
+      if (Dim == 2 && axis == (needs_.geometry == TriangleGeometry::axisymmetric ? 1 : 2))
+        fail(name, "the mesh lies in this plane itself",
+             needs_.geometry == TriangleGeometry::axisymmetric
+                 ? "planes normal to the axis are symmetry_z; r is along x, the axis along z"
+                 : "sides of a plane mesh are symmetry_x or symmetry_y");
+      surface(name, all, "fluid or wall", false);
+      for (const auto& facet : *facets) {
+        double low = mesh_.nodes[facet[0]][axis], high = low;
+        for (const int node : facet) {
+          low = std::min(low, mesh_.nodes[node][axis]);
+          high = std::max(high, mesh_.nodes[node][axis]);
+        }
+        if (high - low > tolerance)
+          fail(name,
+               fmt::format("the {} at {} does not lie in a plane normal to {}: its nodes are {:.3g} mm apart along it",
+                           Words::facet, text(centroid(facet)), "xyz"[axis], high - low),
+               "put flat faces normal to this axis only into this group, and turn the mesh if need be");
+      }
+      disjoint(group::inlet, name);
+      disjoint(group::outlet, name);
+    }
+  }
+
+  /// Diagonal of the box around the mesh, mm.
+  double size() const {
+    Point low = mesh_.nodes.front(), high = low;
+    for (const Point& x : mesh_.nodes)
+      for (int d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], x[d]);
+        high[d] = std::max(high[d], x[d]);
+      }
+    return distance(low, high);
   }
 
   /// Cells connected by shared facets, as far as `joins` allows; per cell the root of its set.
@@ -240,8 +327,8 @@ class Checks {
     for (const auto& [root, size] : sizes) sorted.push_back(size);
     std::sort(sorted.rbegin(), sorted.rend());
     fail(group::fluid,
-         fmt::format("the volume is in {} pieces that share no facet, the largest of {} and {} tetrahedra",
-                     sorted.size(), sorted[0], sorted[1]),
+         fmt::format("the volume is in {} pieces that share no facet, the largest of {} and {} {}", sorted.size(),
+                     sorted[0], sorted[1], Words::cells),
          "connect them, or leave the smaller ones out of the group");
   }
 
@@ -249,21 +336,29 @@ class Checks {
     return std::find(layers_.begin(), layers_.end(), mesh_.cell_region[cell]) != layers_.end();
   }
 
-  /// A piece of the wall that is clamped nowhere can drift away.
+  /// Groups whose faces hold the wall.
+  static constexpr std::array<const char*, 4> holding{group::wall_ends, group::symmetry[0], group::symmetry[1],
+                                                      group::symmetry[2]};
+
+  /// A piece of the wall that nothing holds can drift away.
   void wall_held() const {
-    if (layers_.empty()) return;
+    if (layers_.empty() || (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric)) return;
     const auto roots = pieces([&](int cell) { return is_wall(cell); });
     std::vector<char> held(mesh_.cells.size(), 0);
-    for (const auto& facet : *mesh_.facets(group::wall_ends)) {
-      const auto [a, b] = cells_of_.at(facet_key(facet));
-      for (const int cell : {a, b})
-        if (cell >= 0) held[roots[cell]] = 1;
+    for (const char* name : holding) {
+      const auto* facets = mesh_.facets(name);
+      if (facets == nullptr) continue;
+      for (const auto& facet : *facets) {
+        const auto [a, b] = cells_of_.at(facet_key<Dim>(facet));
+        for (const int cell : {a, b})
+          if (cell >= 0) held[roots[cell]] = 1;
+      }
     }
     for (std::size_t c = 0; c < roots.size(); ++c)
       if (is_wall(static_cast<int>(c)) && !held[roots[c]])
         fail(group::wall_ends,
-             fmt::format("a piece of {} with {} tetrahedra has no face in this group", region_of(static_cast<int>(c)),
-                         std::count(roots.begin(), roots.end(), roots[c])),
+             fmt::format("a piece of {} with {} {} has no face in this group", region_of(static_cast<int>(c)),
+                         std::count(roots.begin(), roots.end(), roots[c]), Words::cells),
              "connect it to the rest of the wall by shared facets, or clamp it");
   }
 
@@ -272,11 +367,18 @@ class Checks {
     if (shared.empty()) fail("interface", "fluid and wall share no facet", conforming_remedy);
     faces_that_meet_unshared();
 
-    const auto clamped = facet_nodes(*mesh_.facets(group::wall_ends));
+    std::vector<Facet> held;
+    for (const char* name : holding)
+      if (const auto* facets = mesh_.facets(name)) held.insert(held.end(), facets->begin(), facets->end());
+    const auto clamped = facet_nodes(held);
+    // An interface that ends on the axis is closed there.
+    const auto on_axis = [&](int node) {
+      return Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric && mesh_.nodes[node][0] == 0;
+    };
     std::size_t loose = 0;
     int first = -1;
-    for (const int node : rim_nodes(shared)) {
-      if (std::binary_search(clamped.begin(), clamped.end(), node)) continue;
+    for (const int node : rim_nodes<Dim>(shared)) {
+      if (on_axis(node) || std::binary_search(clamped.begin(), clamped.end(), node)) continue;
       ++loose;
       if (first < 0) first = node;
     }
@@ -285,7 +387,8 @@ class Checks {
           group::wall_ends,
           fmt::format("the rim of the interface is not clamped: {} of its nodes are not in this group, the first at {}",
                       loose, text(mesh_.nodes[first])),
-          "put both end faces of all wall layers into it");
+          "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
+          "symmetry_z");
   }
 
   /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.
@@ -294,16 +397,18 @@ class Checks {
       FacetSet skip;
       for (const char* name : named)
         if (const auto* facets = mesh_.facets(name))
-          for (const auto& facet : *facets) skip.insert(facet_key(facet));
+          for (const auto& facet : *facets) skip.insert(facet_key<Dim>(facet));
       std::vector<Facet> faces;
       for (const auto& facet : boundary_facets(mesh_, regions))
-        if (const auto key = facet_key(facet.nodes); cells_of_.at(key).second < 0 && !skip.count(key))
+        if (const auto key = facet_key<Dim>(facet.nodes); cells_of_.at(key).second < 0 && !skip.count(key))
           faces.push_back(facet.nodes);
       return faces;
     };
-    const auto fluid = free_faces({fluid_}, {group::inlet, group::outlet});
+    const auto fluid =
+        free_faces({fluid_}, {group::inlet, group::outlet, group::symmetry[0], group::symmetry[1], group::symmetry[2]});
     if (fluid.empty()) return;
-    const auto wall = free_faces(layers_, {group::wall_ends, group::outer});
+    const auto wall = free_faces(
+        layers_, {group::wall_ends, group::outer, group::symmetry[0], group::symmetry[1], group::symmetry[2]});
 
     // Sorted along x, so that a facet is compared with those near it only.
     struct Placed {
@@ -313,8 +418,8 @@ class Checks {
       Facet facet;
     };
     const auto placed = [&](const Facet& f) {
-      const Point centre = centroid(mesh_, f);
-      return Placed{centre[0], centre, longest_edge(mesh_, f), f};
+      const Point centre = centroid(f);
+      return Placed{centre[0], centre, longest_edge(f), f};
     };
     std::vector<Placed> walls;
     double largest = 0;
@@ -323,8 +428,18 @@ class Checks {
       largest = std::max(largest, walls.back().size);
     }
     std::sort(walls.begin(), walls.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+    // Of edges the vector along them: it turns with the normal, which is all that is asked of it.
     const auto area = [&](const Facet& f) {
-      return triangle_area_vector(mesh_.nodes[f[0]], mesh_.nodes[f[1]], mesh_.nodes[f[2]]);
+      if constexpr (Dim == 3)
+        return triangle_area_vector(mesh_.nodes[f[0]], mesh_.nodes[f[1]], mesh_.nodes[f[2]]);
+      else
+        return mesh_.nodes[f[1]] - mesh_.nodes[f[0]];
+    };
+    const auto distance_to = [&](const Point& x, const Facet& f) {
+      if constexpr (Dim == 3)
+        return distance_to_triangle(x, mesh_.nodes[f[0]], mesh_.nodes[f[1]], mesh_.nodes[f[2]]);
+      else
+        return distance_to_segment(x, mesh_.nodes[f[0]], mesh_.nodes[f[1]]);
     };
     for (const auto& f : fluid) {
       const auto here = placed(f);
@@ -335,31 +450,36 @@ class Checks {
       for (; it != walls.end() && it->x <= here.x + reach; ++it) {
         const Point other = area(it->facet);
         if (dot(normal, other) > -0.7 * norm(normal) * norm(other)) continue;  // not face to face
-        const auto& [a, b, c] = it->facet;
-        const double gap = distance_to_triangle(here.centre, mesh_.nodes[a], mesh_.nodes[b], mesh_.nodes[c]);
+        const double gap = distance_to(here.centre, it->facet);
         if (gap > 0.1 * std::min(here.size, it->size)) continue;  // two facetings of one curved face are this close
         fail("interface",
-             fmt::format("at {} faces of fluid and {} lie on each other without sharing nodes (hanging nodes)",
-                         text(here.centre), region_of(cells_of_.at(facet_key(it->facet)).first)),
+             fmt::format("at {} {} of fluid and {} lie on each other without sharing nodes (hanging nodes)",
+                         text(here.centre), Dim == 3 ? "faces" : "sides",
+                         region_of(cells_of_.at(facet_key<Dim>(it->facet)).first)),
              conforming_remedy);
       }
     }
   }
 
-  const TetrahedralMesh& mesh_;
+  const Mesh& mesh_;
   const SceneMeshNeeds& needs_;
   const std::string& file_;
   int fluid_ = -1;
   std::vector<int> layers_;
-  std::vector<std::pair<int, int>> pairs_;  ///< cells that share a facet
-  std::unordered_map<std::array<int, 3>, std::pair<int, int>, FacetKeyHash>
-      cells_of_;  ///< second is -1 on the boundary
+  std::vector<std::pair<int, int>> pairs_;                               ///< cells that share a facet
+  std::unordered_map<Key, std::pair<int, int>, FacetKeyHash> cells_of_;  ///< second is -1 on the boundary
 };
 
 }  // namespace
 
-void check_scene_mesh(const TetrahedralMesh& mesh, const SceneMeshNeeds& needs, const std::string& file) {
-  Checks(mesh, needs, file).run();
+template <int Dim, int Order>
+void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file) {
+  Checks<Dim, Order>(mesh, needs, file).run();
 }
+
+#define INSTANTIATE(Dim, Order) \
+  template void check_scene_mesh(const SimplexMesh<Dim, Order>&, const SceneMeshNeeds&, const std::string&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi

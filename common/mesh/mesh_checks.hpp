@@ -11,15 +11,22 @@ namespace fsi {
 struct SceneMeshNeeds {
   bool fluid = false;               ///< a volume `fluid`
   std::vector<std::string> layers;  ///< names of the wall's volumes; empty: no wall
-  bool inlet_outlet = false;        ///< surfaces `inlet` and `outlet` on the fluid
+  bool inlet = false;               ///< a surface `inlet` on the fluid
+  bool outlet = false;              ///< a surface `outlet` on the fluid
   bool inner_surface = false;       ///< a surface `inner` on the wall (a wall without fluid)
+  /// Of triangle meshes: what is there called a volume is a physical surface, and what is called a surface a curve.
+  TriangleGeometry geometry = TriangleGeometry::axisymmetric;
 };
 
 /// Refuses meshes that a scene cannot be computed on. `file` is for the messages only.
 /// Throws InputError for: a missing volume or surface group; a facet with more than two cells, or with both on one side
-/// (folded mesh); nodes in the same place; surface triangles that are no facets of the volumes they belong to; fluid in
-/// several pieces, wall pieces that are clamped nowhere; with fluid and wall: no shared facet, faces that meet without
-/// sharing nodes, or a rim of the interface that is not in `wall_ends`.
-void check_scene_mesh(const TetrahedralMesh& mesh, const SceneMeshNeeds& needs, const std::string& file);
+/// (folded mesh); nodes in the same place; quadratic cells whose Jacobian is not positive everywhere; surface facets
+/// that are no facets of the volumes they belong to, or that lie between two cells; a surface `symmetry_x` (y, z) that
+/// is not normal to x (y, z) everywhere; fluid in several pieces; wall pieces that nothing supports: no face in
+/// `wall_ends` or a symmetry plane, nor an axis of symmetry; with fluid and wall: no shared facet, faces that meet
+/// without sharing nodes, or a node of the interface's rim that is neither in `wall_ends`, nor in a symmetry plane, nor
+/// on the axis of an axisymmetric mesh.
+template <int Dim, int Order>
+void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);
 
 }  // namespace fsi

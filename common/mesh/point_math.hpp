@@ -39,4 +39,24 @@ inline Point triangle_area_vector(const Point& a, const Point& b, const Point& c
   return 0.5 * cross(b - a, c - a);
 }
 
+/// u x v of two vectors of a triangle mesh's plane, mm^2; positive when v lies counter-clockwise of u, seen with r (or x)
+/// to the right and z (or y) upwards. Such vectors are (r, 0, z) or (x, y, 0), so one of the two terms is zero.
+inline double planar_cross(const Point& u, const Point& v) {
+  return (u[0] * v[2] - u[2] * v[0]) + (u[0] * v[1] - u[1] * v[0]);
+}
+
+/// Signed area of the triangle abc in a triangle mesh's plane, mm^2; positive when counter-clockwise as above.
+inline double triangle_area(const Point& a, const Point& b, const Point& c) {
+  return 0.5 * planar_cross(b - a, c - a);
+}
+
+/// Signed volume in mm^3 of the tetrahedron of the first four points, area in mm^2 of the triangle of the first three.
+template <int Dim>
+double simplex_volume(const Point* x) {
+  if constexpr (Dim == 3)
+    return tetrahedron_volume(x[0], x[1], x[2], x[3]);
+  else
+    return triangle_area(x[0], x[1], x[2]);
+}
+
 }  // namespace fsi

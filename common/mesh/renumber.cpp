@@ -1,25 +1,31 @@
 #include "mesh/renumber.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
 #include <tuple>
+#include <utility>
+
+#include "mesh/for_each_mesh.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 
 namespace fsi {
 
 namespace {
 
-/// Nodes that share a cell, as compressed rows, ascending.
+/// Vertices that share a cell, as compressed rows, ascending; rows of mid-edge nodes are empty.
 struct NodeGraph {
   std::vector<int> start, neighbour;
 
-  explicit NodeGraph(const TetrahedralMesh& mesh) {
+  template <int Dim, int Order>
+  explicit NodeGraph(const SimplexMesh<Dim, Order>& mesh) {
     std::vector<std::pair<int, int>> edges;
-    edges.reserve(12 * mesh.cells.size());
+    edges.reserve(Dim * (Dim + 1) * mesh.cells.size());
     for (const auto& cell : mesh.cells)
-      for (const int a : cell)
-        for (const int b : cell)
-          if (a != b) edges.emplace_back(a, b);
+      for (int i = 0; i <= Dim; ++i)
+        for (int j = 0; j <= Dim; ++j)
+          if (i != j) edges.emplace_back(cell[i], cell[j]);
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     start.assign(mesh.nodes.size() + 1, 0);
@@ -56,9 +62,41 @@ int levels_from(const NodeGraph& graph, int root, const std::vector<char>& place
   return levels;
 }
 
+/// The two vertices that each node is in the middle of; a vertex twice itself.
+template <int Dim, int Order>
+std::vector<std::array<int, 2>> edge_of_nodes(const SimplexMesh<Dim, Order>& mesh) {
+  std::vector<std::array<int, 2>> ends(mesh.nodes.size());
+  for (std::size_t n = 0; n < ends.size(); ++n) ends[n].fill(static_cast<int>(n));
+  if constexpr (Order == 2)
+    for (const auto& cell : mesh.cells)
+      for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
+        const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
+        ends[cell[Dim + 1 + e]] = {cell[a], cell[b]};
+      }
+  return ends;
+}
+
+/// Puts the mid-edge nodes into an order of the vertices, each among those whose later vertex is the same.
+void insert_mid_edge_nodes(const std::vector<std::array<int, 2>>& ends, std::vector<int>& order) {
+  std::vector<int> rank(ends.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<int>(i);
+  std::vector<std::array<int, 3>> keys;  // later end, earlier end, node
+  keys.reserve(ends.size());
+  for (std::size_t n = 0; n < ends.size(); ++n) {
+    const auto [early, late] = std::minmax(rank[ends[n][0]], rank[ends[n][1]]);
+    keys.push_back({late, early, static_cast<int>(n)});
+  }
+  std::sort(keys.begin(), keys.end());
+  order.clear();
+  for (const auto& key : keys) order.push_back(key[2]);
+}
+
 }  // namespace
 
-Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh) {
+template <int Dim, int Order>
+Renumbering reverse_cuthill_mckee(const SimplexMesh<Dim, Order>& mesh) {
+  constexpr int nodes = nodes_of_simplex(Dim, Order);
+  const auto ends = edge_of_nodes(mesh);
   const NodeGraph graph(mesh);
   const int count = static_cast<int>(mesh.nodes.size());
   const auto lower_degree = [&](int a, int b) {
@@ -72,7 +110,7 @@ Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh) {
   std::vector<int> seen(count, -1), sweep;
   int stamp = 0;
   for (int first = 0; first < count; ++first) {
-    if (placed[first]) continue;
+    if (placed[first] || ends[first][0] != first) continue;
 
     // Walk to the far end until the number of levels grows no more.
     int root = first;
@@ -101,25 +139,27 @@ Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh) {
     }
   }
   std::reverse(order.begin(), order.end());
+  if constexpr (Order == 2) insert_mid_edge_nodes(ends, order);
 
   const auto old_to_new = inverse_permutation(order);
-  std::vector<std::array<int, 5>> keys(mesh.cells.size());  // new nodes ascending, then old index
+  std::vector<std::array<int, nodes + 1>> keys(mesh.cells.size());  // new nodes ascending, then old index
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    for (int i = 0; i < 4; ++i) keys[c][i] = old_to_new[mesh.cells[c][i]];
-    std::sort(keys[c].begin(), keys[c].begin() + 4);
-    keys[c][4] = static_cast<int>(c);
+    for (int i = 0; i < nodes; ++i) keys[c][i] = old_to_new[mesh.cells[c][i]];
+    std::sort(keys[c].begin(), keys[c].begin() + nodes);
+    keys[c][nodes] = static_cast<int>(c);
   }
   std::sort(keys.begin(), keys.end());
   result.cell_new_to_old.reserve(keys.size());
-  for (const auto& key : keys) result.cell_new_to_old.push_back(key[4]);
+  for (const auto& key : keys) result.cell_new_to_old.push_back(key[nodes]);
   return result;
 }
 
-TetrahedralMesh renumbered(const TetrahedralMesh& mesh, const Renumbering& order) {
+template <int Dim, int Order>
+SimplexMesh<Dim, Order> renumbered(const SimplexMesh<Dim, Order>& mesh, const Renumbering& order) {
   assert(order.node_new_to_old.size() == mesh.nodes.size());
   assert(order.cell_new_to_old.size() == mesh.cells.size() && mesh.cell_region.size() == mesh.cells.size());
   const auto old_to_new = inverse_permutation(order.node_new_to_old);
-  TetrahedralMesh result;
+  SimplexMesh<Dim, Order> result;
   result.regions = mesh.regions;
   result.nodes.reserve(mesh.nodes.size());
   for (const int old : order.node_new_to_old) result.nodes.push_back(mesh.nodes[old]);
@@ -147,7 +187,8 @@ std::vector<int> inverse_permutation(const std::vector<int>& permutation) {
   return inverse;
 }
 
-int bandwidth(const TetrahedralMesh& mesh) {
+template <int Dim, int Order>
+int bandwidth(const SimplexMesh<Dim, Order>& mesh) {
   int widest = 0;
   for (const auto& cell : mesh.cells) {
     const auto [low, high] = std::minmax_element(cell.begin(), cell.end());
@@ -155,5 +196,12 @@ int bandwidth(const TetrahedralMesh& mesh) {
   }
   return widest;
 }
+
+#define INSTANTIATE(Dim, Order)                                                                    \
+  template Renumbering reverse_cuthill_mckee(const SimplexMesh<Dim, Order>&);                      \
+  template SimplexMesh<Dim, Order> renumbered(const SimplexMesh<Dim, Order>&, const Renumbering&); \
+  template int bandwidth(const SimplexMesh<Dim, Order>&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi

@@ -14,16 +14,20 @@ struct Renumbering {
 
 /// Reverse Cuthill-McKee order of the nodes [Cuthill1969], each connected part started from a node at the end of a long
 /// path (the pseudo-peripheral node of [George1979]); cells by their smallest new node.
+/// Of quadratic cells the vertices are ordered; a mid-edge node comes among those that end at the later of its two.
 /// Keeps matrix rows of neighbours close in memory. Depends on nothing but the mesh: ties go by old index.
-Renumbering reverse_cuthill_mckee(const TetrahedralMesh& mesh);
+template <int Dim, int Order>
+Renumbering reverse_cuthill_mckee(const SimplexMesh<Dim, Order>& mesh);
 
 /// The mesh in the new order. Nodes within a cell keep their places, so orientation and facet order stay.
-TetrahedralMesh renumbered(const TetrahedralMesh& mesh, const Renumbering& order);
+template <int Dim, int Order>
+SimplexMesh<Dim, Order> renumbered(const SimplexMesh<Dim, Order>& mesh, const Renumbering& order);
 
 /// The inverse of a permutation: new_to_old to old_to_new and back.
 std::vector<int> inverse_permutation(const std::vector<int>& permutation);
 
 /// Largest distance between the numbers of two nodes of one cell.
-int bandwidth(const TetrahedralMesh& mesh);
+template <int Dim, int Order>
+int bandwidth(const SimplexMesh<Dim, Order>& mesh);
 
 }  // namespace fsi

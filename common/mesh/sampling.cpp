@@ -10,6 +10,8 @@
 
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/cell_map.hpp"
+#include "mesh/for_each_mesh.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
@@ -20,32 +22,55 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double inside = -1e-9;        // barycentric coordinates this far below zero are rounding
 constexpr double furthest_edges = 0.5;  // longest edges that a point may lie outside
 
+template <int Dim, int Order>
+CellMap<Dim, Order> map_of(const SimplexMesh<Dim, Order>& mesh, int cell) {
+  CellMap<Dim, Order> map;
+  for (std::size_t i = 0; i < map.x.size(); ++i) map.x[i] = mesh.nodes[mesh.cells[cell][i]];
+  return map;
+}
+
+/// Points in whose convex hull a cell lies: its vertices and, for each curved edge, the middle control point of its
+/// Bezier curve.
+template <int Dim, int Order>
+std::array<Point, nodes_of_simplex(Dim, Order)> control_points(const SimplexMesh<Dim, Order>& mesh, int cell) {
+  auto x = map_of(mesh, cell).x;
+  if constexpr (Order == 2)
+    for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
+      const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
+      x[Dim + 1 + e] = 2 * x[Dim + 1 + e] - 0.5 * (x[a] + x[b]);
+    }
+  return x;
+}
+
 /// Cells sorted into the boxes of a regular grid that their bounding boxes touch.
 class CellGrid {
  public:
-  CellGrid(const TetrahedralMesh& mesh, const std::vector<int>& cells) {
+  template <int Dim, int Order>
+  CellGrid(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells) {
     low_.fill(std::numeric_limits<double>::infinity());
     Point high;
     high.fill(-std::numeric_limits<double>::infinity());
     for (const int c : cells)
-      for (const int node : mesh.cells[c])
+      for (const Point& x : control_points(mesh, c))
         for (int d = 0; d < 3; ++d) {
-          low_[d] = std::min(low_[d], mesh.nodes[node][d]);
-          high[d] = std::max(high[d], mesh.nodes[node][d]);
+          low_[d] = std::min(low_[d], x[d]);
+          high[d] = std::max(high[d], x[d]);
         }
     // About one box per cell, cubic ones, so that a long tube gets many along its axis.
     double volume = 1;
-    for (int d = 0; d < 3; ++d) volume *= std::max(high[d] - low_[d], 1e-300);
-    step_ = std::cbrt(volume / static_cast<double>(cells.size()));
+    for (int d = 0; d < 3; ++d)
+      if (Dim == 3 || high[d] > low_[d]) volume *= std::max(high[d] - low_[d], 1e-300);
+    const double each = volume / static_cast<double>(cells.size());
+    step_ = Dim == 3 ? std::cbrt(each) : std::sqrt(each);
     if (!(step_ > 0)) step_ = 1;
     for (int d = 0; d < 3; ++d) boxes_[d] = static_cast<int>(std::clamp((high[d] - low_[d]) / step_, 0.0, 1000.0)) + 1;
 
     std::vector<std::array<int, 2>> entries;  // box, cell
     for (const int c : cells) {
       std::array<int, 3> from{boxes_}, to{0, 0, 0};
-      for (const int node : mesh.cells[c])
+      for (const Point& x : control_points(mesh, c))
         for (int d = 0; d < 3; ++d) {
-          const int box = box_along(d, mesh.nodes[node][d]);
+          const int box = box_along(d, x[d]);
           from[d] = std::min(from[d], box);
           to[d] = std::max(to[d], box);
         }
@@ -81,15 +106,6 @@ class CellGrid {
   std::vector<int> start_, cells_;
 };
 
-std::array<double, 4> barycentric(const TetrahedralMesh& mesh, int cell, const Point& x) {
-  const auto& c = mesh.cells[cell];
-  const Point &a = mesh.nodes[c[0]], &b = mesh.nodes[c[1]], &p = mesh.nodes[c[2]], &q = mesh.nodes[c[3]];
-  const double volume = tetrahedron_volume(a, b, p, q);
-  const double wb = tetrahedron_volume(a, x, p, q) / volume, wp = tetrahedron_volume(a, b, x, q) / volume,
-               wq = tetrahedron_volume(a, b, p, x) / volume;
-  return {1 - wb - wp - wq, wb, wp, wq};
-}
-
 /// Negative weights become zero, the rest is scaled to the sum 1.
 template <std::size_t N>
 std::array<double, N> clamped(std::array<double, N> weights) {
@@ -99,36 +115,230 @@ std::array<double, N> clamped(std::array<double, N> weights) {
   return weights;
 }
 
+template <int Dim, int Order>
+PointSample sample_of(const SimplexMesh<Dim, Order>& mesh, int cell, const std::array<double, Dim + 1>& l) {
+  const auto& nodes = mesh.cells[cell];
+  const auto weights = CellMap<Dim, Order>::shape(l);
+  return {{nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, {l.begin(), l.end()}};
+}
+
 /// The nearest cell by the distance to the point's clamped image in it.
-PointSample nearest_sample(const TetrahedralMesh& mesh, const std::vector<int>& cells, const Point& x) {
-  PointSample best{};
+template <int Dim, int Order>
+PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells, const Point& x) {
+  int best = -1;
+  std::array<double, Dim + 1> best_place{};
   double least = std::numeric_limits<double>::infinity();
   for (const int c : cells) {
-    const auto weights = clamped(barycentric(mesh, c, x));
-    Point image{0, 0, 0};
-    for (int i = 0; i < 4; ++i) image = image + weights[i] * mesh.nodes[mesh.cells[c][i]];
-    const double away = distance(image, x);
+    const auto map = map_of(mesh, c);
+    std::array<double, Dim + 1> place;
+    if (!map.find(x, place)) place = map.straight(x);
+    const auto kept = clamped(place);
+    const double away = distance(map.at(kept), x);
     if (away >= least) continue;
     least = away;
-    best = {mesh.cells[c], weights};
+    best = c;
+    best_place = kept;
   }
   double longest = 0;
-  for (const int a : best.nodes)
-    for (const int b : best.nodes) longest = std::max(longest, distance(mesh.nodes[a], mesh.nodes[b]));
+  if (best >= 0)
+    for (int a = 0; a <= Dim; ++a)
+      for (int b = 0; b <= Dim; ++b)
+        longest = std::max(longest, distance(mesh.nodes[mesh.cells[best][a]], mesh.nodes[mesh.cells[best][b]]));
   if (!(least <= furthest_edges * longest))
     throw InputError("", fmt::format("point ({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]),
                      fmt::format("lies {:.3g} mm outside the mesh", least),
                      "check the axis and the unit of the mesh (mm)");
-  return best;
+  return sample_of(mesh, best, best_place);
 }
 
 double wrapped(double angle) {
   return angle - 2 * pi * std::round(angle / (2 * pi));
 }
 
+/// A facet of a tube's surface with its angles and axial positions.
+template <std::size_t Nodes>
+struct Unrolled {
+  std::array<double, Nodes> angle, axial;
+  double radius, longest;
+  std::array<int, Nodes> nodes;
+};
+
+template <std::size_t Nodes>
+std::vector<Unrolled<Nodes>> unroll(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
+                                    const AxisFrame& frame) {
+  std::vector<Unrolled<Nodes>> facets;
+  facets.reserve(surface.size());
+  for (const auto& f : surface) {
+    Unrolled<Nodes> facet{};
+    facet.nodes = f;
+    for (std::size_t i = 0; i < Nodes; ++i) {
+      facet.angle[i] = frame.angle(nodes[f[i]]);
+      facet.axial[i] = frame.axial(nodes[f[i]]);
+      facet.radius += frame.radius(nodes[f[i]]) / Nodes;
+    }
+    for (int i = 0; i < 3; ++i) facet.longest = std::max(facet.longest, distance(nodes[f[i]], nodes[f[(i + 1) % 3]]));
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+/// The angles that a surface covers, from `first` on; `span` is a full turn for a whole tube.
+struct AngularRange {
+  double first = -pi, span = 2 * pi;
+};
+
+template <std::size_t Nodes>
+AngularRange covered_angles(const std::vector<Unrolled<Nodes>>& facets) {
+  constexpr double smallest_gap = 1e-3;
+  std::vector<std::array<double, 2>> arcs;
+  for (const auto& facet : facets) {
+    double low = 0, high = 0;
+    for (const double angle : facet.angle) {
+      low = std::min(low, wrapped(angle - facet.angle[0]));
+      high = std::max(high, wrapped(angle - facet.angle[0]));
+    }
+    if (high - low > pi) return {};  // holds the axis
+    arcs.push_back({facet.angle[0] + low, facet.angle[0] + high});
+  }
+  if (arcs.empty()) return {};
+  std::sort(arcs.begin(), arcs.end());
+  // The widest gap, the one from the last arc round to the first among them.
+  double reached = arcs[0][1], widest = 0, begin = arcs[0][0];
+  for (const auto& arc : arcs) {
+    if (arc[0] - reached > widest) {
+      widest = arc[0] - reached;
+      begin = arc[0];
+    }
+    reached = std::max(reached, arc[1]);
+  }
+  if (const double round = arcs[0][0] + 2 * pi - reached; round > widest) {
+    widest = round;
+    begin = arcs[0][0];
+  }
+  return widest < smallest_gap ? AngularRange{} : AngularRange{begin, 2 * pi - widest};
+}
+
+/// Angles whose samples have the mean over the whole tube as their mean.
+std::vector<double> sampled_angles(const AngularRange& range, int count) {
+  std::vector<double> angles(count);
+  const double turns = 2 * pi / range.span;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * pi * k / count;
+    if (range.span == 2 * pi) {
+      angles[k] = angle;
+    } else if (std::abs(turns - std::round(turns)) < 1e-6) {
+      // Mirrored at both ends until it lies within.
+      const double along = std::fmod(std::fmod(angle - range.first, 2 * range.span) + 2 * range.span, 2 * range.span);
+      angles[k] = range.first + std::min(along, 2 * range.span - along);
+    } else {
+      angles[k] = range.first + (k + 0.5) * range.span / count;
+    }
+  }
+  return angles;
+}
+
+[[noreturn]] void no_surface(double z, double angle) {
+  throw InputError("", fmt::format("inner wall at {:.6g} mm along the axis, {:.4g} deg", z, angle * 180 / pi),
+                   "there is no surface", "check the axis and the unit of the mesh (mm)");
+}
+
+/// Interpolation at one position and angle on the facets listed.
+template <std::size_t Nodes>
+WallSample wall_sample(const std::vector<Unrolled<Nodes>>& facets, const std::vector<std::size_t>& near,
+                       const AxisFrame& frame, double z, double angle) {
+  constexpr int order = Nodes == 3 ? 1 : 2;
+  double least = std::numeric_limits<double>::infinity(), allowed = 0;
+  std::size_t nearest = 0;
+  std::array<double, 3> best{};
+  for (const std::size_t f : near) {
+    const auto& facet = facets[f];
+    std::array<double, Nodes> s;  // mm around the tube from the wanted angle
+    for (std::size_t i = 0; i < Nodes; ++i) s[i] = facet.radius * wrapped(facet.angle[i] - angle);
+    const auto [low, high] = std::minmax_element(s.begin(), s.end());
+    if (*high - *low > pi * facet.radius) continue;  // on the far side, torn apart by the unrolling
+    const auto& t = facet.axial;
+    const double area = (s[1] - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (t[1] - t[0]);
+    if (std::abs(area) < 1e-12 * facet.longest * facet.longest) continue;  // seen edge-on
+    const double w1 = ((0 - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (z - t[0])) / area;
+    const double w2 = ((s[1] - s[0]) * (z - t[0]) - (0 - s[0]) * (t[1] - t[0])) / area;
+    std::array<double, 3> place{1 - w1 - w2, w1, w2};
+    CellMap<2, order> map;
+    for (std::size_t i = 0; i < Nodes; ++i) map.x[i] = {s[i], t[i], 0};
+    if constexpr (order == 2)
+      if (std::array<double, 3> curved; map.find({0, z, 0}, curved)) place = curved;
+    const bool holds = *std::min_element(place.begin(), place.end()) >= inside;
+    const auto kept = holds ? place : clamped(place);
+    double ds = 0, dz = -z;
+    const auto weights = map.shape(kept);
+    for (std::size_t i = 0; i < Nodes; ++i) {
+      ds += weights[i] * s[i];
+      dz += weights[i] * t[i];
+    }
+    const double away = holds ? 0.0 : std::hypot(ds, dz);
+    if (away >= least) continue;
+    least = away;
+    allowed = furthest_edges * facet.longest;
+    nearest = f;
+    best = kept;
+    if (holds) break;
+  }
+  if (!(least <= allowed)) no_surface(z, angle);
+  const auto& nodes = facets[nearest].nodes;
+  const auto weights = CellMap<2, order>::shape(best);
+  return {frame.radial(angle), {nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}};
+}
+
+/// Place along a straight or quadratic edge, 0 to 1, where its axial position is nearest to z.
+template <std::size_t Nodes>
+double place_along(const std::array<double, Nodes>& axial, double z) {
+  double t = std::clamp((z - axial[0]) / (axial[1] - axial[0]), 0.0, 1.0);
+  if constexpr (Nodes == 3)
+    // axial(t) = a + b t + c t^2 with the middle node at t = 1/2.
+    for (int step = 0; step < 30; ++step) {
+      const double c = 2 * (axial[0] + axial[1] - 2 * axial[2]), b = axial[1] - axial[0] - c;
+      const double slope = b + 2 * c * t, change = (z - (axial[0] + t * (b + c * t))) / slope;
+      if (!std::isfinite(change)) break;
+      t = std::clamp(t + change, 0.0, 1.0);
+      if (std::abs(change) < 1e-14) break;
+    }
+  return t;
+}
+
+/// Interpolation at one position on the edges that an axisymmetric surface is drawn as.
+template <std::size_t Nodes>
+WallSample meridian_sample(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
+                           const AxisFrame& frame, double z) {
+  double least = std::numeric_limits<double>::infinity(), allowed = 0;
+  WallSample best{};
+  for (const auto& edge : surface) {
+    std::array<double, Nodes> axial;
+    for (std::size_t i = 0; i < Nodes; ++i) axial[i] = frame.axial(nodes[edge[i]]);
+    const double length = distance(nodes[edge[0]], nodes[edge[1]]);
+    if (std::abs(axial[1] - axial[0]) < 1e-12 * length) continue;  // normal to the axis
+    const double t = place_along(axial, z);
+    std::array<double, Nodes> weights;
+    if constexpr (Nodes == 2)
+      weights = {1 - t, t};
+    else
+      weights = {(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)};
+    double reached = 0;
+    for (std::size_t i = 0; i < Nodes; ++i) reached += weights[i] * axial[i];
+    const double away = std::abs(reached - z);
+    if (away >= least) continue;
+    least = away;
+    allowed = furthest_edges * length;
+    best = {{1, 0, 0}, {edge.begin(), edge.end()}, {weights.begin(), weights.end()}};
+    if (away <= -inside * length) break;
+  }
+  if (!(least <= allowed)) no_surface(z, 0);
+  return best;
+}
+
 }  // namespace
 
-std::vector<PointSample> sample_in_cells(const TetrahedralMesh& mesh, int region, const std::vector<Point>& points) {
+template <int Dim, int Order>
+std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, int region,
+                                         const std::vector<Point>& points) {
   assert(mesh.cell_region.size() == mesh.cells.size());
   assert(region < static_cast<int>(mesh.regions.size()));
   std::vector<int> cells;
@@ -144,92 +354,51 @@ std::vector<PointSample> sample_in_cells(const TetrahedralMesh& mesh, int region
     const auto [begin, end] = grid.near(x);
     double most = inside;
     const int* holder = nullptr;
-    std::array<double, 4> weights{};
+    std::array<double, Dim + 1> place{};
     for (const int* c = begin; c != end; ++c) {
-      const auto candidate = barycentric(mesh, *c, x);
+      std::array<double, Dim + 1> candidate;
+      if (!map_of(mesh, *c).find(x, candidate)) continue;
       const double least = *std::min_element(candidate.begin(), candidate.end());
       if (least < most || (holder != nullptr && least <= most)) continue;
       most = least;
       holder = c;
-      weights = candidate;
+      place = candidate;
     }
-    samples.push_back(holder != nullptr ? PointSample{mesh.cells[*holder], weights} : nearest_sample(mesh, cells, x));
+    samples.push_back(holder != nullptr ? sample_of(mesh, *holder, place) : nearest_sample(mesh, cells, x));
   }
   return samples;
 }
 
+template <int Dim, std::size_t Nodes>
 std::vector<WallSample> wall_samples(const std::vector<Point>& nodes,
-                                     const std::vector<TetrahedralMesh::Facet>& surface, const Axis& axis,
+                                     const std::vector<std::array<int, Nodes>>& surface, const Axis& axis,
                                      const std::vector<double>& positions, int angles) {
+  static_assert(Nodes == nodes_of_simplex(Dim - 1, 1) || Nodes == nodes_of_simplex(Dim - 1, 2));
   assert(angles > 0);
   const AxisFrame frame(axis);
-  struct Unrolled {
-    std::array<double, 3> angle, axial;
-    double radius, longest;
-  };
-  std::vector<Unrolled> facets;
-  facets.reserve(surface.size());
-  for (const auto& f : surface) {
-    Unrolled facet{};
-    for (int i = 0; i < 3; ++i) {
-      facet.angle[i] = frame.angle(nodes[f[i]]);
-      facet.axial[i] = frame.axial(nodes[f[i]]);
-      facet.radius += frame.radius(nodes[f[i]]) / 3;
-      facet.longest = std::max(facet.longest, distance(nodes[f[i]], nodes[f[(i + 1) % 3]]));
-    }
-    facets.push_back(facet);
-  }
-
   std::vector<WallSample> samples;
-  samples.reserve(positions.size() * angles);
-  std::vector<std::size_t> near;
-  for (const double z : positions) {
-    near.clear();
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      const auto [low, high] = std::minmax_element(facets[f].axial.begin(), facets[f].axial.end());
-      if (z >= *low - furthest_edges * facets[f].longest && z <= *high + furthest_edges * facets[f].longest)
-        near.push_back(f);
-    }
-    for (int k = 0; k < angles; ++k) {
-      const double angle = 2 * pi * k / angles;
-      double least = std::numeric_limits<double>::infinity(), allowed = 0;
-      WallSample best{};
-      for (const std::size_t f : near) {
-        const auto& facet = facets[f];
-        std::array<double, 3> s;  // mm around the tube from the wanted angle
-        for (int i = 0; i < 3; ++i) s[i] = facet.radius * wrapped(facet.angle[i] - angle);
-        const auto [low, high] = std::minmax_element(s.begin(), s.end());
-        if (*high - *low > pi * facet.radius) continue;  // on the far side, torn apart by the unrolling
-        const auto& t = facet.axial;
-        const double area = (s[1] - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (t[1] - t[0]);
-        if (std::abs(area) < 1e-12 * facet.longest * facet.longest) continue;  // seen edge-on
-        const double w1 = ((0 - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (z - t[0])) / area;
-        const double w2 = ((s[1] - s[0]) * (z - t[0]) - (0 - s[0]) * (t[1] - t[0])) / area;
-        const std::array<double, 3> weights{1 - w1 - w2, w1, w2};
-        const bool holds = *std::min_element(weights.begin(), weights.end()) >= inside;
-        const auto kept = holds ? weights : clamped(weights);
-        double ds = 0, dz = -z;
-        for (int i = 0; i < 3; ++i) {
-          ds += kept[i] * s[i];
-          dz += kept[i] * t[i];
-        }
-        const double away = holds ? 0.0 : std::hypot(ds, dz);
-        if (away >= least) continue;
-        least = away;
-        allowed = furthest_edges * facet.longest;
-        best = {frame.radial(angle), surface[f], kept};
-        if (holds) break;
+  if constexpr (Dim == 2) {
+    for (const double z : positions) samples.push_back(meridian_sample(nodes, surface, frame, z));
+  } else {
+    const auto facets = unroll(nodes, surface, frame);
+    const auto wanted = sampled_angles(covered_angles(facets), angles);
+    samples.reserve(positions.size() * angles);
+    std::vector<std::size_t> near;
+    for (const double z : positions) {
+      near.clear();
+      for (std::size_t f = 0; f < facets.size(); ++f) {
+        const auto [low, high] = std::minmax_element(facets[f].axial.begin(), facets[f].axial.end());
+        if (z >= *low - furthest_edges * facets[f].longest && z <= *high + furthest_edges * facets[f].longest)
+          near.push_back(f);
       }
-      if (!(least <= allowed))
-        throw InputError("", fmt::format("inner wall at {:.6g} mm along the axis, {:.4g} deg", z, angle * 180 / pi),
-                         "there is no surface", "check the axis and the unit of the mesh (mm)");
-      samples.push_back(best);
+      for (const double angle : wanted) samples.push_back(wall_sample(facets, near, frame, z, angle));
     }
   }
   return samples;
 }
 
-double axial_position(const std::vector<Point>& nodes, const std::vector<TetrahedralMesh::Facet>& surface,
+template <std::size_t Nodes>
+double axial_position(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
                       const Axis& axis) {
   const AxisFrame frame(axis);
   const auto members = facet_nodes(surface);
@@ -251,5 +420,17 @@ std::vector<Point> points_on_axis(const Axis& axis, const std::vector<double>& p
   for (const double z : positions) points.push_back(frame.origin + z * frame.along);
   return points;
 }
+
+#define INSTANTIATE(Dim, Order)                                                                                      \
+  template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&); \
+  template std::vector<WallSample> wall_samples<Dim>(                                                                \
+      const std::vector<Point>&, const std::vector<std::array<int, nodes_of_simplex(Dim - 1, Order)>>&, const Axis&, \
+      const std::vector<double>&, int);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
+
+template double axial_position(const std::vector<Point>&, const std::vector<std::array<int, 2>>&, const Axis&);
+template double axial_position(const std::vector<Point>&, const std::vector<std::array<int, 3>>&, const Axis&);
+template double axial_position(const std::vector<Point>&, const std::vector<std::array<int, 6>>&, const Axis&);
 
 }  // namespace fsi

@@ -21,15 +21,17 @@ struct SimplexMesh {
   using Cell = std::array<int, nodes_of_simplex(Dim, Order)>;
   using Facet = std::array<int, nodes_of_simplex(Dim - 1, Order)>;
 
-  /// Facets of one named surface. Boundary facets are oriented: their normal, by the right-hand rule, points out of the
-  /// cell they bound.
+  /// Facets of one named surface. Boundary facets are oriented: their normal points out of the cell they bound, that of
+  /// a face by the right-hand rule; an edge has it on its right, seen with r (or x) to the right and z (or y) upwards.
   struct FacetGroup {
     std::string name;
     std::vector<Facet> facets;
   };
 
   std::vector<Point> nodes;  ///< mm
-  std::vector<Cell> cells;  ///< node indices, positively oriented; mid-edge nodes as fem/mid_edge_nodes.hpp orders them
+  /// Node indices, mid-edge nodes as mesh/mid_edge_nodes.hpp orders them. Positively oriented: of positive volume;
+  /// triangles counter-clockwise with r (or x) to the right and z (or y) upwards.
+  std::vector<Cell> cells;
   std::vector<int> cell_region;          ///< per cell, index into `regions`
   std::vector<std::string> regions;      ///< names of the volume groups
   std::vector<FacetGroup> facet_groups;  ///< named surface groups
@@ -47,6 +49,9 @@ struct SimplexMesh {
     return nullptr;
   }
 };
+
+/// What the plane of a triangle mesh is: a half plane that the body is turned out of, or a section of plane strain.
+enum class TriangleGeometry { axisymmetric, plane };
 
 using TetrahedralMesh = SimplexMesh<3>;
 using TriangleMesh = SimplexMesh<2>;

@@ -51,7 +51,7 @@ template <class Element>
 void fix_normal_components(const MeshOf<Element>& mesh, const PartOf<Element>& part,
                            const std::vector<DirichletConditions<Element::components>*>& conditions) {
   for (int k = 0; k < Element::components; ++k) {
-    auto on = nodes_on<Element>(part, group_facets(mesh, group::symmetry_planes[Element::axis[k]]));
+    auto on = nodes_on<Element>(part, group_facets(mesh, group::symmetry[Element::axis[k]]));
     if constexpr (Element::axisymmetric)
       if (k == 0)
         for (int a = 0; a < part.node_count(); ++a) on[a] = on[a] || part.nodes[a][0] == 0;
@@ -118,7 +118,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   FluidBoundary<Element> boundary;
   boundary.velocity = boundary.mesh = DirichletConditions<n>(nodes);
   std::vector<FacetsOf<Element>> not_closed{interface};
-  for (const char* plane : group::symmetry_planes) not_closed.push_back(group_facets(mesh, plane));
+  for (const char* plane : group::symmetry) not_closed.push_back(group_facets(mesh, plane));
   for (const auto& opening : openings) {
     const FacetsOf<Element> facets = group_facets(mesh, opening.surface);
     not_closed.push_back(facets);

@@ -209,14 +209,27 @@ TEST(BadFile, ElementListedTwice) {
                                          std::to_string(count) + " have the same nodes; remove one of them");
 }
 
-TEST(BadFile, SecondOrderTetrahedra) {
+TEST(BadFile, TetrahedraOfBothOrders) {
+  auto file = tiny_tube();
+  const auto elements = file.of_group(fluid_tag);
+  auto& curved = file.elements[elements[1]];
+  curved.type = 11;
+  curved.nodes.insert(curved.nodes.end(), {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(verdict(file.text_22()),
+            "tube.msh: fluid: element " + std::to_string(elements[1] + 1) + " is of second order, element " +
+                std::to_string(elements[0] + 1) +
+                " of first: the mesh mixes both; save all of them with one Mesh.ElementOrder, 1 or 2");
+  EXPECT_NE(verdict(file.binary_41()).find("the mesh mixes both"), std::string::npos);
+}
+
+TEST(BadFile, ThirdOrderTetrahedra) {
   auto file = tiny_tube();
   const auto element = file.of_group(fluid_tag).front();
-  file.elements[element].type = 11;
-  file.elements[element].nodes.insert(file.elements[element].nodes.end(), {1, 2, 3, 4, 5, 6});
+  file.elements[element].type = 29;
+  file.elements[element].nodes.resize(20, 1);
   EXPECT_EQ(verdict(file.text_22()), "tube.msh: fluid: element " + std::to_string(element + 1) +
-                                         " and 0 more are second-order tetrahedra (type 11); save linear tetrahedra: "
-                                         "Mesh.ElementOrder = 1");
+                                         " and 0 more are third-order tetrahedra (type 29); save tetrahedra of first "
+                                         "or second order: Mesh.ElementOrder = 1 or 2");
 }
 
 TEST(BadFile, Hexahedra) {

@@ -224,7 +224,7 @@ TinyFile tiny_tube() {
 
 SceneMeshNeeds tube_needs() {
   SceneMeshNeeds needs;
-  needs.fluid = needs.inlet_outlet = true;
+  needs.fluid = needs.inlet = needs.outlet = true;
   needs.layers = {"media"};
   return needs;
 }

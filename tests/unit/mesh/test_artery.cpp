@@ -17,7 +17,7 @@ namespace {
 
 SceneMeshNeeds artery_needs() {
   SceneMeshNeeds needs;
-  needs.fluid = needs.inlet_outlet = true;
+  needs.fluid = needs.inlet = needs.outlet = true;
   needs.layers = {"media", "adventitia"};
   return needs;
 }
@@ -41,7 +41,7 @@ TEST_P(ArteryLevel, HasThePapersSizeAndIsFitForUse) {
   EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), expected.level));
   const auto quality = measure_quality(mesh);
   EXPECT_NEAR(static_cast<double>(quality.nodes) / expected.nodes, 1, 0.1);
-  EXPECT_NEAR(static_cast<double>(quality.tetrahedra) / expected.tetrahedra, 1, 0.1);
+  EXPECT_NEAR(static_cast<double>(quality.cells) / expected.tetrahedra, 1, 0.1);
   EXPECT_GT(quality.min_eta, expected.min_eta);
   EXPECT_EQ(quality.regions[1].layers, expected.media_layers);
   EXPECT_EQ(quality.regions[2].layers, expected.adventitia_layers);

@@ -119,7 +119,7 @@ TEST(WallSampling, RefusesPositionsOffTheTube) {
   const auto mesh = test::short_artery();
   const auto interface = interface_facets(mesh, 0, {1, 2});
   EXPECT_THROW(wall_samples(mesh.nodes, interface, Axis{}, {12.0}), InputError);
-  EXPECT_THROW(wall_samples(mesh.nodes, {}, Axis{}, {1.0}), InputError);
+  EXPECT_THROW(wall_samples(mesh.nodes, std::vector<TetrahedralMesh::Facet>{}, Axis{}, {1.0}), InputError);
 }
 
 }  // namespace

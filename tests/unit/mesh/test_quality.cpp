@@ -53,7 +53,7 @@ TEST(Quality, WarnsOfBadElementsAndSaysWhereTheWorstIs) {
   const auto quality = measure_quality(mesh);
   EXPECT_EQ(quality.regions[0].poor, 0u);
   const auto& sleeve = quality.regions[2];
-  EXPECT_EQ(sleeve.poor, sleeve.tetrahedra);  // 0.01 mm across, forty times as much around
+  EXPECT_EQ(sleeve.poor, sleeve.cells);  // 0.01 mm across, forty times as much around
   ASSERT_GE(sleeve.worst, 0);
   EXPECT_EQ(mesh.cell_region[sleeve.worst], 2);
   EXPECT_NEAR(std::hypot(sleeve.worst_at[0], sleeve.worst_at[1]), 1.43 + 0.26, 0.1);
@@ -67,7 +67,7 @@ TEST(Quality, ReportAddsUp) {
   const auto mesh = test::short_artery();
   const auto quality = measure_quality(mesh);
   std::size_t tetrahedra = 0;
-  for (const auto& region : quality.regions) tetrahedra += region.tetrahedra;
+  for (const auto& region : quality.regions) tetrahedra += region.cells;
   EXPECT_EQ(tetrahedra, mesh.cells.size());
   EXPECT_EQ(quality.nodes, mesh.nodes.size());
   EXPECT_LE(quality.min_eta, quality.mean_eta);

@@ -56,7 +56,7 @@ TEST(Renumber, LeavesTheMeshAsItIs) {
     EXPECT_EQ(after.regions[r].layers, before.regions[r].layers);
   }
   SceneMeshNeeds needs;
-  needs.fluid = needs.inlet_outlet = true;
+  needs.fluid = needs.inlet = needs.outlet = true;
   needs.layers = {"media", "adventitia"};
   EXPECT_NO_THROW(check_scene_mesh(other, needs, "renumbered"));
 }
