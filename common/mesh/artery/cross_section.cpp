@@ -88,9 +88,10 @@ int sectors_in_circle(const ArteryCells& cells, int degrees) {
                      "give 90 or 180, or 360 for the whole tube");
   const int sectors = 360 / degrees;
   if (cells.around % sectors != 0 || cells.around < 2 * sectors)
-    throw InputError("fsi-mesh", "--around",
-                     fmt::format("{} cells cannot be shared by {} sectors of {} degrees", cells.around, sectors, degrees),
-                     fmt::format("give a multiple of {}, at least {}", sectors, 2 * sectors));
+    throw InputError(
+        "fsi-mesh", "--around",
+        fmt::format("{} cells cannot be shared by {} sectors of {} degrees", cells.around, sectors, degrees),
+        fmt::format("give a multiple of {}, at least {}", sectors, 2 * sectors));
   return sectors;
 }
 
@@ -108,8 +109,10 @@ void join(CrossSection& section, const Ring& inner, const Ring& outer, int regio
   while (i < inner.cells || j < outer.cells) {
     // Angles in units of the sector / (inner.cells * outer.cells): from the next inner node to j, from i to the next
     // outer node.
-    const std::int64_t back = static_cast<std::int64_t>(i + 1) * outer.cells - static_cast<std::int64_t>(j) * inner.cells;
-    const std::int64_t ahead = static_cast<std::int64_t>(j + 1) * inner.cells - static_cast<std::int64_t>(i) * outer.cells;
+    const std::int64_t back =
+        static_cast<std::int64_t>(i + 1) * outer.cells - static_cast<std::int64_t>(j) * inner.cells;
+    const std::int64_t ahead =
+        static_cast<std::int64_t>(j + 1) * inner.cells - static_cast<std::int64_t>(i) * outer.cells;
     if (i == inner.cells || (j < outer.cells && ahead <= back)) {
       add_triangle(section, outer.node(j), outer.node(j + 1), inner.node(i), region);
       ++j;

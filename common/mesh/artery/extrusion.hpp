@@ -34,8 +34,8 @@ TetrahedralMesh extrude(const CrossSection& section, bool two_layers, int slabs,
   for (int slab = 0; slab < slabs; ++slab)
     for (std::size_t t = 0; t < section.triangles.size(); ++t) {
       auto triangle = section.triangles[t];
-      const auto first = std::min_element(triangle.begin(), triangle.end(),
-                                          [&](int a, int b) { return starts_below(a, b, slab); });
+      const auto first =
+          std::min_element(triangle.begin(), triangle.end(), [&](int a, int b) { return starts_below(a, b, slab); });
       std::rotate(triangle.begin(), first, triangle.end());
       const int p = triangle[0] + slab * per_station, q = triangle[1] + slab * per_station,
                 r = triangle[2] + slab * per_station;
