@@ -38,25 +38,25 @@ void require_known_extension(const std::string& file) {
                         "the one that is known is .msh, gmsh 4.1 or 2.2 (--format), text or --binary");
 }
 
-/// Prints the quality of the mesh as the solvers will see it; warnings of bad elements go to stderr.
+/// Prints the quality of the mesh as the solvers will see it.
 template <int Dim, int Order>
-void report(const fsi::SimplexMesh<Dim, Order>& made, const std::string& file) {
-  if constexpr (Dim == 3 && Order == 1) {
-    const auto quality = fsi::measure_quality(fsi::read_gmsh(file, made.regions));
-    fmt::print("{}: {}", file, fsi::to_text(quality));
-    std::fflush(stdout);
-    for (const auto& warning : fsi::warnings_of(quality)) fmt::print(stderr, "fsi-mesh: warning: {}\n", warning);
-  } else {
-    fmt::print("{}: {} nodes, {} cells\n", file, made.nodes.size(), made.cells.size());
-  }
+fsi::MeshQuality report(const fsi::SimplexMesh<Dim, Order>& made, const std::string& file) {
+  const auto quality = fsi::measure_quality(fsi::read_gmsh<Dim, Order>(file, made.regions));
+  fmt::print("{}: {}", file, fsi::to_text(quality));
+  std::fflush(stdout);
+  return quality;
 }
 
+/// Writes the mesh and reports on it; warnings of bad elements go to stderr.
 void make_artery(const Request& request) {
   const auto made = fsi::make_artery(request.artery);
   std::visit([&](const auto& mesh) { fsi::write_gmsh(mesh, request.file, request.format); }, made);
   if (request.quiet) return;
-  if (const auto* recommended = fsi::recommendation(request.artery)) fmt::print("{}", fsi::to_text(*recommended));
-  std::visit([&](const auto& mesh) { report(mesh, request.file); }, made);
+  const auto* recommended = fsi::recommendation(request.artery);
+  if (recommended) fmt::print("{}", fsi::to_text(*recommended));
+  const auto quality = std::visit([&](const auto& mesh) { return report(mesh, request.file); }, made);
+  if (recommended) return;  // whose stretched elements are meant, and measured
+  for (const auto& warning : fsi::warnings_of(quality)) fmt::print(stderr, "fsi-mesh: warning: {}\n", warning);
 }
 
 /// The options of `fsi-mesh artery`.

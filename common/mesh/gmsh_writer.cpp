@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "mesh/for_each_mesh.hpp"
 #include "mesh/gmsh_file.hpp"
 
 namespace fsi {
@@ -159,9 +160,9 @@ void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path
   temporary.move_into_place();
 }
 
-template void write_gmsh(const SimplexMesh<2, 1>&, const std::filesystem::path&, const GmshFormat&);
-template void write_gmsh(const SimplexMesh<2, 2>&, const std::filesystem::path&, const GmshFormat&);
-template void write_gmsh(const SimplexMesh<3, 1>&, const std::filesystem::path&, const GmshFormat&);
-template void write_gmsh(const SimplexMesh<3, 2>&, const std::filesystem::path&, const GmshFormat&);
+#define INSTANTIATE(Dim, Order) \
+  template void write_gmsh(const SimplexMesh<Dim, Order>&, const std::filesystem::path&, const GmshFormat&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi
