@@ -3,13 +3,16 @@
 #include <gmsh.h>
 #include <unistd.h>
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "mesh/for_each_mesh.hpp"
+#include "mesh/gmsh_file.hpp"
 
 namespace fsi {
 
@@ -53,10 +56,24 @@ class TemporaryFile {
   std::filesystem::path final_name_, path_;
 };
 
-void fill_model(const TetrahedralMesh& mesh) {
+/// gmsh's number of the simplex with that many dimensions and that order.
+constexpr int gmsh_simplex(int dim, int order) {
+  constexpr int numbers[][2] = {{1, 8}, {2, 9}, {4, 11}};
+  return numbers[dim - 1][order - 1];
+}
+
+/// Adds node tags in gmsh's order: vertices first, then the middles of the edges. Its quadratic tetrahedron has the last
+/// two edges the other way round.
+template <std::size_t Nodes>
+void add_tags(const std::array<int, Nodes>& simplex, std::vector<std::size_t>& tags) {
+  for (const int node : simplex) tags.push_back(node + 1);
+  if constexpr (Nodes == nodes_of_simplex(3, 2)) std::swap(tags[tags.size() - 1], tags[tags.size() - 2]);
+}
+
+template <int Dim, int Order>
+void fill_model(const SimplexMesh<Dim, Order>& mesh) {
   assert(mesh.cell_region.size() == mesh.cells.size());
-  constexpr int triangle = 2, tetrahedron = 4;  // gmsh's numbers of the element types
-  const int volumes = static_cast<int>(mesh.regions.size()), surfaces = static_cast<int>(mesh.facet_groups.size());
+  const int regions = static_cast<int>(mesh.regions.size()), groups = static_cast<int>(mesh.facet_groups.size());
 
   std::vector<std::size_t> node_tags(mesh.nodes.size());
   std::vector<double> coordinates;
@@ -67,9 +84,9 @@ void fill_model(const TetrahedralMesh& mesh) {
   }
 
   gmsh::model::add("mesh");
-  for (int g = 0; g < surfaces; ++g) gmsh::model::addDiscreteEntity(2, g + 1);
-  for (int r = 0; r < volumes; ++r) gmsh::model::addDiscreteEntity(3, r + 1);
-  gmsh::model::mesh::addNodes(3, 1, node_tags, coordinates);
+  for (int g = 0; g < groups; ++g) gmsh::model::addDiscreteEntity(Dim - 1, g + 1);
+  for (int r = 0; r < regions; ++r) gmsh::model::addDiscreteEntity(Dim, r + 1);
+  gmsh::model::mesh::addNodes(Dim, 1, node_tags, coordinates);
 
   std::size_t next_element = 1;
   const auto add_elements = [&](int entity, int type, const std::vector<std::size_t>& nodes, std::size_t count) {
@@ -77,31 +94,39 @@ void fill_model(const TetrahedralMesh& mesh) {
     for (auto& tag : tags) tag = next_element++;
     gmsh::model::mesh::addElementsByType(entity, type, tags, nodes);
   };
-  for (int g = 0; g < surfaces; ++g) {
+  for (int g = 0; g < groups; ++g) {
     std::vector<std::size_t> nodes;
-    for (const auto& facet : mesh.facet_groups[g].facets)
-      for (const int node : facet) nodes.push_back(node + 1);
-    add_elements(g + 1, triangle, nodes, mesh.facet_groups[g].facets.size());
-    gmsh::model::addPhysicalGroup(2, {g + 1}, g + 1);
-    gmsh::model::setPhysicalName(2, g + 1, mesh.facet_groups[g].name);
+    for (const auto& facet : mesh.facet_groups[g].facets) add_tags(facet, nodes);
+    add_elements(g + 1, gmsh_simplex(Dim - 1, Order), nodes, mesh.facet_groups[g].facets.size());
+    gmsh::model::addPhysicalGroup(Dim - 1, {g + 1}, g + 1);
+    gmsh::model::setPhysicalName(Dim - 1, g + 1, mesh.facet_groups[g].name);
   }
-  for (int r = 0; r < volumes; ++r) {
+  for (int r = 0; r < regions; ++r) {
     std::vector<std::size_t> nodes;
     std::size_t count = 0;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       if (mesh.cell_region[c] != r) continue;
       ++count;
-      for (const int node : mesh.cells[c]) nodes.push_back(node + 1);
+      add_tags(mesh.cells[c], nodes);
     }
-    add_elements(r + 1, tetrahedron, nodes, count);
-    gmsh::model::addPhysicalGroup(3, {r + 1}, surfaces + r + 1);
-    gmsh::model::setPhysicalName(3, surfaces + r + 1, mesh.regions[r]);
+    add_elements(r + 1, gmsh_simplex(Dim, Order), nodes, count);
+    gmsh::model::addPhysicalGroup(Dim, {r + 1}, groups + r + 1);
+    gmsh::model::setPhysicalName(Dim, groups + r + 1, mesh.regions[r]);
   }
+}
+
+/// How many elements of a type a file has.
+std::size_t elements_in(const std::filesystem::path& path, int type) {
+  std::size_t count = 0;
+  for (const auto& block : parse_gmsh(path).blocks)
+    if (block.type == type) count += block.tags.size();
+  return count;
 }
 
 }  // namespace
 
-void write_gmsh(const TetrahedralMesh& mesh, const std::filesystem::path& file, const GmshFormat& format) {
+template <int Dim, int Order>
+void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path& file, const GmshFormat& format) {
   if (format.version != "4.1" && format.version != "2.2")
     throw InputError(file.string(), "format", "there is no writer for version '" + format.version + "'",
                      "use 4.1 or 2.2");
@@ -130,9 +155,14 @@ void write_gmsh(const TetrahedralMesh& mesh, const std::filesystem::path& file, 
   if (!failure.empty())
     throw InputError(file.string(), "", "the gmsh library cannot write it: " + failure, "choose another place");
   // The library reports a full disk on its console only, so look at what arrived.
-  if (read_gmsh(temporary.path(), mesh.regions).cells.size() != mesh.cells.size())
+  if (elements_in(temporary.path(), gmsh_simplex(Dim, Order)) != mesh.cells.size())
     throw InputError(file.string(), "", "was not written completely", "check the space on the disk");
   temporary.move_into_place();
 }
+
+#define INSTANTIATE(Dim, Order) \
+  template void write_gmsh(const SimplexMesh<Dim, Order>&, const std::filesystem::path&, const GmshFormat&);
+FSI_FOR_EACH_MESH(INSTANTIATE)
+#undef INSTANTIATE
 
 }  // namespace fsi

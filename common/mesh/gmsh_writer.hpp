@@ -12,10 +12,12 @@ struct GmshFormat {
   bool binary = false;
 };
 
-/// Writes a mesh by the gmsh library: regions as physical volumes, facet groups as physical surfaces, node and element
-/// numbers from 1 in the order of the mesh. The same mesh gives the same bytes. The file appears complete or not at all
-/// (written beside, read back, then renamed). Not thread-safe: the library has one global model.
+/// Writes a mesh by the gmsh library: regions as physical volumes, facet groups as physical surfaces (in two dimensions
+/// surfaces and curves), node and element numbers from 1 in the order of the mesh. Quadratic cells and facets are gmsh's
+/// second-order elements (types 8, 9 and 11). The same mesh gives the same bytes. The file appears complete or not at
+/// all (written beside, read back, then renamed). Not thread-safe: the library has one global model.
 /// Throws InputError for an unknown version or a place that cannot be written.
-void write_gmsh(const TetrahedralMesh& mesh, const std::filesystem::path& file, const GmshFormat& format);
+template <int Dim, int Order>
+void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path& file, const GmshFormat& format);
 
 }  // namespace fsi

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "mesh/artery/options.hpp"
+#include "mesh/simplex_mesh.hpp"
+#include "meshes/recommended_meshes.hpp"
+
+namespace fsi {
+
+/// What the options of `fsi-mesh artery` ask for.
+struct ArteryRequest {
+  ArteryOptions sizes;  ///< dimensions and element sizes, those of the level unless given
+
+  // Numbers of cells; what is not given follows from the sizes, or from the mesh recommended for an element.
+  std::optional<int> lumen_cells, media_cells, adventitia_cells, around, axial_cells;
+  std::optional<double> lumen_grading, axial_grading;
+
+  std::optional<int> order;  ///< of the edges: 1 straight, 2 quadratic; 2 for a recommended mesh of p2p1, else 1
+  bool axisymmetric = false;
+  int sector = 360;       ///< degrees
+  bool mirrored = false;  ///< the sector and its images, the whole tube
+
+  std::string for_element;           ///< empty: no recommendation asked for
+  std::optional<std::string> error;  ///< percentage, 3% unless given
+};
+
+using ArteryMesh = std::variant<SimplexMesh<2, 1>, SimplexMesh<2, 2>, SimplexMesh<3, 1>, SimplexMesh<3, 2>>;
+
+/// The mesh recommended for the request's element, nullptr when it asks for none.
+/// Throws InputError with the option at fault.
+const RecommendedMesh* recommendation(const ArteryRequest& request);
+
+/// Makes the mesh. Sizes alone, of the whole tube, give the meshes of the levels; numbers of cells, sectors and
+/// axisymmetric meshes are divided regularly, so that they can be graded and mirrored.
+/// Throws InputError with the option at fault.
+ArteryMesh make_artery(const ArteryRequest& request);
+
+}  // namespace fsi

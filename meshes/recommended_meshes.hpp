@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/artery/options.hpp"
+
+namespace fsi {
+
+/// A mesh of the artery with the error that it leaves in the wave of the neo-Hookean case: the largest of t = 1.5, 3,
+/// 4.5 and 6 ms, relative L2 norm along z, against a much finer mesh at the same time steps, so that only space counts.
+struct RecommendedMesh {
+  std::string element;        ///< as in case files
+  bool axisymmetric;          ///< else three-dimensional, whole or a sector
+  double pressure_error;      ///< of the centre-line pressure, percent
+  double displacement_error;  ///< of the radial displacement of the inner wall, percent
+  bool measured;              ///< else expected from the axisymmetric mesh of the same cells
+  ArteryCells cells;
+
+  double error() const { return pressure_error > displacement_error ? pressure_error : displacement_error; }
+};
+
+/// All of them: per element and geometry from few nodes to many.
+const std::vector<RecommendedMesh>& recommended_meshes();
+
+/// The first one of that element and geometry whose pressure and displacement are both within `percent`.
+/// Throws InputError naming --for for an element that has none, --error where none is as good as that.
+const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, double percent);
+
+/// The number in "3%" or "0.5 %", positive. Throws InputError naming --error for anything else: a number without the
+/// sign could mean a fraction.
+double percent_of(const std::string& text);
+
+/// Which cells a mesh has and what error it leaves, in one line for the console.
+std::string to_text(const RecommendedMesh& mesh);
+
+}  // namespace fsi

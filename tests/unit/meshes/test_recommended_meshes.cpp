@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "base/error.hpp"
+#include "meshes/recommended_meshes.hpp"
+
+namespace fsi {
+namespace {
+
+TEST(RecommendedMeshes, StandFromFewNodesToManyAndFromLargeErrorToSmall) {
+  const RecommendedMesh* before = nullptr;
+  for (const auto& mesh : recommended_meshes()) {
+    SCOPED_TRACE(to_text(mesh));
+    EXPECT_EQ(mesh.cells.around % 4, 0);  // so that a quarter can be made
+    if (before && before->element == mesh.element && before->axisymmetric == mesh.axisymmetric) {
+      const auto nodes = [](const ArteryCells& c) {
+        return (c.lumen + c.media + c.adventitia) * c.around * (c.axial + 1);
+      };
+      EXPECT_GT(nodes(mesh.cells), nodes(before->cells));
+      EXPECT_LT(mesh.error(), before->error());  // else nobody would take it
+    }
+    before = &mesh;
+  }
+}
+
+TEST(RecommendedMeshes, TheCheapestGoodEnoughOneIsTaken) {
+  for (const auto& mesh : recommended_meshes()) {
+    EXPECT_EQ(&recommended_mesh(mesh.element, mesh.axisymmetric, mesh.error()), &mesh);
+    const auto& looser = recommended_mesh(mesh.element, mesh.axisymmetric, 100);
+    EXPECT_GE(looser.error(), mesh.error());
+  }
+}
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(RecommendedMeshes, RefusesWhatTheyCannotDo) {
+  EXPECT_EQ(refusal([] { recommended_mesh("p2p1", true, 0.001); }).find("fsi-mesh: --error: 0.001% is less than any"),
+            0u);
+  EXPECT_EQ(refusal([] { recommended_mesh("p3", true, 3); }),
+            "fsi-mesh: --for: there are no meshes recommended for 'p3'; there are for p2p1");
+}
+
+TEST(RecommendedMeshes, ErrorsArePercentages) {
+  EXPECT_EQ(percent_of("3%"), 3);
+  EXPECT_EQ(percent_of("0.5 %"), 0.5);
+  for (const char* text : {"3", "", "%", "-1%", "0%", "nan%", "3%%", "3% ", "three%", "inf%"})
+    EXPECT_EQ(refusal([&] { percent_of(text); }),
+              std::string("fsi-mesh: --error: '") + text + "' is no percentage; give one, like 3%");
+}
+
+}  // namespace
+}  // namespace fsi
