@@ -37,6 +37,7 @@ struct MeshData {
 struct FluidData {
   double density = 0;     ///< mg/mm^3
   double viscosity = 0;   ///< kPa ms
+  bool outlet = true;     ///< whether there is a surface `outlet`, free of traction
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
 };
 

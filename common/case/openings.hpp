@@ -18,7 +18,9 @@ struct OpeningData {
 /// The open boundaries of a case with fluid, in the order in which scenes and loads hold them.
 inline std::vector<OpeningData> openings_of(const Case& setup) {
   if (!setup.fluid) return {};
-  return {{group::inlet, setup.inlet}, {group::outlet, std::nullopt}};
+  std::vector<OpeningData> openings{{group::inlet, setup.inlet}};
+  if (setup.fluid->outlet) openings.push_back({group::outlet, std::nullopt});
+  return openings;
 }
 
 }  // namespace fsi

@@ -53,6 +53,8 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
            number(at(&FluidData::density), positive, quantity::fluid_density())),
       leaf("viscosity", required, "dynamic viscosity in {unit}",
            number(at(&FluidData::viscosity), positive, quantity::viscosity())),
+      leaf("outlet", optional, "whether fluid leaves through a surface outlet, default {}",
+           flag(at(&FluidData::outlet))),
       leaf("grad_div", optional, "grad-div stabilisation, default {}", flag(at(&FluidData::grad_div))),
   };
 }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
-#include "mesh/mid_edge_nodes.hpp"
 #include "fem/nodal_layout.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 
 namespace fsi {
 

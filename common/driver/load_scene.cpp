@@ -1,5 +1,7 @@
 #include "driver/load_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -8,11 +10,14 @@
 #include "base/names.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "mesh/artery/curved_edges.hpp"
 #include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mid_edge_nodes.hpp"
+#include "mesh/point_math.hpp"
 #include "mesh/renumber.hpp"
 #include "mesh/sampling.hpp"
 #include "scene/boundary_conditions.hpp"
@@ -32,14 +37,43 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-TetrahedralMesh read_or_make(const Case& setup, const std::vector<std::string>& layers, SceneMeshNeeds& needs) {
+template <class Element>
+constexpr TriangleGeometry triangle_geometry =
+    Element::axisymmetric ? TriangleGeometry::axisymmetric : TriangleGeometry::plane;
+
+/// A level of the artery for an element: straight tubes and their meridian sections only.
+template <class Element>
+MeshOf<Element> make_level(const Case& setup) {
+  const ArteryOptions level = artery_level(setup.mesh.level);
+  if constexpr (Element::dim == 3 && Element::order == 1) return generate_artery(level);
+  if constexpr (Element::dim == 3 && Element::order == 2)
+    return with_curved_edges(generate_artery(level), level.inner_radius);
+  if constexpr (Element::axisymmetric) {
+    const TriangleMesh section = generate_artery_section(level, artery_cells(level));
+    if constexpr (Element::order == 1)
+      return section;
+    else
+      return with_mid_edge_nodes(section);
+  }
+  throw InputError(setup.path.string(), "mesh.level", "levels are tubes, which a plane scene cannot hold",
+                   "give mesh.file, or geometry = \"axisymmetric\"");
+}
+
+template <class Element>
+MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& layers, SceneMeshNeeds& needs) {
   std::vector<std::string> available;
-  TetrahedralMesh made;
+  MeshOf<Element> made;
   if (setup.mesh.file.empty()) {
-    made = generate_artery(artery_level(setup.mesh.level));
+    made = make_level<Element>(setup);
     available = made.regions;
   } else {
-    available = gmsh_volumes(setup.mesh.file);
+    available = gmsh_regions(setup.mesh.file, Element::dim);
+    const int dimension = gmsh_dimension(setup.mesh.file);
+    if (dimension > Element::dim || available.empty())
+      throw InputError(setup.mesh.file.string(), "",
+                       fmt::format("is a mesh of {} dimensions, the case's scene one of {}", dimension, Element::dim),
+                       dimension == 2 ? "set geometry = \"axisymmetric\" or \"plane\" in the case file"
+                                      : "give a mesh of triangles, or leave geometry out of the case file");
   }
   for (const auto& layer : layers)
     if (!contains(available, layer))
@@ -50,7 +84,8 @@ TetrahedralMesh read_or_make(const Case& setup, const std::vector<std::string>& 
   const bool fluid_shows_inner_face = !setup.fluid && setup.load && contains(available, "fluid");
   if (setup.fluid || fluid_shows_inner_face) wanted.push_back("fluid");
   needs.inner_surface = !setup.fluid && setup.load && !fluid_shows_inner_face;
-  if (!setup.mesh.file.empty()) return read_gmsh(setup.mesh.file, wanted);
+  if (!setup.mesh.file.empty())
+    return read_gmsh<Element::dim, Element::order>(setup.mesh.file, wanted, triangle_geometry<Element>);
   return made;
 }
 
@@ -70,10 +105,11 @@ template <class Element>
 MeshOf<Element> load_mesh(const Case& setup) {
   SceneMeshNeeds needs;
   needs.fluid = setup.fluid.has_value();
-  needs.inlet_outlet = needs.fluid;
+  for (const auto& opening : openings_of(setup)) (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
+  needs.geometry = triangle_geometry<Element>;
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
-  const auto mesh = read_or_make(setup, needs.layers, needs);
+  const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
   check_scene_mesh(mesh, needs, mesh_name(setup));
   // Made meshes come in a good order already.
   auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
@@ -82,23 +118,56 @@ MeshOf<Element> load_mesh(const Case& setup) {
 
 constexpr int line_points = 181;
 
+template <class Facets>
+Point centre_of(const std::vector<Point>& nodes, const Facets& surface) {
+  Point sum{0, 0, 0};
+  double count = 0;
+  for (const auto& facet : surface)
+    for (int node : facet) {
+      sum = sum + nodes[node];
+      ++count;
+    }
+  return (1 / count) * sum;
+}
+
+/// Where the centre line of a scene runs: the axis of a tube; in plane scenes the straight line from inlet to outlet.
+template <class Element>
+Axis axis_of(const Case& setup, const MeshOf<Element>& mesh) {
+  Axis axis;
+  if (setup.structure) axis = {setup.structure->axis_origin, setup.structure->axis_direction};
+  if constexpr (Element::axisymmetric) axis = {};
+  if constexpr (Element::dim == 2 && !Element::axisymmetric) {
+    const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
+    if (inlet && outlet) {
+      axis.origin = centre_of(mesh.nodes, *inlet);
+      axis.direction = centre_of(mesh.nodes, *outlet) - axis.origin;
+    }
+  }
+  return axis;
+}
+
+NodalSample in_part(std::vector<int> nodes, std::vector<double> weights, const PartNodes& part) {
+  nodes.resize(weights.size());  // scalars live on the first ones
+  for (int& node : nodes) node = part.local_node[node];
+  return {std::move(nodes), std::move(weights)};
+}
+
 template <class Element>
 ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& mesh,
                                      const Scene<Element::components>& scene) {
   ObservationPoints points;
-  if (setup.structure) points.axis = {setup.structure->axis_origin, setup.structure->axis_direction};
+  points.axis = axis_of<Element>(setup, mesh);
   const int fluid_region = mesh.region_index(group::fluid);
   const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
   if (scene.fluid && inlet && outlet) {
     points.centre_z = evenly_spaced(axial_position(mesh.nodes, *inlet, points.axis),
                                     axial_position(mesh.nodes, *outlet, points.axis), line_points);
-    for (const auto& found : sample_in_cells(mesh, fluid_region, points_on_axis(points.axis, points.centre_z))) {
-      NodalSample sample{{found.nodes.begin(), found.nodes.end()}, {found.weights.begin(), found.weights.end()}};
-      for (int& node : sample.nodes) node = scene.fluid->nodes().local_node[node];
-      points.centre_line.push_back(std::move(sample));
-    }
+    for (auto& found : sample_in_cells(mesh, fluid_region, points_on_axis(points.axis, points.centre_z)))
+      points.centre_line.push_back(
+          in_part(std::move(found.nodes), std::move(found.scalar_weights), scene.fluid->nodes()));
   }
-  if (scene.wall) {
+  constexpr bool tube = Element::dim == 3 || Element::axisymmetric;
+  if (scene.wall && tube) {
     std::vector<int> wall_regions;
     for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
     const auto surface =
@@ -111,13 +180,11 @@ ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& m
         first = std::min(first, frame.axial(mesh.nodes[node]));
         last = std::max(last, frame.axial(mesh.nodes[node]));
       }
-    points.angles = 16;
+    points.angles = Element::axisymmetric ? 1 : 16;
     points.wall_z = evenly_spaced(first, last, line_points);
-    for (const auto& found : wall_samples(mesh.nodes, surface, points.axis, points.wall_z, points.angles)) {
-      NodalSample sample{{found.nodes.begin(), found.nodes.end()}, {found.weights.begin(), found.weights.end()}};
-      for (int& node : sample.nodes) node = scene.wall->nodes().local_node[node];
-      points.wall_line.push_back({std::move(sample), found.direction});
-    }
+    for (auto& found : wall_samples<Element::dim>(mesh.nodes, surface, points.axis, points.wall_z, points.angles))
+      points.wall_line.push_back(
+          {in_part(std::move(found.nodes), std::move(found.weights), scene.wall->nodes()), found.direction});
   }
   return points;
 }
@@ -152,12 +219,17 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
 
 template <>
 LoadedScene<3> load_scene(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
-  return load<P1Tetrahedron>(setup, mesh_known);
+  return setup.element == ElementPair::p1 ? load<P1Tetrahedron>(setup, mesh_known)
+                                          : load<P2P1Tetrahedron>(setup, mesh_known);
 }
 
 template <>
-LoadedScene<2> load_scene(const Case& setup, const std::function<void(std::size_t)>&) {
-  throw InputError(setup.path.string(), "geometry", "not yet", "");
+LoadedScene<2> load_scene(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
+  if (setup.geometry == Geometry::axisymmetric)
+    return setup.element == ElementPair::p1 ? load<P1AxisymmetricTriangle>(setup, mesh_known)
+                                            : load<P2P1AxisymmetricTriangle>(setup, mesh_known);
+  return setup.element == ElementPair::p1 ? load<P1PlaneTriangle>(setup, mesh_known)
+                                          : load<P2P1PlaneTriangle>(setup, mesh_known);
 }
 
 }  // namespace fsi

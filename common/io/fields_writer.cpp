@@ -17,7 +17,7 @@ namespace fsi {
 namespace fs = std::filesystem;
 
 // Layout of fields.h5, all datasets contiguous:
-//   /GRID/points (N, 3) double, mm      /GRID/cells (M, 3 or 4) int32      /GRID/layer (M) int32
+//   /GRID/points (N, 3) double, mm      /GRID/cells (M, 3, 4, 6 or 10) int32      /GRID/layer (M) int32
 //   /GRID/FIELD/STEP (N) or (N, 3) double, STEP with eight digits; attribute `unit` on /GRID/FIELD
 //   /steps/number (S) int64   /steps/time (S) double, ms
 //   /steps/written/GRID.FIELD (S) uint8: 1 once the values of that step are on disk
@@ -41,7 +41,7 @@ struct FieldsWriter::Implementation {
   Implementation(const fs::path& folder, std::vector<FieldGrid> grids_, std::vector<FieldStep> planned)
       : h5(folder / "fields.h5"), xdmf(folder / "fields.xdmf"), grids(std::move(grids_)), steps(std::move(planned)) {
     for (const auto& grid : grids) {
-      assert((grid.nodes_per_cell == 3 || grid.nodes_per_cell == 4) && grid.cells.size() % grid.nodes_per_cell == 0);
+      assert(grid.nodes_per_cell > 0 && grid.cells.size() % grid.nodes_per_cell == 0);
       assert(grid.layer.empty() || grid.layer.size() * grid.nodes_per_cell == grid.cells.size());
       assert(std::all_of(grid.cells.begin(), grid.cells.end(), [&](std::int32_t node) {
         return node >= 0 && static_cast<std::size_t>(node) < grid.points.size();

@@ -24,7 +24,7 @@ struct FieldDescription {
 struct FieldGrid {
   std::string name;           ///< "fluid", "wall"
   std::vector<Point> points;  ///< N reference positions, mm
-  int nodes_per_cell = 4;     ///< 4: tetrahedra, 3: triangles
+  int nodes_per_cell = 4;     ///< 4 or 10: tetrahedra, 3 or 6: triangles; mid-edge nodes in VTK's order
   std::vector<int> cells;     ///< M * nodes_per_cell node numbers below N
   std::vector<int> layer;     ///< M region numbers, written as the cell field "layer"; or empty
   std::vector<FieldDescription> fields;

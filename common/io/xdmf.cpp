@@ -9,6 +9,20 @@ namespace fsi {
 
 namespace {
 
+/// XDMF's name of cells with so many nodes.
+const char* topology_of(int nodes_per_cell) {
+  switch (nodes_per_cell) {
+    case 3:
+      return "Triangle";
+    case 4:
+      return "Tetrahedron";
+    case 6:
+      return "Triangle_6";
+    default:
+      return "Tetrahedron_10";
+  }
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -40,7 +54,7 @@ std::string grid_text(const FieldGrid& grid, const FinishedStep& finished) {
       fmt::format("        <Grid Name=\"step {}\" GridType=\"Uniform\">\n          <Time Value=\"{}\"/>\n",
                   finished.step.step, finished.step.time);
   text += fmt::format("          <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n",
-                      grid.nodes_per_cell == 4 ? "Tetrahedron" : "Triangle", cells,
+                      topology_of(grid.nodes_per_cell), cells,
                       data_item(fmt::format("{} {}", cells, grid.nodes_per_cell), false, prefix + "/cells"));
   text += fmt::format("          <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
                       data_item(fmt::format("{} 3", nodes), true, prefix + "/points"));

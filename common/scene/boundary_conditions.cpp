@@ -159,7 +159,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   template FluidBoundary<Element> fluid_boundary<Element>(                                                       \
       const std::vector<OpeningData>&, const MeshOf<Element>&, const PartOf<Element>&, const FacetsOf<Element>&, \
       const PartOf<Element>*, const DirichletConditions<Element::components>*);
-FSI_INSTANTIATE(P1Tetrahedron)
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 
 }  // namespace fsi

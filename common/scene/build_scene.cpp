@@ -88,7 +88,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
 
 #define FSI_INSTANTIATE(Element) \
   template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, const MeshOf<Element>&);
-FSI_INSTANTIATE(P1Tetrahedron)
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 
 }  // namespace fsi
