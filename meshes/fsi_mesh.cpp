@@ -41,7 +41,7 @@ void require_known_extension(const std::string& file) {
 /// Prints the quality of the mesh as the solvers will see it.
 template <int Dim, int Order>
 fsi::MeshQuality report(const fsi::SimplexMesh<Dim, Order>& made, const std::string& file) {
-  const auto quality = fsi::measure_quality(fsi::read_gmsh<Dim, Order>(file, made.regions));
+  auto quality = fsi::measure_quality(fsi::read_gmsh<Dim, Order>(file, made.regions));
   fmt::print("{}: {}", file, fsi::to_text(quality));
   std::fflush(stdout);
   return quality;

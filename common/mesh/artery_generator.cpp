@@ -12,6 +12,8 @@
 #include "mesh/artery/cross_section.hpp"
 #include "mesh/artery/extrusion.hpp"
 #include "mesh/artery/graded_line.hpp"
+#include "mesh/cell_words.hpp"
+#include "mesh/group_names.hpp"
 #include "mesh/quality.hpp"
 
 namespace fsi {
@@ -93,15 +95,23 @@ class LinedUpStack {
   std::vector<double> heights_;
 };
 
-/// Dimensions that differ by many orders of magnitude give tetrahedra that rounding would turn inside out.
-void refuse_flat(const TetrahedralMesh& mesh, double least, const char* option, const char* remedy) {
+/// Dimensions that differ by many orders of magnitude give cells that rounding would turn inside out; rings that are
+/// graded closer together than their polygons allow give some that are.
+template <int Dim>
+void refuse_flat(const SimplexMesh<Dim>& mesh, const char* if_flat, const char* if_inverted, const char* remedy) {
+  constexpr double least = 1e-3;
   for (const auto& cell : mesh.cells) {
-    const double eta = mean_ratio({mesh.nodes[cell[0]], mesh.nodes[cell[1]], mesh.nodes[cell[2]], mesh.nodes[cell[3]]});
+    std::array<Point, Dim + 1> corners;
+    for (int a = 0; a <= Dim; ++a) corners[a] = mesh.nodes[cell[a]];
+    const double eta = mean_ratio(corners);
     if (!(eta >= least))
-      throw InputError("fsi-mesh", option, fmt::format("tetrahedra of mean ratio {:.3g}, flatter than {}", eta, least),
+      throw InputError("fsi-mesh", eta < 0 ? if_inverted : if_flat,
+                       fmt::format("{} of mean ratio {:.3g}, flatter than {}", CellWords<Dim>::cells, eta, least),
                        remedy);
   }
 }
+
+constexpr const char* less_flat = "choose dimensions, numbers of cells and gradings for less flat cells";
 
 std::vector<double> stations(const ArteryShape& shape, const ArteryCells& cells) {
   return graded_line(shape.length, cells.axial, 1 / cells.axial_grading);
@@ -116,7 +126,7 @@ TetrahedralMesh generate_artery(const ArteryOptions& options) {
   auto mesh = extrude(
       section, options.adventitia > 0, cells.axial, [&](int station, int i) { return stack.node(station, i); },
       [&](int a, int b, int slab) { return stack.starts_below(a, b, slab); });
-  refuse_flat(mesh, 1e-3, "--size", "choose dimensions and sizes that are nearer to each other");
+  refuse_flat(mesh, "--size", "--size", "choose dimensions and sizes that are nearer to each other");
   return mesh;
 }
 
@@ -126,7 +136,7 @@ TetrahedralMesh generate_artery(const ArteryShape& shape, const ArteryCells& cel
   auto mesh = extrude(
       section, shape.adventitia > 0, cells.axial, [&](int station, int i) { return stack.node(station, i); },
       [&](int a, int b, int slab) { return stack.starts_below(a, b, slab); });
-  refuse_flat(mesh, 1e-3, "--axial-cells", "choose dimensions, numbers of cells and gradings for less flat cells");
+  refuse_flat(mesh, "--axial-cells", "--lumen-grading", less_flat);
   return mesh;
 }
 
@@ -168,6 +178,7 @@ TriangleMesh generate_artery_section(const ArteryShape& shape, const ArteryCells
   }
   for (int k = 0; k < cells.axial; ++k) outer.facets.push_back({node(across, k), node(across, k + 1)});
   mesh.facet_groups = {inlet, outlet, ends, outer};
+  refuse_flat(mesh, "--axial-cells", "--lumen-grading", less_flat);
   return mesh;
 }
 

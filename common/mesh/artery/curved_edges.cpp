@@ -1,9 +1,12 @@
 #include "mesh/artery/curved_edges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "base/error.hpp"
+#include "mesh/curved_cells.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 
 namespace fsi {
@@ -25,6 +28,18 @@ Point curved_middle(const Point& a, const Point& b, double inner_radius) {
   return middle;
 }
 
+/// Thin cells may lie between rings of few nodes, whose quadratic arcs meet.
+void refuse_folded(const SimplexMesh<3, 2>& mesh) {
+  for (const auto& cell : mesh.cells) {
+    std::array<Point, 10> x;
+    for (std::size_t a = 0; a < x.size(); ++a) x[a] = mesh.nodes[cell[a]];
+    const auto jacobian = cell_jacobian<3>(x);
+    if (!jacobian.positive)
+      throw InputError("fsi-mesh", "--order", "a tetrahedron is " + bad_curved_cell(jacobian),
+                       "choose more cells around, or grade them less");
+  }
+}
+
 }  // namespace
 
 SimplexMesh<3, 2> with_curved_edges(const TetrahedralMesh& tube, double inner_radius) {
@@ -36,6 +51,7 @@ SimplexMesh<3, 2> with_curved_edges(const TetrahedralMesh& tube, double inner_ra
       const auto [a, b] = std::minmax(cell[edges[e][0]], cell[edges[e][1]]);
       mesh.nodes[cell[4 + e]] = curved_middle(mesh.nodes[a], mesh.nodes[b], inner_radius);
     }
+  refuse_folded(mesh);
   return mesh;
 }
 

@@ -11,8 +11,7 @@ namespace fsi {
 /// over `inner_radius`, so that edges become straight where rings have few of them. Middles of edges in the planes x = 0
 /// and y = 0 stay in them exactly.
 ///
-/// A quadratic tetrahedron is that near its straight one only if edges are short against the radius: neighbouring nodes
-/// around the axis must be less than 90 degrees apart.
+/// Throws InputError naming --order where that folds a cell: determinant of its Jacobian not positive everywhere.
 SimplexMesh<3, 2> with_curved_edges(const TetrahedralMesh& tube, double inner_radius);
 
 }  // namespace fsi

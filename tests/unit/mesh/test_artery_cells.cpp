@@ -250,12 +250,25 @@ TEST(ArteryCellsTest, RefusesWhatIsNoMesh) {
                  [](auto& c) { c.axial = std::numeric_limits<int>::max(); });
   expect_refused("fsi-mesh: --around: the cells asked for have up to 1.72e+11 nodes",
                  [](auto& c) { c.around = std::numeric_limits<int>::max(); });
+  expect_refused("fsi-mesh: --axial-cells: tetrahedra of mean ratio", [](auto& c) { c.lumen_grading = 1e5; });
+  // A ring of two cells in a quarter, inside one of three: its node at 45 degrees comes through the edge over it.
+  const auto too_close = [](auto& c) {
+    c.lumen = 2;
+    c.lumen_grading = 60;
+  };
+  expect_refused("fsi-mesh: --lumen-grading: tetrahedra of mean ratio -", too_close, 90);
   expect_refused("fsi-mesh: --sector: the planes that bound 120 degrees are not all normal to an axis", nothing, 120);
   expect_refused("fsi-mesh: --sector: 100 degrees will not do; give 90 or 180", nothing, 100);
   expect_refused("fsi-mesh: --sector: 0 degrees will not do", nothing, 0);
   expect_refused(
       "fsi-mesh: --around: 14 cells cannot be shared by 4 sectors of 90 degrees; give a multiple of 4",
       [](auto& c) { c.around = 14; }, 90);
+}
+
+TEST(ArterySection, RefusesFlatTriangles) {
+  auto shape = short_shape();
+  shape.media = 1e-9;
+  EXPECT_THROW(generate_artery_section(shape, graded_cells()), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "base/error.hpp"
 #include "mesh/artery/curved_edges.hpp"
 #include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
@@ -146,6 +147,18 @@ TEST(CurvedEdgesOrder, EdgesInsideTheLumenBecomeStraightBySquareOfRadius) {
     EXPECT_NEAR(found, 0.25 * 0.715 * (1 - std::cos(M_PI / 12)), 1e-14);
   }
   EXPECT_GT(found, 0);
+}
+
+TEST(CurvedEdgesOrder, RefusesFoldedCells) {
+  // Six cells in the first ring, twenty-four in the second, a thousandth of the radius apart.
+  const auto linear = tube(2, 1, 24, 2, 1000, 360);
+  try {
+    with_curved_edges(linear, 1.43);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("fsi-mesh: --order: a tetrahedron is folded by its curved edges"), 0u)
+        << error.what();
+  }
 }
 
 }  // namespace
