@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mesh/mid_edge_nodes.hpp"
 #include "fem/simplex_rule.hpp"
 #include "math/tensor.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 
 namespace fsi {
 
