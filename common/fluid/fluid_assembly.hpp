@@ -5,6 +5,7 @@
 #include "fem/assembly_result.hpp"
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
+#include "fem/point_tangents.hpp"
 #include "fluid/ale_fluid.hpp"
 #include "fluid/fluid_input.hpp"
 
@@ -12,24 +13,17 @@ namespace fsi {
 
 namespace detail {
 
-template <class Element, FluidDerivatives Derivatives, bool Moving>
-AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                           const FluidInput& in, double* residual, FluidJacobian<Element::components>* jacobian) {
-  constexpr int n = Element::components;
-  constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
-  // Seeds of one node, in this order: mesh displacement (if asked for), velocity, pressure.
-  constexpr int seeds = Derivatives == FluidDerivatives::none ? 0 : (domain ? 2 * n + 1 : n + 1);
-  constexpr int domain_seeds = domain ? seeds : 0;
-  constexpr int u0 = domain ? n : 0, p0 = u0 + n;
-  using T = Seeded<seeds>;
-
-  AssemblyResult result;
-  using Vector = VectorLayout<n>;
-  using Mixed = MixedLayout<n>;
+/// The fields that the fluid's weak form sees, in one pack.
+template <class Element>
+struct FluidPack {
+  static constexpr int n = Element::components;
   NodalVector<Element> d{}, d_reference{}, u{}, u_reference{}, rate{}, convection{};
   NodalScalar<Element> p{};
-  ElementRows<Element, T> rows;
-  for (const auto& pack : packs) {
+
+  template <bool Moving>
+  void gather_from(const FluidInput& in, const typename ElementPacks<Element>::ElementPack& pack) {
+    using Vector = VectorLayout<n>;
+    using Mixed = MixedLayout<n>;
     gather<Mixed>(u, pack, in.fluid);
     gather<Mixed>(u_reference, pack, in.fluid_reference);
     gather<Mixed>(p, pack, in.fluid);
@@ -43,7 +37,28 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
         convection.at[a][k] = u.at[a][k];
         if constexpr (Moving) convection.at[a][k] -= Pack(in.mesh_factor) * (d.at[a][k] - d_reference.at[a][k]);
       }
+  }
+};
 
+/// Residual and, by seeding one node after the other, derivatives.
+template <class Element, FluidDerivatives Derivatives, bool Moving>
+AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+                           const FluidInput& in, double* residual, FluidJacobian<Element::components>* jacobian) {
+  constexpr int n = Element::components;
+  constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
+  // Seeds of one node, in this order: mesh displacement (if asked for), velocity, pressure.
+  constexpr int seeds = Derivatives == FluidDerivatives::none ? 0 : (domain ? 2 * n + 1 : n + 1);
+  constexpr int domain_seeds = domain ? seeds : 0;
+  constexpr int u0 = domain ? n : 0, p0 = u0 + n;
+  using T = Seeded<seeds>;
+
+  AssemblyResult result;
+  using Mixed = MixedLayout<n>;
+  FluidPack<Element> fields;
+  const auto& [d, d_reference, u, u_reference, rate, convection, p] = fields;
+  ElementRows<Element, T> rows;
+  for (const auto& pack : packs) {
+    fields.template gather_from<Moving>(in, pack);
     constexpr int passes = seeds == 0 ? 1 : Element::nodes;  // derivatives: the unknowns of one node at a time
     for (int b = 0; b < passes; ++b) {
       integrate(
@@ -73,6 +88,70 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
   return result;
 }
 
+/// Residual and derivatives by way of the points' tangents (fem/point_tangents.hpp), for elements without
+/// stabilisation.
+template <class Element, bool Domain, bool Moving>
+AssemblyResult fluid_packs_by_points(const AleFluid& form,
+                                     const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+                                     const FluidInput& in, double* residual,
+                                     FluidJacobian<Element::components>* jacobian) {
+  constexpr int n = Element::components;
+  // Seeds at a point: of the mesh displacement, and of (u, p). Columns of a node: d_m, u, p.
+  constexpr int entries = PointEntries<Element>::count, p_seed = entries, flow_seeds = entries + 1;
+  constexpr int u0 = Domain ? n : 0, columns = u0 + n + 1;
+  struct AtPoint {
+    QuadraturePoint<Element> g;
+    PointTangent<Element, flow_seeds> by_flow;
+    PointTangent<Element, entries> by_domain;
+  };
+  AtPoint points[Element::points];
+
+  AssemblyResult result;
+  FluidPack<Element> fields;
+  ElementRows<Element, Pack> values;
+  ElementRows<Element, Dual<columns>> rows;
+  for (const auto& pack : packs) {
+    fields.template gather_from<Moving>(in, pack);
+    values.set_zero();
+    for (int q = 0; q < Element::points; ++q) {
+      auto& [g, by_flow, by_domain] = points[q];
+      g = Element::at(pack.geometry, q);
+      const Mat3<Pack> grad_d = gradient_of(fields.d, g), grad_u = gradient_of(fields.u, g);
+      const Vec3<Pack> rate = value_of(fields.rate, g), c = value_of(fields.convection, g);
+      const Pack p = value_of(fields.p, g);
+      {
+        const auto k = form.prepare(grad_d, seed_point_gradient<Element, flow_seeds, 0>(grad_u),
+                                    Vec3<Dual<flow_seeds>>{}, Unstabilised{});
+        result.include(k.volume_ratio, pack.cell.data());
+        const auto f =
+            form.integrand(k, seed_point_value<Element, flow_seeds, 0>(rate, in.fluid_factor),
+                           seed_point_value<Element, flow_seeds, 0>(c), seed_point_value<flow_seeds, p_seed>(p));
+        by_flow.set(f, g.weight);
+        values.add_sources(value_of(f), g);
+        values.add_fluxes(value_of(f), g, g.weight);
+      }
+      if constexpr (Domain) {
+        const auto k =
+            form.prepare(seed_point_gradient<Element, entries, 0>(grad_d), grad_u, Vec3<Pack>{}, Unstabilised{});
+        by_domain.set(form.integrand(k, rate, seed_point_value<Element, entries, 0>(c, -in.mesh_factor), p), g.weight);
+      }
+    }
+    scatter_residual<Element>(values, pack, residual);
+    for (int b = 0; b < Element::nodes; ++b) {
+      rows.set_zero();
+      for (const auto& [g, by_flow, by_domain] : points) {
+        if constexpr (Domain) add_vector_columns<0, 0>(rows, by_domain, g, b);
+        add_vector_columns<0, u0>(rows, by_flow, g, b);
+        add_scalar_column<p_seed, u0 + n>(rows, by_flow, g, b);
+      }
+      scatter_blocks<Element, columns, u0, n + 1>(rows, pack, b, jacobian->fluid.values.data());
+      if constexpr (Domain)
+        scatter_blocks<Element, columns, 0, n>(rows, pack, b, jacobian->shape_derivatives.values.data());
+    }
+  }
+  return result;
+}
+
 }  // namespace detail
 
 /// Adds the fluid's residual (momentum, continuity) in the mixed layout, without boundary conditions, and overwrites
@@ -89,8 +168,14 @@ AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs,
   for_each_thread(packs, serial_below, [&](int t, const auto& mine) {
     using D = FluidDerivatives;
     const auto run = [&](auto which, auto moving) {
-      results[t] = detail::fluid_packs<Element, decltype(which)::value, decltype(moving)::value>(
-          form, mine, in, residual.data(), jacobian);
+      constexpr D derived = decltype(which)::value;
+      constexpr bool is_moving = decltype(moving)::value;
+      if constexpr (Element::stabilised || derived == D::none) {
+        results[t] = detail::fluid_packs<Element, derived, is_moving>(form, mine, in, residual.data(), jacobian);
+      } else {
+        results[t] = detail::fluid_packs_by_points<Element, derived == D::fluid_and_domain, is_moving>(
+            form, mine, in, residual.data(), jacobian);
+      }
     };
     const auto with = [&](auto which) { in.mesh ? run(which, std::true_type{}) : run(which, std::false_type{}); };
     if (derivatives == D::none) with(std::integral_constant<D, D::none>{});

@@ -6,6 +6,7 @@
 #include "fem/assembly_result.hpp"
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
+#include "fem/point_tangents.hpp"
 #include "wall/hyperelastic.hpp"
 #include "wall/wall_input.hpp"
 
@@ -24,6 +25,24 @@ typename M::FibreData fibres_at(const std::vector<std::array<Fibres, Element::po
   }
 }
 
+/// The fields that the wall's weak form sees, in one pack.
+template <class Element>
+struct WallPack {
+  NodalVector<Element> d{}, acceleration{};
+  NodalScalar<Element> p{};
+
+  void gather_from(const WallInput& in, const typename ElementPacks<Element>::ElementPack& pack) {
+    constexpr int n = Element::components;
+    gather<MixedLayout<n>>(d, pack, in.wall);
+    gather<MixedLayout<n>>(p, pack, in.wall);
+    if (!in.acceleration_history) return;
+    gather<VectorLayout<n>>(acceleration, pack, in.acceleration_history);
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
+  }
+};
+
+/// Residual and, by seeding one node after the other, derivatives.
 template <class Element, bool Derivatives, class M>
 AssemblyResult layer_packs(const Hyperelastic<M>& form,
                            const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
@@ -35,18 +54,12 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
   using T = Seeded<seeds>;
 
   AssemblyResult result;
-  NodalVector<Element> d{}, acceleration{};
-  NodalScalar<Element> p{};
+  WallPack<Element> fields;
+  const auto& [d, acceleration, p] = fields;
   ElementRows<Element, T> rows;
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
-    gather<Mixed>(d, pack, in.wall);
-    gather<Mixed>(p, pack, in.wall);
-    if (in.acceleration_history) {
-      gather<VectorLayout<n>>(acceleration, pack, in.acceleration_history);
-      for (int a = 0; a < Element::nodes; ++a)
-        for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
-    }
+    fields.gather_from(in, pack);
     for (int b = 0; b < (Derivatives ? Element::nodes : 1); ++b) {
       integrate(
           rows, pack.geometry,
@@ -64,6 +77,54 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, Mixed::entries>(rows, pack, b, blocks);
+    }
+  }
+  return result;
+}
+
+/// Residual and derivatives by way of the points' tangents (fem/point_tangents.hpp), for elements without
+/// stabilisation.
+template <class Element, class M>
+AssemblyResult layer_packs_by_points(const Hyperelastic<M>& form,
+                                     const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+                                     const std::vector<std::array<Fibres, Element::points>>* fibres,
+                                     const WallInput& in, double* residual, double* blocks) {
+  constexpr int n = Element::components, p_seed = PointEntries<Element>::count, seeds = p_seed + 1, columns = n + 1;
+  struct AtPoint {
+    QuadraturePoint<Element> g;
+    PointTangent<Element, seeds> tangent;
+  };
+  AtPoint points[Element::points];
+
+  AssemblyResult result;
+  WallPack<Element> fields;
+  ElementRows<Element, Pack> values;
+  ElementRows<Element, Dual<columns>> rows;
+  for (std::size_t index = 0; index < packs.size(); ++index) {
+    const auto& pack = packs[index];
+    fields.gather_from(in, pack);
+    values.set_zero();
+    for (int q = 0; q < Element::points; ++q) {
+      auto& [g, tangent] = points[q];
+      g = Element::at(pack.geometry, q);
+      const auto k = form.prepare(seed_point_gradient<Element, seeds, 0>(gradient_of(fields.d, g)), Vec3<Dual<seeds>>{},
+                                  Unstabilised{});
+      result.include(value_of(k.volume_ratio), pack.cell.data());
+      const auto f = form.integrand(
+          k, seed_point_value<Element, seeds, 0>(value_of(fields.acceleration, g), in.acceleration_factor),
+          seed_point_value<seeds, p_seed>(value_of(fields.p, g)), fibres_at<Element, M>(fibres, index, q));
+      tangent.set(f, g.weight);
+      values.add_sources(value_of(f), g);
+      values.add_fluxes(value_of(f), g, g.weight);
+    }
+    scatter_residual<Element>(values, pack, residual);
+    for (int b = 0; b < Element::nodes; ++b) {
+      rows.set_zero();
+      for (const auto& [g, tangent] : points) {
+        add_vector_columns<0, 0>(rows, tangent, g, b);
+        add_scalar_column<p_seed, n>(rows, tangent, g, b);
+      }
+      scatter_blocks<Element, columns, 0, columns>(rows, pack, b, blocks);
     }
   }
   return result;
@@ -89,10 +150,15 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
           const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
           for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
             const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
-            results[t] = jacobian
-                             ? detail::layer_packs<Element, true>(form, mine, fibres, in, residual.data(),
-                                                                  jacobian->values.data())
-                             : detail::layer_packs<Element, false>(form, mine, fibres, in, residual.data(), nullptr);
+            double* rows = residual.data();
+            if (!jacobian) {
+              results[t] = detail::layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
+            } else if constexpr (Element::stabilised) {
+              results[t] = detail::layer_packs<Element, true>(form, mine, fibres, in, rows, jacobian->values.data());
+            } else {
+              results[t] =
+                  detail::layer_packs_by_points<Element>(form, mine, fibres, in, rows, jacobian->values.data());
+            }
           });
           all.include(reduced(results));
         },

@@ -1,0 +1,89 @@
+// Every block of the Jacobians of fluid, wall and mesh motion against central differences, for every element, at
+// deformed, moving, flowing states on meshes whose quadratic edges are curved.
+
+#include <gtest/gtest.h>
+
+#include "fem/elements.hpp"
+#include "fem/function_space.hpp"
+#include "sub_problem_jacobians.hpp"
+#include "support/element_meshes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+template <class Element>
+class EveryElement : public testing::Test {
+ protected:
+  static constexpr int side = Element::order == 1 ? 3 : (Element::dim == 3 ? 1 : 2);
+
+  static auto mesh(const std::string& region) {
+    auto mesh = irregular_mesh<Element>(side, region);
+    curve<Element>(mesh, 0.05);
+    return mesh;
+  }
+};
+
+using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
+                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
+struct Names {
+  template <class Element>
+  static std::string GetName(int) {
+    return std::string(Element::order == 1 ? "P1" : "P2P1") + (Element::dim == 3       ? "Tetrahedron"
+                                                               : Element::axisymmetric ? "AxisymmetricTriangle"
+                                                                                       : "PlaneTriangle");
+  }
+};
+TYPED_TEST_SUITE(EveryElement, Elements, Names);
+
+TYPED_TEST(EveryElement, FluidJacobianIsTheDerivativeOfTheResidual) {
+  using Element = TypeParam;
+  const auto mesh = this->mesh("fluid");
+  FluidProblem<Element> fluid(whole(mesh), strongly_coupled_fluid(Element::stabilised), {});
+  check_fluid_blocks(fluid, FluidState<Element>(mesh.nodes), "fluid", {1});
+}
+
+TYPED_TEST(EveryElement, WallJacobianIsTheDerivativeOfTheResidualForEveryMaterial) {
+  using Element = TypeParam;
+  constexpr int n = Element::components;
+  // A stretch across the fibres tightens or slackens all of them, so that none is at the kink of its law. The axis of
+  // cubes and squares passes beside them.
+  for (const auto& [name, layer, stretch] :
+       {std::tuple{"neo-Hookean", Material{NeoHookean{3}}, 1.2},
+        std::tuple{"Mooney-Rivlin", Material{MooneyRivlin{3, 0.3}}, 1.2},
+        std::tuple{"artery, tight", Material{Artery{3, 2.3632, 0.8393, 1, 29}}, Element::axisymmetric ? 1.3 : 0.7}}) {
+    const auto mesh = this->mesh("media");
+    WallProblem<Element> wall(whole(mesh), {1.2, 50.0, 0.5}, {{0, layer}}, {{{-2, 0.5, 0}}, {{0, 0, 1}}});
+    auto solution = random_field(mesh.nodes, n + 1, 0.05, 0.01, 21);
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+      const double others = Element::axisymmetric ? 0.7 : std::pow(stretch, -1.0 / (Element::dim - 1));
+      for (int k = 0; k < n; ++k)
+        solution[(n + 1) * a + k] += ((k == 0 ? stretch : others) - 1) * mesh.nodes[a][Element::axis[k]];
+      solution[(n + 1) * a + n] *= 20;  // kPa
+    }
+    check_wall_blocks(wall, solution, random_field(mesh.nodes, n, 10.0, 1.0, 22), 16.0, 0.0, name, {1});
+  }
+}
+
+TYPED_TEST(EveryElement, MeshMotionsOperatorIsTheDerivativeOfItsWeakForm) {
+  using Element = TypeParam;
+  constexpr int n = Element::components;
+  const auto mesh = this->mesh("fluid");
+  const auto part = whole(mesh);
+  const auto space = function_space<Element>(part);
+  const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *space.graph());
+  MeshMotionMatrix<n> matrix(space.graph());
+  assemble_mesh_motion(packs, matrix);
+  const auto state = random_field(mesh.nodes, n, 0.3, 0.1, 41), direction = random_field(mesh.nodes, n, 0.3, 0.1, 42);
+  std::vector<double> product(direction.size());
+  multiply_mesh_motion<n>(matrix, direction, product);
+  expect_exact(central_differences(
+      "mesh motion", [&](double t) { return mesh_motion_residual<Element>(packs, moved(state, t, direction)); },
+      product));
+}
+
+}  // namespace
+
+}  // namespace fsi::test
