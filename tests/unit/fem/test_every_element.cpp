@@ -1,0 +1,204 @@
+// What every element promises: shape functions, rules that are exact to their degree and no further, geometry of curved
+// edges, facets whose normals close.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/elements.hpp"
+#include "fem/facet_load.hpp"
+#include "mesh/facets.hpp"
+#include "support/element_meshes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double factorial(int n) {
+  return std::tgamma(n + 1.0);
+}
+
+/// Mean over a simplex of l_0^i l_1^j l_2^k l_3^m: d! i! j! k! m! / (i + j + k + m + d)!.
+double mean_of_monomial(const std::vector<int>& power) {
+  const int d = static_cast<int>(power.size()) - 1;
+  double value = factorial(d);
+  int degree = d;
+  for (int p : power) {
+    value *= factorial(p);
+    degree += p;
+  }
+  return value / factorial(degree);
+}
+
+/// The largest error of a rule for monomials of a degree.
+template <int Vertices, int Points>
+double rule_error(const SimplexRule<Vertices, Points>& rule, int degree) {
+  double worst = 0;
+  std::vector<int> power(Vertices, 0);
+  const auto over = [&](const auto& self, int vertex, int left) -> void {
+    if (vertex + 1 < Vertices) {
+      for (power[vertex] = 0; power[vertex] <= left; ++power[vertex]) self(self, vertex + 1, left - power[vertex]);
+      return;
+    }
+    power[vertex] = left;
+    double sum = 0;
+    for (int q = 0; q < Points; ++q) {
+      double value = rule.weight[q];
+      for (int v = 0; v < Vertices; ++v) value *= std::pow(rule.point[q][v], power[v]);
+      sum += value;
+    }
+    worst = std::max(worst, std::abs(sum - mean_of_monomial(power)));
+  };
+  over(over, 0, degree);
+  return worst;
+}
+
+template <int Vertices, int Points>
+void expect_degree(const SimplexRule<Vertices, Points>& rule, int degree) {
+  for (int k = 0; k <= degree; ++k) EXPECT_LT(rule_error(rule, k), 3e-16) << Points << " points, degree " << k;
+  EXPECT_GT(rule_error(rule, degree + 1), 1e-6) << Points << " points: the test must see an error";
+  for (int q = 0; q < Points; ++q) {
+    EXPECT_GT(rule.weight[q], 0);
+    for (double l : rule.point[q]) EXPECT_TRUE(l > 0 && l < 1) << "inside: off the axis of a body of revolution";
+  }
+}
+
+TEST(SimplexRules, AreExactToTheirDegreeAndNoFurther) {
+  expect_degree(line_rule_3(), 3);
+  expect_degree(line_rule_5(), 5);
+  expect_degree(line_rule_7(), 7);
+  expect_degree(triangle_rule_2(), 2);
+  expect_degree(triangle_rule_4(), 4);
+  expect_degree(triangle_rule_5(), 5);
+  expect_degree(triangle_rule_6(), 6);
+  expect_degree(tetrahedron_rule_5(), 5);
+}
+
+template <class Element>
+class EveryElement : public testing::Test {
+ protected:
+  /// One that is not regular, with curved edges where they can be; off the axis.
+  static auto geometry(double curved, std::array<Point, Element::nodes>& x) {
+    auto mesh = irregular_mesh<Element>(1);
+    curve<Element>(mesh, curved);
+    Vec3<Pack> nodes[Element::nodes];
+    for (int a = 0; a < Element::nodes; ++a) {
+      x[a] = mesh.nodes[mesh.cells[0][a]];
+      for (int i = 0; i < 3; ++i) nodes[a][i] = Pack(x[a][i]);
+    }
+    return Element::geometry(nodes);
+  }
+};
+using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
+                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
+TYPED_TEST_SUITE(EveryElement, Elements);
+
+TYPED_TEST(EveryElement, InterpolatesPolynomialsOfItsOrderWithTheirGradients) {
+  using Element = TypeParam;
+  std::array<Point, Element::nodes> x;
+  const auto geometry = this->geometry(0, x);
+  constexpr int first = Element::axis[0], second = Element::axis[1], last = Element::axis[Element::dim - 1];
+  const double bend = Element::order == 2 ? 1 : 0;
+  const auto f = [&](const Point& at) {
+    return 1 + at[first] - 2 * at[second] + 0.5 * at[last] +
+           bend * (at[first] * at[last] - 3 * at[second] * at[second]);
+  };
+  const auto gradient = [&](const Point& at) {
+    Point g{};
+    g[first] += 1 + bend * at[last];
+    g[second] += -2 - bend * 6 * at[second];
+    g[last] += 0.5 + bend * at[first];
+    return g;
+  };
+  for (int q = 0; q < Element::points; ++q) {
+    const auto g = Element::at(geometry, q);
+    Point at{}, slope{}, linear_slope{};
+    double value = 0, linear = 0, hoop = 0;
+    for (int a = 0; a < Element::nodes; ++a) {
+      for (int i = 0; i < 3; ++i) at[i] += g.vectors().value[a] * x[a][i];
+      for (int i = 0; i < 3; ++i) slope[i] += g.vectors().gradient[a][i][0] * f(x[a]);
+      value += g.vectors().value[a] * f(x[a]);
+      if constexpr (Element::axisymmetric) hoop += g.vectors().hoop[a][0] * f(x[a]);
+    }
+    for (int a = 0; a < Element::scalar_nodes; ++a) {
+      linear += g.scalars().value[a] * x[a][second];
+      for (int i = 0; i < 3; ++i) linear_slope[i] += g.scalars().gradient[a][i][0] * x[a][second];
+    }
+    EXPECT_NEAR(value, f(at), 1e-14);
+    EXPECT_NEAR(linear, at[second], 1e-15);
+    if constexpr (Element::axisymmetric) {
+      EXPECT_NEAR(hoop, f(at) / at[0], 1e-14);
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(slope[i], gradient(at)[i], 1e-13);
+      EXPECT_NEAR(linear_slope[i], i == second, 1e-14);
+    }
+  }
+}
+
+// Gauss's theorem over one cell, for the field (first coordinate, 0, 0), in a body of revolution with u_r / r: the
+// volume twice over. Weights, gradients, hoop terms, facets and their orientation must agree, curved edges included.
+TYPED_TEST(EveryElement, VolumeIsTheFlowThroughItsFacets) {
+  using Element = TypeParam;
+  constexpr int dim = Element::dim;
+  for (const double curved : {0.0, 0.1}) {
+    std::array<Point, Element::nodes> x;
+    const auto geometry = this->geometry(curved, x);
+    double divergence = 0, volume = 0;
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(geometry, q);
+      volume += g.weight[0];
+      for (int a = 0; a < Element::nodes; ++a) {
+        divergence += (g.weight * g.vectors().gradient[a][0])[0] * x[a][0];
+        if constexpr (Element::axisymmetric) divergence += (g.weight * g.vectors().hoop[a])[0] * x[a][0];
+      }
+    }
+    typename SimplexMesh<dim, Element::order>::Cell cell;
+    for (int a = 0; a < Element::nodes; ++a) cell[a] = a;
+    std::vector<Point> nodes(x.begin(), x.end());
+    double flow = 0;
+    using Facet = typename Element::Facet;
+    for (const auto& facet : outward_facets<dim, Element::order>(cell)) {
+      Vec3<Pack> corner[Facet::nodes];
+      facet_corners<Facet>(nodes, facet, corner);
+      for (int q = 0; q < Facet::points; ++q) {
+        const auto normal = Facet::weighted_normal(corner, q);
+        for (int a = 0; a < Facet::nodes; ++a) flow += Facet::shape(q, a) * x[facet[a]][0] * normal[0][0];
+      }
+    }
+    EXPECT_GT(volume, 0);
+    EXPECT_NEAR(divergence, (Element::axisymmetric ? 2 : 1) * volume, 1e-13);
+    EXPECT_NEAR(flow, divergence, 1e-13);
+  }
+}
+
+// A ring of straight edges has the volume of Pappus; a cylinder's, with an edge on the axis, that of the book.
+TEST(BodiesOfRevolution, HaveTheirVolumeAlsoAtTheAxis) {
+  const auto volume = [](auto element, double inner) {
+    using Element = decltype(element);
+    const auto mesh = irregular_mesh<Element>(3, "fluid", inner);
+    double sum = 0;
+    for (const auto& cell : mesh.cells) {
+      Vec3<Pack> x[Element::nodes];
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int i = 0; i < 3; ++i) x[a][i] = Pack(mesh.nodes[cell[a]][i]);
+      const auto geometry = Element::geometry(x);
+      for (int q = 0; q < Element::points; ++q) {
+        const auto g = Element::at(geometry, q);
+        sum += g.weight[0];
+        for (int a = 0; a < Element::nodes; ++a) EXPECT_TRUE(std::isfinite(g.vectors().hoop[a][0]));
+      }
+    }
+    return sum;
+  };
+  EXPECT_NEAR(volume(P1AxisymmetricTriangle{}, 0), pi, 1e-13);
+  EXPECT_NEAR(volume(P2P1AxisymmetricTriangle{}, 0), pi, 1e-13);
+  EXPECT_NEAR(volume(P1AxisymmetricTriangle{}, 1), 3 * pi, 1e-13);
+  EXPECT_NEAR(volume(P2P1AxisymmetricTriangle{}, 1), 3 * pi, 1e-13);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
