@@ -45,7 +45,7 @@ Assembled assemble_with(int thread_count) {
   assemble_mesh_motion(fluid.packs(), matrix);
   all.mesh_matrix = matrix.values;
   all.mesh_product.resize(d.size());
-  multiply_mesh_motion<Tet>(matrix, d, all.mesh_product);
+  multiply_mesh_motion<3>(matrix, d, all.mesh_product);
   return all;
 }
 
@@ -142,8 +142,9 @@ TEST(FacetIntegrals, FlowAndMeanPressureOfOpenFaces) {
   const auto mesh = irregular_cube(3);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
   const auto outlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 1; });
-  const FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1},
-                                {{"inlet", mesh.nodes, inlet}, {"outlet", mesh.nodes, outlet}});
+  const FluidProblem<Tet> fluid(
+      whole(mesh), {1, 0.1, false, 0.1},
+      {open_boundary<Tet>("inlet", mesh.nodes, inlet), open_boundary<Tet>("outlet", mesh.nodes, outlet)});
   std::vector<double> flow;
   for (const auto& x : mesh.nodes)
     for (double value : {2 + x[1] + x[0], 5.0, -3.0, 1 + x[1] + 2 * x[2] + 4 * x[0]}) flow.push_back(value);
@@ -158,7 +159,7 @@ TEST(FacetIntegrals, FlowAndMeanPressureOfOpenFaces) {
 TEST(FacetIntegrals, InletTractionPushesInwards) {
   const auto mesh = irregular_cube(3);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
-  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1}, {{"inlet", mesh.nodes, inlet}});
+  FluidProblem<Tet> fluid(whole(mesh), {1, 0.1, false, 0.1}, {open_boundary<Tet>("inlet", mesh.nodes, inlet)});
   const std::vector<double> rest(4 * mesh.nodes.size(), 0.0);
   std::vector<double> r;
   fluid.assemble(euler_input(nullptr, nullptr, rest, rest, 0.1), {3.0}, r);

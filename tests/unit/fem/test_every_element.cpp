@@ -1,5 +1,5 @@
 // What every element promises: shape functions, rules that are exact to their degree and no further, geometry of curved
-// edges, facets whose normals close.
+// edges, facets that close, fibre directions.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,10 @@
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
+#include "fem/function_space.hpp"
 #include "mesh/facets.hpp"
 #include "support/element_meshes.hpp"
+#include "wall/fibre_directions.hpp"
 
 namespace fsi::test {
 
@@ -197,6 +199,52 @@ TEST(BodiesOfRevolution, HaveTheirVolumeAlsoAtTheAxis) {
   EXPECT_NEAR(volume(P2P1AxisymmetricTriangle{}, 0), pi, 1e-13);
   EXPECT_NEAR(volume(P1AxisymmetricTriangle{}, 1), 3 * pi, 1e-13);
   EXPECT_NEAR(volume(P2P1AxisymmetricTriangle{}, 1), 3 * pi, 1e-13);
+}
+
+template <class Element>
+FibreField<Element> fibres_of(const SimplexMesh<2, Element::order>& mesh, const CylinderAxis& axis, double angle) {
+  const auto part = whole(mesh);
+  const auto space = function_space<Element>(part);
+  const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *space.graph());
+  return fibre_directions(packs, part.nodes, part.cells, axis, angle);
+}
+
+// Mirror images of each other in the plane of the coordinates, the same at all points, whatever axis is given.
+TEST(Fibres, OfABodyOfRevolutionAreConstant) {
+  const double angle = 0.5;
+  const auto fibres = fibres_of<P2P1AxisymmetricTriangle>(irregular_mesh<P2P1AxisymmetricTriangle>(2),
+                                                          {{{3, 4, 5}}, {{1, 0, 0}}}, angle);
+  for (const auto& pack : fibres[0])
+    for (const auto& point : pack)
+      for (int family = 0; family < 2; ++family) {
+        EXPECT_EQ(point.direction[family][0][0], 0);
+        EXPECT_NEAR(point.direction[family][1][0], std::cos(angle), 1e-15);
+        EXPECT_NEAR(point.direction[family][2][0], (family == 0 ? 1 : -1) * std::sin(angle), 1e-15);
+      }
+}
+
+// About an axis upright on the plane: the projection is along the circumference and has the length cos(angle).
+TEST(Fibres, OfAPlaneTurnAboutTheAxis) {
+  using Element = P2P1PlaneTriangle;
+  const double angle = 0.5;
+  auto mesh = irregular_mesh<Element>(1);
+  curve<Element>(mesh, 0.1);
+  const auto fibres = fibres_of<Element>(mesh, {{{-1, -2, 0}}, {{0, 0, 1}}}, angle);
+  for (int q = 0; q < Element::points; ++q) {
+    double x = 1, y = 2;
+    for (int a = 0; a < Element::nodes; ++a) {
+      const double shape = Element::Shapes::shape(Element::rule.point[q], a);
+      x += shape * mesh.nodes[mesh.cells[0][a]][0];
+      y += shape * mesh.nodes[mesh.cells[0][a]][1];
+    }
+    const double r = std::hypot(x, y);
+    for (int family = 0; family < 2; ++family) {
+      const auto& a = fibres[0][0][q].direction[family];
+      EXPECT_NEAR(a[0][0], -std::cos(angle) * y / r, 1e-15);
+      EXPECT_NEAR(a[1][0], std::cos(angle) * x / r, 1e-15);
+      EXPECT_NEAR(a[2][0], (family == 0 ? 1 : -1) * std::sin(angle), 1e-15);
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,97 @@
+// Patch states of every element on meshes with curved edges: the residual of a state of constant stress vanishes in the
+// rows of inner nodes, to rounding, and not on the boundary, where it is the traction.
+
+#include <gtest/gtest.h>
+
+#include "fem/elements.hpp"
+#include "fluid/fluid_problem.hpp"
+#include "support/element_meshes.hpp"
+#include "support/nodal_arrays.hpp"
+#include "support/problems.hpp"
+#include "support/random.hpp"
+#include "wall/wall_problem.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+/// Largest momentum residual in the rows of inner nodes and of nodes on the boundary, by the straight mesh.
+template <class Element, class Mesh>
+std::pair<double, double> inside_and_outside(const Mesh& straight, const std::vector<double>& residual) {
+  constexpr int n = Element::components;
+  double inside = 0, outside = 0;
+  for (std::size_t a = 0; a < straight.nodes.size(); ++a) {
+    bool boundary = false;
+    for (int i : Element::axis) {
+      const double x = straight.nodes[a][i] - (Element::axisymmetric && i == 0 ? 1 : 0);
+      boundary = boundary || x < 1e-9 || x > 1 - 1e-9;
+    }
+    for (int k = 0; k < n; ++k) {
+      const double r = std::abs(residual[MixedLayout<n>::vector(static_cast<int>(a), k)]);
+      (boundary ? outside : inside) = std::max(boundary ? outside : inside, r);
+    }
+  }
+  return {inside, outside};
+}
+
+template <class Element>
+class EveryElement : public testing::Test {
+ protected:
+  static constexpr int side = Element::order == 1 ? 3 : 2;
+};
+using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
+                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
+TYPED_TEST_SUITE(EveryElement, Elements);
+
+// A homogeneous deformation (in a body of revolution with equal radial and hoop stretch) with p = -kappa (J - 1).
+TYPED_TEST(EveryElement, WallIsInEquilibriumInHomogeneousStretch) {
+  using Element = TypeParam;
+  constexpr int n = Element::components;
+  const auto straight = irregular_mesh<Element>(this->side, "media");
+  auto mesh = straight;
+  curve<Element>(mesh, 0.05);
+  const double kappa = 50, stretch[3] = {1.2, 0.9, 1.05}, shear = Element::axisymmetric ? 0 : 0.15;
+  double ratio = Element::axisymmetric ? stretch[0] : 1;
+  for (int k = 0; k < n; ++k) ratio *= stretch[k];
+  for (const Material& layer : {Material{NeoHookean{3}}, Material{MooneyRivlin{3, 0.3}}}) {
+    WallProblem<Element> wall(whole(mesh), {1.2, kappa, 0.5}, {{0, layer}}, {});
+    std::vector<double> state(MixedLayout<n>::size(wall.node_count()), 0.0), residual;
+    for (int a = 0; a < wall.node_count(); ++a) {
+      const Point& x = mesh.nodes[a];
+      for (int k = 0; k < n; ++k)
+        state[MixedLayout<n>::vector(a, k)] =
+            (stretch[k] - 1) * x[Element::axis[k]] + (k == 0 ? shear * x[Element::axis[1]] : 0.1);
+      state[MixedLayout<n>::scalar(a)] = -kappa * (ratio - 1);
+    }
+    wall.assemble({state.data(), nullptr, 0.0}, 0.0, state, residual);
+    const auto [inside, outside] = inside_and_outside<Element>(straight, residual);
+    EXPECT_LT(inside, 1e-13 * outside);
+    EXPECT_GT(outside, 0.1);
+    EXPECT_LT(largest(only(residual, n + 1, n, 1)), 1e-13) << "volume";
+  }
+}
+
+// Fluid at rest under constant pressure, on a mesh that has moved anyhow.
+TYPED_TEST(EveryElement, FluidAtRestBearsConstantPressureOnAMovedMesh) {
+  using Element = TypeParam;
+  constexpr int n = Element::components;
+  const auto straight = irregular_mesh<Element>(this->side);
+  auto mesh = straight;
+  curve<Element>(mesh, 0.05);
+  FluidProblem<Element> fluid(whole(mesh), {1.2, 0.05, false, 0.5}, {});
+  const auto d = random_field(mesh.nodes, n, 0.1, 0.02, 1);
+  std::vector<double> flow(MixedLayout<n>::size(fluid.node_count()), 0.0), residual;
+  for (int a = 0; a < fluid.node_count(); ++a) flow[MixedLayout<n>::scalar(a)] = 1.3;
+  FluidInput in = euler_input(&d, &d, flow, flow, 0.5);
+  ASSERT_FALSE(fluid.assemble(in, {}, residual).inverted());
+  const auto [inside, outside] = inside_and_outside<Element>(straight, residual);
+  EXPECT_LT(inside, 1e-13 * outside);
+  EXPECT_GT(outside, 0.01);
+  EXPECT_LT(largest(only(residual, n + 1, n, 1)), 1e-14) << "continuity";
+}
+
+}  // namespace
+
+}  // namespace fsi::test
