@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/p1_axisymmetric_triangle.hpp"
+#include "fem/p1_triangle.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "system/newton_stepper.hpp"
 #include "time/euler_newmark.hpp"

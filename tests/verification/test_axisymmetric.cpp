@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "fem/p1_axisymmetric_triangle.hpp"
+#include "fem/p1_triangle.hpp"
 #include "sub_problem_jacobians.hpp"
 #include "support/meshes.hpp"
 #include "support/problems.hpp"

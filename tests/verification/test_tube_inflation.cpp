@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "fem/p1_triangle.hpp"
 #include "inflated_tube.hpp"
 #include "scene/build_scene.hpp"
 #include "support/errors.hpp"

@@ -6,8 +6,8 @@
 
 #include "base/threads.hpp"
 #include "condensed_solver/fast_solver.hpp"
-#include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "fem/p1_triangle.hpp"
 #include "mesh/artery_generator.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"

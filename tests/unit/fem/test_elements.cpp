@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fem/facet_load.hpp"
-#include "fem/p1_axisymmetric_triangle.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "fem/p1_triangle.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {

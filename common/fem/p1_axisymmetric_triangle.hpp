@@ -1,3 +1,0 @@
-#pragma once
-
-#include "fem/p1_triangle.hpp"
