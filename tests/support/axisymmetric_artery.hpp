@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "fem/p1_triangle.hpp"
+#include "fluid/fluid_problem.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "system/newton_stepper.hpp"
 #include "time/euler_newmark.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi::testing {
 

@@ -40,19 +40,16 @@ void drop_some(const UnknownMap& map, bool vectors, bool scalars, double share, 
 }
 
 /// The coupled system of a scene linearised at a random state, single unknowns left out.
-template <class Element>
+template <int n>
 class PartlyFixedSystem {
  public:
-  static constexpr int n = Element::components;
-
-  PartlyFixedSystem(Scene<Element::components>& scene, Numbering numbering, bool vectors, bool scalars,
-                    double share = 0.2) {
+  PartlyFixedSystem(Scene<n>& scene, Numbering numbering, bool vectors, bool scalars, double share = 0.2) {
     Random random(5);
     std::vector<char> dropped(static_cast<std::size_t>(numbering.size), 0);
     drop_some<n>(numbering.fluid, vectors, scalars, share, random, dropped);
     drop_some<n>(numbering.wall, vectors, scalars, share, random, dropped);
     numbering = without_unknowns(numbering, [&](std::int64_t i) { return dropped[i] != 0; });
-    system_ = std::make_unique<System<Element::components>>("coupled", scene, std::move(numbering));
+    system_ = std::make_unique<System<n>>("coupled", scene, std::move(numbering));
     State state = scene.at_rest();
     StepData data;
     data.rates = scene.integrator->rates(state, 0.125);
@@ -66,16 +63,16 @@ class PartlyFixedSystem {
     system_->evaluate();
     system_->linearise();
     for (std::int64_t i = 0; i < system_->numbering().size; ++i) b.push_back(random());
-    DirectLinearSolver<Element::components> direct(blocks());
+    DirectLinearSolver<n> direct(blocks());
     direct.update();
     direct.solve(b, 0, solution);
   }
 
-  JacobianBlocks<Element::components> blocks() { return system_->blocks(); }
+  JacobianBlocks<n> blocks() { return system_->blocks(); }
   std::vector<double> b, solution;  ///< random, and J^-1 b by sparse factorisation
 
  private:
-  std::unique_ptr<System<Element::components>> system_;
+  std::unique_ptr<System<n>> system_;
 };
 
 }  // namespace fsi::test

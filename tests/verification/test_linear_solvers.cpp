@@ -26,24 +26,24 @@ Case artery_case(const std::string& material) {
 }
 
 /// A Newton system of the artery, made once per set of arguments.
-LinearisedScene<P1Tetrahedron>& artery_system(const std::string& material, const std::string& level, int finished_steps,
-                                              int iteration) {
+LinearisedScene<3>& artery_system(const std::string& material, const std::string& level, int finished_steps,
+                                  int iteration) {
   struct Made {
     std::unique_ptr<Scene<3>> scene;
-    std::unique_ptr<LinearisedScene<P1Tetrahedron>> system;
+    std::unique_ptr<LinearisedScene<3>> system;
   };
   static std::map<std::string, Made> made;
   auto& entry = made[material + level + std::to_string(finished_steps) + ":" + std::to_string(iteration)];
   if (!entry.system) {
     const Case setup = artery_case(material);
     entry.scene = build_scene<P1Tetrahedron>(setup, generate_artery(artery_level(level)));
-    entry.system = std::make_unique<LinearisedScene<P1Tetrahedron>>(setup, *entry.scene, finished_steps, iteration);
+    entry.system = std::make_unique<LinearisedScene<3>>(setup, *entry.scene, finished_steps, iteration);
   }
   return *entry.system;
 }
 
 /// Second Newton system of the step to t = 1.5 ms: shape derivatives, convection and fibres are all there.
-LinearisedScene<P1Tetrahedron>& deformed(const std::string& material, const std::string& level = "coarse") {
+LinearisedScene<3>& deformed(const std::string& material, const std::string& level = "coarse") {
   return artery_system(material, level, 11, 2);
 }
 
@@ -52,9 +52,9 @@ struct Outcome {
   std::vector<double> x;
 };
 
-template <class Element>
-Outcome solve(LinearisedScene<Element>& system, const std::string& name) {
-  const auto solver = make_linear_solver<Element>(name, system.setup(), system.blocks());
+template <int n>
+Outcome solve(LinearisedScene<n>& system, const std::string& name) {
+  const auto solver = make_linear_solver<n>(name, system.setup(), system.blocks());
   solver->update();
   Outcome outcome;
   outcome.report = solver->solve(system.b(), tolerance, outcome.x);
@@ -63,8 +63,8 @@ Outcome solve(LinearisedScene<Element>& system, const std::string& name) {
   return outcome;
 }
 
-template <class Element>
-void expect_solution(LinearisedScene<Element>& system, const std::string& name) {
+template <int n>
+void expect_solution(LinearisedScene<n>& system, const std::string& name) {
   auto x = solve(system, name).x;
   axpy(-1, system.solution(), x);
   EXPECT_LT(norm(x), 1e-7 * norm(system.solution())) << name;
@@ -78,7 +78,7 @@ TEST_P(EveryLinearSolver, AgreesWithTheFactorisationOfADeformedArtery) {
 
 TEST_P(EveryLinearSolver, SolvesTheAxisymmetricArteryToo) {
   static fsi::testing::AxisymmetricArtery artery("artery", 1);
-  static LinearisedScene<P1AxisymmetricTriangle> system(
+  static LinearisedScene<2> system(
       [] {
         Case setup = artery.setup();
         setup.monolithic.multigrid.coarsening.coarsest_nodes = 60;  // of 300: three levels
@@ -132,7 +132,7 @@ TEST(CoupledMultigrid, UndampedSmootherDiverges) {
   Case setup = system.setup();
   setup.monolithic.multigrid.smoothing.damping = 1;
   setup.monolithic.krylov.max_iterations = 30;
-  const auto solver = make_linear_solver<P1Tetrahedron>("amg", setup, system.blocks());
+  const auto solver = make_linear_solver<3>("amg", setup, system.blocks());
   solver->update();
   std::vector<double> x;
   EXPECT_FALSE(solver->solve(system.b(), tolerance, x).converged);

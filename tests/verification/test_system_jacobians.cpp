@@ -12,6 +12,7 @@
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
 #include "system/system.hpp"
+#include "wall/wall_problem.hpp"
 
 namespace fsi::test {
 

@@ -35,12 +35,12 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 }
 
 /// A short, coarse artery of fibred wall in its third step: every block of the Jacobian is there.
-LinearisedScene<Tet>& artery() {
-  static LinearisedScene<Tet> scene = [] {
+LinearisedScene<3>& artery() {
+  static LinearisedScene<3> scene = [] {
     auto setup = coupled_case("artery");
     ArteryOptions options;
     options.length = 6;
-    return LinearisedScene<Tet>(setup, build_scene<P1Tetrahedron>(setup, generate_artery(options)), 2);
+    return LinearisedScene<3>(setup, build_scene<P1Tetrahedron>(setup, generate_artery(options)), 2);
   }();
   return scene;
 }
@@ -120,9 +120,9 @@ TEST(FastSolver, SameBitsForAnyNumberOfThreads) {
 }
 
 /// A sub-problem of the artery under its own numbering, assembled at the coupled state.
-template <class Element>
-void expect_sub_problem_solved(Scene<Element::components>& scene, Numbering numbering, int most_iterations) {
-  System<Element::components> system("part", scene, std::move(numbering));
+template <int n>
+void expect_sub_problem_solved(Scene<n>& scene, Numbering numbering, int most_iterations) {
+  System<n> system("part", scene, std::move(numbering));
   State state = scene.at_rest();
   StepData data;
   data.rates = scene.integrator->rates(state, 0.125);
@@ -131,11 +131,11 @@ void expect_sub_problem_solved(Scene<Element::components>& scene, Numbering numb
   system.work_on(state, data);
   system.evaluate();
   system.linearise();
-  DirectLinearSolver<Element::components> direct(system.blocks());
+  DirectLinearSolver<n> direct(system.blocks());
   direct.update();
   std::vector<double> expected, x;
   direct.solve(system.residual(), 0, expected);
-  FastSolver<Element::components> solver(system.blocks(), iterative());
+  FastSolver<n> solver(system.blocks(), iterative());
   solver.update();
   const auto report = solver.solve(system.residual(), 1e-10, x);
   EXPECT_TRUE(report.converged);
@@ -159,7 +159,7 @@ TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
   ArteryOptions options;
   options.length = 6;
   const auto parts = build_scene<P1Tetrahedron>(setup, generate_artery(options));
-  LinearisedScene<Tet> scene(setup, *parts, 0, 1);
+  LinearisedScene<3> scene(setup, *parts, 0, 1);
   FastSolver<3> solver(scene.blocks(), iterative());
   solver.update();
   std::vector<double> x;
@@ -196,7 +196,7 @@ TEST(FastSolver, SolvesAStaticWallOnAFinerMeshInAboutAsManyIterations) {
 
 /// Nodes that are held in some components only, and nodes without pressure.
 void expect_partly_fixed_solved(Numbering numbering, bool vectors, bool scalars, int most_iterations) {
-  PartlyFixedSystem<Tet> system(artery().scene(), std::move(numbering), vectors, scalars);
+  PartlyFixedSystem<3> system(artery().scene(), std::move(numbering), vectors, scalars);
   FastSolver<3> solver(system.blocks(), iterative());
   solver.update();
   std::vector<double> x;
@@ -222,7 +222,7 @@ TEST(FastSolver, NodesOfThePartsHeldInOneComponentAndWithoutPressure) {
 
 TEST(FastSolver, TheCoarseLevelsOfAStaticWallKnowHeldComponents) {
   const auto scene = static_wall("coarse");
-  PartlyFixedSystem<Tet> system(*scene, number_wall(*scene), true, false, 0.05);
+  PartlyFixedSystem<3> system(*scene, number_wall(*scene), true, false, 0.05);
   FastSolver<3> solver(system.blocks(), iterative());
   solver.update();
   std::vector<double> x;

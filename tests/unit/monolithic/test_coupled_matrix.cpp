@@ -16,7 +16,7 @@ using Tet = P1Tetrahedron;
 
 /// The paper's K and b of the box.
 struct PaperForm {
-  LinearisedScene<Tet>& box = linearised_box();
+  LinearisedScene<3>& box = linearised_box();
   CoupledSystem<3> system{box.blocks()};
   CoupledVector b = system.matrix().zero_vector();
 

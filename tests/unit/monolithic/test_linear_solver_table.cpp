@@ -22,7 +22,7 @@ TEST_P(LinearSolverTable, EveryNameSolvesTheCoupledSystem) {
   auto& box = linearised_box();
   Case setup = box.setup();
   setup.monolithic.multigrid.coarsening.coarsest_nodes = 50;
-  const auto solver = make_linear_solver<Tet>(GetParam(), setup, box.blocks());
+  const auto solver = make_linear_solver<3>(GetParam(), setup, box.blocks());
   EXPECT_FALSE(solver->ready());
   solver->update();
   EXPECT_TRUE(solver->ready());
@@ -37,7 +37,7 @@ TEST_P(LinearSolverTable, EveryNameSolvesTheCoupledSystem) {
 
 TEST_P(LinearSolverTable, UpdateTakesNewValues) {
   auto& box = linearised_box();
-  const auto solver = make_linear_solver<Tet>(GetParam(), box.setup(), box.blocks());
+  const auto solver = make_linear_solver<3>(GetParam(), box.setup(), box.blocks());
   std::vector<double> first, again;
   solver->update();
   solver->solve(box.b(), 1e-8, first);
@@ -55,7 +55,7 @@ TEST(LinearSolverTable, IterationLimitIsNoConvergence) {
   setup.monolithic.krylov.max_iterations = 2;
   setup.monolithic.multigrid.coarsening.coarsest_nodes = 50;
   for (const char* name : {"lower", "amg", "amli_fgmres"}) {
-    const auto solver = make_linear_solver<Tet>(name, setup, box.blocks());
+    const auto solver = make_linear_solver<3>(name, setup, box.blocks());
     solver->update();
     std::vector<double> x;
     const auto report = solver->solve(box.b(), 1e-12, x);
@@ -72,13 +72,13 @@ TEST(LinearSolverTable, CoupledSolversAskForFluidAndWall) {
   auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   System<3> system("fluid", *scene, number_scene(*scene));
   try {
-    make_linear_solver<Tet>("amg", setup, system.blocks());
+    make_linear_solver<3>("amg", setup, system.blocks());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "case.toml: monolithic.linear_solver: \"amg\" is for scenes of fluid and wall; give fast or direct");
   }
-  EXPECT_NE(make_linear_solver<Tet>("direct", setup, system.blocks()), nullptr);
+  EXPECT_NE(make_linear_solver<3>("direct", setup, system.blocks()), nullptr);
 }
 
 }  // namespace

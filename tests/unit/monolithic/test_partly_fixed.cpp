@@ -19,7 +19,7 @@ using Tet = P1Tetrahedron;
 /// Relative error of the solution to 1e-10 of the residual.
 double error_of(const CoupledSolverOptions& options, bool vectors, bool scalars) {
   const auto scene = build_scene<P1Tetrahedron>(coupled_case("artery"), fluid_and_wall_box(5));
-  PartlyFixedSystem<Tet> system(*scene, number_scene(*scene), vectors, scalars);
+  PartlyFixedSystem<3> system(*scene, number_scene(*scene), vectors, scalars);
   CoupledLinearSolver<3> solver(system.blocks(), options);
   solver.update();
   std::vector<double> x;
