@@ -53,7 +53,7 @@ TEST(AxisymmetricJacobian, OfTheMeshMotion) {
   assemble_mesh_motion(fluid.packs(), matrix);
   const auto state = random_field(mesh.nodes, 2, 0.3, 0.1, 41), direction = random_field(mesh.nodes, 2, 0.3, 0.1, 42);
   std::vector<double> product(direction.size());
-  multiply_mesh_motion<Triangle>(matrix, direction, product);
+  multiply_mesh_motion<2>(matrix, direction, product);
   expect_exact(central_differences(
       "axisymmetric mesh motion",
       [&](double t) { return mesh_motion_residual<Triangle>(fluid.packs(), moved(state, t, direction)); }, product));
@@ -114,7 +114,8 @@ TEST(AxisymmetricPatch, HydrostaticPressureFillsAVesselAtRest) {
   std::vector<TriangleMesh::Facet> inlet;
   for (const auto& side : boundary_sides(mesh))
     if (mesh.nodes[side[0]][2] == 0 && mesh.nodes[side[1]][2] == 0) inlet.push_back(side);
-  FluidProblem<Triangle> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125}, {{"inlet", mesh.nodes, inlet}});
+  FluidProblem<Triangle> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125},
+                               {open_boundary<Triangle>("inlet", mesh.nodes, inlet)});
   FluidStep<Triangle> step(fluid, [&](int a, int k) {
     const auto& x = mesh.nodes[a];
     return k < 2 && boundary[a] && !(x[2] == 0 && x[0] > 1 && x[0] < 2);

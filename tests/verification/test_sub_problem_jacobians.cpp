@@ -175,7 +175,7 @@ TEST(MeshMotionJacobian, OperatorIsTheDerivativeOfItsWeakForm) {
   for (unsigned seed : {1, 2}) {
     const auto direction = random_field(mesh.nodes, 3, 0.3, 0.1, seed);
     std::vector<double> product(direction.size());
-    multiply_mesh_motion<Tet>(matrix, direction, product);
+    multiply_mesh_motion<3>(matrix, direction, product);
     expect_exact(central_differences(
         "mesh motion", [&](double t) { return mesh_motion_residual<Tet>(fluid.packs(), moved(state, t, direction)); },
         product));
