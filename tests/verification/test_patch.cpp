@@ -274,7 +274,7 @@ TEST(FluidPatch, HydrostaticPressureFillsAVesselAtRestWhileTheMeshMoves) {
   const auto mesh = irregular_cube(4, 0.2);
   const auto boundary = boundary_marks(mesh);
   const auto inlet = facets_where(mesh, "fluid", [](const Point& x) { return x[0] == 0; });
-  FluidProblem<Tet> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125}, {{"inlet", mesh.nodes, inlet}});
+  FluidProblem<Tet> fluid(whole(mesh), {1.0, 3.5e-3, false, 0.125}, {open_boundary<Tet>("inlet", mesh.nodes, inlet)});
   FluidStep<Tet> step(fluid, [&](int a, int k) {
     const auto& x = mesh.nodes[a];
     const bool open = x[0] == 0 && x[1] > 0 && x[1] < 1 && x[2] > 0 && x[2] < 1;
