@@ -20,7 +20,7 @@ Numbering number_scene(const Scene<n>& scene) {
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
   all.fluid = detail::number_nodes<n>(
-      nodes, all.size, [&](int a, int k) { return wet[a] || scene.velocity_conditions.fixes(a, k); },
+      scene.fluid->nodes(), all.size, [&](int a, int k) { return wet[a] || scene.velocity_conditions.fixes(a, k); },
       [&](int a) { return space.carries_scalar(a); });
   all.fluid_rows = all.fluid;
   all.mesh = detail::number_vectors<n>(nodes, all.size,

@@ -66,6 +66,14 @@ CoupledSolverOptions options_for(const CoupledMethod& method, const MonolithicDa
 
 }  // namespace
 
+void refuse_pressures_per_layer(const Case& setup, const PartNodes& wall, const std::string& what) {
+  if (wall.has_copies())
+    throw InputError(setup.path.string(), "structure.layer_pressure",
+                     "\"separate\" does not go with " + what +
+                         ": the paper's coupled system has one wall pressure where layers meet",
+                     "set it to \"continuous\", or do with the linear solvers " + one_of(general_solver_names()));
+}
+
 template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<n>& blocks) {
@@ -74,6 +82,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
   for (const auto& method : coupled_methods) {
     if (method.name != name) continue;
     if (!blocks.coupled()) break;  // not for one medium: the message comes below
+    refuse_pressures_per_layer(setup, *blocks.wall_nodes, "monolithic.linear_solver = \"" + name + "\"");
     return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup.monolithic));
   }
   return make_fast_or_direct(name, setup, blocks);

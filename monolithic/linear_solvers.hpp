@@ -8,6 +8,10 @@
 
 namespace fsi {
 
+/// For all that works on the paper's coupled system. \param what  asks for it: an entry of the case or an option
+/// \throws InputError when layers of the wall have pressures of their own where they meet
+void refuse_pressures_per_layer(const Case& setup, const PartNodes& wall, const std::string& what);
+
 /// Makes the linear solver `name`, one of linear_solver_names() ([Langer2018], section 4; docs/solvers.md), with the
 /// settings of the case's [monolithic]:
 ///   fast                            what a user should run, see FastSolver
@@ -15,7 +19,8 @@ namespace fsi {
 ///   diagonal lower upper ssor ilu   GMRES with a block preconditioner, one multigrid cycle for each sub-problem's
 ///                                   inverse; with _exact at the end of the name, factorisations
 ///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
-/// \throws InputError when the solver needs fluid and wall and the scene lacks one of them
+/// \throws InputError when the solver needs fluid and wall and the scene lacks one of them, or when it needs one wall
+/// pressure where layers meet and they have their own
 template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<n>& blocks);

@@ -52,7 +52,7 @@ struct StructureData {
   double density = 0;          ///< mg/mm^3
   double bulk_modulus = 0;     ///< kPa
   double stabilisation = 0.5;  ///< alpha in tau = alpha h^2 / (2 mu)
-  LayerPressure layer_pressure = LayerPressure::continuous;
+  LayerPressure layer_pressure = LayerPressure::separate;
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
   std::map<std::string, MaterialData> layers;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,7 @@ class VelocityPressureLayout {
   int pressures = 0;
   std::vector<int> velocity_of_fluid, velocity_of_wall;  ///< per node of the part; -1 where it is prescribed
   std::vector<int> pressure_of_fluid, pressure_of_wall;  ///< per node of the part; -1 where it has none
-  std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node; -1 outside the part
+  std::vector<int> fluid_of_velocity, wall_of_velocity;  ///< per velocity node, the first of its nodes; -1: none
   std::vector<int> node_of_pressure;                     ///< per pressure, node of its part
   std::vector<char> wall_pressure;                       ///< per pressure: it is the wall's
   double wall_factor = 1;                                ///< d = wall_factor v, as of the last update()
@@ -41,17 +43,19 @@ class VelocityPressureLayout {
     const int wall_nodes = blocks.wall ? blocks.wall->graph->rows() : 0;
     for (int a = 0; a < fluid_nodes; ++a) nodes.push_back({blocks.fluid_nodes->mesh_node[a], false, a});
     for (int a = 0; a < wall_nodes; ++a) nodes.push_back({blocks.wall_nodes->mesh_node[a], true, a});
-    std::sort(nodes.begin(), nodes.end(),
-              [](const Node& a, const Node& b) { return std::pair(a.place, a.wall) < std::pair(b.place, b.wall); });
+    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
+      return std::tuple(a.place, a.wall, a.part) < std::tuple(b.place, b.wall, b.part);
+    });
     velocity_of_fluid.assign(fluid_nodes, -1);
     pressure_of_fluid = velocity_of_fluid;
     velocity_of_wall.assign(wall_nodes, -1);
     pressure_of_wall = velocity_of_wall;
+    std::vector<std::pair<int, PartNode>> joined;  // nodes with their velocity
     std::vector<int> velocity_of_unknown(static_cast<std::size_t>(numbering_.size), -1);
     for (const Node& node : nodes) {
       const UnknownMap& map = node.wall ? numbering_.wall : numbering_.fluid;
       const std::size_t first = MixedLayout<n>::vector(node.part);
-      int velocity = -1;  // that of the node's partner on the interface, if it came before
+      int velocity = -1;  // that of the node's partner on the interface or original, if it came before
       bool moves = false;
       for (int k = 0; k < n; ++k) {
         const auto unknown = map[first + k].index;
@@ -76,7 +80,9 @@ class VelocityPressureLayout {
           }
         }
         (node.wall ? velocity_of_wall : velocity_of_fluid)[node.part] = velocity;
-        (node.wall ? wall_of_velocity : fluid_of_velocity)[velocity] = node.part;
+        int& first_of_part = (node.wall ? wall_of_velocity : fluid_of_velocity)[velocity];
+        if (first_of_part < 0) first_of_part = node.part;
+        joined.push_back({velocity, {node.wall, node.part}});
       }
       if (map[first + n].index < 0) continue;
       (node.wall ? pressure_of_wall : pressure_of_fluid)[node.part] = pressures++;
@@ -84,8 +90,25 @@ class VelocityPressureLayout {
       node_of_pressure.push_back(node.part);
       wall_pressure.push_back(node.wall);
     }
+    list_nodes_of_velocities(std::move(joined));
     velocity_scale_.resize(entries_.size());
     update();
+  }
+
+  /// A node of one medium.
+  struct PartNode {
+    bool wall;
+    int node;
+  };
+  /// Calls visit(PartNode) for the nodes that have this velocity, the fluid's first.
+  template <class Visit>
+  void for_nodes_of(int velocity, Visit visit) const {
+    for (int at = node_offsets_[velocity]; at < node_offsets_[velocity + 1]; ++at) visit(nodes_of_velocities_[at]);
+  }
+  /// It is the first of the nodes that have its velocity.
+  bool is_first(bool wall, int node, int velocity) const {
+    const PartNode& first = nodes_of_velocities_[node_offsets_[velocity]];
+    return first.wall == wall && first.node == node;
   }
 
   /// Reads the factors that hold now between velocities and the system's unknowns.
@@ -129,6 +152,16 @@ class VelocityPressureLayout {
                       [](const Unknown& a, const Unknown& b) { return (a.index < 0) == (b.index < 0); });
   }
 
+  void list_nodes_of_velocities(std::vector<std::pair<int, PartNode>> joined) {
+    std::stable_sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    node_offsets_.assign(static_cast<std::size_t>(velocities) + 1, 0);
+    for (const auto& [velocity, node] : joined) {
+      ++node_offsets_[velocity + 1];
+      nodes_of_velocities_.push_back(node);
+    }
+    std::partial_sum(node_offsets_.begin(), node_offsets_.end(), node_offsets_.begin());
+  }
+
   /// Where a component of a velocity stands in the system.
   struct Entry {
     std::int64_t unknown = -1;  ///< none
@@ -137,7 +170,9 @@ class VelocityPressureLayout {
   };
 
   const Numbering& numbering_;
-  std::vector<Entry> entries_;  ///< n for each velocity node
+  std::vector<Entry> entries_;     ///< n for each velocity node
+  std::vector<int> node_offsets_;  ///< per velocity, into the list that follows
+  std::vector<PartNode> nodes_of_velocities_;
   std::vector<std::int64_t> pressure_unknown_;
   std::vector<double> velocity_scale_;  ///< system's unknown over v
   bool partly_fixed_ = false;

@@ -128,15 +128,13 @@ class VelocityPressureMatrix {
     return gradient_.data() + static_cast<std::size_t>(at) * lanes;
   }
 
-  /// Calls visit(block, velocity or -1, pressure or -1, factor of the velocity) for the assembled blocks of a velocity
-  /// node's rows, the fluid's first; `factor` turns derivatives by displacement into those by velocity. Rows and
+  /// Calls visit(block, velocity or -1, pressure or -1, factor of the velocity) for the assembled blocks of the rows of
+  /// a velocity's nodes, the fluid's first; `factor` turns derivatives by displacement into those by velocity. Rows and
   /// columns of components that are no unknowns are zero in `block`, but for a number on the diagonal of a component
   /// that is none in either medium.
   template <class Visit>
   void for_blocks_of(int velocity, Visit visit) const {
-    const int f = layout_.fluid_of_velocity[velocity], w = layout_.wall_of_velocity[velocity];
-    if (f >= 0) for_blocks_of_node(false, f, visit);
-    if (w >= 0) for_blocks_of_node(true, w, visit);
+    layout_.for_nodes_of(velocity, [&](const auto& of) { for_blocks_of_node(of.wall, of.node, visit); });
   }
   template <class Visit>
   void for_blocks_of_node(bool wall, int node, Visit visit) const {
@@ -176,7 +174,7 @@ class VelocityPressureMatrix {
     }
     if (row != column) return;
     const int v = (wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid)[row];
-    if (v < 0 || (wall && layout_.fluid_of_velocity[v] >= 0)) return;
+    if (v < 0 || !layout_.is_first(wall, row, v)) return;
     double largest = 0;
     for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(block[MixedLayout<n>::in_block(k, k)]));
     for (int k = 0; k < n; ++k)

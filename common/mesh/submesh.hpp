@@ -20,6 +20,7 @@ struct PartNodes {
   std::vector<int> original;
 
   int node_count() const { return static_cast<int>(nodes.size()); }
+  bool has_copies() const { return !original.empty(); }
   int original_of(int node) const { return original.empty() ? node : original[node]; }
   /// Gives the copies of a node what holds for the original.
   template <class T>
@@ -97,7 +98,8 @@ Submesh<Dim, Order> submesh(const SimplexMesh<Dim, Order>& mesh, const std::vect
 
 /// The part with vertices of its own for each of its regions: where regions meet, a vertex has a copy for each, so that
 /// scalar fields may jump there. Copies stand beside the original, which keeps the place that `local_node` names;
-/// mid-edge nodes carry no scalars and have none. Vector fields have one value at an original and its copies.
+/// mid-edge nodes carry no scalars and have none. Vector fields have one value at an original and its copies. The part
+/// itself, when no two of its regions meet.
 template <int Dim, int Order>
 Submesh<Dim, Order> split_between_regions(const Submesh<Dim, Order>& part) {
   // Regions of each vertex, in the order in which the cells come.
@@ -132,7 +134,28 @@ Submesh<Dim, Order> split_between_regions(const Submesh<Dim, Order>& part) {
     }
     split.cells.push_back(cell);
   }
+  if (split.node_count() == part.node_count()) split.original.clear();
   return split;
+}
+
+/// Names, in facets of the part's boundary, the copies that the cell behind each facet has in place of the originals.
+template <int Dim, int Order>
+void name_copies_of_cells(const Submesh<Dim, Order>& part, std::vector<typename Submesh<Dim, Order>::Facet>& facets) {
+  if (!part.has_copies()) return;
+  std::vector<std::vector<std::size_t>> facets_at(part.nodes.size());  // by the original of the first vertex
+  for (std::size_t f = 0; f < facets.size(); ++f) facets_at[facets[f][0]].push_back(f);
+  for (const auto& cell : part.cells)
+    for (int a = 0; a <= Dim; ++a)
+      for (std::size_t f : facets_at[part.original_of(cell[a])]) {
+        auto facet = facets[f];
+        const bool behind = std::all_of(facet.begin(), facet.end(), [&](int& node) {
+          const auto its = std::find_if(cell.begin(), cell.end(),
+                                        [&](int b) { return part.original_of(b) == part.original_of(node); });
+          if (its != cell.end()) node = *its;
+          return its != cell.end();
+        });
+        if (behind) facets[f] = facet;
+      }
 }
 
 }  // namespace fsi

@@ -86,6 +86,7 @@ FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& 
   FacetsOf<Element> local;
   local.reserve(facets.size());
   for (const auto& facet : facets) local.push_back(part.local(facet));
+  name_copies_of_cells(part, local);
   return local;
 }
 

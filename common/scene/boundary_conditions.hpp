@@ -23,7 +23,8 @@ std::vector<typename Mesh::Facet> group_facets(const Mesh& mesh, const std::stri
   return facets ? *facets : std::vector<typename Mesh::Facet>{};
 }
 
-/// Facets of the whole mesh in the node numbers of a part.
+/// Facets of the whole mesh in the node numbers of a part, which they bound; where nodes have copies, in those of the
+/// cell behind them.
 template <class Element>
 FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& facets);
 

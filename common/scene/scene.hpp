@@ -13,7 +13,7 @@
 
 namespace fsi {
 
-/// A node of the fluid-wall interface in the numbers of both sides.
+/// A node of the fluid-wall interface in the numbers of both sides; of the wall's copies of a node, the original.
 struct InterfaceNode {
   int fluid, wall;
   bool clamped;  ///< on the wall's clamped ends: nothing moves there

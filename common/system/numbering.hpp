@@ -11,15 +11,22 @@ namespace fsi {
 namespace detail {
 
 /// Gives an own unknown, and the equation of the same place, to every component of a vector that `fixed(node,
-/// component)` does not prescribe and to every scalar that there is. Vectors come first in each node.
+/// component)` does not prescribe and to every scalar that there is. Vectors come first in each node. A copy of a node
+/// hangs on its original's vector and has a scalar of its own.
 /// \param scalars  whether a node has one
 template <int Components, class Fixed, class Scalars>
-UnknownMap number_nodes(int nodes, std::int64_t& next, Fixed fixed, Scalars scalars) {
+UnknownMap number_nodes(const PartNodes& part, std::int64_t& next, Fixed fixed, Scalars scalars) {
   using Mixed = MixedLayout<Components>;
+  const int nodes = part.node_count();
   UnknownMap map(Mixed::size(nodes));
   for (int a = 0; a < nodes; ++a) {
+    const int original = part.original_of(a);
+    assert(original <= a);
     for (int k = 0; k < Components; ++k)
-      if (!fixed(a, k)) map[Mixed::vector(a, k)] = {next++, 1.0};
+      if (original != a)
+        map[Mixed::vector(a, k)] = map[Mixed::vector(original, k)];
+      else if (!fixed(a, k))
+        map[Mixed::vector(a, k)] = {next++, 1.0};
     if (scalars(a)) map[Mixed::scalar(a)] = {next++, 1.0};
   }
   return map;
@@ -51,20 +58,21 @@ Numbering number_fluid(const Scene<n>& scene, bool free_interface = false) {
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
   part.fluid = detail::number_nodes<n>(
-      scene.fluid->node_count(), part.size,
+      scene.fluid->nodes(), part.size,
       [&](int a, int k) { return scene.velocity_conditions.fixes(a, k) || (wet[a] && !free_interface); },
       [&](int a) { return space.carries_scalar(a); });
   part.fluid_rows = part.fluid;
   return part;
 }
 
-/// The wall alone, free on the interface (Neumann side of the partitioned split).
+/// The wall alone, free on the interface (Neumann side of the partitioned split). Where layers with pressures of their
+/// own meet, they have one displacement and one momentum equation, the sum of theirs.
 template <int n>
 Numbering number_wall(const Scene<n>& scene) {
   Numbering part;
   const auto& space = scene.wall->space();
   part.wall = detail::number_nodes<n>(
-      scene.wall->node_count(), part.size, [&](int a, int k) { return scene.wall_conditions.fixes(a, k); },
+      scene.wall->nodes(), part.size, [&](int a, int k) { return scene.wall_conditions.fixes(a, k); },
       [&](int a) { return space.carries_scalar(a); });
   part.wall_rows = part.wall;
   return part;

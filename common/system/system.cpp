@@ -141,7 +141,7 @@ double System<n>::rounding() {
   values(numbering_.wall, state_->now.wall);
   if (!numbering_.wall.empty())
     for (int node = 0; node < scene_.wall->node_count(); ++node)
-      for (int k = 0; k < n; ++k) {
+      for (int k = 0; k < n && scene_.wall->nodes().original_of(node) == node; ++k) {
         const Unknown& unknown = numbering_.wall[Mixed::vector(node, k)];
         if (unknown.index >= 0) x[unknown.index] += std::cbrt(wall_volumes_[node]);
       }

@@ -197,8 +197,7 @@ inline std::vector<char> boundary_marks(const TriangleMesh& mesh) {
   return marks;
 }
 
-/// Gives cells of region 1 and up their own copies of the nodes they share with region 0, and lists (node, copy): for
-/// fields that jump between regions, with the others tied together again.
+/// Gives cells of region 1 and up their own copies of the nodes they share with region 0: a crack. Lists (node, copy).
 template <int Dim>
 std::vector<std::pair<int, int>> split_off_first_region(SimplexMesh<Dim>& mesh) {
   std::vector<char> in_first(mesh.nodes.size(), 0);

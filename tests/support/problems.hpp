@@ -28,25 +28,6 @@ std::pair<UnknownMap, std::int64_t> number_entries(int nodes, int entries, Presc
   return {map, next};
 }
 
-/// Hangs the vectors of the second node of each pair on the unknowns of the first; entries (vector, scalar) per node.
-/// Unknowns of the second are left without equations, so the numbers are closed up.
-template <int Components>
-std::pair<UnknownMap, std::int64_t> tie_vectors(std::pair<UnknownMap, std::int64_t> numbered,
-                                                const std::vector<std::pair<int, int>>& pairs) {
-  auto& [map, size] = numbered;
-  for (const auto& [first, second] : pairs)
-    for (int k = 0; k < Components; ++k) map[second * (Components + 1) + k] = map[first * (Components + 1) + k];
-  std::vector<std::int64_t> number(static_cast<std::size_t>(size), -1);
-  size = 0;
-  for (auto& unknown : map)
-    if (unknown.index >= 0) {
-      auto& its = number[unknown.index];
-      if (its < 0) its = size++;
-      unknown.index = its;
-    }
-  return numbered;
-}
-
 /// One sub-problem with prescribed entries of any kind and a load vector: what the programs do not need but
 /// manufactured solutions and symmetry planes do. Residual and Jacobian are the sub-problem's own.
 class SubProblem : public NewtonProblem {
@@ -158,9 +139,8 @@ class WallEquilibrium : public SubProblem {
   double pressure = 0;  ///< kPa on the pressurised facets
 
   template <class Prescribed>
-  WallEquilibrium(WallProblem<Element>& wall, Prescribed prescribed, const std::vector<std::pair<int, int>>& tied = {})
-      : WallEquilibrium(wall, tie_vectors<Element::components>(
-                                  number_entries(wall.node_count(), Element::components + 1, prescribed), tied)) {}
+  WallEquilibrium(WallProblem<Element>& wall, Prescribed prescribed)
+      : WallEquilibrium(wall, number_entries(wall.node_count(), Element::components + 1, prescribed)) {}
 
  private:
   WallEquilibrium(WallProblem<Element>& wall, std::pair<UnknownMap, std::int64_t> numbered)

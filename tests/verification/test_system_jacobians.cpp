@@ -31,8 +31,10 @@ struct Scenario {
 
   /// \param across  stretch of the wall across its layers, about their middle: fibres of an artery are stretched
   ///                below 1 and slack above; all of them, because the tangent jumps where a fibre tightens
-  explicit Scenario(const std::string& material, double across = 1, bool grad_div = false) {
+  explicit Scenario(const std::string& material, double across = 1, bool grad_div = false,
+                    LayerPressure layer_pressure = LayerPressure::continuous) {
     Case setup = coupled_case(material, 0.5);
+    setup.structure->layer_pressure = layer_pressure;
     setup.fluid = FluidData{1.3, 0.03, grad_div};
     setup.structure->bulk_modulus = 50;
     setup.structure->axis_origin = {0.4, 0.5,
@@ -51,6 +53,9 @@ struct Scenario {
     state.before[0] = {random_field(x, 3, 0.08, 0.01, 4), random_field(x, 4, 3.0, 0.5, 5), wall_field(0.06, 6)};
     state.wall_velocity = random_field(y, 3, 0.5, 0.1, 7);
     state.wall_acceleration = random_field(y, 3, 0.5, 0.1, 8);
+    for (auto* field : {&state.now.wall, &state.before[0].wall})  // one displacement at the copies of a node
+      for (int a = 0; a < scene->wall->node_count(); ++a)
+        std::copy_n(field->begin() + 4 * scene->wall->nodes().original_of(a), 3, field->begin() + 4 * a);
     const double stretch[3] = {1 / std::sqrt(across), 1 / std::sqrt(across), across}, middle[3] = {0.5, 0.5, 1.2};
     for (std::size_t a = 0; a < y.size(); ++a)
       for (int i = 0; i < 3; ++i) state.now.wall[4 * a + i] += (stretch[i] - 1) * (y[a][i] - middle[i]);
@@ -195,6 +200,13 @@ TEST(CoupledJacobian, IsTheDerivativeOfTheResidual) {
 TEST(CoupledJacobian, WithGradDivStabilisation) {
   const Scenario scenario("neo-hookean", 1, true);
   check_system(scenario, number_scene(*scenario.scene), "coupled, grad-div");
+}
+
+TEST(CoupledJacobian, WithPressuresPerLayer) {
+  const Scenario scenario("mooney-rivlin", 1, false, LayerPressure::separate);
+  EXPECT_TRUE(scenario.scene->wall->nodes().has_copies());
+  check_system(scenario, number_scene(*scenario.scene), "coupled, pressures per layer");
+  check_system(scenario, number_wall(*scenario.scene), "wall alone, pressures per layer");
 }
 
 TEST(PartitionedJacobian, OfTheFluidWithTheInterfaceVelocityPrescribed) {

@@ -170,6 +170,27 @@ TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
   EXPECT_LT(relative_difference(x, scene.solution()), 1e-7);
 }
 
+/// The same artery with a pressure for each layer: several nodes of the wall have one velocity.
+TEST(FastSolver, SolvesWithPressuresPerLayer) {
+  auto setup = coupled_case("artery");
+  setup.structure->layer_pressure = LayerPressure::separate;
+  ArteryOptions options;
+  options.length = 6;
+  const auto parts = build_scene<P1Tetrahedron>(setup, generate_artery(options));
+  LinearisedScene<Tet> scene(setup, *parts, 2, 2);
+  EXPECT_TRUE(parts->wall->nodes().has_copies());
+  EXPECT_GT(scene.b().size(), artery().b().size());
+  FastSolver<3> solver(scene.blocks(), iterative());
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(scene.b(), 1e-10, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LE(report.iterations, 30);
+  EXPECT_LT(relative_difference(x, scene.solution()), 1e-7);
+  expect_sub_problem_solved(*parts, number_wall(*parts), 40);
+}
+
 /// A static, pressurised wall: no inertia holds the momentum matrix together, so that sweeps without coarse levels need
 /// hundreds of iterations.
 std::unique_ptr<Scene<3>> static_wall(const std::string& level) {

@@ -48,9 +48,12 @@ std::vector<State> march_partitioned(const Case& setup, int steps) {
 
 class EachScheme : public testing::TestWithParam<std::string> {};
 
+/// For both ways in which the layers' pressures can meet.
 TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
-  for (const char* material : {"neo-hookean", "artery"}) {
-    const Case setup = partitioned_case(GetParam(), 1e-10, material);
+  for (const auto& [material, layer_pressure] :
+       {std::pair{"neo-hookean", LayerPressure::continuous}, std::pair{"artery", LayerPressure::separate}}) {
+    Case setup = partitioned_case(GetParam(), 1e-10, material);
+    setup.structure->layer_pressure = layer_pressure;
     NewtonOptions newton;
     newton.tolerance = 1e-12;
     const auto whole = march(setup, 3, [&](Scene<3>& scene, const Loads& loads) {

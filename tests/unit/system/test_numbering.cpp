@@ -121,6 +121,35 @@ TEST(Numbering, OfTheWallAloneLeavesTheInterfaceFree) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(part.wall[4 * node.wall + k].index >= 0, !node.clamped);
 }
 
+// Pressures per layer: the copies of a vertex have one displacement and one momentum equation, and a pressure each.
+TEST(Numbering, CopiesOfAWallNodeShareTheirDisplacement) {
+  auto setup = coupled_case("neo-hookean");
+  setup.structure->layer_pressure = LayerPressure::separate;
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3));
+  const Counts counts(3);
+  const auto& nodes = scene->wall->nodes();
+  EXPECT_EQ(nodes.node_count(), counts.wall_nodes() + counts.plane);
+  const auto wall = number_wall(*scene), all = number_scene(*scene);
+  EXPECT_EQ(wall.size, counts.wall_displacements() + counts.wall_nodes() + counts.plane);
+  EXPECT_EQ(all.size, wall.size + counts.free_velocities() + counts.fluid_nodes() + counts.free_mesh_nodes());
+  for (const auto* part : {&wall, &all}) {
+    std::set<std::int64_t> pressures;
+    int copies = 0;
+    for (int a = 0; a < nodes.node_count(); ++a) {
+      for (const auto* map : {&part->wall, &part->wall_rows})
+        for (int k = 0; k < 3; ++k) EXPECT_EQ((*map)[4 * a + k].index, (*map)[4 * nodes.original_of(a) + k].index);
+      pressures.insert(part->wall[4 * a + 3].index);
+      copies += nodes.original_of(a) != a;
+      for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(scene->wall_conditions.fixes(a, k), scene->wall_conditions.fixes(nodes.original_of(a), k));
+    }
+    EXPECT_EQ(copies, counts.plane);
+    EXPECT_EQ(static_cast<int>(pressures.size()), nodes.node_count()) << "each has its own";
+    EXPECT_EQ(pressures.count(-1), 0u);
+  }
+  for (const auto& node : scene->interface) EXPECT_EQ(nodes.original_of(node.wall), node.wall);
+}
+
 TEST(Numbering, OfTheMeshMotionPrescribesTheWholeBoundary) {
   const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(3));
   const auto part = number_mesh_motion(*scene);
