@@ -28,6 +28,11 @@ double PressureTable::mean(double from, double to) const {
   return integral / (to - from);
 }
 
+double wall_stabilisation(const Case& setup) {
+  const double standard = setup.stabilisation == Stabilisation::paper ? 0.5 : 0.05;
+  return setup.structure ? setup.structure->stabilisation.value_or(standard) : standard;
+}
+
 int TimeData::steps() const {
   return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
 }
