@@ -51,7 +51,7 @@ struct MaterialData {
 struct StructureData {
   double density = 0;                   ///< mg/mm^3
   double bulk_modulus = 0;              ///< kPa
-  std::optional<double> stabilisation;  ///< alpha in tau = alpha h^2 / (2 mu); empty: see wall_stabilisation()
+  std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::continuous;
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
@@ -139,7 +139,7 @@ struct Case {
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
 };
 
-/// alpha of the wall's stabilisation: as given, or what goes with the kind of stabilisation.
+/// alpha of the wall's stabilisation: as given, or the standard of the kind of stabilisation.
 double wall_stabilisation(const Case& setup);
 
 }  // namespace fsi
