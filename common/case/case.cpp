@@ -1,6 +1,7 @@
 #include "case/case.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace fsi {
@@ -29,8 +30,11 @@ double PressureTable::mean(double from, double to) const {
 }
 
 double wall_stabilisation(const Case& setup) {
-  const double standard = setup.stabilisation == Stabilisation::paper ? 0.5 : 0.05;
-  return setup.structure ? setup.structure->stabilisation.value_or(standard) : standard;
+  assert(setup.structure);
+  // A pressure that is continuous where layers meet leaks from one to the other, the more the larger alpha is.
+  const bool leaks = setup.structure->layer_pressure == LayerPressure::continuous;
+  const double standard = setup.stabilisation == Stabilisation::projected && leaks ? 0.05 : 0.5;
+  return setup.structure->stabilisation.value_or(standard);
 }
 
 int TimeData::steps() const {

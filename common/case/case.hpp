@@ -139,7 +139,7 @@ struct Case {
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
 };
 
-/// alpha of the wall's stabilisation: as given, or the standard of the kind of stabilisation.
+/// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
 double wall_stabilisation(const Case& setup);
 
 }  // namespace fsi

@@ -149,7 +149,7 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            number(at(&StructureData::density), positive, quantity::density())),
       leaf("bulk_modulus", required, "bulk modulus in {unit}",
            number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
-      leaf("stabilisation", optional, "alpha, factor of the wall's, default 0.05, with stabilisation = \"paper\" 0.5",
+      leaf("stabilisation", optional, "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
            number(at(&StructureData::stabilisation), positive)),
       leaf("layer_pressure", optional, "the pressure where layers meet: {}",
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
