@@ -103,13 +103,16 @@ end = 2
 )",
                                 "case.toml");
   const std::string expected = R"(element = p1
+geometry = 3d
 stabilisation = projected
 fluid.density = 1
 fluid.viscosity = 2
+fluid.outlet = true
 fluid.grad_div = true
 structure.density = 1.1
 structure.bulk_modulus = 10000
 structure.stabilisation = 0.05
+structure.layer_pressure = continuous
 structure.axis_origin = [0, 0, 0]
 structure.axis_direction = [0, 0, 1]
 structure.layers.inside.material = artery
