@@ -1,6 +1,7 @@
 #include "case/case.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace fsi {
@@ -26,6 +27,14 @@ double PressureTable::mean(double from, double to) const {
       integral +=
           integral_of_segment(points[i].first, points[i].second, points[i + 1].first, points[i + 1].second, from, to);
   return integral / (to - from);
+}
+
+double wall_stabilisation(const Case& setup) {
+  assert(setup.structure);
+  // A pressure that is continuous where layers meet leaks from one to the other, the more the larger alpha is.
+  const bool leaks = setup.structure->layer_pressure == LayerPressure::continuous;
+  const double standard = setup.stabilisation == Stabilisation::projected && leaks ? 0.05 : 0.5;
+  return setup.structure->stabilisation.value_or(standard);
 }
 
 int TimeData::steps() const {

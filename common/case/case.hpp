@@ -49,9 +49,9 @@ struct MaterialData {
 
 /// [structure]
 struct StructureData {
-  double density = 0;          ///< mg/mm^3
-  double bulk_modulus = 0;     ///< kPa
-  double stabilisation = 0.5;  ///< alpha in tau = alpha h^2 / (2 mu)
+  double density = 0;                   ///< mg/mm^3
+  double bulk_modulus = 0;              ///< kPa
+  std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
@@ -124,6 +124,7 @@ struct Case {
   std::string title;
   ElementPair element = ElementPair::p1;
   Geometry geometry = Geometry::three_dimensional;
+  Stabilisation stabilisation = Stabilisation::projected;
   MeshData mesh;
   std::optional<FluidData> fluid;
   std::optional<StructureData> structure;
@@ -137,5 +138,8 @@ struct Case {
   EconomyData economy;
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
 };
+
+/// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
+double wall_stabilisation(const Case& setup);
 
 }  // namespace fsi

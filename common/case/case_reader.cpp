@@ -91,6 +91,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   scene.path = file;
   read_keys(whole_case, case_keys(), scene);
   check_sections(whole_case, scene);
+  if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   warn_of_wall_density(whole_case, scene);
   scene.warnings = source.warnings;
   return scene;

@@ -49,6 +49,12 @@ const NameTable<LayerPressure>& layer_pressures() {
   return table;
 }
 
+const NameTable<Stabilisation>& stabilisation_kinds() {
+  static const NameTable<Stabilisation> table{
+      "stabilisation", {{"projected", Stabilisation::projected}, {"paper", Stabilisation::paper}}};
+  return table;
+}
+
 const NameTable<bool>& constant_operator_modes() {
   static const NameTable<bool> table{"economy.constant_operators", {{"kept", true}, {"rebuilt", false}}};
   return table;

@@ -52,6 +52,15 @@ std::vector<std::string> linear_solver_names();  ///< of monolithic.linear_solve
 std::vector<std::string> coupling_scheme_names();
 std::vector<std::string> output_field_names();
 
+/// Kinds of stabilisation of equal-order elements (docs/theory.md, sections 3.2 and 4.2).
+enum class Stabilisation {
+  projected,  ///< of the fluid's pressure: does not fade as the step falls, since it knows the scene's wave speed
+  paper       ///< PSPG with the step in tau
+};
+
+/// stabilisation: "projected", "paper"
+const NameTable<Stabilisation>& stabilisation_kinds();
+
 /// economy.constant_operators: "kept" (true), "rebuilt"
 const NameTable<bool>& constant_operator_modes();
 

@@ -149,7 +149,7 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            number(at(&StructureData::density), positive, quantity::density())),
       leaf("bulk_modulus", required, "bulk modulus in {unit}",
            number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
-      leaf("stabilisation", optional, "alpha in tau = alpha h^2/(2 mu), default {}",
+      leaf("stabilisation", optional, "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
            number(at(&StructureData::stabilisation), positive)),
       leaf("layer_pressure", optional, "the pressure where layers meet: {}",
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
@@ -303,6 +303,8 @@ std::vector<CaseKey<Case>> physics_keys() {
       leaf("title", optional, "what the case is, for people", any_text(at(&Case::title)), KeyRole::running),
       leaf("element", optional, "element pair: {}", name_from(at(&Case::element), element_pairs())),
       leaf("geometry", optional, "of the scene: {}", name_from(at(&Case::geometry), geometries())),
+      leaf("stabilisation", optional, "of equal-order elements: {}",
+           name_from(at(&Case::stabilisation), stabilisation_kinds())),
       section<MeshData, Case>(
           "mesh", required, "where the mesh comes from", mesh_keys(),
           [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },

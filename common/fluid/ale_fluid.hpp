@@ -16,11 +16,20 @@ namespace fsi {
 ///   tau = ((2/dt)^2 + c . G c + 36 nu^2 G : G)^(-1/2),  G = F^-T (dxi/dX)^T (dxi/dX) F^-1,
 /// optionally + (rho J tau_C F^-T : grad u, F^-T : grad v), tau_C = 1 / (tau tr G).
 /// Everything is differentiated through, tau included. Elements without a metric (Taylor-Hood) get the first line alone.
+///
+/// tau follows the step to zero, and with it goes the hold on the pressure. Where pressure travels at a finite speed c_w
+/// a further term keeps it, which does not see the step and, being of a projection's remainder, leaves smooth pressures
+/// alone:
+///   - sum over elements (J tau_p / rho (F^-T grad p - pi), F^-T grad q),
+///   tau_p = ((2/T)^2 + 36 nu^2 G_0 : G_0)^(-1/2) - ((2/dt)^2 + 36 nu^2 G_0 : G_0)^(-1/2),   T = max(dt, h / c_w).
+/// pi is the pressure gradient of the step's reference level, projected on continuous functions
+/// (pressure_projection.hpp), G_0 = (dxi/dX)^T (dxi/dX), h^2 = 3 / tr G_0.
 struct AleFluid {
   double density;    ///< mg/mm^3
   double viscosity;  ///< kPa ms
   bool grad_div = false;
-  double step = 0;  ///< dt in tau, ms: that of the step in progress, set where the form is assembled
+  double step = 0;        ///< dt in tau, ms: that of the step in progress, set where the form is assembled
+  double wave_speed = 0;  ///< c_w, mm/ms; 0: without the projected term
 
   static constexpr double inverse_estimate = 36.0;  ///< C_I
 
@@ -41,9 +50,20 @@ struct AleFluid {
     Sym3<M> metric;             ///< G
     M viscous_rate_squared;     ///< (2/dt)^2 + 36 nu^2 G : G
     Vec3<T> pressure_gradient;  ///< F^-T grad p
+    Pack projected_tau;         ///< tau_p, ms
   };
   template <class Metric, class M, class T>
   using Prepared = std::conditional_t<std::is_same_v<Metric, Unstabilised>, Galerkin<M, T>, Stabilised<M, T>>;
+
+  /// tau_p in ms. \param metric  G_0, 1/mm^2
+  Pack projected_tau(const Sym3<Pack>& metric) const {
+    const double nu = viscosity / density;
+    const Pack viscous = Pack(inverse_estimate * nu * nu) * contract(metric, metric);
+    const Pack of_wave = Pack(4.0 / 3.0 * wave_speed * wave_speed) * trace(metric);  // (2 c_w / h)^2
+    const Pack of_step = Pack(4.0 / (step * step));
+    return Pack(1.0) / sqrt(select(of_step > of_wave, of_wave, of_step) + viscous) -
+           Pack(1.0) / sqrt(of_step + viscous);
+  }
 
   /// \param grad_d, grad_u, grad_p  reference gradients of mesh displacement, velocity and pressure
   /// \param reference_metric        (dxi/dX)^T (dxi/dX), a Sym3<Pack>, or Unstabilised
@@ -65,7 +85,10 @@ struct AleFluid {
     }
     k.velocity_gradient = grad_u * k.inverse_gradient;
     k.divergence = trace(k.velocity_gradient);
-    if constexpr (decltype(k)::stabilised) k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
+    if constexpr (decltype(k)::stabilised) {
+      k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
+      k.projected_tau = wave_speed > 0 ? projected_tau(reference_metric) : Pack(0.0);
+    }
     return k;
   }
 
@@ -91,9 +114,11 @@ struct AleFluid {
     return m;
   }
 
-  /// \param pressure  kPa
+  /// \param pressure            kPa
+  /// \param projected_gradient  pi, kPa/mm
   template <class K, class T, class U>
-  Integrand<T> integrand(const K& k, const Vec3<U>& rate, const Vec3<T>& convection, const U& pressure) const {
+  Integrand<T> integrand(const K& k, const Vec3<U>& rate, const Vec3<T>& convection, const U& pressure,
+                         const Vec3<Pack>& projected_gradient = zero_vector()) const {
     const auto& c = convection;
     const Momentum<T> m = momentum(k, rate, c);
 
@@ -119,7 +144,9 @@ struct AleFluid {
     f.flux = stress * k.cofactor_gradient;
     f.scalar_source = -(k.volume_ratio * k.divergence);
     if constexpr (K::stabilised) {
-      const Vec3<T> scaled = (m.tau * Pack(-1.0 / density)) * m.strong_residual;
+      Vec3<T> scaled = (m.tau * Pack(-1.0 / density)) * m.strong_residual;
+      if (wave_speed > 0)
+        scaled = scaled - (Pack(1.0 / density) * k.projected_tau) * (k.pressure_gradient - projected_gradient);
       f.scalar_flux = transposed_times(k.cofactor_gradient, scaled);  // J F^-1 r
     }
     return f;
@@ -128,11 +155,14 @@ struct AleFluid {
   /// Powers per reference volume, kPa/ms: what the integrand's terms but inertia become with v = u and q = -p. The
   /// pressure drops out.
   struct Power {
-    Pack viscous;        ///< J mu (grad u F^-1 + (grad u F^-1)^T) : grad u F^-1
-    Pack stabilisation;  ///< J tau r . (grad u F^-1 c + F^-T grad p / rho), optionally + rho J tau_C (div u)^2
+    Pack viscous;  ///< J mu (grad u F^-1 + (grad u F^-1)^T) : grad u F^-1
+    /// J tau r . (grad u F^-1 c + F^-T grad p / rho) + J tau_p / rho (F^-T grad p - pi) . F^-T grad p, optionally
+    /// + rho J tau_C (div u)^2
+    Pack stabilisation;
   };
   template <class K>
-  Power power(const K& k, const Vec3<Pack>& rate, const Vec3<Pack>& convection) const {
+  Power power(const K& k, const Vec3<Pack>& rate, const Vec3<Pack>& convection,
+              const Vec3<Pack>& projected_gradient = zero_vector()) const {
     const Momentum<Pack> m = momentum(k, rate, convection);
     const auto& l = k.velocity_gradient;
     Pack shear(0.0);
@@ -143,11 +173,17 @@ struct AleFluid {
     power.stabilisation = Pack(0.0);
     if constexpr (K::stabilised) {
       power.stabilisation = m.tau * dot(m.strong_residual, l * convection + Pack(1.0 / density) * k.pressure_gradient);
+      if (wave_speed > 0)
+        power.stabilisation +=
+            Pack(1.0 / density) * k.projected_tau * dot(k.pressure_gradient - projected_gradient, k.pressure_gradient);
       if (grad_div) power.stabilisation += Pack(density) * k.divergence * k.divergence / (m.tau * trace(k.metric));
       power.stabilisation *= k.volume_ratio;
     }
     return power;
   }
+
+ private:
+  static Vec3<Pack> zero_vector() { return {{Pack(0.0), Pack(0.0), Pack(0.0)}}; }
 };
 
 }  // namespace fsi

@@ -17,7 +17,7 @@ namespace detail {
 template <class Element>
 struct FluidPack {
   static constexpr int n = Element::components;
-  NodalVector<Element> d{}, d_reference{}, u{}, u_reference{}, rate{}, convection{};
+  NodalVector<Element> d{}, d_reference{}, u{}, u_reference{}, rate{}, convection{}, projected{};
   NodalScalar<Element> p{};
 
   template <bool Moving>
@@ -27,6 +27,8 @@ struct FluidPack {
     gather<Mixed>(u, pack, in.fluid);
     gather<Mixed>(u_reference, pack, in.fluid_reference);
     gather<Mixed>(p, pack, in.fluid);
+    if constexpr (Element::stabilised)
+      if (in.projected_gradient) gather<Vector>(projected, pack, in.projected_gradient);
     if constexpr (Moving) {
       gather<Vector>(d, pack, in.mesh);
       gather<Vector>(d_reference, pack, in.mesh_reference);
@@ -55,7 +57,7 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
   AssemblyResult result;
   using Mixed = MixedLayout<n>;
   FluidPack<Element> fields;
-  const auto& [d, d_reference, u, u_reference, rate, convection, p] = fields;
+  const auto& [d, d_reference, u, u_reference, rate, convection, projected, p] = fields;
   ElementRows<Element, T> rows;
   for (const auto& pack : packs) {
     fields.template gather_from<Moving>(in, pack);
@@ -76,7 +78,7 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
             if constexpr (domain)
               for (int i = 0; i < n; ++i) c[Element::axis[i]].slope[i] = Pack(-in.mesh_factor * g.vectors().value[b]);
             return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, in.fluid_factor), c,
-                                  seed_value<Element, seeds, p0>(value_of(p, g), g, b));
+                                  seed_value<Element, seeds, p0>(value_of(p, g), g, b), value_of(projected, g));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (seeds > 0)

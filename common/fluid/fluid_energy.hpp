@@ -25,11 +25,12 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
   using Mixed = MixedLayout<n>;
   form.step = in.step;
   const auto integrals = [&](const auto& pack, int, std::size_t) {
-    NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate, convection;
+    NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate, convection, projected{};
     NodalScalar<Element> p{};
     gather<Mixed>(u, pack, in.fluid);
     gather<Mixed>(u_old, pack, in.fluid_reference);
     gather<Mixed>(p, pack, in.fluid);
+    if (in.projected_gradient) gather<Vector>(projected, pack, in.projected_gradient);
     if (in.mesh) {
       gather<Vector>(d, pack, in.mesh);
       gather<Vector>(d_old, pack, in.mesh_reference);
@@ -51,7 +52,7 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
         },
         [&](const detail::PreparedEnergy<Element>& k, const auto& g, int) {
           const Vec3<Pack> now = value_of(u, g), old = value_of(u_old, g), step = now - old;
-          const auto power = form.power(k.form, value_of(rate, g), value_of(convection, g));
+          const auto power = form.power(k.form, value_of(rate, g), value_of(convection, g), value_of(projected, g));
           const Pack half_density(0.5 * form.density), square = dot(now, now);
           const Pack volume = half_density * k.form.volume_ratio;
           return std::array<Pack, 6>{

@@ -17,6 +17,8 @@ struct FluidInput {
   double fluid_factor = 0;  ///< 1/ms
   double mesh_factor = 0;   ///< 1/ms
   double step = 0;          ///< ms, for the stabilisation
+  /// The projected pressure gradient of the stabilisation, vector layout, kPa/mm. The sub-problem finds it itself.
+  const double* projected_gradient = nullptr;
 };
 
 /// Derivatives of the fluid's residual with respect to its own unknowns (u, p) and to the mesh displacement.

@@ -23,7 +23,8 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
   assert(pressures.size() <= open_.size());
   jacobian(derivatives);  // storage
   residual.assign(space_.mixed_size(), 0.0);
-  const auto result = assemble_fluid(form_, packs_, in, residual, derivatives, &jacobian_);
+  const auto result =
+      assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
   for (std::size_t i = 0; i < pressures.size(); ++i) open_[i].add_pressure(pressures[i], residual);
   return result;
 }
@@ -39,7 +40,15 @@ auto FluidProblem<Element>::jacobian(FluidDerivatives derivatives) -> FluidJacob
 
 template <class Element>
 FluidEnergy FluidProblem<Element>::energy(const FluidInput& in) const {
-  return fluid_energy(form_, packs_, in);
+  PressureProjection<Element> projection;
+  return fluid_energy(form_, packs_, with_projection(in, projection));
+}
+
+template <class Element>
+FluidInput FluidProblem<Element>::with_projection(FluidInput in, PressureProjection<Element>& projection) const {
+  if constexpr (Element::stabilised)
+    if (form_.wave_speed > 0) in.projected_gradient = projection.of(in, packs_, part_.node_count()).data();
+  return in;
 }
 
 template <class Element>

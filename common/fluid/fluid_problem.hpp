@@ -4,6 +4,7 @@
 
 #include "fem/element_packs.hpp"
 #include "fluid/fluid.hpp"
+#include "fluid/pressure_projection.hpp"
 
 namespace fsi {
 
@@ -23,6 +24,7 @@ class FluidProblem : public Fluid<Element::components> {
   const PartNodes& nodes() const override { return part_; }
   const FunctionSpace<n>& space() const override { return space_; }
   const AleFluid& form() const override { return form_; }
+  void set_wave_speed(double speed) override { form_.wave_speed = speed; }
   const std::vector<OpenBoundary<n>>& open_boundaries() const override { return open_; }
 
   AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
@@ -35,11 +37,14 @@ class FluidProblem : public Fluid<Element::components> {
   std::vector<int> cell_vertices() const override;
 
  private:
+  FluidInput with_projection(FluidInput in, PressureProjection<Element>& projection) const;
+
   Part part_;
   AleFluid form_;
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
   FluidJacobian<n> jacobian_;
+  PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;
 };
 

@@ -8,6 +8,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/wave_speed.hpp"
 #include "time/euler_newmark.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -56,7 +57,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
         setup.load ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions)) : FacetsOf<Element>{};
     const auto& s = *setup.structure;
     auto wall = std::make_unique<WallProblem<Element>>(
-        wall_part, WallConstants{s.density, s.bulk_modulus, s.stabilisation}, layers, cylinder_axis(s), pressurised);
+        wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, layers, cylinder_axis(s),
+        pressurised);
     scene->profile.count("structure elements", static_cast<std::int64_t>(wall->element_count()));
     for (const auto& layer : wall->layers())
       if (!layer.fibres.empty())
@@ -81,6 +83,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->fluid = std::move(fluid);
   }
 
+  if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;
   if (scene->coupled()) scene->assemble_mesh_motion();
   return scene;

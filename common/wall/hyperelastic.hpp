@@ -12,15 +12,18 @@ namespace fsi {
 /// is
 ///   (rho a, v) + (F S' - p J F^-T, grad v)
 ///   - (J - 1, q) - (p / kappa, q) - sum over elements (tau J F^-T grad p, F^-T grad q),
-///   tau = alpha h^2 / (2 mu).
-/// No inertia in the stabilisation's residual: it would destabilise small steps. Elements without a size (Taylor-Hood)
-/// get no stabilisation. Fibre directions vary from point to point, also where gradients are constant.
+///   tau = alpha h^2 / (2 (mu + rho c_w^2)).
+/// c_w, the speed of pressure waves in the scene, is zero where it is not known. With it tau rho / t^2, t = h / c_w, the
+/// share of the wall's inertia that leaks away, is below alpha / 2 however soft the layer. No inertia in the
+/// stabilisation's residual: it would destabilise small steps. Elements without a size (Taylor-Hood) get no
+/// stabilisation. Fibre directions vary from point to point, also where gradients are constant.
 template <class Material>
 struct Hyperelastic {
   double density;        ///< mg/mm^3; 0 in statics
   double bulk_modulus;   ///< kappa, kPa
   double stabilisation;  ///< alpha
   Material material;
+  double wave_speed = 0;  ///< c_w, mm/ms
 
   using FibreData = typename Material::FibreData;
   static constexpr bool has_fibres = std::is_same_v<FibreData, Fibres>;
@@ -69,7 +72,8 @@ struct Hyperelastic {
   }
   template <class T>
   Vec3<T> stabilisation_flux(const Deformation<T>& f, const Vec3<T>& grad_p, Pack size_squared) const {
-    const Pack tau = Pack(stabilisation / (2 * material.shear_modulus())) * size_squared;
+    const Pack tau =
+        Pack(stabilisation / (2 * (material.shear_modulus() + density * wave_speed * wave_speed))) * size_squared;
     const T scale = -tau / f.volume_ratio;
     return scale * transposed_times(f.cofactor_gradient, f.cofactor_gradient * grad_p);
   }

@@ -28,6 +28,8 @@ class Wall {
   virtual const PartNodes& nodes() const = 0;
   virtual const FunctionSpace<n>& space() const = 0;
   virtual const WallConstants& constants() const = 0;
+  /// \param speed  of pressure waves in the scene, mm/ms, for the stabilisation; 0, as at first: not known
+  virtual void set_wave_speed(double speed) = 0;
   virtual const std::vector<LayerData>& layer_data() const = 0;
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }

@@ -145,7 +145,7 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
         [&](const auto& material) {
           using M = std::decay_t<decltype(material)>;
           const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0, wall.bulk_modulus,
-                                     wall.stabilisation, material};
+                                     wall.stabilisation, material, wall.wave_speed};
           std::vector<AssemblyResult> results(layer.packs.thread_count());
           const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
           for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {

@@ -103,7 +103,7 @@ WallEnergy wall_energy(const WallConstants& wall, const std::vector<WallLayer<El
     std::visit(
         [&](const auto& material) {
           using M = std::decay_t<decltype(material)>;
-          const Hyperelastic<M> form{wall.density, wall.bulk_modulus, wall.stabilisation, material};
+          const Hyperelastic<M> form{wall.density, wall.bulk_modulus, wall.stabilisation, material, wall.wave_speed};
           all += detail::layer_energy(form, layer, in);
         },
         layer.material);

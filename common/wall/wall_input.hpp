@@ -32,9 +32,10 @@ using WallMatrix = BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>
 
 /// What the layers of a wall have in common.
 struct WallConstants {
-  double density;        ///< mg/mm^3
-  double bulk_modulus;   ///< kPa
-  double stabilisation;  ///< alpha
+  double density;         ///< mg/mm^3
+  double bulk_modulus;    ///< kPa
+  double stabilisation;   ///< alpha
+  double wave_speed = 0;  ///< c_w of the stabilisation, mm/ms; 0: statics, no fluid, or not asked for
 };
 
 /// Two ends of a step of the wall. Wall arrays hold (d, p) in the mixed layout, in mm and kPa, the others are in

@@ -27,6 +27,7 @@ class WallProblem : public Wall<Element::components> {
   const PartNodes& nodes() const override { return part_; }
   const FunctionSpace<n>& space() const override { return space_; }
   const WallConstants& constants() const override { return constants_; }
+  void set_wave_speed(double speed) override { constants_.wave_speed = speed; }
   const std::vector<LayerData>& layer_data() const override { return layer_data_; }
 
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,

@@ -9,6 +9,7 @@
 #include "fem/p1_triangle.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "monolithic/coupled_numbering.hpp"
+#include "scene/wave_speed.hpp"
 #include "system/newton_stepper.hpp"
 #include "time/euler_newmark.hpp"
 #include "wall/wall_problem.hpp"
@@ -27,7 +28,9 @@ class AxisymmetricArtery {
   /// \param refinement  1: 4 cells across the fluid, 2 the media, 1 the adventitia, 36 along the axis; 2: twice those
   /// \param step        ms
   /// \param alpha       factor of the wall's stabilisation
-  AxisymmetricArtery(const std::string& material, int refinement, double step = 0.125, double alpha = 0.5)
+  /// \param kind        of stabilisation
+  AxisymmetricArtery(const std::string& material, int refinement, double step = 0.125, double alpha = 0.5,
+                     Stabilisation kind = Stabilisation::paper)
       : axial_cells_(36 * refinement), alpha_(alpha) {
     make_grid(refinement);
     setup_.fluid = FluidData{1.0, 3.5e-3, false};
@@ -36,6 +39,7 @@ class AxisymmetricArtery {
     setup_.time->step = step;
     setup_.time->end = 12;
     make_scene(material);
+    if (kind == Stabilisation::projected) stabilise_for_waves(*scene_);
     loads_ = std::make_unique<Loads>(setup_);
     stepper_ =
         std::make_unique<NewtonStepper<Element::components>>(*scene_, *loads_, NewtonOptions{}, number_scene(*scene_));

@@ -27,6 +27,7 @@ Case lively_case(const std::string& material) {
   Case setup = coupled_case(material, 0.5);
   setup.fluid = FluidData{1.3, 0.5, true};
   setup.structure->bulk_modulus = 50;
+  setup.structure->stabilisation = 0.5;  // no term drowns in another
   setup.structure->axis_origin = {0.4, 0.5, -1.0};
   setup.structure->axis_direction = {0, 1, 0};
   setup.time->newmark_beta = 0.4;

@@ -30,6 +30,12 @@ TEST(FluidJacobian, WithGradDivStabilisation) {
   check_fluid_blocks(fluid, FluidState<Tet>(fluid.part().nodes), "fluid, grad-div", {3, 4});
 }
 
+TEST(FluidJacobian, WithTheProjectedPressure) {
+  auto fluid = fluid_cube(false);
+  fluid.set_wave_speed(0.1);  // T = h / c_w is about 3 ms, six steps
+  check_fluid_blocks(fluid, FluidState<Tet>(fluid.part().nodes), "fluid, projected", {5, 6});
+}
+
 TEST(FluidJacobian, OnARigidDomainIsThatOfAnUnmovedOne) {
   auto fluid = fluid_cube(false);
   FluidState<Tet> state(fluid.part().nodes);

@@ -30,6 +30,12 @@ TEST(CaseReader, ReadsThePapersCases) {
   EXPECT_EQ(neo.time->steps(), 96);
   EXPECT_FALSE(neo.load || neo.static_load);
 
+  for (const char* name : {"neo-hookean.toml", "mooney-rivlin.toml", "artery.toml"}) {
+    const auto scene = read_case(folder / name);
+    EXPECT_EQ(scene.stabilisation, Stabilisation::paper) << name;
+    EXPECT_EQ(scene.structure->stabilisation, 0.5) << name << ": the paper's standard";
+  }
+
   const auto rivlin = read_case(folder / "mooney-rivlin.toml");
   EXPECT_EQ(rivlin.structure->layers.at("adventitia").values.at("c01"), 0.2);
 

@@ -40,6 +40,24 @@ TEST(Membrane, OfASceneHasItsWallsMass) {
   EXPECT_NEAR(wall.tension, 4 * wall.shear_modulus * wall.thickness, 1e-3 * wall.tension);
 }
 
+// Two ways to the same number: c_w^2 = E h / ((1 - nu^2) 2 rho R).
+TEST(Membrane, CarriesTheWaveThatTheStabilisationKnows) {
+  Case setup = coupled_case("artery");
+  const auto mesh = fluid_and_wall_box(2);
+  const auto scene = build_scene<P1Tetrahedron>(setup, mesh);
+  const Membrane wall = membrane_of(*scene);
+  const double speed = std::sqrt(wall.tension / (2 * setup.fluid->density * wall.radius));
+  EXPECT_NEAR(scene->fluid->form().wave_speed, speed, 1e-12 * speed);
+  EXPECT_EQ(scene->wall->constants().wave_speed, scene->fluid->form().wave_speed);
+  EXPECT_EQ(scene->wall->constants().stabilisation, 0.05);
+
+  setup.stabilisation = Stabilisation::paper;
+  const auto papers = build_scene<P1Tetrahedron>(setup, mesh);
+  EXPECT_EQ(papers->fluid->form().wave_speed, 0);
+  EXPECT_EQ(papers->wall->constants().wave_speed, 0);
+  EXPECT_EQ(papers->wall->constants().stabilisation, 0.5);
+}
+
 TEST(Membrane, FibresStiffenIt) {
   const Case slack = coupled_case("neo-hookean"), fibres = coupled_case("artery");
   const auto mesh = fluid_and_wall_box(2);

@@ -17,7 +17,7 @@ REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 
 # Entries of a case that leave the continuous problem as it is: how it is cut into elements and steps, how the equations
 # are solved, and what is written. All others must be the reference's.
-NUMERICAL = ("title", "element", "economy", "monolithic", "partitioned", "output", "mesh", "time")
+NUMERICAL = ("title", "element", "stabilisation", "economy", "monolithic", "partitioned", "output", "mesh", "time")
 STABILISATION = "structure.stabilisation"
 
 
