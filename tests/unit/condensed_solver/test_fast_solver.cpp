@@ -177,7 +177,7 @@ TEST(FastSolver, SolvesWithPressuresPerLayer) {
   ArteryOptions options;
   options.length = 6;
   const auto parts = build_scene<P1Tetrahedron>(setup, generate_artery(options));
-  LinearisedScene<Tet> scene(setup, *parts, 2, 2);
+  LinearisedScene<3> scene(setup, *parts, 2, 2);
   EXPECT_TRUE(parts->wall->nodes().has_copies());
   EXPECT_GT(scene.b().size(), artery().b().size());
   FastSolver<3> solver(scene.blocks(), iterative());
