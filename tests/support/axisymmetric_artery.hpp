@@ -33,7 +33,7 @@ class AxisymmetricArtery {
                      Stabilisation kind = Stabilisation::paper)
       : axial_cells_(36 * refinement), alpha_(alpha) {
     make_grid(refinement);
-    setup_.fluid = FluidData{1.0, 3.5e-3, false};
+    setup_.fluid = FluidData{1.0, 3.5e-3};
     setup_.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};
     setup_.time = TimeData{};
     setup_.time->step = step;

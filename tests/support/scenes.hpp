@@ -20,7 +20,7 @@ inline MaterialData layer_of(const std::string& material, const ParameterValues&
 /// (docs/theory.md, section 1.3).
 inline Case coupled_case(const std::string& material, double step = 0.125) {
   Case setup;
-  setup.fluid = FluidData{1.0, 3.5e-3, false};
+  setup.fluid = FluidData{1.0, 3.5e-3};
   setup.structure = StructureData{};
   setup.structure->density = 1.2;
   setup.structure->bulk_modulus = 1e5;

@@ -25,7 +25,7 @@ using Tet = P1Tetrahedron;
 /// No term small beside the others: softer volume, more viscous fluid, longer step than the artery's.
 Case lively_case(const std::string& material) {
   Case setup = coupled_case(material, 0.5);
-  setup.fluid = FluidData{1.3, 0.5, true};
+  setup.fluid = FluidData{1.3, 0.5, true, true};
   setup.structure->bulk_modulus = 50;
   setup.structure->stabilisation = 0.5;  // no term drowns in another
   setup.structure->axis_origin = {0.4, 0.5, -1.0};

@@ -35,7 +35,7 @@ struct Scenario {
                     LayerPressure layer_pressure = LayerPressure::continuous) {
     Case setup = coupled_case(material, 0.5);
     setup.structure->layer_pressure = layer_pressure;
-    setup.fluid = FluidData{1.3, 0.03, grad_div};
+    setup.fluid = FluidData{1.3, 0.03, true, grad_div};
     setup.structure->bulk_modulus = 50;
     setup.structure->axis_origin = {0.4, 0.5,
                                     -1.0};  // fibres lie in planes near the layers', turning from element to element

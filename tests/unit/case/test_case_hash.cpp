@@ -13,7 +13,7 @@ namespace {
 
 Case example() {
   Case scene;
-  scene.fluid = FluidData{1.0, 3.5e-3, false};
+  scene.fluid = FluidData{1.0, 3.5e-3};
   scene.structure.emplace();
   scene.structure->layers["media"] = {"neo-hookean", {{"c10", 3.0}}};
   scene.inlet = PressureTable{{{0, 1.332}}};
@@ -76,10 +76,10 @@ TEST(CaseHash, DoesNotDependOnHowACaseIsWritten) {
       "mesh.level = 'coarse'\nload.pressure = 2\nstructure.density = 1\nstructure.bulk_modulus = 10\n"
       "structure.layers.w = { material = 'neo-hookean', c10 = 1 }\n";
   const auto hash = [](const std::string& text) { return hash_of_case(parse_case(text, "case.toml")); };
-  const auto given = hash(start + "static.load_steps = 10\nstructure.stabilisation = 0.05\ntitle = 'a'\n");
+  const auto given = hash(start + "static.load_steps = 10\nstructure.stabilisation = 0.5\ntitle = 'a'\n");
   EXPECT_EQ(hash("# a comment\n" + start + "[static]\n"), given) << "defaults count as if they were given";
   EXPECT_NE(hash(start + "structure.stabilisation = 0.25\n[static]\n"), given);
-  EXPECT_NE(hash("stabilisation = 'paper'\n" + start + "structure.stabilisation = 0.05\n[static]\n"), given);
+  EXPECT_NE(hash("stabilisation = 'paper'\n" + start + "structure.stabilisation = 0.5\n[static]\n"), given);
 }
 
 /// Every key that can be given but for those of solvers, output and the like is part of the hash: nobody lists them.
@@ -111,8 +111,8 @@ fluid.outlet = true
 fluid.grad_div = true
 structure.density = 1.1
 structure.bulk_modulus = 10000
-structure.stabilisation = 0.05
-structure.layer_pressure = continuous
+structure.stabilisation = 0.5
+structure.layer_pressure = separate
 structure.axis_origin = [0, 0, 0]
 structure.axis_direction = [0, 0, 1]
 structure.layers.inside.material = artery

@@ -49,7 +49,11 @@ TEST(Membrane, CarriesTheWaveThatTheStabilisationKnows) {
   const double speed = std::sqrt(wall.tension / (2 * setup.fluid->density * wall.radius));
   EXPECT_NEAR(scene->fluid->form().wave_speed, speed, 1e-12 * speed);
   EXPECT_EQ(scene->wall->constants().wave_speed, scene->fluid->form().wave_speed);
-  EXPECT_EQ(scene->wall->constants().stabilisation, 0.05);
+
+  setup.structure->layer_pressure = LayerPressure::separate;
+  EXPECT_EQ(build_scene<P1Tetrahedron>(setup, mesh)->wall->constants().stabilisation, 0.5);
+  setup.structure->layer_pressure = LayerPressure::continuous;
+  EXPECT_EQ(build_scene<P1Tetrahedron>(setup, mesh)->wall->constants().stabilisation, 0.05) << "leaks between layers";
 
   setup.stabilisation = Stabilisation::paper;
   const auto papers = build_scene<P1Tetrahedron>(setup, mesh);
