@@ -19,7 +19,7 @@ from programs import (
     summary,
     table,
 )
-from scenes import KINDS, scene
+from scenes import KINDS, forms, scene
 
 CASES = (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY)
 # One scheme of each family with every material; the others with the first. "explicit" solves other equations.
@@ -50,7 +50,7 @@ class Kinds(FolderTest):
 
     def march(self, program, case, kind, name, *settings, threads=1):
         folder = self.base / "-".join((*kind, case.stem, name))
-        fixed = (*scene(self.base, *kind), "time.end=0.75", "output.every=2")
+        fixed = (*scene(self.base, *kind), *forms(case), "time.end=0.75", "output.every=2")
         return run(program, case, folder, *fixed, *settings, threads=threads)
 
 
@@ -148,7 +148,14 @@ class Bits(Kinds):
                     stopped = self.march(program, ARTERY, kind, "stopped", *loose, "time.end=0.25")
                     self.assertEqual(table(stopped, "iterations.csv")[:, 0].tolist(), [1, 2])
                     restart(
-                        program, ARTERY, stopped, *scene(self.base, *kind), *loose, "time.end=0.75", "output.every=2"
+                        program,
+                        ARTERY,
+                        stopped,
+                        *scene(self.base, *kind),
+                        *forms(ARTERY),
+                        *loose,
+                        "time.end=0.75",
+                        "output.every=2",
                     )
                     self.assertSameResults(stopped, whole)
 

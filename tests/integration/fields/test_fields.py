@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from programs import ARTERY, DRIVERS, MONOLITHIC, FolderTest, arrays, execute, make_small_mesh, run, summary
-from scenes import KINDS, scene
+from scenes import KINDS, forms, scene
 
 READER = Path(__file__).with_name("read_fields.py")
 STEPS, STEP = 5, 0.125
@@ -117,7 +117,7 @@ class Kinds(FolderTest):
         super().setUpClass()
         cls.runs = {}
         for kind in KINDS:
-            settings = (*scene(cls.base, *kind), "time.end=0.375", "output.every=3")
+            settings = (*scene(cls.base, *kind), *forms(ARTERY), "time.end=0.375", "output.every=3")
             folder = run(MONOLITHIC, ARTERY, cls.base / "-".join(kind), *settings)
             cls.runs[kind] = folder, shown_by_paraview(folder)
 

@@ -16,7 +16,7 @@ from programs import (
     table,
     wall,
 )
-from scenes import ELEMENTS, TUBE
+from scenes import ELEMENTS, TUBE, forms
 
 CELLS = (*TUBE, "--axial-cells", 4, "--around", 8)
 
@@ -45,6 +45,7 @@ class Symmetry(FolderTest):
             case,
             self.base / f"{DRIVERS.index(program)}-{case.stem}-{element}-{sector}-{mirrored}",
             f"element={element}",
+            *forms(case),
             f"mesh.file={self.meshes[ELEMENTS[element], sector, mirrored]}",
             "time.end=0.5",
             "output.every=0",
