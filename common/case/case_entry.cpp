@@ -123,13 +123,16 @@ double CaseEntry::number(const Quantity& quantity) const {
   return value;
 }
 
+void CaseEntry::warn(const std::string& problem, const std::string& remedy) const {
+  source_->warnings.emplace_back(
+      InputError(source_->place(key_, node_->source()), printable(key_), problem, remedy).what());
+}
+
 bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
   const auto slip = unit_slip(quantity, value);
   if (!slip) return false;
-  const InputError message(source_->place(key_, node_->source()), printable(key_),
-                           fmt::format("{:g} looks like a value in {}", value, slip->unit),
-                           fmt::format("did you mean {:.3g} {}?", slip->meant, quantity.unit));
-  source_->warnings.emplace_back(message.what());
+  warn(fmt::format("{:g} looks like a value in {}", value, slip->unit),
+       fmt::format("did you mean {:.3g} {}?", slip->meant, quantity.unit));
   return true;
 }
 

@@ -47,6 +47,7 @@ class CaseEntry {
   /// For a key that this section lacks: placed at the section's header.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& remedy) const;
 
+  void warn(const std::string& problem, const std::string& remedy) const;
   /// Warns when the value seems to be in a wrong unit. \return whether it does
   bool warn_of_unit(const Quantity& quantity, double value) const;
 

@@ -44,6 +44,33 @@ void check_sections(const CaseEntry& whole_case, const Case& scene) {
     if (rule.broken) whole_case.child(rule.section).refuse(rule.problem, rule.remedy);
 }
 
+/// Scenes in two dimensions have the axis that their geometry gives them.
+void check_axis(const CaseEntry& whole_case, const Case& scene) {
+  if (!scene.structure || scene.geometry == Geometry::three_dimensional) return;
+  const CaseEntry structure = whole_case.child("structure");
+  const bool axisymmetric = scene.geometry == Geometry::axisymmetric;
+  const auto& direction = scene.structure->axis_direction;
+  const auto& origin = scene.structure->axis_origin;
+  if (direction[0] != 0 || direction[1] != 0)
+    structure.child("axis_direction")
+        .refuse(axisymmetric ? "the axis of an axisymmetric scene is the z axis"
+                             : "the axis of a plane scene stands upright on its plane: it is along z",
+                "leave this key out");
+  if (axisymmetric && (origin[0] != 0 || origin[1] != 0))
+    structure.child("axis_origin").refuse("the axis of an axisymmetric scene is the z axis", "leave this key out");
+}
+
+/// Elements that are stable by themselves have nothing to stabilise.
+void warn_of_stabilisation(const CaseEntry& whole_case, const Case& scene) {
+  if (scene.element != ElementPair::p2p1) return;
+  const auto warn = [](const CaseEntry& entry) {
+    entry.warn("not used: the element p2p1 needs no stabilisation", "leave this key out, or set element = \"p1\"");
+  };
+  if (scene.fluid && scene.fluid->grad_div) warn(whole_case.child("fluid").child("grad_div"));
+  if (scene.structure && whole_case.child("structure").has("stabilisation"))
+    warn(whole_case.child("structure").child("stabilisation"));
+}
+
 /// A wall a thousand times denser than a fluid in the right unit is meant so, to see what the added mass does. Without
 /// such a fluid it is not.
 void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
@@ -92,7 +119,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   read_keys(whole_case, case_keys(), scene);
   check_sections(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
+  check_axis(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
+  warn_of_stabilisation(whole_case, scene);
   scene.warnings = source.warnings;
   return scene;
 }

@@ -53,7 +53,7 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
            number(at(&FluidData::density), positive, quantity::fluid_density())),
       leaf("viscosity", required, "dynamic viscosity in {unit}",
            number(at(&FluidData::viscosity), positive, quantity::viscosity())),
-      leaf("outlet", optional, "whether fluid leaves through a surface outlet, default {}",
+      leaf("outlet", optional, "whether fluid leaves through a surface outlet, free of traction, default {}",
            flag(at(&FluidData::outlet))),
       leaf("grad_div", optional, "grad-div stabilisation, default {}", flag(at(&FluidData::grad_div))),
   };
@@ -149,13 +149,15 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            number(at(&StructureData::density), positive, quantity::density())),
       leaf("bulk_modulus", required, "bulk modulus in {unit}",
            number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
-      leaf("stabilisation", optional, "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
+      leaf("stabilisation", optional,
+           "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
            number(at(&StructureData::stabilisation), positive)),
       leaf("layer_pressure", optional, "the pressure where layers meet: {}",
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
-      leaf("axis_origin", optional, "point on the artery's axis in {unit}, default {}",
+      leaf("axis_origin", optional,
+           "point on the artery's axis in {unit}, default {}; of plane scenes where the upright axis stands",
            point(at(&StructureData::axis_origin), false)),
-      leaf("axis_direction", optional, "direction of the artery's axis, default {}",
+      leaf("axis_direction", optional, "direction of the artery's axis in 3d, default {}",
            point(at(&StructureData::axis_direction), true)),
       {"layers", required, "a section [structure.layers.NAME] per volume group of the wall", read_layers, list_layers,
        KeyRole::physics, layers_help()},
@@ -301,8 +303,13 @@ CaseKey<Case> scene_section(const std::string& name, const std::string& about, c
 std::vector<CaseKey<Case>> physics_keys() {
   return {
       leaf("title", optional, "what the case is, for people", any_text(at(&Case::title)), KeyRole::running),
-      leaf("element", optional, "element pair: {}", name_from(at(&Case::element), element_pairs())),
-      leaf("geometry", optional, "of the scene: {}", name_from(at(&Case::geometry), geometries())),
+      leaf("element", optional,
+           "element pair: {}; p1: linear, equal order, stabilised; p2p1: Taylor-Hood, quadratic but for pressures",
+           name_from(at(&Case::element), element_pairs())),
+      leaf("geometry", optional,
+           "space of the scene: {}; axisymmetric meshes are triangles in the plane of r = x and z, plane ones (plane "
+           "strain) in that of x and y",
+           name_from(at(&Case::geometry), geometries())),
       leaf("stabilisation", optional, "of equal-order elements: {}",
            name_from(at(&Case::stabilisation), stabilisation_kinds())),
       section<MeshData, Case>(

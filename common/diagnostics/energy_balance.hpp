@@ -18,7 +18,7 @@ class EnergyBalance {
   EnergyBalance(const Scene<n>& scene, const Loads& loads, const State& state)
       : scene_(scene), loads_(loads), acceleration_(state.wall_acceleration) {
     energy_ = terms(state).energy();
-    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static()};
+    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic()};
   }
 
   const EnergyParts& parts() const { return parts_; }
@@ -33,6 +33,13 @@ class EnergyBalance {
   }
 
  private:
+  /// Whether there are nodes without pressure. Linear elements integrate convection exactly, also where they move.
+  bool quadratic() const {
+    for (int a = 0; scene_.fluid && a < scene_.fluid->node_count(); ++a)
+      if (!scene_.fluid->space().carries_scalar(a)) return true;
+    return false;
+  }
+
   // One function for every use, never inlined: on restart it must give the bits that the run would have had.
   [[gnu::noinline]] EnergyRecord terms(const State& state) const {
     const Solution &now = state.before[0], &old = state.before[1];
@@ -68,6 +75,7 @@ class EnergyBalance {
         if (i < pressures.size() && pressures[i] != 0)
           record.inlet_work -= step * pressures[i] * open[i].outflow(now.fluid);
       }
+      if (quadratic()) record.fluid_quadrature = fluid.convection - (record.outlet_kinetic - record.inlet_kinetic);
     }
     if (scene_.wall) {
       WallStep in;

@@ -16,6 +16,7 @@ struct EnergyRecord {
 
   // Numerical dissipation by origin; negative where the discretisation adds energy.
   double fluid_inertia = 0, fluid_mesh_motion = 0, fluid_divergence = 0, fluid_stabilisation = 0;
+  double fluid_quadrature = 0;
   double wall_inertia = 0, wall_stress = 0, wall_stabilisation = 0;
 
   double remainder = 0;  ///< supply() - change of energy() - viscous - numerical()
@@ -23,15 +24,16 @@ struct EnergyRecord {
   double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric; }
   double supply() const { return inlet_work + load_work + inlet_kinetic - outlet_kinetic; }
   double numerical() const {
-    return fluid_inertia + fluid_mesh_motion + fluid_divergence + fluid_stabilisation + wall_inertia + wall_stress +
-           wall_stabilisation;
+    return fluid_inertia + fluid_mesh_motion + fluid_divergence + fluid_stabilisation + fluid_quadrature +
+           wall_inertia + wall_stress + wall_stabilisation;
   }
 };
 
 /// What of it a scene has.
 struct EnergyParts {
   bool fluid = false, wall = false;
-  bool in_time = true;  ///< not static
+  bool in_time = true;     ///< not static
+  bool quadratic = false;  ///< elements whose rule does not integrate convection exactly
 };
 
 }  // namespace fsi

@@ -130,7 +130,8 @@ Point centre_of(const std::vector<Point>& nodes, const Facets& surface) {
   return (1 / count) * sum;
 }
 
-/// Where the centre line of a scene runs: the axis of a tube; in plane scenes the straight line from inlet to outlet.
+/// Where the centre line of a scene runs: the axis of a tube; in plane scenes the straight line from the middle of the
+/// inlet to that of the outlet.
 template <class Element>
 Axis axis_of(const Case& setup, const MeshOf<Element>& mesh) {
   Axis axis;
@@ -152,6 +153,25 @@ NodalSample in_part(std::vector<int> nodes, std::vector<double> weights, const P
   return {std::move(nodes), std::move(weights)};
 }
 
+/// The fluid's pressure along the axis between two openings. In two dimensions it is left out where the line leaves the
+/// fluid: annuli and bent channels have none. A tube without one has a wrong axis in its case, and is refused.
+template <class Element>
+void add_centre_line(const MeshOf<Element>& mesh, const FacetsOf<Element>& inlet, const FacetsOf<Element>& outlet,
+                     const PartNodes& fluid, ObservationPoints& points) {
+  const auto z = evenly_spaced(axial_position(mesh.nodes, inlet, points.axis),
+                               axial_position(mesh.nodes, outlet, points.axis), line_points);
+  std::vector<PointSample> found;
+  try {
+    found = sample_in_cells(mesh, mesh.region_index(group::fluid), points_on_axis(points.axis, z));
+  } catch (const InputError&) {
+    if constexpr (Element::dim == 2) return;
+    throw;
+  }
+  points.centre_z = z;
+  for (auto& sample : found)
+    points.centre_line.push_back(in_part(std::move(sample.nodes), std::move(sample.scalar_weights), fluid));
+}
+
 template <class Element>
 ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& mesh,
                                      const Scene<Element::components>& scene) {
@@ -159,13 +179,8 @@ ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& m
   points.axis = axis_of<Element>(setup, mesh);
   const int fluid_region = mesh.region_index(group::fluid);
   const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
-  if (scene.fluid && inlet && outlet) {
-    points.centre_z = evenly_spaced(axial_position(mesh.nodes, *inlet, points.axis),
-                                    axial_position(mesh.nodes, *outlet, points.axis), line_points);
-    for (auto& found : sample_in_cells(mesh, fluid_region, points_on_axis(points.axis, points.centre_z)))
-      points.centre_line.push_back(
-          in_part(std::move(found.nodes), std::move(found.scalar_weights), scene.fluid->nodes()));
-  }
+  if (scene.fluid && inlet && outlet && norm(points.axis.direction) > 0)
+    add_centre_line<Element>(mesh, *inlet, *outlet, scene.fluid->nodes(), points);
   constexpr bool tube = Element::dim == 3 || Element::axisymmetric;
   if (scene.wall && tube) {
     std::vector<int> wall_regions;

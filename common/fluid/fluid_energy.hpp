@@ -12,7 +12,7 @@ template <class Element>
 struct PreparedEnergy {
   AleFluid::Prepared<MetricOf<Element>, Pack, Pack> form;
   Pack volume_step;  ///< J_1 - J_0
-  Pack defect;       ///< D - (J_1 - J_0)
+  Pack defect;       ///< D - (J_1 - J_0), D = dt J div w
 };
 
 }  // namespace detail
@@ -40,7 +40,7 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
         rate.at[a][k] = Pack(in.fluid_factor) * (u.at[a][k] - u_old.at[a][k]);
         convection.at[a][k] = u.at[a][k] - Pack(in.mesh_factor) * (d.at[a][k] - d_old.at[a][k]);
       }
-    return pack_integrals<Element, 6>(
+    return pack_integrals<Element, 7>(
         pack.geometry,
         [&](const auto& g) {
           detail::PreparedEnergy<Element> k;
@@ -52,21 +52,25 @@ FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, cons
         },
         [&](const detail::PreparedEnergy<Element>& k, const auto& g, int) {
           const Vec3<Pack> now = value_of(u, g), old = value_of(u_old, g), step = now - old;
-          const auto power = form.power(k.form, value_of(rate, g), value_of(convection, g), value_of(projected, g));
+          const Vec3<Pack> c = value_of(convection, g);
+          const auto power = form.power(k.form, value_of(rate, g), c, value_of(projected, g));
           const Pack half_density(0.5 * form.density), square = dot(now, now);
           const Pack volume = half_density * k.form.volume_ratio;
-          return std::array<Pack, 6>{
+          const Pack divergence = Pack(form.step) * volume * k.form.divergence * square;
+          const Pack mesh_divergence = half_density * (k.defect + k.volume_step) * square;
+          return std::array<Pack, 7>{
               volume * square,
               Pack(form.step) * power.viscous,
               Pack(form.step) * power.stabilisation,
               volume * dot(step, step),
               half_density * (k.defect * square + k.volume_step * (square - dot(old, old))),
-              -(Pack(form.step) * volume * k.form.divergence * square),
+              -divergence,
+              Pack(2 * form.step) * volume * dot(k.form.velocity_gradient * c, now) + divergence - mesh_divergence,
           };
         });
   };
-  const auto sums = sum_over_elements<6>(packs, integrals);
-  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+  const auto sums = sum_over_elements<7>(packs, integrals);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
 }
 
 }  // namespace fsi

@@ -35,8 +35,8 @@ enum class FluidDerivatives { none, fluid, fluid_and_domain };
 /// Energy of the fluid at the end of a step, and what the step's discrete equations, tested with (u, -p), do besides
 /// changing it (docs/energy.md); all in uJ = mm^3 kPa. With the step's ends 0 and 1, D = cof F_1 : grad(d_1 - d_0):
 ///   dt (rho J (du/dt + grad u F^-1 c), u) = kinetic_1 - kinetic_0 + inertia + mesh_motion + divergence + outflow,
-/// exactly where the integration rule is for quadratic functions and the outflow that of rho/2 |u|^2 through the open
-/// faces.
+/// where outflow is that of rho/2 |u|^2 through the open faces and the integration rule makes `convection` equal to it:
+/// for linear elements. Otherwise convection takes the outflow's place.
 struct FluidEnergy {
   double kinetic = 0;        ///< (rho/2 J, |u|^2) at the end
   double viscous = 0;        ///< dt (mu J (grad u F^-1 + ...^T), grad u F^-1)
@@ -44,6 +44,7 @@ struct FluidEnergy {
   double inertia = 0;        ///< (rho/2 J, |u_1 - u_0|^2): backward Euler
   double mesh_motion = 0;    ///< rho/2 ((D, |u_1|^2) - (J_1 - J_0, |u_0|^2)): the domain's motion is not conserved
   double divergence = 0;     ///< -dt rho/2 (J div u, |u|^2): convection in convective form
+  double convection = 0;     ///< dt rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
 };
 
 }  // namespace fsi

@@ -10,11 +10,14 @@
 namespace fsi {
 
 template <class Element>
-FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open)
+FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open,
+                                    std::vector<std::size_t> mirrored)
     : part_(std::move(part)),
       form_(form),
       space_(function_space<Element>(part_)),
       packs_(part_.nodes, part_.cells, all_cells(part_), *space_.graph()),
+      mirrored_(std::move(mirrored)),
+      projection_(mirrored_),
       open_(std::move(open)) {}
 
 template <class Element>
@@ -40,7 +43,7 @@ auto FluidProblem<Element>::jacobian(FluidDerivatives derivatives) -> FluidJacob
 
 template <class Element>
 FluidEnergy FluidProblem<Element>::energy(const FluidInput& in) const {
-  PressureProjection<Element> projection;
+  PressureProjection<Element> projection(mirrored_);
   return fluid_energy(form_, packs_, with_projection(in, projection));
 }
 

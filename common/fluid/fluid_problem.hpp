@@ -15,8 +15,11 @@ class FluidProblem : public Fluid<Element::components> {
   static constexpr int dim = Element::dim, n = Element::components;
   using Part = Submesh<Element::dim, Element::order>;
 
-  /// \param open  surfaces in the part's node numbers, none of which moves
-  FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open);
+  /// \param open      surfaces in the part's node numbers, none of which moves
+  /// \param mirrored  entries of the vector layout that vanish in a mirror: normal to planes of symmetry, radial on an
+  ///                  axis
+  FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open,
+               std::vector<std::size_t> mirrored = {});
 
   const Part& part() const { return part_; }
   const ElementPacks<Element>& packs() const { return packs_; }
@@ -44,6 +47,7 @@ class FluidProblem : public Fluid<Element::components> {
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
   FluidJacobian<n> jacobian_;
+  std::vector<std::size_t> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;
 };

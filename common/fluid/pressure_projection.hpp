@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "fem/contributions.hpp"
@@ -14,11 +15,15 @@ namespace fsi {
 /// The pressure gradient F^-T grad p, which jumps between elements, as a continuous field: projected in L2 with a lumped
 /// mass matrix,
 ///   pi_a (J, N_a) = (J F^-T grad p, N_a),
-/// of the level that a step's rates refer to. It is found anew whenever that level is another one.
+/// of the level that a step's rates refer to. It is found anew whenever that level is another one. Components that
+/// change their sign in a mirror vanish on it, as those of the whole body do.
 template <class Element>
 class PressureProjection {
  public:
   static constexpr int n = Element::components;
+
+  /// \param mirrored  entries of the vector layout that vanish: normal to planes of symmetry, radial on an axis
+  explicit PressureProjection(std::vector<std::size_t> mirrored) : mirrored_(std::move(mirrored)) {}
 
   /// Of in.fluid_reference on the domain of in.mesh_reference: vectors per fluid node in the vector layout, kPa/mm.
   /// \param nodes  of the fluid
@@ -66,8 +71,10 @@ class PressureProjection {
     gradient_.resize(static_cast<std::size_t>(nodes) * n);
     for (int a = 0; a < nodes; ++a)
       for (int k = 0; k < n; ++k) gradient_[Vector::vector(a, k)] = sums[Mixed::vector(a, k)] / sums[Mixed::scalar(a)];
+    for (const std::size_t entry : mirrored_) gradient_[entry] = 0;
   }
 
+  std::vector<std::size_t> mirrored_;
   std::vector<double> flow_, mesh_;  ///< of the level that the gradient belongs to
   std::vector<double> gradient_;
 };

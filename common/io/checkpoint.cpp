@@ -123,15 +123,16 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
   if (checkpoint.program != program)
     throw InputError(file.string(), "program", "was written by " + checkpoint.program + ", not " + program,
                      "continue it with " + checkpoint.program);
-  if (checkpoint.mesh_hash != mesh_hash)
-    throw InputError(file.string(), "mesh",
-                     "belongs to another mesh (hash " + checkpoint.mesh_hash + ", not " + mesh_hash + ")",
-                     "restart with the mesh of that run");
+  // The case first: its element and geometry decide what is made of a mesh file.
   if (checkpoint.case_hash != case_hash)
     throw InputError(file.string(), "case",
                      "belongs to another case (hash " + checkpoint.case_hash + ", not " + case_hash + ")",
                      "restart with the case file of that run; only title, time.step, time.end, time.predictor, "
                      "static.load_steps, [monolithic], [partitioned] and [output] may differ");
+  if (checkpoint.mesh_hash != mesh_hash)
+    throw InputError(file.string(), "mesh",
+                     "belongs to another mesh (hash " + checkpoint.mesh_hash + ", not " + mesh_hash + ")",
+                     "restart with the mesh of that run");
 }
 
 const std::vector<double>& require_size(const fs::path& file, const Checkpoint& checkpoint, const std::string& name,

@@ -47,6 +47,8 @@ constexpr Column columns[] = {
     {"wall_inertia_uJ", [](const R& r) { return r.wall_inertia; }, moving_wall},
     {"wall_stress_uJ", [](const R& r) { return r.wall_stress; }, wall},
     {"wall_stabilisation_uJ", [](const R& r) { return r.wall_stabilisation; }, wall},
+    {"fluid_quadrature_uJ", [](const R& r) { return r.fluid_quadrature; },
+     [](const EnergyParts& parts) { return parts.fluid && parts.quadratic; }},
 };
 
 }  // namespace

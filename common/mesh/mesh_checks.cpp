@@ -240,6 +240,7 @@ class Checks {
       if (needs_.inner_surface) surface(group::inner, layers_, wall, true);
     }
     symmetry_planes();
+    straight_axis();
   }
 
   /// No facet in both of two groups.
@@ -291,6 +292,18 @@ class Checks {
       }
       disjoint(group::inlet, name);
       disjoint(group::outlet, name);
+    }
+  }
+
+  /// A side of quadratic triangles that runs from axis to axis beside it would be a wall.
+  void straight_axis() const {
+    if constexpr (Dim == 2 && Order == 2) {
+      if (needs_.geometry != TriangleGeometry::axisymmetric) return;
+      for (const auto& cell : mesh_.cells)
+        for (const auto& facet : outward_facets<Dim, Order>(cell))
+          if (mesh_.nodes[facet[0]][0] == 0 && mesh_.nodes[facet[1]][0] == 0 && mesh_.nodes[facet[2]][0] != 0)
+            fail(fmt::format("node at {}", text(mesh_.nodes[facet[2]])), "is off the axis between two nodes on it",
+                 "give the axis straight sides with r = 0");
     }
   }
 

@@ -47,18 +47,24 @@ std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>&
 
 /// Fixes the component along one axis of space on all nodes of a part that lie on a symmetry plane normal to it, and of
 /// an axisymmetric part the radial one on the axis.
+/// Returns their entries in the vector layout.
 template <class Element>
-void fix_normal_components(const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                           const std::vector<DirichletConditions<Element::components>*>& conditions) {
+std::vector<std::size_t> fix_normal_components(
+    const MeshOf<Element>& mesh, const PartOf<Element>& part,
+    const std::vector<DirichletConditions<Element::components>*>& conditions) {
+  std::vector<std::size_t> entries;
   for (int k = 0; k < Element::components; ++k) {
     auto on = nodes_on<Element>(part, group_facets(mesh, group::symmetry[Element::axis[k]]));
     if constexpr (Element::axisymmetric)
       if (k == 0)
         for (int a = 0; a < part.node_count(); ++a) on[a] = on[a] || part.nodes[a][0] == 0;
-    for (int a = 0; a < part.node_count(); ++a)
-      if (on[a])
-        for (auto* condition : conditions) condition->fix(a, k);
+    for (int a = 0; a < part.node_count(); ++a) {
+      if (!on[a]) continue;
+      for (auto* condition : conditions) condition->fix(a, k);
+      entries.push_back(VectorLayout<Element::components>::vector(a, k));
+    }
   }
+  return entries;
 }
 
 /// Facets of the fluid's boundary at which it sticks: those in none of the given sets and not on the axis.
@@ -134,7 +140,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
       boundary.velocity.fix(a);
       boundary.mesh.fix(a);
     }
-  fix_normal_components<Element>(mesh, fluid, {&boundary.velocity, &boundary.mesh});
+  boundary.mirrored = fix_normal_components<Element>(mesh, fluid, {&boundary.velocity, &boundary.mesh});
   const auto wet = nodes_on<Element>(fluid, interface);
   const auto areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, interface));
   for (int a = 0; a < nodes; ++a) {

@@ -44,6 +44,7 @@ struct FluidBoundary {
   std::vector<InterfaceNode> interface;
   std::vector<double> interface_areas;  ///< that belongs to each of its nodes, mm^2
   std::vector<OpenBoundary<Element::components>> open;
+  std::vector<std::size_t> mirrored;  ///< entries of the vector layout normal to symmetry planes, or radial on the axis
 };
 
 /// No slip on every facet that is neither open nor interface nor on a symmetry plane or the axis, and on the rims where

@@ -77,7 +77,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->interface = std::move(boundary.interface);
     scene->interface_areas = std::move(boundary.interface_areas);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
-    auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open));
+    auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),
+                                                         std::move(boundary.mirrored));
     scene->profile.count("fluid elements", static_cast<std::int64_t>(fluid->element_count()));
     if (scene->wall) scene->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid->packs());
     scene->fluid = std::move(fluid);

@@ -17,6 +17,7 @@ from fsi_compare.base import paper
 from fsi_compare.runs.case_digest import case_digest
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
+from fsi_compare.studies.evidence.fields import TETRAHEDRA
 from fsi_compare.studies import kinds
 from fsi_compare.base.names import MATERIALS
 from fsi_compare.linear.solver_tables import Grid
@@ -78,6 +79,14 @@ class PlaneCut(unittest.TestCase):
     def test_a_plane_through_nodes(self):
         triangles, _, _ = cut(self.CELLS, self.CUBE[:, 2] - 0.0, self.CUBE[:, :2])
         self.assertTrue(np.isfinite(triangles).all())
+
+    def test_quadratic_cells_are_cut_into_linear_ones(self):
+        corners = np.array([[0, 0, 0], [2, 0, 0], [0.3, 1.5, 0], [0.1, 0.2, 1.0]])
+        edges = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+        nodes = np.vstack((corners, [corners[list(edge)].mean(axis=0) for edge in edges]))
+        parts = nodes[TETRAHEDRA]
+        volumes = np.abs(np.linalg.det(parts[:, 1:] - parts[:, :1])) / 6
+        np.testing.assert_allclose(volumes, np.linalg.det(corners[1:] - corners[0]) / 6 / 8, rtol=1e-12)
 
     def test_magnification(self):
         for displacement, factor in (

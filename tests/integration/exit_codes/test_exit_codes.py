@@ -1,7 +1,9 @@
 """How a run that cannot be done ends: 1 for bad input, with nothing written; 2 without convergence, the last good state
 saved."""
 
+import re
 import shutil
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -24,6 +26,7 @@ from programs import (
     summary,
     table,
 )
+from scenes import ELEMENTS, TUBES, write_channel
 
 LIMIT = Path(__file__).with_name("beyond_the_limit.toml")
 
@@ -203,6 +206,133 @@ class ExitCodes(FolderTest):
     def test_limit_depends_on_the_load(self):
         folder = run(MONOLITHIC, LIMIT, self.base / "below", "load.pressure=0.2")
         self.assertEqual(len(table(folder, "iterations.csv")), 20)
+
+
+class Geometry(FolderTest):
+    """Elements and geometries that do not go with each other, the mesh or the rest of the case."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.meshes = {}
+        for order in ELEMENTS.values():
+            cls.meshes["tube", order] = make_mesh(cls.base / f"tube{order}.msh", *TUBES["3d"], "--order", order)
+            cls.meshes["section", order] = make_mesh(
+                cls.base / f"section{order}.msh", *TUBES["axisymmetric"], "--order", order, "--format", "2.2"
+            )
+            cls.meshes["channel", order] = write_channel(cls.base / f"channel{order}.msh", order)
+
+    def refused(self, *settings, program=MONOLITHIC, options=(), case=NEO_HOOKEAN):
+        """The one line of a run that is refused with nothing written."""
+        folder = Path(tempfile.mkdtemp(dir=self.base)) / "refused"
+        process = attempt(program, case, *options, folder=None if options else folder, settings=settings)
+        self.assertEqual((process.returncode, process.stdout), (1, ""), process.stderr)
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        self.assertFalse(folder.exists())
+        return process.stderr
+
+    def mesh(self, name, order=1):
+        return f"mesh.file={self.meshes[name, order]}"
+
+    def moved(self, order, at, to):
+        """The section with one node moved, as a setting."""
+        text = self.meshes["section", order].read_text()
+        number = r"([-+.\de]+)"
+        lines = []
+        found = 0
+        for line in text.splitlines():
+            match = re.fullmatch(rf"(\d+) {number} {number} {number}", line)
+            if match and np.allclose([float(x) for x in match.groups()[1:]], at, atol=1e-9):
+                line = f"{match[1]} {to[0]!r} {to[1]!r} {to[2]!r}"
+                found += 1
+            lines.append(line)
+        self.assertEqual(found, 1)
+        file = self.base / "moved.msh"
+        file.write_text("\n".join([*lines, ""]))
+        return f"mesh.file={file}"
+
+    def test_dimensions(self):
+        for order, element in ((1, "p1"), (2, "p2p1")):
+            element = f"element={element}"
+            for geometry in ("axisymmetric", "plane"):
+                said = self.refused(element, f"geometry={geometry}", self.mesh("tube", order))
+                self.assertIn("is a mesh of 3 dimensions, the case's scene one of 2; give a mesh of triangles", said)
+            for mesh in ("section", "channel"):
+                said = self.refused(element, self.mesh(mesh, order))
+                self.assertIn("is a mesh of 2 dimensions, the case's scene one of 3; set geometry", said)
+            said = self.refused(element, "geometry=plane", self.mesh("section", order))
+            self.assertIn("is out of the plane of the mesh; a plane mesh lies in the plane z = 0", said)
+            said = self.refused(element, "geometry=axisymmetric", self.mesh("channel", order))
+            self.assertIn("symmetry_y: the mesh lies in this plane itself; planes normal to the axis are", said)
+
+    def test_levels_are_tubes(self):
+        said = self.refused("geometry=plane", "mesh.level=coarse")
+        self.assertIn("mesh.level: levels are tubes, which a plane scene cannot hold; give mesh.file", said)
+
+    def test_names(self):
+        for setting, said in (
+            ("geometry=axisymetric", 'geometry: "axisymetric" is unknown; did you mean axisymmetric?'),
+            ("geometry=2d", "geometry: "),
+            ("element=p2", 'element: "p2" is unknown; did you mean p1?'),
+            ("elment=p1", "elment: unknown key; did you mean element?"),
+            ("structure.layer_pressure=split", "structure.layer_pressure: "),
+        ):
+            for program in DRIVERS:
+                self.assertIn(said, self.refused(setting, self.mesh("tube"), program=program))
+
+    def test_axis(self):
+        for geometry, mesh in (("axisymmetric", "section"), ("plane", "channel")):
+            said = self.refused(f"geometry={geometry}", self.mesh(mesh), "structure.axis_direction=[1, 0, 0]")
+            self.assertIn("structure.axis_direction: the axis of a", said)
+
+    def test_nodes_on_the_wrong_side_of_the_axis(self):
+        said = self.refused("geometry=axisymmetric", self.moved(1, (0, 0, 1.5), (-0.1, 0.0, 1.5)))
+        self.assertIn("its radius is negative, r = x = -0.1 mm; draw the half of the section with x >= 0", said)
+
+    def test_curved_axis(self):
+        said = self.refused("geometry=axisymmetric", "element=p2p1", self.moved(2, (0, 0, 0.1875), (0.01, 0.0, 0.1875)))
+        self.assertIn("is off the axis between two nodes on it", said)
+
+    def test_bad_curved_cell(self):
+        said = self.refused(
+            "geometry=axisymmetric", "element=p2p1", self.moved(2, (1.69, 0, 0.1875), (1.45, 0.0, 0.1875))
+        )
+        self.assertRegex(said, "element \\d+ of media: ")
+
+    def test_sections_that_do_not_go_together(self):
+        case = self.base / "static.toml"
+        text = NEO_HOOKEAN.read_text()
+        case.write_text(re.sub(r"\[time\]\n.*\n.*\n", "[static]\nload_steps = 2\n", text))
+        said = self.refused("geometry=plane", self.mesh("channel"), case=case)
+        self.assertIn("static: is for a wall without fluid", said)
+
+    def test_outlet(self):
+        file = self.base / "closed.msh"
+        file.write_text(self.meshes["section", 1].read_text().replace('"outlet"', '"lid"'))
+        scene = ("geometry=axisymmetric", f"mesh.file={file}")
+        self.assertIn(
+            "outlet: the physical curve is missing or empty; name the sides of the fluid", self.refused(*scene)
+        )
+        folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "closed", *scene, "fluid.outlet=false", "time.end=0.25")
+        self.assertEqual(table(folder, "flow.csv")[:, 2].tolist(), [0, 0])
+
+    def test_restart_with_another_element_or_geometry(self):
+        for program in DRIVERS:
+            folder = run(
+                program, NEO_HOOKEAN, self.base / "begun", self.mesh("channel", 2), "geometry=plane", "time.end=0.25"
+            )
+            before = {file.name: file.read_bytes() for file in folder.iterdir()}
+            for settings, what in (
+                (("element=p2p1", "geometry=plane"), "another case"),
+                (("element=p2p1", "geometry=plane", "structure.layer_pressure=continuous"), "another case"),
+                (("geometry=axisymmetric", self.mesh("section", 2)), "another case"),
+                (("geometry=plane", self.mesh("channel", 1)), None),  # its vertices: the same mesh
+            ):
+                if what:
+                    settings = (self.mesh("channel", 2), *settings)
+                    said = self.refused(*settings, program=program, options=("--restart", folder))
+                    self.assertIn(what, said)
+            self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir()}, before)
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ def contents(grid):
     return {
         "points": [grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())],
         "kinds": sorted({grid.GetCell(i).GetClassName() for i in cells}),
-        "cells": [[grid.GetCell(i).GetPointId(k) for k in range(4)] for i in cells],
+        "cells": [[grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())] for i in cells],
         "point fields": named(grid.GetPointData()),
         "cell fields": named(grid.GetCellData()),
     }

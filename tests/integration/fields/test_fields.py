@@ -6,7 +6,8 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import ARTERY, DRIVERS, FolderTest, arrays, execute, make_small_mesh, run, summary
+from programs import ARTERY, DRIVERS, MONOLITHIC, FolderTest, arrays, execute, make_small_mesh, run, summary
+from scenes import KINDS, forms, scene
 
 READER = Path(__file__).with_name("read_fields.py")
 STEPS, STEP = 5, 0.125
@@ -93,6 +94,90 @@ class Fields(FolderTest):
                 # Exactly in the monolithic driver, to its loose tolerance in the partitioned one.
                 limit = 0 if "monolithic" in summary(folder)["program"] else 1e-2 * np.linalg.norm(outside)
                 self.assertLessEqual(np.linalg.norm(inside - outside), limit)
+
+
+VERTICES = {"3d": 4, "axisymmetric": 3, "plane": 3}
+CELLS = {
+    ("p1", 3): "vtkTriangle",
+    ("p1", 4): "vtkTetra",
+    ("p2p1", 3): "vtkQuadraticTriangle",
+    ("p2p1", 4): "vtkQuadraticTetra",
+}
+# Ends of the edges in VTK's order of mid-edge nodes (VTK User's Guide, quadratic cells).
+EDGES = {3: ((0, 1), (1, 2), (2, 0)), 4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))}
+# Along which axes of space the components of vectors in the arrays lie.
+AXES = {"3d": (0, 1, 2), "axisymmetric": (0, 2), "plane": (0, 1)}
+
+
+class Kinds(FolderTest):
+    """Every element in every geometry, as ParaView shows it."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.runs = {}
+        for kind in KINDS:
+            settings = (*scene(cls.base, *kind), *forms(ARTERY), "time.end=0.375", "output.every=3")
+            folder = run(MONOLITHIC, ARTERY, cls.base / "-".join(kind), *settings)
+            cls.runs[kind] = folder, shown_by_paraview(folder)
+
+    def each(self):
+        """(element, geometry, state, part, last grid shown) of fluid and wall of all runs."""
+        for (element, geometry), (folder, shown) in self.runs.items():
+            state = arrays(folder / "checkpoint.h5")
+            for part in ("fluid", "wall"):
+                yield element, geometry, state, part, shown["grids"][-1][part]
+
+    def test_cells(self):
+        for (element, geometry), (folder, shown) in self.runs.items():
+            grids, mesh = shown["grids"][-1], summary(folder)["mesh"]
+            cells = sum(len(grids[part]["cells"]) for part in ("fluid", "wall"))
+            self.assertEqual(cells, mesh["tetrahedra" if geometry == "3d" else "triangles"])
+        for element, geometry, _, _, grid in self.each():
+            self.assertEqual(grid["kinds"], [CELLS[element, VERTICES[geometry]]])
+
+    def test_middles_are_between_their_ends(self):
+        """In VTK's order, on the curve: near the middle of the edge, and in tubes at the mean radius and angle."""
+        for element, geometry, _, part, grid in self.each():
+            if element != "p2p1":
+                continue
+            vertices = VERTICES[geometry]
+            points, cells = np.array(grid["points"]), np.array(grid["cells"])
+            bent = 0.0
+            for middle, (a, b) in enumerate(EDGES[vertices], start=vertices):
+                ends, at = points[cells[:, [a, b]]], points[cells[:, middle]]
+                length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+                off = np.linalg.norm(at - ends.mean(axis=1), axis=1) / length
+                bent = max(bent, off.max())
+                self.assertLess(off.max(), 0.25)
+                if geometry == "3d" and part == "wall":
+                    radius = np.linalg.norm(ends[:, :, :2], axis=2).mean(axis=1)
+                    np.testing.assert_allclose(np.linalg.norm(at[:, :2], axis=1), radius, rtol=1e-12)
+            if geometry != "axisymmetric":
+                self.assertGreater(bent, 0.005)  # the geometry is quadratic
+
+    def test_values_are_those_of_the_checkpoint(self):
+        for element, geometry, state, part, grid in self.each():
+            axes, fields = AXES[geometry], {name: np.array(found) for name, found in grid["point fields"].items()}
+            n = len(axes)
+            mixed = state[f"arrays/level0.{'flow' if part == 'fluid' else 'wall'}"].reshape(-1, n + 1)
+            vectors = {
+                "velocity": mixed[:, :n] if part == "fluid" else state["arrays/wall_velocity"].reshape(-1, n),
+                "displacement": mixed[:, :n] if part == "wall" else state["arrays/level0.mesh"].reshape(-1, n),
+            }
+            for name, computed in vectors.items():
+                self.assertEqual(fields[name].shape, (len(grid["points"]), 3))
+                np.testing.assert_array_equal(fields[name][:, axes], computed)
+                others = [axis for axis in range(3) if axis not in axes]
+                self.assertFalse(fields[name][:, others].any())
+                self.assertGreater(np.abs(computed).max(), 0)
+            cells, vertices = np.array(grid["cells"]), VERTICES[geometry]
+            carry = np.unique(cells[:, :vertices])
+            np.testing.assert_array_equal(fields["pressure"][carry], mixed[carry, n])
+            if element == "p2p1":
+                for middle, (a, b) in enumerate(EDGES[vertices], start=vertices):
+                    mean = fields["pressure"][cells[:, [a, b]]].mean(axis=1)
+                    np.testing.assert_allclose(fields["pressure"][cells[:, middle]], mean, rtol=1e-14)
 
 
 if __name__ == "__main__":

@@ -101,11 +101,11 @@ TEST_F(Results, TellHowFluidAndWallCameToAgree) {
 TEST_F(Results, TellOfTheEnergyThatASceneHas) {
   EnergyRecord energy;
   double next = 1;
-  for (double* term :
-       {&energy.fluid_kinetic, &energy.wall_kinetic, &energy.wall_isochoric, &energy.wall_volumetric,
-        &energy.inlet_work, &energy.load_work, &energy.inlet_kinetic, &energy.outlet_kinetic, &energy.viscous,
-        &energy.remainder, &energy.fluid_inertia, &energy.fluid_mesh_motion, &energy.fluid_divergence,
-        &energy.fluid_stabilisation, &energy.wall_inertia, &energy.wall_stress, &energy.wall_stabilisation})
+  for (double* term : {&energy.fluid_kinetic, &energy.wall_kinetic, &energy.wall_isochoric, &energy.wall_volumetric,
+                       &energy.inlet_work, &energy.load_work, &energy.inlet_kinetic, &energy.outlet_kinetic,
+                       &energy.viscous, &energy.remainder, &energy.fluid_inertia, &energy.fluid_mesh_motion,
+                       &energy.fluid_divergence, &energy.fluid_stabilisation, &energy.wall_inertia, &energy.wall_stress,
+                       &energy.wall_stabilisation, &energy.fluid_quadrature})
     *term = next++;
   const auto table = [&](const EnergyParts& parts) {
     ResultTables tables;
@@ -119,16 +119,21 @@ TEST_F(Results, TellOfTheEnergyThatASceneHas) {
             "wall_volumetric_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
             "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_mesh_motion_uJ,"
             "fluid_divergence_uJ,fluid_stabilisation_uJ,wall_inertia_uJ,wall_stress_uJ,wall_stabilisation_uJ\n"
-            "2,0.25,1,2,3,4,5,7,8,9,98,10,11,12,13,14,15,16,17\n");
+            "2,0.25,1,2,3,4,5,7,8,9,116,10,11,12,13,14,15,16,17\n");
   EXPECT_EQ(table({true, false, true}),
             "step,time_ms,fluid_kinetic_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
             "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_divergence_uJ,"
             "fluid_stabilisation_uJ\n"
-            "2,0.25,1,5,7,8,9,98,10,11,13,14\n");
+            "2,0.25,1,5,7,8,9,116,10,11,13,14\n");
   EXPECT_EQ(table({false, true, false}),
             "step,time_ms,wall_isochoric_energy_uJ,wall_volumetric_energy_uJ,load_work_uJ,numerical_dissipation_uJ,"
             "remainder_uJ,wall_stress_uJ,wall_stabilisation_uJ\n"
-            "2,0.25,3,4,6,98,10,16,17\n");
+            "2,0.25,3,4,6,116,10,16,17\n");
+  EXPECT_EQ(table({true, false, true, true}),
+            "step,time_ms,fluid_kinetic_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
+            "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_divergence_uJ,"
+            "fluid_stabilisation_uJ,fluid_quadrature_uJ\n"
+            "2,0.25,1,5,7,8,9,116,10,11,13,14,18\n");
   ResultFolder results(run_, {});
   EXPECT_FALSE(fs::exists(run_ / "energy.csv"));
 }

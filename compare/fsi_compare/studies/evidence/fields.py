@@ -12,10 +12,16 @@ from ...base.errors import InputError
 
 FILE = "fields.xdmf"
 
+# A quadratic tetrahedron as eight linear ones on its nodes, vertices and then middles of edges in VTK's order: four at the
+# vertices, and the octahedron between them about the line from the middle of edge (2, 0) to that of edge (1, 3).
+TETRAHEDRA = np.array(
+    [(0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4)]
+)
+
 
 @dataclass(frozen=True)
 class Medium:
-    """Fluid or wall on its tetrahedra, in reference coordinates."""
+    """Fluid or wall on its tetrahedra, in reference coordinates. Quadratic ones are cut into linear ones."""
 
     points: np.ndarray  # mm, (nodes, 3)
     cells: np.ndarray  # (tetrahedra, 4)
@@ -46,7 +52,14 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
 
 def _medium(folder: Path, grid: Any) -> Medium:
     data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
-    return Medium(_item(folder, grid.find("Geometry")), _item(folder, grid.find("Topology")).astype(np.int64), data)
+    cells = _item(folder, grid.find("Topology")).astype(np.int64)
+    if cells.shape[1] not in (4, 10):
+        raise InputError(folder / FILE, "", "shows a scene in two dimensions", 'give a run with geometry = "3d"')
+    if cells.shape[1] == 10:
+        cells = cells[:, TETRAHEDRA].reshape(-1, 4)
+        if "layer" in data:
+            data["layer"] = np.repeat(data["layer"], len(TETRAHEDRA))
+    return Medium(_item(folder, grid.find("Geometry")), cells, data)
 
 
 def _item(folder: Path, element: Any) -> np.ndarray:
