@@ -19,10 +19,12 @@ inline MaterialData layer(const std::string& material, double c10) {
 
 inline Case artery(const std::string& material) {
   Case setup;
-  setup.fluid = FluidData{1.0, 3.5e-3, false};
+  setup.fluid = FluidData{1.0, 3.5e-3};
+  setup.stabilisation = Stabilisation::paper;
   StructureData wall;
   wall.density = 1.2;
   wall.bulk_modulus = 1e5;
+  wall.layer_pressure = LayerPressure::continuous;
   wall.layers = {{"media", layer(material, 3.0)}, {"adventitia", layer(material, 0.3)}};
   setup.structure = wall;
   setup.inlet = PressureTable{{{0, 1.332}, {0.125, 1.332}, {0.125, 0}}};

@@ -71,7 +71,7 @@ void refuse_pressures_per_layer(const Case& setup, const PartNodes& wall, const 
     throw InputError(setup.path.string(), "structure.layer_pressure",
                      "\"separate\" does not go with " + what +
                          ": the paper's coupled system has one wall pressure where layers meet",
-                     "set it to \"continuous\", or do with the linear solvers " + one_of(general_solver_names()));
+                     "set it to \"continuous\", or use the linear solvers " + one_of(general_solver_names()));
 }
 
 template <int n>

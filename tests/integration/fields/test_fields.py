@@ -95,6 +95,26 @@ class Fields(FolderTest):
                 limit = 0 if "monolithic" in summary(folder)["program"] else 1e-2 * np.linalg.norm(outside)
                 self.assertLessEqual(np.linalg.norm(inside - outside), limit)
 
+    def test_pressures_per_layer(self):
+        """The wall has its nodes once for each layer: between layers the pressure jumps, the displacement does not."""
+        mesh = make_small_mesh(self.base / "layers.msh")
+        settings = (f"mesh.file={mesh}", f"time.end={2 * STEP}", "output.every=2")
+        for d, program in enumerate(DRIVERS):
+            folder = run(program, ARTERY, self.base / f"layers-{d}", *settings, "structure.layer_pressure=separate")
+            wall = shown_by_paraview(folder)["grids"][-1]["wall"]
+            places = {}
+            for i, point in enumerate(wall["points"]):
+                places.setdefault(tuple(point), []).append(i)
+            copies = [nodes for nodes in places.values() if len(nodes) > 1]
+            self.assertTrue(copies and all(len(nodes) == 2 for nodes in copies))
+            self.assertEqual(len(wall["points"]), summary(folder)["mesh"]["wall_nodes"])
+            fields = {name: np.array(values) for name, values in wall["point fields"].items()}
+            first, second = np.array(copies).T
+            for name in ("displacement", "velocity"):
+                np.testing.assert_array_equal(fields[name][first], fields[name][second])
+            jumps = np.abs(fields["pressure"][first] - fields["pressure"][second])
+            self.assertGreater(jumps.max(), 0.1 * np.abs(fields["pressure"]).max())
+
 
 VERTICES = {"3d": 4, "axisymmetric": 3, "plane": 3}
 CELLS = {

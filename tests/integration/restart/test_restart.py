@@ -273,7 +273,8 @@ class Monolithic(Restart, FolderTest):
 class Partitioned(Restart, FolderTest):
     program = PARTITIONED
     steps = 5
-    settings = ("partitioned.tolerance=1e-1",)  # to be quick; bits must agree at any tolerance
+    # To be quick; bits must agree at any tolerance. A pressure for each layer, other than in the monolithic runs.
+    settings = ("partitioned.tolerance=1e-1", "structure.layer_pressure=separate")
     kills = 3
 
     def test_with_half_the_step_as_the_monolithic_driver(self):

@@ -80,6 +80,8 @@ TEST(CaseHash, DoesNotDependOnHowACaseIsWritten) {
   EXPECT_EQ(hash("# a comment\n" + start + "[static]\n"), given) << "defaults count as if they were given";
   EXPECT_NE(hash(start + "structure.stabilisation = 0.25\n[static]\n"), given);
   EXPECT_NE(hash("stabilisation = 'paper'\n" + start + "structure.stabilisation = 0.5\n[static]\n"), given);
+  EXPECT_EQ(hash(start + "structure.layer_pressure = 'separate'\n[static]\n"), given);
+  EXPECT_NE(hash(start + "structure.layer_pressure = 'continuous'\nstructure.stabilisation = 0.5\n[static]\n"), given);
 }
 
 /// Every key that can be given but for those of solvers, output and the like is part of the hash: nobody lists them.

@@ -34,6 +34,7 @@ TEST(CaseReader, ReadsThePapersCases) {
     const auto scene = read_case(folder / name);
     EXPECT_EQ(scene.stabilisation, Stabilisation::paper) << name;
     EXPECT_EQ(scene.structure->stabilisation, 0.5) << name << ": the paper's standard";
+    EXPECT_EQ(scene.structure->layer_pressure, LayerPressure::continuous) << name << ": as in the paper";
   }
 
   const auto rivlin = read_case(folder / "mooney-rivlin.toml");

@@ -8,7 +8,9 @@
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
+#include "fem/p2p1_triangle.hpp"
 #include "mesh/artery_generator.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
 #include "system/jacobian_product.hpp"
@@ -189,6 +191,25 @@ TEST(FastSolver, SolvesWithPressuresPerLayer) {
   EXPECT_LE(report.iterations, 30);
   EXPECT_LT(relative_difference(x, scene.solution()), 1e-7);
   expect_sub_problem_solved(*parts, number_wall(*parts), 40);
+}
+
+TEST(FastSolver, SolvesWithPressuresPerLayerAndTaylorHoodElements) {
+  auto setup = coupled_case("artery");
+  setup.structure->layer_pressure = LayerPressure::separate;
+  ArteryShape shape;
+  shape.length = 6;
+  ArteryCells cells;
+  cells.axial = 16;
+  const auto parts =
+      build_scene<P2P1AxisymmetricTriangle>(setup, with_mid_edge_nodes(generate_artery_section(shape, cells)));
+  LinearisedScene<2> scene(setup, *parts, 2, 2);
+  FastSolver<2> solver(scene.blocks(), iterative());
+  solver.update();
+  std::vector<double> x;
+  const auto report = solver.solve(scene.b(), 1e-9, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LT(relative_difference(x, scene.solution()), 1e-6);
 }
 
 /// A static, pressurised wall: no inertia holds the momentum matrix together, so that sweeps without coarse levels need

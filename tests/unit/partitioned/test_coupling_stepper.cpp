@@ -2,6 +2,9 @@
 
 #include "base/threads.hpp"
 #include "fem/p1_tetrahedron.hpp"
+#include "fem/p2p1_triangle.hpp"
+#include "mesh/artery_generator.hpp"
+#include "mesh/mid_edge_nodes.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "support/nodal_arrays.hpp"
@@ -66,6 +69,47 @@ TEST_P(EachScheme, ConvergesToTheMonolithicSolution) {
       EXPECT_LT(norm(difference(a.fluid, b.fluid)), 1e-7 * norm(b.fluid)) << material << ", step " << n + 1;
       EXPECT_LT(norm(difference(a.mesh, b.mesh)), 1e-7 * norm(b.mesh)) << material << ", step " << n + 1;
     }
+  }
+}
+
+// Taylor-Hood elements of a body of revolution, each layer with its pressure: displacements stay one at the copies of a
+// node.
+TEST_P(EachScheme, ConvergesToTheMonolithicSolutionOfAnotherElement) {
+  Case setup = partitioned_case(GetParam(), 1e-9);
+  setup.structure->layer_pressure = LayerPressure::separate;
+  ArteryShape shape;
+  shape.length = 3;
+  ArteryCells cells;
+  cells.lumen = 2;
+  cells.media = cells.adventitia = 1;
+  cells.axial = 4;
+  const auto mesh = with_mid_edge_nodes(generate_artery_section(shape, cells));
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, mesh),
+             other = build_scene<P2P1AxisymmetricTriangle>(setup, mesh);
+  ASSERT_TRUE(scene->wall->nodes().has_copies());
+  const Loads loads(setup);
+  NewtonOptions newton;
+  newton.tolerance = 1e-11;
+  NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
+  CouplingStepper<2> parts(*other, loads, setup);
+  State a = scene->at_rest(), b = other->at_rest();
+  for (int n = 0; n < 2; ++n) {
+    whole.advance(a);
+    parts.advance(b);
+    EXPECT_LT(norm(difference(a.now.wall, b.now.wall)), 1e-6 * norm(a.now.wall)) << "step " << n + 1;
+    EXPECT_LT(norm(difference(a.now.fluid, b.now.fluid)), 1e-6 * norm(a.now.fluid)) << "step " << n + 1;
+    double jump = 0;
+    for (const State* state : {&a, &b})
+      for (int node = 0; node < scene->wall->node_count(); ++node) {
+        const int original = scene->wall->nodes().original_of(node);
+        for (int k = 0; k < 2; ++k) {
+          EXPECT_EQ(state->now.wall[3 * node + k], state->now.wall[3 * original + k]);
+          EXPECT_EQ(state->wall_velocity[2 * node + k], state->wall_velocity[2 * original + k]);
+          EXPECT_EQ(state->wall_acceleration[2 * node + k], state->wall_acceleration[2 * original + k]);
+        }
+        jump = std::max(jump, std::abs(state->now.wall[3 * node + 2] - state->now.wall[3 * original + 2]));
+      }
+    EXPECT_GT(jump, 0.01) << "kPa";
   }
 }
 
