@@ -75,12 +75,13 @@ inline double inflation_pressure(const Tube& tube, double a) {
   return p;
 }
 
-/// neo-Hookean closed form of docs/theory.md, section 13.1.
-inline double neo_hookean_inflation_pressure(const Tube& tube, double a) {
+/// Closed form of docs/theory.md, section 13.1, for layers without fibres: neo-Hookean and, with c10 + c01 for mu,
+/// Mooney-Rivlin ones.
+inline double isotropic_inflation_pressure(const Tube& tube, double a) {
   const double k = a * a - inner_radius * inner_radius;
   double p = 0;
   for (const auto& layer : tube.layers) {
-    const double mu = std::get<NeoHookean>(layer.material).c10;
+    const double mu = std::visit([](const auto& m) { return m.shear_modulus(); }, layer.material);
     const double inner = std::sqrt(layer.inner * layer.inner + k), outer = std::sqrt(layer.outer * layer.outer + k);
     p += mu * (std::log(layer.outer * inner / (layer.inner * outer)) +
                0.5 * k * (1 / (inner * inner) - 1 / (outer * outer)));

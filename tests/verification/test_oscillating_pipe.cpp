@@ -1,0 +1,210 @@
+// The oscillating pipe of docs/theory.md, section 13.3: blood and both layers of the wall in axial shear, time-harmonic
+// and exact at finite shear. Computations are held against the oscillation as the same time scheme steps it, so that
+// their error is that of space alone.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/elements.hpp"
+#include "fluid/fluid_problem.hpp"
+#include "monolithic/coupled_numbering.hpp"
+#include "scene/build_scene.hpp"
+#include "support/errors.hpp"
+#include "support/oscillating_pipe.hpp"
+#include "support/ring_meshes.hpp"
+#include "support/scene_errors.hpp"
+#include "support/scenes.hpp"
+#include "system/newton_stepper.hpp"
+#include "wall/wall_problem.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+/// To the last digit that is given.
+void expect_complex(Complex value, Complex expected, double digit) {
+  EXPECT_NEAR(value.real(), expected.real(), digit);
+  EXPECT_NEAR(value.imag(), expected.imag(), digit);
+}
+
+TEST(OscillatingPipe, BesselFunctionsAgreeWithTheStandardLibraryAndTheirWronskian) {
+  for (double x : {0.3, 1.0, 2.5, 6.0}) {
+    const Bessel b(x);
+    expect_complex(b.j0, std::cyl_bessel_j(0, x), 1e-12);
+    expect_complex(b.j1, std::cyl_bessel_j(1, x), 1e-12);
+    expect_complex(b.y0, std::cyl_neumann(0, x), 1e-12);
+    expect_complex(b.y1, std::cyl_neumann(1, x), 1e-12);
+  }
+  for (Complex z : {Complex(0.5, 0.2), Complex(2, -1), Complex(1, 3)}) {
+    const Bessel b(z);
+    expect_complex(b.j1 * b.y0 - b.j0 * b.y1, 2.0 / (3.14159265358979323846 * z), 1e-12);
+  }
+}
+
+TEST(OscillatingPipe, FieldsReproduceTheTable) {
+  const OscillatingPipe pipe(tubes()[0], HarmonicRates::continuous(1));
+  expect_complex(pipe.velocity(0), {-4.658885784e-8, -0.1000000294}, 1e-10);
+  expect_complex(pipe.velocity(1.2), {0.003009433989, -0.1077371894}, 1e-10);
+  expect_complex(pipe.displacement(0, 1.43), {0.01873715503, -0.002478210155}, 1e-11);
+  for (int layer : {0, 1}) expect_complex(pipe.displacement(layer, 1.69), {0.01704788129, -0.00205619941}, 1e-11);
+  expect_complex(pipe.displacement(1, 1.75), {0.009800778175, -0.001096985033}, 1e-11);
+  expect_complex(pipe.displacement(1, 1.82), 0.0, 1e-14);
+  expect_complex(pipe.shear_stress(1.43), {-0.004867643172, 0.004924458873}, 1e-11);
+}
+
+TEST(OscillatingPipe, StepsConvergeToTheOscillationAtFirstOrder) {
+  const OscillatingPipe exact(tubes()[0], HarmonicRates::continuous(1));
+  ConvergenceTable errors("oscillating pipe", {"d at the inner face, mm", "u at 1.2 mm, mm/ms"});
+  for (double step : {0.1, 0.05, 0.025}) {
+    const OscillatingPipe stepped(tubes()[0], HarmonicRates::stepped(1, step));
+    errors.add(step, {std::abs(stepped.displacement(0, inner_radius) - exact.displacement(0, inner_radius)),
+                      std::abs(stepped.velocity(1.2) - exact.velocity(1.2))});
+  }
+  errors.print();
+  EXPECT_NEAR(errors.last_order(0), 1, 0.1);
+  EXPECT_NEAR(errors.last_order(1), 1, 0.1);
+}
+
+/// The fields of a pipe at one time, real, as functions of reference positions (r, 0, z). The mesh of the fluid moves
+/// as a whole, with the wall's inner face.
+class PipeAt {
+ public:
+  PipeAt(const OscillatingPipe& pipe, double time, double length)
+      : pipe_(pipe),
+        time_(time),
+        length_(length),
+        velocity_(0, inner_radius, 60, [&](double r) { return pipe.at(time, pipe.velocity(r)); }) {}
+
+  double mesh_displacement() const { return displacement(0, inner_radius); }
+  double displacement(int layer, double r) const { return pipe_.at(time_, pipe_.displacement(layer, r)); }
+  double velocity(double r) const { return velocity_(r); }
+  double fluid_pressure(double z) const { return pipe_.gradient_at(time_) * (length_ - z); }
+  /// Radial equilibrium: the radial stress is that of the fluid at the same height, but for sigma_tt - sigma_rr =
+  /// c01 d'^2; p is minus a third of the trace of Cauchy's stress.
+  double wall_pressure(int layer, double r, double z) const {
+    const double height = z + displacement(layer, r) - mesh_displacement();
+    double p = fluid_pressure(height) - (c10(layer) + 2 * c01(layer)) * square_of_shear(layer, r) / 3;
+    for (int l = 0; l <= layer; ++l) {
+      const double from = pipe_.tube().layers[l].inner, to = l == layer ? r : pipe_.tube().layers[l].outer;
+      if (c01(l) > 0) p -= gauss_integral(from, to, 3, [&](double at) { return c01(l) * square_of_shear(l, at) / at; });
+    }
+    return p;
+  }
+
+ private:
+  double square_of_shear(int layer, double r) const { return std::pow(pipe_.at(time_, pipe_.slope(layer, r)), 2); }
+  double c01(int layer) const {
+    const auto* m = std::get_if<MooneyRivlin>(&pipe_.tube().layers[layer].material);
+    return m ? m->c01 : 0.0;
+  }
+  double c10(int layer) const {
+    return std::visit([](const auto& m) { return m.c10; }, pipe_.tube().layers[layer].material);
+  }
+
+  const OscillatingPipe& pipe_;
+  double time_, length_;
+  PolynomialFit velocity_;
+};
+
+/// Marches a piece of the pipe from the exact state, the wall's ends and outer face moved exactly, the fluid's ends
+/// under their pressures and without radial velocity. Returns the relative L2 errors at the end.
+template <class Element>
+std::vector<double> pipe_errors(int material, const RingCells& cells, double length, double step, int steps) {
+  using Vector = VectorLayout<2>;
+  using Mixed = MixedLayout<2>;
+  const OscillatingPipe pipe(tubes()[material], HarmonicRates::stepped(1, step));
+  const auto mesh = pipe_mesh<Element>(cells, length);
+  Case setup = coupled_case(material == 0 ? "neo-hookean" : "mooney-rivlin", step);
+  setup.structure->bulk_modulus = 1e9;
+  setup.structure->layer_pressure = LayerPressure::separate;
+  setup.time->end = step * steps;
+  setup.inlet = PressureTable{};
+  for (int i = 1; i <= steps; ++i)  // constant in each step
+    for (double t : {step * (i - 1), step * i}) setup.inlet->points.push_back({t, pipe.gradient_at(step * i) * length});
+  const auto scene = build_scene<Element>(setup, mesh);
+  const auto& fluid = dynamic_cast<const FluidProblem<Element>&>(*scene->fluid).part();
+  const auto& wall = dynamic_cast<const WallProblem<Element>&>(*scene->wall).part();
+  const auto layer_of = [&](const Point& x) { return x[0] < middle_radius ? 0 : 1; };
+  const auto at_end = [&](const Point& x) { return where(2, 0)(x) || where(2, length)(x); };
+  for (int a = 0; a < fluid.node_count(); ++a)
+    if (at_end(fluid.nodes[a])) scene->velocity_conditions.fix(a, 0);
+
+  State state = scene->at_rest();
+  {
+    const PipeAt start(pipe, 0, length);
+    for (int a = 0; a < fluid.node_count(); ++a) {
+      state.now.fluid[Mixed::vector(a, 1)] = start.velocity(fluid.nodes[a][0]);
+      state.now.mesh[Vector::vector(a, 1)] = start.mesh_displacement();
+    }
+    for (int a = 0; a < wall.node_count(); ++a) {
+      const Complex d = pipe.displacement(layer_of(wall.nodes[a]), wall.nodes[a][0]);
+      state.now.wall[Mixed::vector(a, 1)] = pipe.at(0, d);
+      state.wall_velocity[Vector::vector(a, 1)] = pipe.at(0, pipe.rates().wall_velocity * d);
+      state.wall_acceleration[Vector::vector(a, 1)] = pipe.at(0, pipe.rates().second * d);
+    }
+    state.before[0] = state.now;
+  }
+  const Loads loads(setup);
+  NewtonOptions options;
+  options.tolerance = 1e-9;
+  NewtonStepper<2> stepper(*scene, loads, options, number_scene(*scene));
+  for (int i = 1; i <= steps; ++i) {
+    const PipeAt now(pipe, step * i, length);
+    for (int a = 0; a < fluid.node_count(); ++a)
+      if (at_end(fluid.nodes[a])) scene->mesh_conditions.fix(a, 1, now.mesh_displacement());
+    for (int a = 0; a < wall.node_count(); ++a)
+      if (scene->wall_conditions.fixes(a))
+        scene->wall_conditions.fix(a, 1, now.displacement(layer_of(wall.nodes[a]), wall.nodes[a][0]));
+    stepper.advance(state);
+  }
+
+  const PipeAt exact(pipe, step * steps, length);
+  RelativeError d, wall_p, u, fluid_p;
+  add_errors<Element>(
+      fluid, mesh.region_index("fluid"), state.now.fluid,
+      [&](const Point& x) {
+        return Point{0, 0, exact.velocity(x[0])};
+      },
+      [&](const Point& x) { return exact.fluid_pressure(x[2]); }, u, fluid_p);
+  for (int layer : {0, 1})
+    add_errors<Element>(
+        wall, mesh.region_index(layer == 0 ? "media" : "adventitia"), state.now.wall,
+        [&](const Point& x) {
+          return Point{0, 0, exact.displacement(layer, x[0])};
+        },
+        [&](const Point& x) { return exact.wall_pressure(layer, x[0], x[2]); }, d, wall_p);
+  return {d.value(), wall_p.value(), u.value(), fluid_p.value()};
+}
+
+template <class Element>
+ConvergenceTable pipe_table(const std::string& title, int material, const std::vector<int>& multiples,
+                            const RingCells& cells, double length, double step, int steps) {
+  ConvergenceTable errors(title, {"d, wall", "p, wall", "u, fluid", "p, fluid"});
+  for (int m : multiples)
+    errors.add(1.0 / m,
+               pipe_errors<Element>(material, {m * cells.fluid, m * cells.media, m * cells.adventitia, m * cells.along},
+                                    length, step, steps));
+  errors.print();
+  return errors;
+}
+
+class OscillatingPipeScene : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Materials, OscillatingPipeScene, testing::Values(0, 1),
+                         [](const auto& test) { return std::string(test.param == 0 ? "NeoHookean" : "MooneyRivlin"); });
+
+TEST_P(OscillatingPipeScene, AxisymmetricTaylorHoodIsOfThirdOrder) {
+  const auto errors =
+      pipe_table<P2P1AxisymmetricTriangle>(tubes()[GetParam()].name, GetParam(), {1, 2, 4}, {6, 1, 1, 2}, 0.5, 0.25, 4);
+  EXPECT_NEAR(errors.last_order(0), 3, 0.15);
+  EXPECT_GT(errors.last_order(1), 1.9);
+  EXPECT_NEAR(errors.last_order(2), 3, 0.15);
+  EXPECT_GT(errors.last_order(3), 1.9);
+  EXPECT_LT(errors.last_error(0), 1e-5);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
