@@ -64,8 +64,9 @@ class StaticWall(FolderTest):
         finer = run(MONOLITHIC, STATIC, self.base / "finer", f"mesh.file={mesh}")
         errors = [self.error(folder) for folder in (self.coarse, finer)]
         print("relative error of the radial displacement, coarse and finer mesh:", errors)
-        self.assertLess(errors[0], 0.06)  # one element or two through each layer
-        self.assertLess(errors[1], 0.03)
+        # Few cells around make the coarse tube too stiff: with 18, 36 and 72 around, other sizes alike, 3.8, 1.0 and 0.3 %.
+        self.assertLess(errors[0], 0.09)
+        self.assertLess(errors[1], 0.01)
         self.assertLess(errors[1], errors[0])
 
     def test_load_rises_in_equal_steps(self):
@@ -110,7 +111,8 @@ class StaticWall(FolderTest):
         for program in DRIVERS:
             folder = run(program, STATIC, self.base / "inner", f"mesh.file={whole.write(self.base / 'inner.msh')}")
             reported = summary(folder)["mesh"]
-            self.assertEqual(reported["nodes"], reported["wall_nodes"])
+            self.assertEqual(reported["fluid_nodes"], 0)
+            self.assertGreater(reported["wall_nodes"], reported["nodes"])  # once for each layer where layers meet
             # Nodes and elements are numbered otherwise, so rounding differs, and conditioning adds to it.
             largest = wall(self.coarse)[..., 2].max()
             np.testing.assert_allclose(wall(folder), wall(self.coarse), rtol=0, atol=1e-9 * largest)

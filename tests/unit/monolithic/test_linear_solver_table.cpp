@@ -72,7 +72,9 @@ LinearisedScene<Element::components>& triangles() {
     cells.lumen = 3;
     cells.axial = 8;
     const Case setup = coupled_case("mooney-rivlin");
-    const auto mesh = generate_artery_section(shape, cells);
+    auto mesh = generate_artery_section(shape, cells);
+    if constexpr (!Element::axisymmetric)
+      for (auto& x : mesh.nodes) x = {x[0], x[2], 0};
     if constexpr (Element::order == 1)
       return LinearisedScene<2>(setup, build_scene<Element>(setup, mesh), 1);
     else
