@@ -76,7 +76,7 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
     if (!grid.fields.empty()) grids_.push_back(std::move(grid));
   }
   if (grids_.empty()) return;
-  for (const auto& grid : grids_) middles_.push_back(middles_of(grid));
+  for (auto& grid : grids_) middles_.push_back(separate_middles(grid));
   const auto planned = planned_field_steps(axis.steps(), setup.output.every,
                                            [&](std::int64_t step) { return axis.time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
@@ -94,27 +94,45 @@ void FieldOutput<n>::write(const State& state) {
       for (const auto& known : output_fields<n>) {
         if (known.name != field.name) continue;
         auto numbers = known.values(state, grids_[g].name == "fluid", axes_);
-        if (field.components == 1)
-          for (const Middle& middle : middles_[g])
-            numbers[middle.node] = 0.5 * (numbers[middle.ends[0]] + numbers[middle.ends[1]]);
+        const auto components = static_cast<std::size_t>(field.components);
+        numbers.resize(grids_[g].points.size() * components);
+        for (const Middle& middle : middles_[g])
+          if (components == 1)
+            numbers[middle.point] = 0.5 * (numbers[middle.ends[0]] + numbers[middle.ends[1]]);
+          else
+            std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(components) * middle.node, components,
+                        numbers.begin() + static_cast<std::ptrdiff_t>(components) * middle.point);
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
   writer_->write(state.step, values);
 }
 
 template <int n>
-auto FieldOutput<n>::middles_of(const FieldGrid& grid) -> std::vector<Middle> {
+auto FieldOutput<n>::separate_middles(FieldGrid& grid) -> std::vector<Middle> {
   constexpr int dim = n;  // of the cells: triangles have two components, tetrahedra three
   std::vector<Middle> middles;
   if (grid.nodes_per_cell != nodes_of_simplex(dim, 2)) return middles;
-  std::vector<char> seen(grid.points.size(), 0);
+  std::vector<std::vector<std::size_t>> at(grid.points.size());  // places in `middles` by node
   for (std::size_t cell = 0; cell < grid.cells.size(); cell += grid.nodes_per_cell)
     for (std::size_t edge = 0; edge < SimplexEdges<dim>::vertices.size(); ++edge) {
-      const int node = grid.cells[cell + dim + 1 + edge];
-      if (seen[node]) continue;
-      seen[node] = 1;
+      int& point = grid.cells[cell + dim + 1 + edge];
       const auto& [a, b] = SimplexEdges<dim>::vertices[edge];
-      middles.push_back({node, {grid.cells[cell + a], grid.cells[cell + b]}});
+      const auto [first, second] = std::minmax(grid.cells[cell + a], grid.cells[cell + b]);
+      const std::array<int, 2> ends{first, second};
+      auto& known = at[point];
+      const auto found =
+          std::find_if(known.begin(), known.end(), [&](std::size_t k) { return middles[k].ends == ends; });
+      if (found != known.end()) {
+        point = middles[*found].point;
+        continue;
+      }
+      const int node = point;
+      if (!known.empty()) {
+        point = static_cast<int>(grid.points.size());
+        grid.points.push_back(grid.points[node]);
+      }
+      known.push_back(middles.size());
+      middles.push_back({point, node, ends});
     }
   return middles;
 }

@@ -12,7 +12,8 @@
 namespace fsi {
 
 /// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
-/// keep their mid-edge nodes; there a scalar is the mean of the edge's ends, as its shape functions have it.
+/// keep their mid-edge nodes; there a scalar is the mean of the edge's ends, as its shape functions have it. Where layers
+/// have vertices of their own, the nodes between these are written once for each.
 template <int n>
 class FieldOutput {
  public:
@@ -27,12 +28,13 @@ class FieldOutput {
   void write(const State& state);
 
  private:
-  /// A node in the middle of an edge.
+  /// A point in the middle of an edge.
   struct Middle {
-    int node;
+    int point, node;  ///< of the grid that is written, of the state
     std::array<int, 2> ends;
   };
-  static std::vector<Middle> middles_of(const FieldGrid& grid);
+  /// Gives the cells of a grid that have a mid-edge node in common, but not its ends, points of their own.
+  static std::vector<Middle> separate_middles(FieldGrid& grid);
 
   std::array<int, n> axes_;
   std::vector<FieldGrid> grids_;

@@ -155,8 +155,8 @@ const std::vector<BadCase>& bad_cases() {
       {"BulkModulusNegative", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = -1e5",
        "case.toml:10: structure.bulk_modulus: -100000 is not positive; give a number > 0 (bulk modulus in kPa)"},
       {"StabilisationZero", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\nstabilisation = 0",
-       "case.toml:11: structure.stabilisation: 0 is not positive; give a number > 0 (alpha in tau = alpha h^2/(2 mu), "
-       "default 0.5)"},
+       "case.toml:11: structure.stabilisation: 0 is not positive; give a number > 0 (alpha, factor of the wall's; "
+       "default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5)"},
       {"C10Zero", static_case, "c10 = 3", "c10 = 0",
        "case.toml:9: structure.layers.wall.c10: 0 is not positive; give a number > 0 (isotropic stiffness in kPa)"},
       {"C01Negative", coupled_case, "c01 = 0.2", "c01 = -0.2",
@@ -173,11 +173,11 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:17: structure.layers.media.fibre_scale: 0 is not positive; give a number > 0 (factor on the fibre "
        "energy, default 1)"},
       {"AxisTooShort", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_direction = [0, 1]",
-       "case.toml:7: structure.axis_direction: [0, 1] is no point; give [x, y, z] (direction of the artery's axis, "
-       "default [0, 0, 1])"},
+       "case.toml:7: structure.axis_direction: [0, 1] is no point; give [x, y, z] (direction of the artery's axis "
+       "in 3d, default [0, 0, 1])"},
       {"AxisZero", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_direction = [0, 0, 0]",
        "case.toml:7: structure.axis_direction: [0, 0, 0] has no direction; give a vector other than 0 (direction of "
-       "the artery's axis, default [0, 0, 1])"},
+       "the artery's axis in 3d, default [0, 0, 1])"},
       {"AxisOfText", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\naxis_origin = [0, \"0\", 0]",
        "case.toml:7: structure.axis_origin[1]: \"0\" is a string; give a number"},
       {"LayerNamedFluid", coupled_case, "[structure.layers.adventitia]", "[structure.layers.fluid]",
@@ -225,9 +225,6 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:13: static.load_steps: 0 is out of range; give a whole number from 1 to 1000000 (equal steps in "
        "which the load is raised, default 10)"},
       // Names and numbers of solvers and output
-      {"ElementUnknown", coupled_case, "\"p1\"", "\"q1\"", "case.toml:2: element: \"q1\" is unknown; give p1"},
-      {"ElementNotYet", coupled_case, "\"p1\"", "\"p2p1\"",
-       "case.toml:2: element: \"p2p1\" is not available yet; give p1"},
       {"LevelUnknown", coupled_case, "\"coarse\"", "\"corase\"",
        "case.toml:4: mesh.level: \"corase\" is unknown; did you mean coarse? There are coarse, intermediate or fine"},
       {"MaterialUnknown", coupled_case, "\"mooney-rivlin\"", "\"money-rivlin\"",

@@ -93,13 +93,15 @@ class ExitCodes(FolderTest):
 
     def test_bad_input_writes_nothing(self):
         broken = self.base / "broken.toml"
-        broken.write_text(NEO_HOOKEAN.read_text().replace("viscosity =", "viscosity"))
+        text = NEO_HOOKEAN.read_text()
+        broken.write_text(text.replace("viscosity =", "viscosity"))
+        line = 1 + text[: text.index("viscosity =")].count("\n")
         (self.base / "cut.msh").write_text((self.base / "small.msh").read_text()[:5000])
         folder = self.base / "nothing"
         for program in DRIVERS:
             for case, settings, shown in (
                 (self.base / "none.toml", (), "none.toml: no such file"),
-                (broken, (), "broken.toml:9"),
+                (broken, (), f"broken.toml:{line}"),
                 (NEO_HOOKEAN, ("fluid.viscosty=1",), "did you mean fluid.viscosity?"),
                 (NEO_HOOKEAN, ("fluid.density=-1",), "-1 is not positive"),
                 (NEO_HOOKEAN, ("time.step=fast",), "time.step"),
@@ -292,6 +294,19 @@ class Geometry(FolderTest):
     def test_curved_axis(self):
         said = self.refused("geometry=axisymmetric", "element=p2p1", self.moved(2, (0, 0, 0.1875), (0.01, 0.0, 0.1875)))
         self.assertIn("is off the axis between two nodes on it", said)
+
+    def test_planes_of_symmetry_that_are_not_normal_to_an_axis(self):
+        mesh = make_mesh(self.base / "straight.msh", *TUBES["3d"], "--format", "2.2")
+        cosine, sine = np.cos(0.1), np.sin(0.1)
+
+        def turned(node):
+            tag, x, y, z = node[1], float(node[2]), float(node[3]), node[4]
+            return f"{tag} {cosine * x - sine * y!r} {sine * x + cosine * y!r} {z}"
+
+        file = self.base / "turned.msh"
+        file.write_text(re.sub(r"(?m)^(\d+) (\S+) (\S+) (\S+)$", turned, mesh.read_text()))
+        said = self.refused(f"mesh.file={file}")
+        self.assertRegex(said, r"symmetry_x: the triangle at .* does not lie in a plane normal to x: .*turn the mesh")
 
     def test_bad_curved_cell(self):
         said = self.refused(

@@ -193,6 +193,16 @@ void for_each_setting(const toml::table& study, const std::function<void(const L
   }
 }
 
+TEST(StabilisationWarnings, NameKeysThatTheElementDoesNotUse) {
+  const std::string advice = "not used: the element p2p1 needs no stabilisation; leave this key out, or set element = ";
+  EXPECT_EQ(warnings_with({"element=p2p1", "structure.stabilisation=0.1"}),
+            Lines{"--set: structure.stabilisation: " + advice + "\"p1\""});
+  EXPECT_EQ(warnings_with({"element=p2p1", "fluid.grad_div=true"}),
+            Lines{"--set: fluid.grad_div: " + advice + "\"p1\""});
+  EXPECT_EQ(warnings_with({"element=p2p1", "fluid.grad_div=false"}), Lines{});
+  EXPECT_EQ(warnings_with({"structure.stabilisation=0.1", "fluid.grad_div=true"}), Lines{});
+}
+
 TEST(UnitWarnings, AreSilentOnTheSettingsOfEveryStudy) {
   int tried = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(FSI_SOURCE) / "compare/studies")) {
