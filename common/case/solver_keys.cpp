@@ -10,6 +10,11 @@ namespace {
 constexpr bool optional = false;
 constexpr Bounds tolerance{0, 1, false, false}, tolerance_or_none{0, 1, true, false};
 
+std::string direct_below_standards() {
+  return fmt::format("default {} in three dimensions, {} in two", FastOptions::standard_direct_below(3),
+                     FastOptions::standard_direct_below(2));
+}
+
 std::vector<CaseKey<MultigridData>> multigrid_keys() {
   using M = MultigridData;
   using Coarsening = CoupledCoarseningOptions;
@@ -58,7 +63,7 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            number(at(&M::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
       leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
            whole(at(&M::krylov, &KrylovOptions::max_iterations), 1)),
-      leaf("direct_below", optional, "unknowns below which fast factorises the matrix, default {}",
+      leaf("direct_below", optional, "unknowns below which fast factorises the matrix, " + direct_below_standards(),
            whole(at(&M::fast, &FastOptions::direct_below), 0)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
            whole(at(&M::krylov, &KrylovOptions::restart), 1)),
@@ -105,7 +110,8 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            number(at(&P::quasi_newton, &QuasiNewton::filter), tolerance_or_none)),
       leaf("linear_solver", optional, "of the sub-problems: {}",
            name_from(at(&P::linear_solver), general_solver_names())),
-      leaf("direct_below", optional, "unknowns of a sub-problem below which fast factorises the matrix, default {}",
+      leaf("direct_below", optional,
+           "unknowns of a sub-problem below which fast factorises the matrix, " + direct_below_standards(),
            whole(at(&P::fast, &FastOptions::direct_below), 0)),
   };
 }

@@ -49,7 +49,8 @@ struct FastSolver<n>::Iterative {
 template <int n>
 FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
     : blocks_(blocks), options_(options) {
-  if (blocks.numbering.size < options.direct_below) direct_ = std::make_unique<DirectLinearSolver<n>>(blocks);
+  if (blocks.numbering.size < options.direct_below.value_or(FastOptions::standard_direct_below(n)))
+    direct_ = std::make_unique<DirectLinearSolver<n>>(blocks);
 }
 
 template <int n>
@@ -78,6 +79,7 @@ LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance
   LinearReport report = iterate(b, tolerance, x);
   if (report.converged) return report;
   if (!strengthened_) {
+    count("linear solves repeated with a stronger preconditioner");
     set_up_preconditioner(true);
     LinearReport second = iterate(b, tolerance, x);
     second.iterations += report.iterations;
@@ -85,6 +87,7 @@ LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance
     report = second;
   }
   // From here on a factorisation, however long it takes: better than no answer.
+  count("linear solves rescued by factorisation");
   direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
   direct_->update();
   const LinearReport third = direct_->solve(b, tolerance, x);
@@ -121,6 +124,11 @@ void FastSolver<n>::set_up_preconditioner(bool strong) {
   iterative_->preconditioner.options() = options;
   iterative_->preconditioner.set_up();
   strengthened_ = strong;
+}
+
+template <int n>
+void FastSolver<n>::count(const char* event) const {
+  if (blocks_.profile) blocks_.profile->count(event);
 }
 
 template <int n>

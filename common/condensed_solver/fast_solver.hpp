@@ -52,6 +52,9 @@ class FastSolver : public LinearSolver {
 
   void find_shape_derivatives();
 
+  /// In the run's profile.
+  void count(const char* event) const;
+
   LinearReport iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x);
 
   /// correction = approximate solution for `residual`: velocities and pressures by GMRES, mesh motion as exact as the

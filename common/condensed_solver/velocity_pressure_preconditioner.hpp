@@ -20,6 +20,11 @@ namespace fsi {
 /// the fluid the mass matrix dominates A, and D is its lumped form; in the wall and on the interface D is A's diagonal,
 /// since there the stiffness has the same weight. One scalar problem holds the pressures of fluid and wall: they meet
 /// through the interface velocity, which carries the added mass.
+///
+/// Taylor-Hood elements have far fewer pressures than velocities. There a cycle on S costs little beside a momentum
+/// sweep, and smooths after its coarse correction too. Nor have they a stabilisation in C: where the wall is stiff, its S
+/// is that of a pressure mass matrix over the shear modulus for smooth pressures too, while B D^-1 G falls off like a
+/// Laplacian. A multiple of the diagonal of B D^-1 G makes up for it (the two parts of S in [Cahouet1988], added).
 template <int n>
 class VelocityPressurePreconditioner {
  public:
@@ -36,6 +41,10 @@ class VelocityPressurePreconditioner {
     /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
     /// save (fine artery, 0.125 ms).
     double coarse_from = 39;
+    /// Multiple of diag(B D^-1 G) that S gets in the wall, and from which stiffness over mass; Taylor-Hood elements only
+    /// (linear ones need up to twice the iterations with it).
+    double added_diagonal = 2;
+    double added_from = 39;
     ScalarMultigrid::Options pressure;
     typename RigidMotionMultigrid<n>::Options wall;
   };
@@ -56,24 +65,29 @@ class VelocityPressurePreconditioner {
   Options& options() { return options_; }
   /// The wall's momentum equations have coarse levels.
   bool has_wall_levels() const { return coarse_ != nullptr; }
+  /// Diagonal over lumped diagonal of the wall's momentum at the last set_up(): how far stiffness exceeds inertia.
+  double wall_stiffness() const { return stiffness_; }
 
   /// Takes the present values of the matrix, which must have been filled.
   void set_up() {
-    const double stiffness = fill_diagonals();
+    fill_diagonals();
     // Gauss-Seidel solves mass-dominated rows at once, but leaves much of a stiff wall's smooth motions. Decided by the
     // matrix alone, so that a restart decides the same.
-    const bool stiff = stiffness >= options_.coarse_from && !layout_.velocity_of_wall.empty();
+    const bool stiff = stiffness_ >= options_.coarse_from && !layout_.velocity_of_wall.empty();
     if (!stiff) {
       coarse_.reset();
     } else {
       if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<n>>(matrix_);
       coarse_->set_up(options_.wall);
     }
-    sweeps_ = options_.momentum_sweeps > 0                        ? options_.momentum_sweeps
-              : !coarse_ && stiffness >= options_.two_sweeps_from ? 2
-                                                                  : 1;
+    sweeps_ = options_.momentum_sweeps > 0                         ? options_.momentum_sweeps
+              : !coarse_ && stiffness_ >= options_.two_sweeps_from ? 2
+                                                                   : 1;
     fill_schur_complement();
-    multigrid_.set_up(schur_, options_.pressure);
+    if (has_few_pressures() && stiffness_ >= options_.added_from) add_to_wall_diagonal();
+    ScalarMultigrid::Options pressure = options_.pressure;
+    pressure.post_smoothing = pressure.post_smoothing || has_few_pressures();
+    multigrid_.set_up(schur_, pressure);
   }
 
   /// z = P^-1 r
@@ -102,6 +116,11 @@ class VelocityPressurePreconditioner {
   }
 
  private:
+  /// Most velocity nodes carry none, as with Taylor-Hood elements.
+  bool has_few_pressures() const {
+    return 2 * layout_.pressures < layout_.velocities;
+  }
+
   /// Rows of the wall's volume condition divided by dt, so that S is symmetric where the Jacobian is.
   double row_scale(int pressure) const {
     return layout_.wall_pressure[pressure] ? 1 / layout_.wall_factor : 1;
@@ -140,10 +159,9 @@ class VelocityPressurePreconditioner {
     schur_.values.resize(schur_.indices.size());
   }
 
-  /// A's block diagonal, inverted, and the lumped D. Returns the mean of diagonal over lumped diagonal in the wall: how
-  /// far its stiffness exceeds its mass.
-  double fill_diagonals() {
-    std::vector<double> ratios(layout_.velocities, 0.0);
+  /// A's block diagonal, inverted, the lumped D, and diagonal over lumped diagonal in the wall.
+  void fill_diagonals() {
+    std::vector<double> diagonals(layout_.velocities, 0.0), lumped_diagonals(layout_.velocities, 0.0);
 #pragma omp parallel for schedule(static) if (layout_.velocities > 500)
     for (int v = 0; v < layout_.velocities; ++v) {
       Eigen::Matrix<double, n, n> diagonal = Eigen::Matrix<double, n, n>::Zero();
@@ -167,17 +185,36 @@ class VelocityPressurePreconditioner {
       if (layout_.fluid_of_velocity[v] < 0) {
         int k = 0;  // a component that can move
         while (k < n - 1 && !layout_.is_free(v, k)) ++k;
-        ratios[v] =
-            std::min(largest_stiffness, diagonal(k, k) / std::max(lumped[k], diagonal(k, k) / largest_stiffness));
+        diagonals[v] = diagonal(k, k);
+        lumped_diagonals[v] = lumped[k];
       }
     }
+    stiffness_ =
+        has_few_pressures() ? ratio_of_sums(diagonals, lumped_diagonals) : mean_of_ratios(diagonals, lumped_diagonals);
+  }
+
+  /// d / l, between 0 and largest_stiffness
+  static double bounded_ratio(double d, double l) {
+    return std::min(largest_stiffness, d / std::max(l, d / largest_stiffness));
+  }
+  /// Over the nodes that are the wall's alone; the others have zero.
+  static double mean_of_ratios(const std::vector<double>& diagonals, const std::vector<double>& lumped) {
     double sum = 0;
     int count = 0;
-    for (double ratio : ratios) {
+    for (std::size_t v = 0; v < diagonals.size(); ++v) {
+      const double ratio = diagonals[v] != 0 ? bounded_ratio(diagonals[v], lumped[v]) : 0;
       sum += ratio;
       count += ratio > 0;
     }
     return count > 0 ? sum / count : 1;
+  }
+  /// The same for quadratic velocities, whose mass matrix has negative row sums at vertices: a node's own ratio means
+  /// nothing. On linear elements the two differ by 1 or 2 %.
+  static double ratio_of_sums(const std::vector<double>& diagonals, const std::vector<double>& lumped) {
+    double d = 0, l = 0;
+    for (double value : diagonals) d += value;
+    for (double value : lumped) l += value;
+    return d > 0 ? bounded_ratio(d, l) : 1;
   }
 
   /// S = C - B D^-1 G
@@ -210,6 +247,16 @@ class VelocityPressurePreconditioner {
                                      }
                                    });
       }
+    }
+  }
+
+  /// C is so small in a nearly incompressible wall that the diagonal is that of -B D^-1 G.
+  void add_to_wall_diagonal() {
+    for (int p = 0; p < layout_.pressures; ++p) {
+      if (!layout_.wall_pressure[p]) continue;
+      const auto begin = schur_.indices.begin() + schur_.offsets[p],
+                 end = schur_.indices.begin() + schur_.offsets[p + 1];
+      schur_.values[std::lower_bound(begin, end, p) - schur_.indices.begin()] *= 1 + options_.added_diagonal;
     }
   }
 
@@ -269,6 +316,7 @@ class VelocityPressurePreconditioner {
 
   Options options_;
   int sweeps_ = 1;
+  double stiffness_ = 1;
   std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do
   SweepChunks chunks_;
   std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node

@@ -260,8 +260,8 @@ TEST(CaseReader, HelpHasUnitsNamesAndDefaultsFromWhereTheyAreOwned) {
     EXPECT_NE(line(key).find(text), std::string::npos) << line(key) << "\nlacks: " << text;
   };
   says("fluid.density", "mg/mm^3");
-  says("monolithic.direct_below", fmt::format("default {}", FastOptions().direct_below));
-  says("partitioned.direct_below", fmt::format("default {}", FastOptions().direct_below));
+  says("monolithic.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
+  says("partitioned.direct_below", fmt::format("default {}", FastOptions::standard_direct_below(3)));
   says("monolithic.krylov_restart", fmt::format("default {}", KrylovOptions().restart));
   says("monolithic.max_iterations", fmt::format("default {}", NewtonOptions().max_iterations));
   says("partitioned.columns", fmt::format("default {}", QuasiNewtonOptions().columns));
