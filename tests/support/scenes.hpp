@@ -16,8 +16,8 @@ inline MaterialData layer_of(const std::string& material, const ParameterValues&
   return layer;
 }
 
-/// A case of the reference case's fluid and wall data and of the paper's discretisation, layers `media` and `adventitia` of one kind of material
-/// (docs/theory.md, section 1.3).
+/// A case of the reference case's fluid and wall data and of the paper's discretisation, layers `media` and
+/// `adventitia` of one kind of material (docs/theory.md, section 1.3).
 inline Case coupled_case(const std::string& material, double step = 0.125) {
   Case setup;
   setup.stabilisation = Stabilisation::paper;
