@@ -38,8 +38,8 @@ const Stretch& TimeAxis::stretch_of(int step) const {
 
 double TimeAxis::time_of(int step) const {
   const Stretch& stretch = stretch_of(step);
+  if (step == steps()) return time_ != nullptr ? time_->end : 1;
   if (time_ == nullptr) return stretch.start + (step - stretch.after) * (1 - stretch.start) / planned(stretch);
-  if (step == steps()) return time_->end;
   for (const Stretch& next : stretches_)  // where one stretch ends and the next begins, its last step cut short
     if (next.after > 0 && step == next.after) return next.start;
   return std::strtod(fmt::format("{:.12g}", stretch.start + (step - stretch.after) * stretch.asked).c_str(), nullptr);

@@ -172,16 +172,15 @@ TEST(FastSolver, SolvesTheCoupledSystemOfALargeTimeStepAtRest) {
   EXPECT_LT(relative_difference(x, scene.solution()), 1e-7);
 }
 
-/// The same artery with a pressure for each layer: several nodes of the wall have one velocity.
+/// A piece of it with a pressure for each layer: several nodes of the wall have one velocity.
 TEST(FastSolver, SolvesWithPressuresPerLayer) {
   auto setup = coupled_case("artery");
   setup.structure->layer_pressure = LayerPressure::separate;
   ArteryOptions options;
-  options.length = 6;
+  options.length = 3;
   const auto parts = build_scene<P1Tetrahedron>(setup, generate_artery(options));
   LinearisedScene<3> scene(setup, *parts, 2, 2);
   EXPECT_TRUE(parts->wall->nodes().has_copies());
-  EXPECT_GT(scene.b().size(), artery().b().size());
   FastSolver<3> solver(scene.blocks(), iterative());
   solver.update();
   std::vector<double> x;
@@ -197,9 +196,9 @@ TEST(FastSolver, SolvesWithPressuresPerLayerAndTaylorHoodElements) {
   auto setup = coupled_case("artery");
   setup.structure->layer_pressure = LayerPressure::separate;
   ArteryShape shape;
-  shape.length = 6;
+  shape.length = 3;
   ArteryCells cells;
-  cells.axial = 16;
+  cells.axial = 8;
   const auto parts =
       build_scene<P2P1AxisymmetricTriangle>(setup, with_mid_edge_nodes(generate_artery_section(shape, cells)));
   LinearisedScene<2> scene(setup, *parts, 2, 2);

@@ -28,6 +28,16 @@ TEST(TimeAxis, HitsTheEndAndHasDecimalTimes) {
   EXPECT_EQ(axis.time_of(7), 0.7);
 }
 
+TEST(TimeAxis, AWholeLoadIsOneWhereverItGoesOn) {
+  const Case many = at_rest(400), few = at_rest(3);
+  const TimeAxis before(many);
+  for (int done = 1; done < 400; ++done) {  // the rest of the load added up in steps is not 1 from 4 or 5 on, say
+    TimeAxis axis(few);
+    axis.go_on(before.stretches(), done, before.time_of(done));
+    EXPECT_EQ(axis.time_of(axis.steps()), 1) << done;
+  }
+}
+
 TEST(TimeAxis, GoesOnWithTheSameStepAsIfItHadNotStopped) {
   const Case setup = in_time(0.1, 0.7);
   TimeAxis axis(setup);
