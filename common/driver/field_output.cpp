@@ -100,8 +100,8 @@ void FieldOutput<n>::write(const State& state) {
           if (components == 1)
             numbers[middle.point] = 0.5 * (numbers[middle.ends[0]] + numbers[middle.ends[1]]);
           else
-            std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(components) * middle.node, components,
-                        numbers.begin() + static_cast<std::ptrdiff_t>(components) * middle.point);
+            for (std::size_t k = 0; k < components; ++k)
+              numbers[middle.point * components + k] = numbers[middle.node * components + k];
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
   writer_->write(state.step, values);

@@ -223,6 +223,8 @@ class Geometry(FolderTest):
                 cls.base / f"section{order}.msh", *TUBES["axisymmetric"], "--order", order, "--format", "2.2"
             )
             cls.meshes["channel", order] = write_channel(cls.base / f"channel{order}.msh", order)
+        cls.wider = cls.base / "wider.msh"
+        cls.wider.write_text(cls.meshes["channel", 1].read_text().replace(" 1.4 0.0\n", " 1.5 0.0\n"))
 
     def refused(self, *settings, program=MONOLITHIC, options=(), case=NEO_HOOKEAN):
         """The one line of a run that is refused with nothing written."""
@@ -338,15 +340,13 @@ class Geometry(FolderTest):
             )
             before = {file.name: file.read_bytes() for file in folder.iterdir()}
             for settings, what in (
-                (("element=p2p1", "geometry=plane"), "another case"),
-                (("element=p2p1", "geometry=plane", "structure.layer_pressure=continuous"), "another case"),
+                (("element=p2p1", "geometry=plane", self.mesh("channel", 2)), "another case"),
                 (("geometry=axisymmetric", self.mesh("section", 2)), "another case"),
-                (("geometry=plane", self.mesh("channel", 1)), None),  # its vertices: the same mesh
+                (("geometry=plane", "structure.layer_pressure=separate", self.mesh("channel", 2)), "another case"),
+                (("geometry=plane", f"mesh.file={self.wider}"), "another mesh"),
             ):
-                if what:
-                    settings = (self.mesh("channel", 2), *settings)
-                    said = self.refused(*settings, program=program, options=("--restart", folder))
-                    self.assertIn(what, said)
+                said = self.refused(*settings, program=program, options=("--restart", folder))
+                self.assertIn(what, said)
             self.assertEqual({file.name: file.read_bytes() for file in folder.iterdir()}, before)
 
 
