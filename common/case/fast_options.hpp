@@ -17,7 +17,7 @@ struct FastOptions {
 
   /// Unknowns below which a sparse factorisation is quicker: factors of a plane graph hardly fill in.
   /// \param dimension  components of a velocity
-  static constexpr std::int64_t standard_direct_below(int dimension) { return dimension == 2 ? 100000 : 2000; }
+  static constexpr std::int64_t standard_direct_below(int dimension) { return dimension == 2 ? 200000 : 2000; }
 };
 
 }  // namespace fsi

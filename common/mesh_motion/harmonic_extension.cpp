@@ -96,7 +96,7 @@ void HarmonicExtension<n>::set_up(Group& group) {
       group.node.push_back(a);
     }
   const int rows = static_cast<int>(group.node.size());
-  group.iterative = rows >= options_.iterative_from;
+  group.iterative = rows >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
   if (!group.iterative) {
     if (rows > 0) factorise(group);
     return;

@@ -1,0 +1,211 @@
+// `fast` on Taylor-Hood elements: against the sparse factorisation, iterations on two meshes, what the matrix is taken
+// for; scenes of two dimensions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condensed_solver/fast_solver.hpp"
+#include "condensed_solver/velocity_pressure_preconditioner.hpp"
+#include "fem/p1_tetrahedron.hpp"
+#include "fem/p2p1_tetrahedron.hpp"
+#include "fem/p2p1_triangle.hpp"
+#include "mesh/artery_generator.hpp"
+#include "mesh/mid_edge_nodes.hpp"
+#include "support/linear_systems.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+using Tet = P2P1Tetrahedron;
+
+ArteryShape short_tube() {
+  ArteryShape shape;
+  shape.length = 6;
+  return shape;
+}
+
+/// Stretched cells, as recommended meshes have them: thin in the layers, long around.
+ArteryCells cells(int axial) {
+  ArteryCells cells;
+  cells.lumen = 2;
+  cells.media = 1;
+  cells.adventitia = 1;
+  cells.around = 8;
+  cells.axial = axial;
+  return cells;
+}
+
+std::unique_ptr<Scene<3>> artery(const Case& setup, int axial) {
+  return build_scene<Tet>(setup, with_mid_edge_nodes(generate_artery(short_tube(), cells(axial))));
+}
+
+/// The case with steps of this length.
+Case stepped(double step) {
+  auto setup = coupled_case("neo-hookean");
+  setup.time->step = step;
+  setup.time->end = 10 * step;
+  return setup;
+}
+
+Case static_wall() {
+  auto setup = coupled_case("neo-hookean");
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.time.reset();
+  setup.static_load = StaticData{};
+  setup.load = PressureTable{{{0.0, 0.1}}};
+  return setup;
+}
+
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double error = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    error += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return std::sqrt(error / size);
+}
+
+FastOptions iterative() {
+  FastOptions options;
+  options.direct_below = 0;
+  return options;
+}
+
+/// Iterations to 1e-8 of the system's first Newton equations at rest; the solution is that of the factorisation.
+template <int n>
+int iterations(Scene<n>& scene, Numbering numbering, double step) {
+  System<n> system("scene", scene, std::move(numbering));
+  State state = scene.at_rest();
+  StepData data;
+  if (step > 0) {
+    data.rates = scene.integrator->rates(state, step);
+    data.opening_pressures = {1.332};
+  }
+  if (scene.wall) data.interface_load.assign(scene.at_rest().now.wall.size(), 1e-3);
+  system.work_on(state, data);
+  system.evaluate();
+  system.linearise();
+  std::vector<double> expected, x;
+  DirectLinearSolver<n> direct(system.blocks());
+  direct.update();
+  direct.solve(system.residual(), 0, expected);
+  FastSolver<n> solver(system.blocks(), iterative());
+  solver.update();
+  const auto report = solver.solve(system.residual(), 1e-8, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(solver.uses_factorisation());
+  EXPECT_LT(relative_difference(x, expected), 1e-5);
+  EXPECT_EQ(scene.profile.counters().count("linear solves repeated with a stronger preconditioner"), 0u);
+  return report.iterations;
+}
+
+TEST(FastSolverTaylorHood, IterationsHardlyGrowWithTheMesh) {
+  const auto coarse = artery(stepped(0.125), 6), finer = artery(stepped(0.125), 12);
+  const int few = iterations(*coarse, number_scene(*coarse), 0.125),
+            more = iterations(*finer, number_scene(*finer), 0.125);
+  EXPECT_LE(few, 60);
+  EXPECT_LE(more, 1.3 * few);
+}
+
+TEST(FastSolverTaylorHood, SmallAndLargeTimeSteps) {
+  const auto small = artery(stepped(0.004), 6), large = artery(stepped(4), 6);
+  EXPECT_LE(iterations(*small, number_scene(*small), 0.004), 60);
+  EXPECT_LE(iterations(*large, number_scene(*large), 4), 120);
+}
+
+TEST(FastSolverTaylorHood, EachMediumAlone) {
+  const auto scene = artery(stepped(0.125), 6);
+  EXPECT_LE(iterations(*scene, number_fluid(*scene), 0.125), 40);
+  EXPECT_LE(iterations(*scene, number_wall(*scene), 0.125), 60);
+}
+
+TEST(FastSolverTaylorHood, StaticWall) {
+  const auto scene = artery(static_wall(), 6);
+  EXPECT_LE(iterations(*scene, number_wall(*scene), 0), 120);
+}
+
+/// Stiffness over inertia of the wall, as the preconditioner of the coupled system sees it at rest.
+double wall_stiffness(Scene<3>& scene, double step) {
+  System<3> system("scene", scene, number_scene(scene));
+  State state = scene.at_rest();
+  StepData data;
+  data.rates = scene.integrator->rates(state, step);
+  data.opening_pressures = {1.332};
+  system.work_on(state, data);
+  system.evaluate();
+  system.linearise();
+  VelocityPressureLayout<3> layout(system.blocks());
+  VelocityPressureMatrix<3> matrix(system.blocks(), layout);
+  matrix.fill();
+  VelocityPressurePreconditioner<3> preconditioner(matrix);
+  preconditioner.set_up();
+  EXPECT_EQ(preconditioner.has_wall_levels(),
+            preconditioner.wall_stiffness() >= VelocityPressurePreconditioner<3>::Options().coarse_from);
+  return preconditioner.wall_stiffness();
+}
+
+// Row sums of a quadratic mass matrix are negative at vertices: taken node by node, any wall would seem stiff.
+TEST(FastSolverTaylorHood, AWallOfMuchInertiaIsNotTakenForStiff) {
+  const auto setup = stepped(0.125);
+  const auto quadratic = artery(setup, 6);
+  EXPECT_LT(wall_stiffness(*quadratic, 0.004), 1);
+  EXPECT_GT(wall_stiffness(*quadratic, 4), 200);
+  ArteryCells halved = cells(12);
+  halved.media = halved.adventitia = 2;
+  halved.around = 16;
+  const auto linear = build_scene<P1Tetrahedron>(setup, generate_artery(short_tube(), halved));
+  const double ratio = wall_stiffness(*quadratic, 0.125) / wall_stiffness(*linear, 0.125);
+  EXPECT_GT(ratio, 0.4);
+  EXPECT_LT(ratio, 2.5);
+}
+
+TEST(FastSolverTaylorHood, RescuesAreCounted) {
+  const auto scene = artery(stepped(0.125), 4);
+  System<3> system("scene", *scene, number_scene(*scene));
+  State state = scene->at_rest();
+  StepData data;
+  data.rates = scene->integrator->rates(state, 0.125);
+  data.opening_pressures = {1.332};
+  system.work_on(state, data);
+  system.evaluate();
+  system.linearise();
+  FastOptions options = iterative();
+  options.max_iterations = 2;
+  FastSolver<3> solver(system.blocks(), options);
+  solver.update();
+  std::vector<double> x;
+  EXPECT_TRUE(solver.solve(system.residual(), 1e-9, x).converged);
+  EXPECT_TRUE(solver.uses_factorisation());
+  EXPECT_EQ(scene->profile.counters().at("linear solves rescued by factorisation"), 1);
+}
+
+std::unique_ptr<Scene<2>> artery_section() {
+  auto setup = stepped(0.125);
+  setup.geometry = Geometry::axisymmetric;
+  ArteryCells few = cells(36);
+  few.media = few.adventitia = 2;
+  return build_scene<P2P1AxisymmetricTriangle>(setup, with_mid_edge_nodes(generate_artery_section(short_tube(), few)));
+}
+
+TEST(FastSolverTaylorHood, TwoDimensionsByIteration) {
+  const auto scene = artery_section();
+  EXPECT_LE(iterations(*scene, number_scene(*scene), 0.125), 60);
+}
+
+TEST(FastSolverTaylorHood, TwoDimensionsAreFactorisedWhereThreeAreNot) {
+  const auto scene = artery_section();
+  System<2> system("scene", *scene, number_scene(*scene));
+  ASSERT_GT(system.blocks().numbering.size, FastOptions::standard_direct_below(3));
+  ASSERT_LT(system.blocks().numbering.size, FastOptions::standard_direct_below(2));
+  EXPECT_TRUE(FastSolver<2>(system.blocks()).uses_factorisation());
+  EXPECT_FALSE(FastSolver<2>(system.blocks(), iterative()).uses_factorisation());
+  FastOptions options;
+  options.direct_below = FastOptions::standard_direct_below(3);
+  EXPECT_FALSE(FastSolver<2>(system.blocks(), options).uses_factorisation());
+}
+
+}  // namespace
+
+}  // namespace fsi::test
