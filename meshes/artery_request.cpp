@@ -63,7 +63,10 @@ TetrahedralMesh tube(const ArteryRequest& request) {
 
 const RecommendedMesh* recommendation(const ArteryRequest& request) {
   if (request.for_element.empty()) return nullptr;
-  return &recommended_mesh(request.for_element, request.axisymmetric, percent_of(request.error.value_or("3%")));
+  const auto asked = request.error.value_or("3%");
+  const auto percent = percent_of(asked);
+  if (!percent) refuse("--error", fmt::format("'{}' is no percentage", asked), "give one, like 3%");
+  return &recommended_mesh(request.for_element, request.axisymmetric, *percent, {"fsi-mesh", "--for", "--error"});
 }
 
 ArteryMesh make_artery(const ArteryRequest& request) {

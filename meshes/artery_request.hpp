@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "mesh/artery/options.hpp"
+#include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
-#include "meshes/recommended_meshes.hpp"
 
 namespace fsi {
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # The runs behind docs/results.md: three materials, both drivers, coarse and intermediate mesh. About half an hour on two
 # cores. Finished runs are kept; delete results/study to start afresh.
-# Needs the benchmarks target too (axisymmetric_wave): cmake --build --preset release --target benchmarks.
 #   scripts/study.sh [FOLDER WITH THE PROGRAMS]      default: build/release/bin
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -50,16 +49,14 @@ for level in coarse intermediate; do
     "$results/$level-artery-monolithic" --labels neo-Hookean,Mooney-Rivlin,artery
 done
 
-# Reference for the mesh error: the axisymmetric wave, by the same weak forms. Python as fsi-compare's, found when the
-# programs were configured.
-python=$(sed -n 's/^exec "\([^"]*\)".*/\1/p' "$programs/fsi-compare")
+# Reference for the mesh error: the axisymmetric twins on a fine grid at the same step, by the same weak forms.
 run coarse-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05
 run intermediate-neo-hookean-weak-stabilisation fsi-monolithic neo-hookean --set structure.stabilisation=0.05 \
   --set mesh.level=intermediate
 for material in "${materials[@]}"; do
-  reference=$results/axisymmetric-$material.csv
-  [ -s "$reference" ] || "$programs/axisymmetric_wave" "$material" 8 "$reference"
-  "$python" scripts/reference_errors.py "$reference" "$results"/{coarse,intermediate}-"$material"-monolithic \
+  run "axisymmetric-$material" fsi-monolithic "axisymmetric/$material" --set mesh.error=0.2%
+  "$programs/fsi-compare" accuracy "$results/axisymmetric-$material" --times 1.5,3,4.5,6,7.5,9 \
+    -o "$results/accuracy-$material" "$results"/{coarse,intermediate}-"$material"-monolithic \
     $(ls -d "$results"/{coarse,intermediate}-"$material"-weak-stabilisation 2>/dev/null)
 done | tee "$results/reference-errors.txt"
 

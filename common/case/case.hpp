@@ -31,6 +31,7 @@ struct PressureTable {
 struct MeshData {
   std::filesystem::path file;  ///< absolute, or relative to the working directory once read
   std::string level;           ///< "coarse", "intermediate", "fine", or empty
+  double error = 0;  ///< percent that the artery mesh made on demand may leave in the wave; 0: none is asked for
 };
 
 /// [fluid]

@@ -15,7 +15,11 @@ struct Rivals {
   const char* rival;
   bool only_array;  ///< only an array excludes the other one
 };
-constexpr std::array<Rivals, 4> rivals = {{{"mesh", "file", "level", false},
+constexpr std::array<Rivals, 8> rivals = {{{"mesh", "file", "level", false},
+                                           {"mesh", "file", "error", false},
+                                           {"mesh", "level", "error", false},
+                                           {"mesh", "error", "file", false},
+                                           {"mesh", "error", "level", false},
                                            {"mesh", "level", "file", false},
                                            {"inlet", "pressure", "until", true},
                                            {"load", "pressure", "until", true}}};

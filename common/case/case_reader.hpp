@@ -12,7 +12,7 @@ namespace fsi {
 /// \param file       path of the case file; paths inside it are relative to its folder
 /// \param overrides  `key=value`, applied over the file's entries in this order. A value that is not TOML counts as a
 ///                   bare string. `mesh.file` is relative to the working directory if it exists there, else to the case
-///                   file; it replaces `mesh.level` and the other way round.
+///                   file; it replaces `mesh.level` and `mesh.error`, and the other way round.
 /// \throws InputError with file and line (or `--set`), key path, offending value and remedy: syntax errors, unknown or
 ///         misspelt keys (with the nearest valid one), wrong types, missing or unphysical values, contradictory
 ///         sections

@@ -9,6 +9,7 @@
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
 #include "materials/material.hpp"
+#include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
 
 namespace fsi {
@@ -32,9 +33,17 @@ void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
 }
 
 void check_mesh(const CaseEntry& entry, MeshData& mesh) {
-  if (mesh.file.empty() && mesh.level.empty())
-    entry.refuse("neither file nor level", "give file = \"NAME.msh\" or level = \"coarse\"");
+  if (mesh.file.empty() && mesh.level.empty() && mesh.error == 0)
+    entry.refuse("neither file nor level", "give file = \"NAME.msh\", level = \"coarse\" or error = \"3%\"");
   if (!mesh.file.empty() && !mesh.level.empty()) entry.child("level").refuse("both file and level", "keep one of them");
+  if (mesh.error > 0 && !(mesh.file.empty() && mesh.level.empty()))
+    entry.child("error").refuse(mesh.file.empty() ? "both level and error" : "both file and error", "keep one of them");
+}
+
+void read_mesh_error(const CaseEntry& entry, MeshData& mesh) {
+  const auto percent = percent_of(entry.text());
+  if (!percent) entry.refuse_value("is no percentage", "give one, like \"3%\"");
+  mesh.error = *percent;
 }
 
 std::vector<CaseKey<MeshData>> mesh_keys() {
@@ -42,6 +51,11 @@ std::vector<CaseKey<MeshData>> mesh_keys() {
       leaf<MeshData>("file", optional, "gmsh mesh, path relative to the case file",
                      {read_mesh_file, [](const MeshData& mesh) { return mesh.file.string(); }}),
       leaf("level", optional, "artery mesh made on demand: {}", name_from(at(&MeshData::level), artery_levels())),
+      leaf<MeshData>(
+          "error", optional,
+          "artery mesh made on demand: the smallest recommended for the element that leaves no more, like \"3%\"",
+          {read_mesh_error,
+           [](const MeshData& mesh) { return mesh.error > 0 ? fmt::format("{}%", mesh.error) : std::string(); }}),
   };
 }
 

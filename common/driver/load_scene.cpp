@@ -11,6 +11,7 @@
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/artery/curved_edges.hpp"
+#include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/gmsh_reader.hpp"
@@ -28,9 +29,10 @@ namespace fsi {
 
 namespace {
 
-/// What messages and summaries call the mesh: its file, or "level coarse".
+/// What messages and summaries call the mesh: its file, "level coarse", or "recommended for 3%".
 std::string mesh_name(const Case& setup) {
-  return setup.mesh.file.empty() ? "level " + setup.mesh.level : setup.mesh.file.string();
+  if (!setup.mesh.file.empty()) return setup.mesh.file.string();
+  return setup.mesh.error > 0 ? fmt::format("recommended for {}%", setup.mesh.error) : "level " + setup.mesh.level;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -41,22 +43,37 @@ template <class Element>
 constexpr TriangleGeometry triangle_geometry =
     Element::axisymmetric ? TriangleGeometry::axisymmetric : TriangleGeometry::plane;
 
-/// A level of the artery for an element: straight tubes and their meridian sections only.
+/// The cells of the mesh recommended for an element and `mesh.error`.
 template <class Element>
-MeshOf<Element> make_level(const Case& setup) {
-  const ArteryOptions level = artery_level(setup.mesh.level);
-  if constexpr (Element::dim == 3 && Element::order == 1) return generate_artery(level);
-  if constexpr (Element::dim == 3 && Element::order == 2)
-    return with_curved_edges(generate_artery(level), level.inner_radius);
+ArteryCells recommended_cells(const Case& setup) {
+  return recommended_mesh(Element::order == 1 ? "p1" : "p2p1", Element::axisymmetric, setup.mesh.error,
+                          {setup.path.string(), "element", "mesh.error"})
+      .cells;
+}
+
+/// The artery on demand for an element, by level or error: straight tubes and their meridian sections only.
+template <class Element>
+MeshOf<Element> make_artery(const Case& setup) {
+  const bool by_error = setup.mesh.error > 0;
+  const ArteryOptions sizes = by_error ? ArteryOptions() : artery_level(setup.mesh.level);
+  if constexpr (Element::dim == 3) {
+    const TetrahedralMesh tube =
+        by_error ? generate_artery(sizes, recommended_cells<Element>(setup)) : generate_artery(sizes);
+    if constexpr (Element::order == 1)
+      return tube;
+    else
+      return with_curved_edges(tube, sizes.inner_radius);
+  }
   if constexpr (Element::axisymmetric) {
-    const TriangleMesh section = generate_artery_section(level, artery_cells(level));
+    const TriangleMesh section =
+        generate_artery_section(sizes, by_error ? recommended_cells<Element>(setup) : artery_cells(sizes));
     if constexpr (Element::order == 1)
       return section;
     else
       return with_mid_edge_nodes(section);
   }
-  throw InputError(setup.path.string(), "mesh.level", "levels are tubes, which a plane scene cannot hold",
-                   "give mesh.file, or geometry = \"axisymmetric\"");
+  throw InputError(setup.path.string(), by_error ? "mesh.error" : "mesh.level",
+                   "makes tubes, which a plane scene cannot hold", "give mesh.file, or geometry = \"axisymmetric\"");
 }
 
 template <class Element>
@@ -64,7 +81,7 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
   std::vector<std::string> available;
   MeshOf<Element> made;
   if (setup.mesh.file.empty()) {
-    made = make_level<Element>(setup);
+    made = make_artery<Element>(setup);
     available = made.regions;
   } else {
     available = gmsh_regions(setup.mesh.file, Element::dim);

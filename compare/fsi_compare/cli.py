@@ -9,6 +9,7 @@ from .base.errors import InputError
 from .linear.command import add_parser as add_solvers, solvers
 from .reporting.cost import add_parser as add_cost, cost
 from .reporting.pressure import add_parser as add_pressure, pressure
+from .studies.accuracy_of_runs import accuracy, add_parser as add_accuracy
 from .studies.command import add_parser as add_study, study
 
 
@@ -29,6 +30,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     add_pressure(commands, version)
     add_cost(commands, version)
+    add_accuracy(commands, version)
     add_solvers(commands, "results/solvers", version)
     add_study(commands, version)
     return top
@@ -42,7 +44,8 @@ def main(arguments: Sequence[str], version: str = "unknown") -> int:
         options = top.parse_args(list(arguments))
         if options.command is None:
             top.error("no command")
-        code = {"pressure": pressure, "cost": cost, "solvers": solvers, "study": study}[options.command](options)
+        run = {"pressure": pressure, "cost": cost, "accuracy": accuracy, "solvers": solvers, "study": study}
+        code = run[options.command](options)
         sys.stdout.flush()
     except InputError as error:
         print(f"fsi-compare: error: {error}", file=sys.stderr)

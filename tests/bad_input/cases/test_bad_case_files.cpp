@@ -139,12 +139,19 @@ const std::vector<BadCase>& bad_cases() {
       {"MeshMissing", fluid_case, "[mesh]\nfile = \"tube.msh\"\n", "",
        "case.toml: mesh: missing; add it (where the mesh comes from)"},
       {"MeshEmpty", fluid_case, "file = \"tube.msh\"\n", "",
-       "case.toml:2: mesh: neither file nor level; give file = \"NAME.msh\" or level = \"coarse\""},
+       "case.toml:2: mesh: neither file nor level; give file = \"NAME.msh\", level = \"coarse\" or "
+       "error = \"3%\""},
       {"MeshFileEmpty", fluid_case, "\"tube.msh\"", "\"\"",
        "case.toml:3: mesh.file: \"\" is empty; give the path of a gmsh file (gmsh mesh, path relative to the case "
        "file)"},
       {"MeshTwice", coupled_case, "level = \"coarse\"", "level = \"coarse\"\nfile = \"a.msh\"",
        "case.toml:4: mesh.level: both file and level; keep one of them"},
+      {"MeshErrorBesideLevel", coupled_case, "level = \"coarse\"", "level = \"coarse\"\nerror = \"3%\"",
+       "case.toml:5: mesh.error: both level and error; keep one of them"},
+      {"MeshErrorWithoutSign", coupled_case, "level = \"coarse\"", "error = \"3\"",
+       "case.toml:4: mesh.error: \"3\" is no percentage; give one, like \"3%\" (artery mesh made on demand: the "
+       "smallest "
+       "recommended for the element that leaves no more, like \"3%\")"},
       // Unphysical values
       {"DensityNegative", coupled_case, "density = 1.0", "density = -1.0",
        "case.toml:6: fluid.density: -1 is not positive; give a number > 0 (density in mg/mm^3)"},

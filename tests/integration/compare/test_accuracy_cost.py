@@ -271,6 +271,20 @@ class ReadyStudy(unittest.TestCase):
             if quick:
                 self.assertEqual({request.mesh.name for request in study.requests}, {"coarse"})
 
+    def test_elements_and_dimensions_can_be_run_side_by_side(self):
+        from fsi_compare.studies import kinds
+        from fsi_compare.studies.command import study_path
+        from fsi_compare.studies.running.study_file import read_study
+
+        for quick in (False, True):
+            study = read_study(study_path("space"), kinds.NAMES, quick)
+            kinds.kind(study.kind).check(study)
+            kinds_of_runs = {
+                (request.settings.get("element", "p1"), request.settings.get("geometry", "3d"))
+                for request in study.requests
+            }
+            self.assertLessEqual({("p1", "3d"), ("p2p1", "3d"), ("p2p1", "axisymmetric")}, kinds_of_runs)
+
 
 if __name__ == "__main__":
     unittest.main()

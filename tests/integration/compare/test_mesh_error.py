@@ -41,6 +41,13 @@ class MeshErrors(FolderCase):
         for material in MATERIALS:
             case = tomllib.loads((ARTERY / f"{material}.toml").read_text())
             self.assertEqual(references()[material].case, physical(case), material)
+            twin = tomllib.loads((ARTERY / "axisymmetric" / f"{material}.toml").read_text())
+            self.assertEqual(references()[material].case, physical(twin), material)
+
+    def test_an_axisymmetric_run_has_the_reference_of_the_tube(self):
+        run = self.run_of(case=ARTERY / "axisymmetric" / "neo-hookean.toml", mesh=None, factors=(1.5, 1.25))
+        self.assertAlmostEqual(mesh_error(run).pressure, 0.5, places=9)
+        self.assertIn("no reference for geometry = plane", mesh_error(self.run_of(geometry="plane")).words)
 
     def test_a_wave_half_as_large_again_is_off_by_half(self):
         error = mesh_error(self.run_of(factors=(1.5, 0.75)))
@@ -69,8 +76,10 @@ class MeshErrors(FolderCase):
     def test_other_mesh_is_unknown(self):
         case = self.base / "own.toml"
         case.write_text((ARTERY / "neo-hookean.toml").read_text().replace('level = "coarse"', 'file = "tube.msh"'))
-        self.assertIn("its mesh is none of the artery's levels", mesh_error(self.run_of(case=case, mesh=None)).words)
-        self.assertIn("none of the artery's levels", mesh_error(self.run_of(mesh__file="tube.msh")).words)
+        self.assertIn(
+            "its mesh is not one of the artery made on demand", mesh_error(self.run_of(case=case, mesh=None)).words
+        )
+        self.assertIn("not one of the artery", mesh_error(self.run_of(mesh__file="tube.msh")).words)
         self.assertEqual(mesh_error(self.run_of(mesh=None)).pressure, 0.0)  # the case file names a level itself
 
     def test_a_shorter_run_is_unknown(self):

@@ -17,6 +17,27 @@ namespace fs = std::filesystem;
 
 using Points = std::vector<std::pair<double, double>>;
 
+TEST(CaseReader, AxisymmetricTwinsDifferFromThePapersCasesInDiscretisationAlone) {
+  const fs::path folder = FSI_CASE_FILES;
+  for (const char* name : {"neo-hookean.toml", "mooney-rivlin.toml", "artery.toml"}) {
+    const auto tube = read_case(folder / name), twin = read_case(folder / "axisymmetric" / name);
+    EXPECT_EQ(twin.geometry, Geometry::axisymmetric);
+    EXPECT_EQ(twin.element, ElementPair::p2p1);
+    EXPECT_EQ(twin.structure->layer_pressure, LayerPressure::separate);
+    EXPECT_EQ(twin.mesh.error, 1);
+    EXPECT_EQ(twin.fluid->density, tube.fluid->density);
+    EXPECT_EQ(twin.fluid->viscosity, tube.fluid->viscosity);
+    EXPECT_EQ(twin.structure->density, tube.structure->density);
+    EXPECT_EQ(twin.structure->bulk_modulus, tube.structure->bulk_modulus);
+    for (const auto& [layer, material] : tube.structure->layers) {
+      EXPECT_EQ(twin.structure->layers.at(layer).material, material.material);
+      EXPECT_EQ(twin.structure->layers.at(layer).values, material.values);
+    }
+    EXPECT_EQ(twin.inlet->points, tube.inlet->points);
+    EXPECT_EQ(twin.time->steps(), tube.time->steps());
+  }
+}
+
 TEST(CaseReader, ReadsThePapersCases) {
   const fs::path folder = FSI_CASE_FILES;
   const auto neo = read_case(folder / "neo-hookean.toml");
@@ -217,6 +238,9 @@ TEST(CaseReader, OverriddenEntriesReplaceTheirRivals) {
   const auto other_level = parse_case(minimal_fluid, "case.toml", {"mesh.level=fine"});
   EXPECT_EQ(other_level.mesh.level, "fine");
   EXPECT_TRUE(other_level.mesh.file.empty());
+  const auto by_error = parse_case(minimal_fluid, "case.toml", {"mesh.error=2.5 %"});
+  EXPECT_EQ(by_error.mesh.error, 2.5);
+  EXPECT_TRUE(by_error.mesh.file.empty());
 
   auto pulse = minimal_fluid;
   const std::string table = "pressure = [[0, 0], [1, 2.5], [1, 0]]";

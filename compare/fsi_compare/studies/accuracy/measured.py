@@ -11,6 +11,7 @@ from .plan import Plan
 SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are
 GAIN = 0.02  # a slower setting whose total error is smaller by less than this part is no better
 STEP, STABILISATION = "time.step", "structure.stabilisation"
+ELEMENT, GEOMETRY, KIND, LAYER_PRESSURE = "element", "geometry", "stabilisation", "structure.layer_pressure"
 
 
 def discretisation(request: Request) -> Tuple:
@@ -71,9 +72,13 @@ class Measured:
 
     @property
     def equations(self) -> str:
-        """Mesh, step and stabilisation in words."""
-        alpha = self.run.request.settings.get(STABILISATION)
+        """Mesh, step, element and what else makes the equations in words, as far as the study sets it."""
+        settings = self.run.request.settings
+        alpha = settings.get(STABILISATION)
         words = [f"{self.mesh_label} mesh", f"step {self.step:g} ms"]
+        words += [str(settings[key]) for key in (ELEMENT, GEOMETRY) if key in settings]
+        words += [f"{settings[KIND]} stabilisation"] if KIND in settings else []
+        words += [f"{settings[LAYER_PRESSURE]} layer pressure"] if LAYER_PRESSURE in settings else []
         return ", ".join(words + ([f"stabilisation {show(alpha)}"] if alpha is not None else []))
 
     @property

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,18 @@ struct RecommendedMesh {
 /// All of them: per element and geometry from few nodes to many.
 const std::vector<RecommendedMesh>& recommended_meshes();
 
-/// The first one of that element and geometry whose pressure and displacement are both within `percent`.
-/// Throws InputError naming --for for an element that has none, --error where none is as good as that.
-const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, double percent);
+/// Where element and error were asked for, for messages: options of a program or keys of a case file.
+struct AskedFor {
+  std::string file, element, error;
+};
 
-/// The number in "3%" or "0.5 %", positive. Throws InputError naming --error for anything else: a number without the
-/// sign could mean a fraction.
-double percent_of(const std::string& text);
+/// The first one of that element and geometry whose pressure and displacement are both within `percent`.
+/// Throws InputError naming `asked.element` for an element that has none, `asked.error` where none is as good as that.
+const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, double percent,
+                                        const AskedFor& asked);
+
+/// The number in "3%" or "0.5 %", positive; nothing for anything else: a number without the sign could mean a fraction.
+std::optional<double> percent_of(const std::string& text);
 
 /// Which cells a mesh has and what error it leaves, in one line for the console.
 std::string to_text(const RecommendedMesh& mesh);

@@ -1,0 +1,233 @@
+"""`fsi-compare accuracy`: how far finished runs are from a reference, in space and at chosen times, and what they took."""
+
+import argparse
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence
+
+from ..base.errors import InputError
+from ..base.files import make_folder
+from ..reporting.layout import Table, fixed, write_markdown
+from ..reporting.pressure import read_times
+from ..runs.columns import read_columns
+from ..runs.labels import folder_labels, read_labels
+from ..runs.run_folder import read_summary
+from .evidence.reference import read_reference
+from .evidence.waves import QUANTITIES, Quantity, Waves, read_waves, relative_difference
+
+TIMES = "1.5,3,4.5,6"
+SAME_STEP = 1e-6  # relative
+
+DESCRIPTION = """\
+How far runs are from a reference: relative L2 norm along z of the centre-line pressure and of the radial displacement of
+the inner wall, at each of the times and the worst of them. REFERENCE is a finished run, or a folder of
+compare/studies/references. Runs of any element and geometry may be mixed: a tube of tetrahedra and its axisymmetric twin
+write the same files. With the reference's time step in all runs what is left is the error in space. Writes to OUTDIR:
+  accuracy.csv   all errors, in full precision
+  accuracy.md    the table for documents"""
+
+EXAMPLES = """\
+examples:
+  fsi-compare accuracy results/axisymmetric-fine results/whole results/quarter results/axisymmetric
+  fsi-compare accuracy compare/studies/references/neo-hookean results/small-steps --times 1.5,3,4.5,6,7.5,9
+"""
+
+
+@dataclass(frozen=True)
+class Reference:
+    folder: Path
+    waves: Dict[str, Waves]  # by quantity's column
+    step: Optional[float]  # ms; None: extrapolated to zero
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """Of one run."""
+
+    label: str
+    element: str
+    geometry: str
+    nodes: Optional[int]
+    step: float  # ms
+    steps: int
+    seconds: float  # of all time steps
+    errors: Dict[str, List[float]]  # by quantity's column: at each time, relative
+
+    def worst(self, quantity: Quantity) -> float:
+        values = self.errors[quantity.column]
+        return math.nan if any(math.isnan(value) for value in values) else max(values)
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    accuracy = commands.add_parser(
+        "accuracy",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="errors of finished runs against a reference",
+        description=DESCRIPTION,
+    )
+    accuracy.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
+    accuracy.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
+    accuracy.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=Path,
+        default=Path("results/accuracy"),
+        help="folder for the files written (default: %(default)s)",
+    )
+    accuracy.add_argument(
+        "--times",
+        metavar="T,T,...",
+        default=TIMES,
+        help="times in ms; linear between time steps (default: %(default)s)",
+    )
+    accuracy.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    accuracy.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
+    accuracy.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
+    )
+    accuracy.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    accuracy.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def accuracy(options: argparse.Namespace) -> int:
+    """Reads all runs before the first file is written."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
+    times = read_times(options.times)
+    labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
+    reference = read_any_reference(options.reference)
+    found = [read_accuracy(folder, label, reference, times) for folder, label in zip(options.folders, labels)]
+    make_folder(options.output)
+    table = accuracy_table(found, reference, times, options.title)
+    written = [table.write_csv(options.output), write_markdown(options.output / "accuracy.md", options.title, [table])]
+    if not options.quiet:
+        print(table.text())
+        print("Written: " + ", ".join(str(path) for path in written))
+    return 0
+
+
+def read_any_reference(folder: Path) -> Reference:
+    """A kept reference or a finished run. Raises InputError."""
+    if (folder / "reference.json").is_file():
+        kept = read_reference(folder)
+        return Reference(folder, dict(kept.waves), _kept_step(folder))
+    _finished(folder)
+    waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    return Reference(folder, waves, _step(waves))
+
+
+def _kept_step(folder: Path) -> Optional[float]:
+    step = json.loads((folder / "reference.json").read_text(encoding="utf-8")).get("step_ms")
+    return float(step) if isinstance(step, (int, float)) else None
+
+
+def _finished(folder: Path) -> dict:
+    if not folder.is_dir():
+        raise InputError(
+            folder,
+            "",
+            "is not a folder" if folder.exists() else "no such folder",
+            "give the folder that a run wrote with -o",
+        )
+    return read_summary(folder / "summary.json")
+
+
+def _step(waves: Dict[str, Waves]) -> float:
+    """The last one, ms."""
+    times = next(iter(waves.values())).times
+    return float(times[-1] - times[-2]) if len(times) > 1 else float(times[-1])
+
+
+def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
+    """Raises InputError unless the run is finished and run and reference cover the times and the reference's line."""
+    summary = _finished(folder)
+    waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    errors = {}
+    for q in QUANTITIES:
+        own, exact = waves[q.column], reference.waves[q.column]
+        for where, one in ((reference.folder, exact), (folder, own)):
+            outside = [time for time in times if not one.covers(time)]
+            if outside:
+                raise InputError(
+                    where / q.file,
+                    "--times",
+                    f"{outside[0]:g} ms is outside of it",
+                    f"give times between {one.times[0]:g} and {one.times[-1]:g} ms",
+                )
+        if own.z[0] > exact.z[0] + 1e-6 or own.z[-1] < exact.z[-1] - 1e-6:
+            raise InputError(
+                folder / q.file,
+                "z_mm",
+                f"runs from {own.z[0]:g} to {own.z[-1]:g} mm, the reference from {exact.z[0]:g} to {exact.z[-1]:g} mm",
+                "compare runs on the same geometry",
+            )
+        errors[q.column] = [relative_difference(own, exact, [time]) for time in times]
+    seconds = read_columns(folder / "iterations.csv", ("wall_s",))["wall_s"]
+    return Accuracy(
+        label=label,
+        element=str(summary.get("element", "p1")),
+        geometry=str(summary.get("geometry", "3d")),
+        nodes=summary.get("mesh", {}).get("nodes"),
+        step=_step(waves),
+        steps=len(seconds),
+        seconds=float(seconds.sum()),
+        errors=errors,
+    )
+
+
+def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Sequence[float], title: str) -> Table:
+    heads = [*(f"{time:g} ms" for time in times), "worst"]
+    table = Table(
+        stem="accuracy",
+        title=title,
+        left=3,
+        columns=[
+            ("", "run"),
+            ("", "element"),
+            ("", "geometry"),
+            ("", "nodes"),
+            ("", "step"),
+            ("", "steps"),
+            ("", "seconds"),
+            *(("pressure, %", head) for head in heads),
+            *(("displacement, %", head) for head in heads),
+        ],
+        csv_columns=[
+            "run",
+            "element",
+            "geometry",
+            "nodes",
+            "step_ms",
+            "steps",
+            "wall_s",
+            "time_ms",
+            "pressure_relative_L2",
+            "radial_relative_L2",
+        ],
+        notes=[f"Relative L2 norm along z of the difference from {reference.folder}."],
+    )
+    for one in found:
+        facts = [one.label, one.element, one.geometry, one.nodes, one.step, one.steps, one.seconds]
+        row = [
+            one.label,
+            one.element,
+            one.geometry,
+            "-" if one.nodes is None else str(one.nodes),
+            f"{one.step:g}",
+            str(one.steps),
+            f"{one.seconds:.3g}",
+        ]
+        for q in QUANTITIES:
+            row += [fixed(100 * value, ".3g") for value in (*one.errors[q.column], one.worst(q))]
+        table.rows.append(row)
+        by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
+        table.csv_rows += [[*facts, time, *values] for time, *values in by_time]
+    steps = {reference.step, *(one.step for one in found)}
+    if None in steps or max(steps) - min(steps) > SAME_STEP * max(steps):  # type: ignore[type-var,operator]
+        table.notes.append("Time steps differ: the errors are of space and time together.")
+    return table
