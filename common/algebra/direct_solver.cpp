@@ -126,4 +126,11 @@ void set_dense_threads(int count) {
   openblas_set_num_threads(count);
 }
 
+OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads()) {
+  set_dense_threads(1);
+}
+OneDenseThread::~OneDenseThread() {
+  set_dense_threads(before_);
+}
+
 }  // namespace fsi

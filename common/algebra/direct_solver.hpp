@@ -46,7 +46,19 @@ class DirectSolver {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Threads of the dense kernels inside factorisations.
+/// Threads of the dense kernels inside factorisations. The bits of factors depend on them.
 void set_dense_threads(int count);
+
+/// One such thread for as long as this lives: where results must not depend on the number of threads.
+class OneDenseThread {
+ public:
+  OneDenseThread();
+  ~OneDenseThread();
+  OneDenseThread(const OneDenseThread&) = delete;
+  OneDenseThread& operator=(const OneDenseThread&) = delete;
+
+ private:
+  int before_;
+};
 
 }  // namespace fsi

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/direct_solver.hpp"
 #include "algebra/vector_operations.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fem/dimensions.hpp"
@@ -62,6 +63,7 @@ template <int n>
 void FastSolver<n>::update() {
   if (iterative_) direct_.reset();
   if (direct_) {
+    const OneDenseThread same_bits_for_any_number;
     direct_->update();
   } else {
     if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
@@ -75,7 +77,10 @@ void FastSolver<n>::update() {
 
 template <int n>
 LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
-  if (direct_) return direct_->solve(b, tolerance, x);
+  if (direct_) {
+    const OneDenseThread same_bits_for_any_number;
+    return direct_->solve(b, tolerance, x);
+  }
   LinearReport report = iterate(b, tolerance, x);
   if (report.converged) return report;
   if (!strengthened_) {
@@ -89,6 +94,7 @@ LinearReport FastSolver<n>::solve(const std::vector<double>& b, double tolerance
   // From here on a factorisation, however long it takes: better than no answer.
   count("linear solves rescued by factorisation");
   direct_ = std::make_unique<DirectLinearSolver<n>>(blocks_);
+  const OneDenseThread same_bits_for_any_number;
   direct_->update();
   const LinearReport third = direct_->solve(b, tolerance, x);
   report.converged = third.converged;
