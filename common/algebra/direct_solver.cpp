@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 
 extern "C" void openblas_set_num_threads(int);
+extern "C" int openblas_get_num_threads();
 
 namespace fsi {
 

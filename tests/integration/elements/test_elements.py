@@ -121,7 +121,6 @@ class Agreement(Kinds):
 
 class Bits(Kinds):
     def test_do_not_depend_on_the_number_of_threads(self):
-        """Of what the programs add up; the dense kernels of a factorisation have an order of their own."""
         for kind in KINDS:
             for program in DRIVERS:
                 with self.subTest(kind=kind, program=Path(program).name):
@@ -132,8 +131,6 @@ class Bits(Kinds):
                             kind,
                             f"threads{threads}",
                             "time.end=0.375",
-                            "monolithic.direct_below=0",
-                            "partitioned.direct_below=0",
                             "partitioned.tolerance=1e-2",
                             threads=threads,
                         )
