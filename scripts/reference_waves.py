@@ -6,7 +6,7 @@ scene (meshes/artery/axisymmetric), quadratic elements, a wall pressure that may
 
 usage: python3 scripts/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
 
-WORK_DIR keeps the runs; those that are there are not made again. About two minutes of one idle core a material.
+WORK_DIR keeps the runs; those that are there are not made again. About three minutes of one idle core a material.
 """
 
 import json
