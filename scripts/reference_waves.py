@@ -6,7 +6,7 @@ scene (meshes/artery/axisymmetric), quadratic elements, a wall pressure that may
 
 usage: python3 scripts/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
 
-WORK_DIR keeps the runs; those that are there are not made again. About two minutes of one idle core a material.
+WORK_DIR keeps the runs; those that are there are not made again. About three minutes of one idle core a material.
 """
 
 import json
@@ -32,7 +32,7 @@ from fsi_compare.studies.evidence.waves import norm, read_waves, relative_differ
 GRIDS = {"coarse": (3, 1, 1, 48), "middle": (6, 2, 2, 96), "fine": (12, 4, 4, 192)}
 GRADINGS = ("--lumen-grading", "3", "--axial-grading", "4")  # one grading: the grids are refinements of each other
 SPACE_STEP = 0.125  # ms: all grids
-STEPS = (1 / 128, 1 / 64, 1 / 32, 1 / 16)  # ms: the middle grid
+STEPS = (1 / 256, 1 / 128, 1 / 64, 1 / 32)  # ms: the middle grid
 BANDS = (0, 4, 8, 12, 16, 20, 25, 30, 40, 60)  # first wave numbers: half waves in the tube's length
 TRUSTED = (0.6, 1.5)  # observed orders in time that are near enough to the scheme's, 1, for an extrapolation
 LOWEST = 0.3  # order by which the error of a band is estimated whose solutions hardly converge

@@ -164,8 +164,7 @@ def error_table(runs: Sequence[StudyRun], errors: Sequence[MeshError]) -> Table:
             "Relative L2 norm over the line and the reference's time levels, as in the study `accuracy-cost`. The "
             "references are axisymmetric and finer in mesh and step than any run here; how each was made stands in its "
             "reference.json. Their own error is an estimate; it is of the time step, which leaves out short waves, more "
-            "than of the mesh. Those of linear elements keep the wall's pressure continuous between the layers, where "
-            "the exact one jumps: they are off by 3 to 5 % in pressure and by 5 to 16 % in displacement."
+            "than of the mesh."
         ],
     )
     for run, error in zip(runs, errors):
