@@ -186,15 +186,17 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
   const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
   report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", report_.outer_iterations, failure.what()));
-  if (scheme_.one_pass || coupling_.failed_passes > most_retreats || (good_x.empty() && !extrapolated)) {
+  const bool more = !scheme_.one_pass && coupling_.failed_passes <= most_retreats;
+  const bool stiffened = more && good_x.empty() && !extrapolated && problem_->stiffen();
+  if (!more || (good_x.empty() && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
                     data.time, scheme_.name, report_.outer_iterations, failure.what()),
         scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
   }
-  if (extrapolated) {  // the extrapolated start can be the culprit, after a jump of the load for example
-    order_ = 0;
+  if (extrapolated || stiffened) {
+    order_ = 0;  // the extrapolated start can be the culprit, after a jump of the load for example
     start(state, data);
     x = problem_->first_guess(order_);
     return;

@@ -19,7 +19,9 @@ struct Numbering {
 
   /// Entries of `fluid` whose unknown is the interface's displacement.
   std::vector<std::size_t> interface_velocities;
-  /// The step's: du = d(d_s) / period for those entries. Their factors follow it.
+  /// Entries of `mesh` whose unknown is the interface's velocity.
+  std::vector<std::size_t> interface_displacements;
+  /// The step's: du = dd / period for those entries. Their factors follow it.
   InterfaceKinematics interface;
   /// Raised when factors change: what was made of them is then out of date.
   int version = 0;
@@ -28,8 +30,9 @@ struct Numbering {
   bool follow(const InterfaceKinematics& of_step) {
     const bool changed = interface.period != of_step.period;
     interface = of_step;
-    if (!changed || interface_velocities.empty()) return false;
+    if (!changed || (interface_velocities.empty() && interface_displacements.empty())) return false;
     for (std::size_t entry : interface_velocities) fluid[entry].factor = interface.rate();
+    for (std::size_t entry : interface_displacements) mesh[entry].factor = interface.period;
     ++version;
     return true;
   }

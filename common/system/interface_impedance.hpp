@@ -1,9 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <vector>
-
-#include "time/state.hpp"
 
 namespace fsi {
 
@@ -13,8 +10,6 @@ struct InterfaceImpedance {
   std::vector<int> nodes;         ///< of the fluid
   std::vector<double> impedance;  ///< c per node, kPa mm^2 / (mm/ms): any numbers, zero and negative ones too
   std::vector<double> velocity;   ///< v, n numbers per node, mm/ms
-  /// Called before each evaluation of the residual: for what follows the iterate, as the domain may.
-  std::function<void(State&)> before_evaluation;
 };
 
 }  // namespace fsi

@@ -65,6 +65,26 @@ Numbering number_fluid(const Scene<n>& scene, bool free_interface = false) {
   return part;
 }
 
+/// The fluid, free on the interface, with its domain, which follows the interface's velocity: d_m = reference + period u
+/// there. So derivatives know how the domain moves.
+template <int n>
+Numbering number_fluid_and_domain(const Scene<n>& scene) {
+  using Vector = VectorLayout<n>;
+  Numbering part = number_fluid(scene, /*free_interface=*/true);
+  const auto wet = detail::on_interface(scene);
+  part.mesh = detail::number_vectors<n>(scene.fluid->node_count(), part.size,
+                                        [&](int a, int k) { return wet[a] || scene.mesh_conditions.fixes(a, k); });
+  part.mesh_rows = part.mesh;
+  for (const auto& node : scene.interface)
+    for (int k = 0; k < n; ++k) {
+      const Unknown velocity = part.fluid[MixedLayout<n>::vector(node.fluid, k)];
+      if (velocity.index < 0) continue;
+      part.mesh[Vector::vector(node.fluid, k)] = {velocity.index, part.interface.period};
+      part.interface_displacements.push_back(Vector::vector(node.fluid, k));
+    }
+  return part;
+}
+
 /// The wall alone, free on the interface (Neumann side of the partitioned split). Where layers with pressures of their
 /// own meet, they have one displacement and one momentum equation, the sum of theirs.
 template <int n>

@@ -61,7 +61,6 @@ void System<n>::work_on(State& state, const StepData& data) {
 template <int n>
 double System<n>::evaluate() {
   if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
-  if (impedance_ && impedance_->before_evaluation) impedance_->before_evaluation(*state_);
   const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
   const AssemblyResult result = assemble(false);
   if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();

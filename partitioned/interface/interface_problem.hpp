@@ -32,7 +32,7 @@ template <int n>
 class InterfaceProblem {
  public:
   InterfaceProblem(Scene<n>& scene, const PartitionedData& options)
-      : scene_(scene), mesh_motion_(scene), wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
+      : scene_(scene), wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
   virtual ~InterfaceProblem() = default;
 
   /// Starts a step: state.now holds the first guess of all fields.
@@ -49,6 +49,9 @@ class InterfaceProblem {
   virtual Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) = 0;
   /// The same x again, solved tighter from where pass() left the fields.
   virtual Pass refine(const PassAccuracy& accuracy) = 0;
+  /// After a first pass without an answer: makes the fluid's interface stiffer, for the rest of the run, where a pass
+  /// may then have one. \returns false when it cannot, or not any more
+  virtual bool stiffen() { return false; }
   /// The step was accepted with the last pass.
   virtual void accept() {}
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
@@ -127,7 +130,8 @@ class InterfaceProblem {
     const Stopwatch watch(cost.mesh_seconds);
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k) state_->now.mesh[mesh_entry(scene_.interface[i], k)] = d[i * n + k];
-    mesh_motion_.solve(state_->now.mesh);
+    if (!mesh_motion_) mesh_motion_ = std::make_unique<MeshMotionSolver<n>>(scene_);
+    mesh_motion_->solve(state_->now.mesh);
   }
 
   /// Loads the wall with the fluid's momentum rows and solves it.
@@ -150,7 +154,7 @@ class InterfaceProblem {
   }
 
   Scene<n>& scene_;
-  MeshMotionSolver<n> mesh_motion_;
+  std::unique_ptr<MeshMotionSolver<n>> mesh_motion_;  ///< made when first asked for
   System<n> wall_;
   State* state_ = nullptr;
   StepData* data_ = nullptr;

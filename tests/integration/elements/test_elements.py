@@ -119,6 +119,26 @@ class Agreement(Kinds):
                     self.assertLess(apart(fast, direct), 1e-8)
 
 
+class Twins(FolderTest):
+    """Graded meshes of short elements at the inlet, where the fluid's first passes go far."""
+
+    def agree(self, name, *settings):
+        folders = [
+            run(program, NEO_HOOKEAN.parent / name, self.base / Path(program).name, "time.end=0.5", *settings)
+            for program in DRIVERS
+        ]
+        self.assertLess(apart(*folders), 1e-5)
+
+    def test_axisymmetric_twin_by_both_drivers(self):
+        self.agree("axisymmetric/neo-hookean.toml")
+
+    def test_graded_quarter_by_both_drivers(self):
+        cells = "--lumen-cells 4 --media-cells 1 --adventitia-cells 1 --around 12 --axial-cells 36".split()
+        grading = "--lumen-grading 3 --axial-grading 4".split()
+        mesh = make_mesh(self.base / "quarter.msh", "--sector", "90", "--order", "2", *cells, *grading)
+        self.agree("neo-hookean.toml", "element=p2p1", "structure.layer_pressure=separate", f"mesh.file={mesh}")
+
+
 class Bits(Kinds):
     def test_do_not_depend_on_the_number_of_threads(self):
         for kind in KINDS:

@@ -271,7 +271,7 @@ class Geometry(FolderTest):
 
     def test_levels_are_tubes(self):
         said = self.refused("geometry=plane", "mesh.level=coarse")
-        self.assertIn("mesh.level: levels are tubes, which a plane scene cannot hold; give mesh.file", said)
+        self.assertIn("mesh.level: makes tubes, which a plane scene cannot hold; give mesh.file", said)
 
     def test_names(self):
         for setting, said in (

@@ -159,7 +159,8 @@ TEST_P(EachScheme, ReportsWhatItDid) {
   EXPECT_EQ(report.newton_iterations, coupling.fluid_newton_iterations + coupling.wall_newton_iterations);
   EXPECT_GT(coupling.fluid_seconds, 0);
   EXPECT_GT(coupling.wall_seconds, 0);
-  EXPECT_GT(coupling.mesh_seconds, 0);
+  const bool mesh_is_the_fluids = std::string(GetParam()).rfind("robin", 0) == 0;  // solved with it, in its seconds
+  EXPECT_EQ(coupling.mesh_seconds > 0, !mesh_is_the_fluids);
 }
 
 INSTANTIATE_TEST_SUITE_P(CouplingStepper, EachScheme,

@@ -1,11 +1,14 @@
-// The impedance on the interface: its rows in the residual, its diagonal in the Jacobian, components without equations,
-// and the call before each evaluation.
+// The impedance on the interface: its rows in the residual, its diagonal in the Jacobian, components without equations;
+// and the fluid whose domain follows its interface.
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "fem/p1_tetrahedron.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
+#include "system/jacobian_product.hpp"
 #include "system/numbering.hpp"
 #include "system/system.hpp"
 
@@ -82,18 +85,36 @@ TEST(InterfaceImpedance, IsTheDerivativeOfItsRows) {
   EXPECT_GT(largest(difference(with.values, without)), 0.1);
 }
 
-TEST(InterfaceImpedance, CallsWhatFollowsTheIterateBeforeEachEvaluation) {
+/// The domain hangs on the velocity of the interface, factor and all.
+TEST(FluidAndDomain, JacobianIsTheDerivativeOfTheResidual) {
   FreeFluid fluid;
-  int calls = 0;
-  fluid.impedance.before_evaluation = [&](State& state) {
-    EXPECT_EQ(&state, &fluid.state);
-    ++calls;
+  System<3> system("fluid", *fluid.scene, number_fluid_and_domain(*fluid.scene));
+  Random random(3);
+  for (double& d : fluid.state.now.mesh) d = 1e-2 * random();
+  system.work_on(fluid.state, fluid.data);
+  system.evaluate();
+  system.linearise();
+  std::vector<double> x(static_cast<std::size_t>(system.numbering().size)), product;
+  for (double& value : x) value = random();
+  JacobianProduct<3>(system.blocks()).multiply(x, product);
+  const auto residual_at = [&](double step) {
+    const State before = fluid.state;
+    add_to_field(system.numbering().mesh, x, step, fluid.state.now.mesh);
+    add_to_field(system.numbering().fluid, x, step, fluid.state.now.fluid);
+    system.evaluate();
+    fluid.state = before;
+    return system.residual();
   };
-  const auto tied = fluid.system(&fluid.impedance);
-  tied->evaluate();
-  tied->linearise();
-  tied->evaluate();
-  EXPECT_EQ(calls, 2);
+  std::vector<double> errors;
+  for (const double step : {2e-3, 1e-3}) {
+    auto quotient = difference(residual_at(step), residual_at(-step));
+    for (double& value : quotient) value /= 2 * step;
+    errors.push_back(largest(difference(quotient, product)) / largest(product));
+  }
+  EXPECT_LT(errors[1], 1e-4);
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.2);
+  // Without the factor, a step's length, the derivative would be another one.
+  EXPECT_EQ(system.numbering().mesh[system.numbering().interface_displacements[0]].factor, 0.125);
 }
 
 TEST(InterfaceImpedance, NormsCanBeEuclidean) {
