@@ -28,8 +28,7 @@ class Coupled(FolderTest):
     def test_mesh_motion_is_assembled_once(self):
         for folder in self.runs.values():
             self.assertEqual(calls(folder)["assembly: mesh motion"], 1)
-        self.assertEqual(summary(self.runs[MONOLITHIC])["counters"]["mesh motion factorisations"], 1)
-        self.assertEqual(calls(self.runs[PARTITIONED])["factorisation: mesh motion"], 1)
+            self.assertEqual(summary(folder)["counters"]["mesh motion factorisations"], 1)
 
     def test_partitioned_solves_each_part_as_often_as_it_says(self):
         """A pass of Dirichlet-Neumann moves the mesh once."""
@@ -96,15 +95,22 @@ class ConstantOperators(FolderTest):
                     self.assertLessEqual(reported[built], counted["assembly: coupled jacobian"])
                     self.assertGreaterEqual(summary(rebuilt)["counters"][built], totals["newton_iterations"])
 
-    def test_partitioned_builds_in_each_mesh_motion(self):
-        for scheme in ("robin-neumann-iqn", "iqn-ils"):
-            with self.subTest(scheme):
-                kept, rebuilt = self.pair(scheme, PARTITIONED, f"partitioned.scheme={scheme}")
-                self.assertSameResults(kept, rebuilt)
-                counted = calls(rebuilt)
-                for phase in ("assembly: mesh motion", "factorisation: mesh motion"):
-                    self.assertEqual(calls(kept)[phase], 1)
-                    self.assertEqual(counted[phase], 1 + counted["solve: mesh motion"])
+    def test_dirichlet_neumann_builds_in_each_mesh_motion(self):
+        kept, rebuilt = self.pair("iqn-ils", PARTITIONED, "partitioned.scheme=iqn-ils")
+        self.assertSameResults(kept, rebuilt)
+        counted = calls(rebuilt)
+        for phase in ("assembly: mesh motion", "factorisation: mesh motion"):
+            self.assertEqual(calls(kept)[phase], 1)
+            self.assertEqual(counted[phase], 1 + counted["solve: mesh motion"])
+
+    def test_robin_neumann_builds_in_each_newton_iteration_of_the_fluid(self):
+        kept, rebuilt = self.pair("robin", PARTITIONED, "partitioned.scheme=robin-neumann-iqn")
+        self.assertSameResults(kept, rebuilt)
+        counted = calls(rebuilt)
+        self.assertEqual(calls(kept)["assembly: mesh motion"], 1)
+        self.assertEqual(summary(kept)["counters"]["mesh motion factorisations"], 1)
+        self.assertEqual(counted["assembly: mesh motion"], 1 + counted["assembly: fluid residual"])
+        self.assertGreaterEqual(summary(rebuilt)["counters"]["mesh motion factorisations"], counted["solve: fluid"])
 
 
 class Fibres(FolderTest):

@@ -127,7 +127,10 @@ class Twins(FolderTest):
             run(program, NEO_HOOKEAN.parent / name, self.base / Path(program).name, "time.end=0.5", *settings)
             for program in DRIVERS
         ]
-        self.assertLess(apart(*folders), 1e-5)
+        one, two = (columns(folder) for folder in folders)
+        for name in one:
+            if not name.startswith("flow"):  # nothing has come to the outlet yet
+                self.assertLess(np.abs(one[name] - two[name]).max(), 1e-5 * np.abs(two[name]).max(), name)
 
     def test_axisymmetric_twin_by_both_drivers(self):
         self.agree("axisymmetric/neo-hookean.toml")
