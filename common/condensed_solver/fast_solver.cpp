@@ -148,6 +148,47 @@ void FastSolver<n>::find_shape_derivatives() {
       }
 }
 
+namespace {
+
+/// Directions of the outer iteration, with their products with the Jacobian, orthonormal by these: the generalised
+/// conjugate residual method [Eisenstat1983]. Each step takes what of the residual lies along the latest.
+class OuterDirections {
+ public:
+  bool in_use() const { return used_; }
+  void use() { used_ = true; }
+
+  void add(std::vector<double> direction, std::vector<double> product) {
+    if (directions_.size() == most) {
+      directions_.erase(directions_.begin());
+      products_.erase(products_.begin());
+    }
+    for (std::size_t k = 0; k < directions_.size(); ++k) {
+      const double along = dot(product, products_[k]);
+      axpy(-along, products_[k], product);
+      axpy(-along, directions_[k], direction);
+    }
+    const double length = norm(product);
+    if (!(length > 0)) return;
+    scale(1 / length, product);
+    scale(1 / length, direction);
+    directions_.push_back(std::move(direction));
+    products_.push_back(std::move(product));
+  }
+  void step(const std::vector<double>& residual, std::vector<double>& x) const {
+    if (!directions_.empty()) axpy(dot(residual, products_.back()), directions_.back(), x);
+  }
+
+ private:
+  static constexpr std::size_t most = 10;
+  bool used_ = false;
+  std::vector<std::vector<double>> directions_, products_;
+};
+
+/// Of an outer iteration: beyond it directions are worth keeping.
+constexpr double slow_contraction = 0.3;
+
+}  // namespace
+
 template <int n>
 LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   Iterative& it = *iterative_;
@@ -160,13 +201,20 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     return report;
   }
   it.residual = b;
+  OuterDirections directions;
   double relative = 1;
   double shape_contraction = 0.05;  // what an outer iteration leaves of the residual for want of shape derivatives
   while (report.iterations < options_.max_iterations) {
     const double wanted = 0.8 * tolerance / relative;
     const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * shape_contraction) : wanted;
     correct(inner, relative, report);
-    axpy(1, it.correction, x);
+    if (directions.in_use()) {
+      it.jacobian.multiply(it.correction, it.jacobian_times_x);
+      directions.add(it.correction, it.jacobian_times_x);
+      directions.step(it.residual, x);
+    } else {
+      axpy(1, it.correction, x);
+    }
     it.jacobian.multiply(x, it.jacobian_times_x);
     for (std::size_t i = 0; i < b.size(); ++i) it.residual[i] = b[i] - it.jacobian_times_x[i];
     const double now = norm(it.residual) / norm_b;
@@ -183,7 +231,8 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     }
     // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
     shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
-    if (contraction > 0.9) {
+    if (contraction > slow_contraction) directions.use();
+    if (contraction > (directions.in_use() ? 0.99 : 0.9)) {
       report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
       return report;
     }

@@ -16,6 +16,12 @@
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
 
+// What the gmsh library itself loses when it writes curved or physical entities is not ours to free.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "leak:libgmsh";
+}
+
 namespace fsi {
 namespace {
 
