@@ -208,16 +208,28 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     const double wanted = 0.8 * tolerance / relative;
     const double inner = it.shape_derivatives ? std::max(wanted, 0.5 * shape_contraction) : wanted;
     correct(inner, relative, report);
-    if (directions.in_use()) {
+    const auto step_along_directions = [&] {
       it.jacobian.multiply(it.correction, it.jacobian_times_x);
       directions.add(it.correction, it.jacobian_times_x);
       directions.step(it.residual, x);
-    } else {
+    };
+    const auto find_residual = [&] {
+      it.jacobian.multiply(x, it.jacobian_times_x);
+      for (std::size_t i = 0; i < b.size(); ++i) it.residual[i] = b[i] - it.jacobian_times_x[i];
+      return norm(it.residual) / norm_b;
+    };
+    if (directions.in_use())
+      step_along_directions();
+    else
       axpy(1, it.correction, x);
+    double now = find_residual();
+    if (!directions.in_use() && now > slow_contraction * relative && now > tolerance) {
+      directions.use();  // from this very correction on, as far as it is good
+      axpy(-1, it.correction, x);
+      find_residual();
+      step_along_directions();
+      now = find_residual();
     }
-    it.jacobian.multiply(x, it.jacobian_times_x);
-    for (std::size_t i = 0; i < b.size(); ++i) it.residual[i] = b[i] - it.jacobian_times_x[i];
-    const double now = norm(it.residual) / norm_b;
     const double contraction = now / relative;
     relative = now;
     report.relative_residual = relative;
@@ -231,8 +243,7 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     }
     // Either the shape derivatives set the pace, or the inner tolerance did and they may be smaller than thought.
     shape_contraction = contraction > 2 * inner ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * shape_contraction;
-    if (contraction > slow_contraction) directions.use();
-    if (contraction > (directions.in_use() ? 0.99 : 0.9)) {
+    if (contraction > 0.95) {
       report.failure = fmt::format("the linear solver stalls at a relative residual of {:.1e}", relative);
       return report;
     }
