@@ -57,7 +57,7 @@ MeshOf<Element> make_artery(const Case& setup) {
   const bool by_error = setup.mesh.error > 0;
   const ArteryOptions sizes = by_error ? ArteryOptions() : artery_level(setup.mesh.level);
   if constexpr (Element::dim == 3) {
-    const TetrahedralMesh tube =
+    TetrahedralMesh tube =
         by_error ? generate_artery(sizes, recommended_cells<Element>(setup)) : generate_artery(sizes);
     if constexpr (Element::order == 1)
       return tube;
@@ -65,7 +65,7 @@ MeshOf<Element> make_artery(const Case& setup) {
       return with_curved_edges(tube, sizes.inner_radius);
   }
   if constexpr (Element::axisymmetric) {
-    const TriangleMesh section =
+    TriangleMesh section =
         generate_artery_section(sizes, by_error ? recommended_cells<Element>(setup) : artery_cells(sizes));
     if constexpr (Element::order == 1)
       return section;

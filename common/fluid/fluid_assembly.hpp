@@ -57,7 +57,9 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
   AssemblyResult result;
   using Mixed = MixedLayout<n>;
   FluidPack<Element> fields;
-  const auto& [d, d_reference, u, u_reference, rate, convection, projected, p] = fields;
+  const auto &d = fields.d, &u = fields.u, &rate = fields.rate, &convection = fields.convection,
+             &projected = fields.projected;
+  const auto& p = fields.p;
   ElementRows<Element, T> rows;
   for (const auto& pack : packs) {
     fields.template gather_from<Moving>(in, pack);

@@ -112,6 +112,8 @@ std::vector<int> facet_nodes(const std::vector<std::array<int, Nodes>>& surface)
   return nodes;
 }
 
+// Numbers as template arguments: parentheses would only hide them.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define INSTANTIATE(Dim, Order)                                                                              \
   template std::vector<BoundaryFacet<Dim, Order>> boundary_facets(const SimplexMesh<Dim, Order>&,            \
                                                                   const std::vector<int>&);                  \
@@ -120,6 +122,7 @@ std::vector<int> facet_nodes(const std::vector<std::array<int, Nodes>>& surface)
   template std::vector<int> rim_nodes<Dim>(const std::vector<std::array<int, nodes_of_simplex(Dim - 1, Order)>>&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 template std::vector<int> facet_nodes(const std::vector<std::array<int, 2>>&);
 template std::vector<int> facet_nodes(const std::vector<std::array<int, 3>>&);

@@ -21,9 +21,12 @@ std::vector<FacetUse<Dim>> sorted_facet_uses(const SimplexMesh<Dim, Order>& mesh
   return uses;
 }
 
+// Numbers as template arguments: parentheses would only hide them.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define INSTANTIATE(Dim, Order) \
   template std::vector<FacetUse<Dim>> sorted_facet_uses<Dim, Order>(const SimplexMesh<Dim, Order>&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fsi

@@ -421,6 +421,8 @@ std::vector<Point> points_on_axis(const Axis& axis, const std::vector<double>& p
   return points;
 }
 
+// Numbers as template arguments: parentheses would only hide them.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define INSTANTIATE(Dim, Order)                                                                                      \
   template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&); \
   template std::vector<WallSample> wall_samples<Dim>(                                                                \
@@ -428,6 +430,7 @@ std::vector<Point> points_on_axis(const Axis& axis, const std::vector<double>& p
       const std::vector<double>&, int);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 template double axial_position(const std::vector<Point>&, const std::vector<std::array<int, 2>>&, const Axis&);
 template double axial_position(const std::vector<Point>&, const std::vector<std::array<int, 3>>&, const Axis&);

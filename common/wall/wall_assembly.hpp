@@ -55,7 +55,8 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
 
   AssemblyResult result;
   WallPack<Element> fields;
-  const auto& [d, acceleration, p] = fields;
+  const auto &d = fields.d, &acceleration = fields.acceleration;
+  const auto& p = fields.p;
   ElementRows<Element, T> rows;
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
