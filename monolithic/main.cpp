@@ -7,24 +7,13 @@
 namespace fsi {
 namespace {
 
-class MonolithicStepper : public StepperMaker {
- public:
-  std::unique_ptr<Stepper> make(Scene<2>& scene, const Loads& loads, const Case& setup) const override {
-    return stepper(scene, loads, setup);
-  }
-  std::unique_ptr<Stepper> make(Scene<3>& scene, const Loads& loads, const Case& setup) const override {
-    return stepper(scene, loads, setup);
-  }
-
- private:
-  template <int n>
-  static std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-    return std::make_unique<NewtonStepper<n>>(
-        scene, loads, setup.monolithic.newton, number_scene(scene), [&setup](const JacobianBlocks<n>& blocks) {
-          return make_linear_solver(setup.monolithic.linear_solver, setup, blocks);
-        });
-  }
-};
+template <int n>
+std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
+  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_scene(scene),
+                                            [&setup](const JacobianBlocks<n>& blocks) {
+                                              return make_linear_solver(setup.monolithic.linear_solver, setup, blocks);
+                                            });
+}
 
 }  // namespace
 }  // namespace fsi
@@ -33,6 +22,7 @@ int main(int argc, char** argv) {
   using namespace fsi;
   LinearStudyRequest study;
   return run_driver(
-      "fsi-monolithic", "Solves fluid and wall at once by Newton's method.", argc, argv, MonolithicStepper(),
+      "fsi-monolithic", "Solves fluid and wall at once by Newton's method.", argc, argv,
+      StepperMakerOf([](auto& scene, const Loads& loads, const Case& setup) { return stepper(scene, loads, setup); }),
       {study.options(), [&](const CommandLine& line, const Case& setup) { return study.run(line, setup); }});
 }

@@ -6,32 +6,22 @@
 namespace fsi {
 namespace {
 
-class PartitionedStepper : public StepperMaker {
- public:
-  std::unique_ptr<Stepper> make(Scene<2>& scene, const Loads& loads, const Case& setup) const override {
-    return stepper(scene, loads, setup);
-  }
-  std::unique_ptr<Stepper> make(Scene<3>& scene, const Loads& loads, const Case& setup) const override {
-    return stepper(scene, loads, setup);
-  }
-
- private:
-  template <int n>
-  static std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-    if (scene.coupled()) return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
-    // Nothing to couple: the part that there is, by Newton's method.
-    return std::make_unique<NewtonStepper<n>>(
-        scene, loads, setup.monolithic.newton, number_single_medium(scene), [&setup](const JacobianBlocks<n>& blocks) {
-          return make_fast_or_direct(setup.monolithic.linear_solver, setup, blocks);
-        });
-  }
-};
+template <int n>
+std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
+  if (scene.coupled()) return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
+  // Nothing to couple: the part that there is, by Newton's method.
+  return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_single_medium(scene),
+                                            [&setup](const JacobianBlocks<n>& blocks) {
+                                              return make_fast_or_direct(setup.monolithic.linear_solver, setup, blocks);
+                                            });
+}
 
 }  // namespace
 }  // namespace fsi
 
 int main(int argc, char** argv) {
   using namespace fsi;
-  return run_driver("fsi-partitioned", "Solves fluid and wall in turn until they agree on the interface.", argc, argv,
-                    PartitionedStepper());
+  return run_driver(
+      "fsi-partitioned", "Solves fluid and wall in turn until they agree on the interface.", argc, argv,
+      StepperMakerOf([](auto& scene, const Loads& loads, const Case& setup) { return stepper(scene, loads, setup); }));
 }

@@ -22,6 +22,22 @@ class StepperMaker {
   virtual std::unique_ptr<Stepper> make(Scene<3>& scene, const Loads& loads, const Case& setup) const = 0;
 };
 
+/// The maker that calls `make(scene, loads, setup)`, a function of scenes of either dimension.
+template <class Make>
+class StepperMakerOf : public StepperMaker {
+ public:
+  explicit StepperMakerOf(Make make) : make_(make) {}
+  std::unique_ptr<Stepper> make(Scene<2>& scene, const Loads& loads, const Case& setup) const override {
+    return make_(scene, loads, setup);
+  }
+  std::unique_ptr<Stepper> make(Scene<3>& scene, const Loads& loads, const Case& setup) const override {
+    return make_(scene, loads, setup);
+  }
+
+ private:
+  Make make_;
+};
+
 /// Something that a program can do with a case in place of a run.
 struct OtherTask {
   std::vector<ExtraOption> options;  ///< the command line's options that ask for it

@@ -80,6 +80,12 @@ std::optional<double> inflation_modulus(const Material& material) {
   return std::visit([](const auto& law) { return law.inflation_modulus(); }, material);
 }
 
+double hoop_modulus(const Material& material, double bulk_modulus) {
+  const double mu = shear_modulus(material), kappa = bulk_modulus;
+  const double nu = (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
+  return (2 * mu * (1 + nu) + fibre_stiffness(material)) / (1 - nu * nu);
+}
+
 bool has_fibres(const Material& material) {
   return std::visit([](const auto& law) { return has_fibres_v<std::decay_t<decltype(law)>>; }, material);
 }

@@ -48,6 +48,10 @@ double shear_modulus(const Material& material);
 double fibre_stiffness(const Material& material);
 std::optional<double> inflation_modulus(const Material& material);
 
+/// E / (1 - nu^2) at small strains, kPa: stress per strain around a thin tube that is held along its axis, E counting
+/// the fibres, nu that of the isotropic part. \param bulk_modulus  kappa, kPa
+double hoop_modulus(const Material& material, double bulk_modulus);
+
 template <class Law>
 inline constexpr bool has_fibres_v = std::is_same_v<typename Law::FibreData, Fibres>;
 

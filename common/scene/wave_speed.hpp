@@ -14,11 +14,8 @@ namespace fsi {
 template <int n>
 double wave_speed(const Scene<n>& scene) {
   double stiffness = 0;  // kPa mm^3
-  for (const auto& layer : scene.wall->layer_data()) {
-    const double mu = shear_modulus(layer.material), kappa = scene.wall->constants().bulk_modulus;
-    const double nu = (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
-    stiffness += (2 * mu * (1 + nu) + fibre_stiffness(layer.material)) / (1 - nu * nu) * layer.volume;
-  }
+  for (const auto& layer : scene.wall->layer_data())
+    stiffness += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * layer.volume;
   return std::sqrt(stiffness / (4 * scene.fluid->form().density * scene.fluid->volume()));
 }
 

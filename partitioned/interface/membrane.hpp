@@ -47,12 +47,9 @@ Membrane membrane_of(const Scene<n>& scene) {
   m.radius = 2 * scene.fluid->volume() / m.area;
   for (const auto& layer : scene.wall->layer_data()) {
     const double h = layer.volume / m.area;
-    const double mu = shear_modulus(layer.material), kappa = scene.wall->constants().bulk_modulus;
-    const double nu = (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
-    const double young = 2 * mu * (1 + nu) + fibre_stiffness(layer.material);
     m.thickness += h;
-    m.shear_modulus += mu * h;
-    m.tension += young * h / (1 - nu * nu);
+    m.shear_modulus += shear_modulus(layer.material) * h;
+    m.tension += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * h;
   }
   m.shear_modulus /= m.thickness;
   return m;

@@ -101,8 +101,7 @@ def accuracy(runs: PaperRuns, errors: Mapping[Path, MeshError]) -> str:
     meaning = "" if least < ROUGH else " Such waves tell methods apart, but not what an artery does."
     return (
         f"**Accuracy:** mesh and time step put the waves off the reference by {'; by '.join(parts)}. The reference's own "
-        f"error is estimated as {_range(own)}; a separate code finds more (see the table's note).{meaning}"
-        + (f" Unknown for {why}." if why else "")
+        f"error is estimated as {_range(own)}.{meaning}" + (f" Unknown for {why}." if why else "")
     )
 
 
