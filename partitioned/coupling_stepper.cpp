@@ -9,7 +9,6 @@
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
-#include "time/predictor.hpp"
 
 namespace fsi {
 
@@ -35,10 +34,22 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
 
 template <int n>
 StepReport CouplingStepper<n>::advance(State& state) {
-  StepData data = loads_.next(state, *scene_.integrator);
   report_ = {};
+  report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
+  const int stages = scene_.integrator->stages(state);
+  for (int stage = 0; stage < stages; ++stage) {
+    StepData data = loads_.next(state, *scene_.integrator, stage);
+    advance_stage(state, data);
+    if (keep_balances_) report_.balances.push_back({state.now, data});
+    scene_.integrator->accept(state, data);
+  }
+  return report_;
+}
+
+template <int n>
+void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   order_ = first_order();
   start(state, data);
   accelerator_->start();
@@ -48,7 +59,8 @@ StepReport CouplingStepper<n>::advance(State& state) {
   PassAccuracy accuracy{first_tolerance(), starts_far_};
   if (scheme_.one_pass) accuracy = {final_tolerance(), false};
   bool first = true;
-  for (report_.outer_iterations = 1; report_.outer_iterations <= options_.max_iterations; ++report_.outer_iterations) {
+  for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
+    ++report_.outer_iterations;
     Pass pass;
     try {
       pass = problem_->pass(x, accuracy);
@@ -67,8 +79,8 @@ StepReport CouplingStepper<n>::advance(State& state) {
     first = false;
     if (scheme_.one_pass) check_march(state, data);
     if (agrees() || scheme_.one_pass) {
-      accept(state, data, x, pass);
-      return report_;
+      accept(x, pass);
+      return;
     }
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
     good_x = x;
@@ -79,7 +91,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
     accelerator_->correct(x, pass.residual);
     if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
   }
-  --report_.outer_iterations;
+  --passes_;
   give_up(state, data, "did not converge");
 }
 
@@ -117,7 +129,7 @@ double CouplingStepper<n>::demand() const {
 
 template <int n>
 void CouplingStepper<n>::start(State& state, StepData& data) {
-  predict(state, order_, data.time);
+  scene_.integrator->predict(state, order_, data);
   scene_.impose_conditions(state.now);
   scene_.impose_interface(state, data.rates);
   problem_->start(state, data);
@@ -142,8 +154,7 @@ void CouplingStepper<n>::log_pass() {
   const AcceleratorStatus status = accelerator_->status();
   const CouplingCost& cost = problem_->cost;
   report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
-                                        report_.outer_iterations, coupling_.displacement_residual,
-                                        coupling_.force_residual,
+                                        passes_, coupling_.displacement_residual, coupling_.force_residual,
                                         status.columns > 0 ? fmt::format("columns {}", status.columns)
                                                            : fmt::format("relaxation {:.5f}", status.relaxation),
                                         cost.fluid_newton, cost.wall_newton));
@@ -154,8 +165,8 @@ void CouplingStepper<n>::give_up(const State& state, const StepData& data, const
   throw ConvergenceError(
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
                   "{:.2e}, wanted {:g}; force {:.2e}{}",
-                  state.step + 1, data.time, scheme_.name, what, report_.outer_iterations,
-                  coupling_.displacement_residual, options_.tolerance, coupling_.force_residual,
+                  state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
+                  options_.tolerance, coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);
 }
@@ -185,14 +196,14 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
                                  const std::vector<double>& good_x, const Solution& good) {
   const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
-  report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", report_.outer_iterations, failure.what()));
+  report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", passes_, failure.what()));
   const bool more = !scheme_.one_pass && coupling_.failed_passes <= most_retreats;
   const bool stiffened = more && good_x.empty() && !extrapolated && problem_->stiffen();
   if (!more || (good_x.empty() && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
-                    data.time, scheme_.name, report_.outer_iterations, failure.what()),
+                    data.time, scheme_.name, passes_, failure.what()),
         scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
   }
   if (extrapolated || stiffened) {
@@ -206,14 +217,13 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
 }
 
 template <int n>
-void CouplingStepper<n>::accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass) {
+void CouplingStepper<n>::accept(const std::vector<double>& x, const Pass& pass) {
   {
     const Stopwatch watch(coupling_.algebra_seconds);
     accelerator_->accept(x, pass.residual);
   }
   problem_->accept();
   if (scheme_.one_pass) problem_->follow_wall();
-  scene_.integrator->accept(state, data);
   const CouplingCost& cost = problem_->cost;
   report_.newton_iterations = cost.fluid_newton + cost.wall_newton;
   report_.linear_iterations = cost.fluid_linear + cost.wall_linear;

@@ -54,6 +54,9 @@ class CouplingStepper : public Stepper {
   double final_tolerance() const { return sub_problem_share * demand(); }
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
+  /// Solves a step, or one stage of it; leaves its solution in state.now.
+  void advance_stage(State& state, StepData& data);
+
   void start(State& state, StepData& data);
 
   void measure(const Pass& pass);
@@ -72,7 +75,7 @@ class CouplingStepper : public Stepper {
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
                const std::vector<double>& good_x, const Solution& good);
 
-  void accept(State& state, const StepData& data, const std::vector<double>& x, const Pass& pass);
+  void accept(const std::vector<double>& x, const Pass& pass);
 
   Scene<n>& scene_;
   const Loads& loads_;
@@ -85,6 +88,7 @@ class CouplingStepper : public Stepper {
   DivergenceMonitor monitor_;        ///< of the step's passes
   AlternationMonitor march_;         ///< of the steps, with one pass each,
   VelocityGapMonitor velocity_gap_;  ///< and of what they leave
+  int passes_ = 0;                   ///< of the stage in progress
   int order_ = 0;                    ///< of the extrapolated start
   bool starts_far_ = true;           ///< the last step's first guess was far from its end
 };

@@ -91,6 +91,11 @@ const Quantity& time_step() {
   return q;
 }
 
+const Quantity& rate() {
+  static const Quantity q{"1/ms", {}};
+  return q;
+}
+
 const Quantity& length() {
   static const Quantity q{"mm", {}};
   return q;

@@ -53,6 +53,7 @@ const Quantity& stiffness();
 const Quantity& bulk_modulus();
 const Quantity& time();
 const Quantity& time_step();
+const Quantity& rate();  ///< 1/ms
 const Quantity& length();
 const Quantity& angle();
 }  // namespace quantity

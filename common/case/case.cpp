@@ -29,6 +29,14 @@ double PressureTable::mean(double from, double to) const {
   return integral / (to - from);
 }
 
+std::vector<double> PressureTable::jumps() const {
+  std::vector<double> times;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if (points[i].first == points[i + 1].first && points[i].second != points[i + 1].second)
+      times.push_back(points[i].first);
+  return times;
+}
+
 double wall_stabilisation(const Case& setup) {
   assert(setup.structure);
   // A pressure that is continuous where layers meet leaks from one to the other, the more the larger alpha is.

@@ -24,6 +24,8 @@ struct PressureTable {
 
   /// Mean pressure over [from, to] in kPa: the load of a step, so that the impulse does not depend on the time step.
   double mean(double from, double to) const;
+  /// Times at which it jumps, ms, ascending.
+  std::vector<double> jumps() const;
   double at_end() const { return points.empty() ? 0.0 : points.back().second; }
 };
 
@@ -66,6 +68,9 @@ struct TimeData {
   double newmark_beta = 1;
   double newmark_gamma = 1;
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
+  TimeScheme scheme = TimeScheme::midpoint;
+  std::optional<double> damping{};  ///< 1/ms, of the midpoint rule's shift; empty: from the scene
+  double spectral_radius = 0.5;     ///< of generalised-alpha, at infinite frequency
 
   int steps() const;  ///< number of steps; `end` is hit exactly
 };

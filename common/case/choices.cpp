@@ -43,6 +43,16 @@ const NameTable<Geometry>& geometries() {
   return table;
 }
 
+const NameTable<TimeScheme>& time_schemes() {
+  static const NameTable<TimeScheme> table{"time.scheme",
+                                           {{"euler", TimeScheme::euler},
+                                            {"midpoint", TimeScheme::midpoint},
+                                            {"bdf2", TimeScheme::bdf2},
+                                            {"generalised-alpha", TimeScheme::generalised_alpha},
+                                            {"tr-bdf2", TimeScheme::tr_bdf2}}};
+  return table;
+}
+
 const NameTable<LayerPressure>& layer_pressures() {
   static const NameTable<LayerPressure> table{
       "structure.layer_pressure", {{"continuous", LayerPressure::continuous}, {"separate", LayerPressure::separate}}};

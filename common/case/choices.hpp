@@ -43,6 +43,10 @@ enum class LayerPressure {
   separate  ///< each layer its own: it may jump
 };
 
+/// time.scheme (docs/theory.md, section 8).
+enum class TimeScheme { euler, midpoint, bdf2, generalised_alpha, tr_bdf2 };
+
+const NameTable<TimeScheme>& time_schemes();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();
 const NameTable<LayerPressure>& layer_pressures();

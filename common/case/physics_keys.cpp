@@ -265,6 +265,16 @@ CaseKey<Case> pressure_section(const std::string& name, const std::string& about
 // [time], [static].
 
 void check_time(const CaseEntry& entry, TimeData& time) {
+  const auto require_scheme = [&](const char* key, TimeScheme scheme) {
+    if (entry.has(key) && time.scheme != scheme)
+      entry.child(key).refuse(fmt::format("belongs to the scheme \"{}\", and this run has \"{}\"",
+                                          time_schemes().name_of(scheme), time_schemes().name_of(time.scheme)),
+                              fmt::format("remove it, or set time.scheme = \"{}\"", time_schemes().name_of(scheme)));
+  };
+  require_scheme("newmark_beta", TimeScheme::euler);
+  require_scheme("newmark_gamma", TimeScheme::euler);
+  require_scheme("damping", TimeScheme::midpoint);
+  require_scheme("spectral_radius", TimeScheme::generalised_alpha);
   const auto end = entry.child("end");
   if (time.end < time.step)
     end.refuse(fmt::format("{} is less than one step of {}", time.end, time.step), "give an end >= step");
@@ -285,6 +295,13 @@ std::vector<CaseKey<TimeData>> time_keys() {
            KeyRole::stepping),
       leaf("end", required, "end of the run in {unit}, a multiple of the step",
            number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
+      leaf("scheme", optional, "time scheme: {}", name_from(at(&TimeData::scheme), time_schemes())),
+      leaf("damping", optional,
+           "rate in {unit} of the shift of the midpoint rule towards the step's end; without it found from the scene",
+           number(at(&TimeData::damping), Bounds{0, 1e6, true, true}, quantity::rate())),
+      leaf("spectral_radius", optional,
+           "of generalised-alpha at infinite frequency, default {}; more than 0.5 lets pressures ring",
+           number(at(&TimeData::spectral_radius), Bounds{0, 1, true, true})),
       leaf("newmark_beta", optional, "Newmark's beta of the wall, default {}",
            number(at(&TimeData::newmark_beta), newmark)),
       leaf("newmark_gamma", optional, "Newmark's gamma of the wall, default {}",

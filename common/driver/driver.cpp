@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -91,14 +92,15 @@ class Run {
     if (restarted) recall();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
-    if (setup_.output.energy) {
+    if (setup_.output.energy && !state_.has_balances()) {
       const auto phase = scene_->profile.phase("energy balance");
       tables.energy = energy_.emplace(*scene_, loads_, state_).parts();
     }
-    ResultFolder folder =
-        restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time) : ResultFolder(line_.output, tables);
+    ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
+                                    : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
-    FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart, state_.step);
+    FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
+                          lagging() ? std::max(state_.step - 1, 0) : state_.step);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
     summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
@@ -106,6 +108,7 @@ class Run {
     write("running");
     announce(console, log);
     if (!restarted) fields.write(state_);
+    if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
       while (state_.step < loads_.steps() && !interruption) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
@@ -169,10 +172,10 @@ class Run {
     }
     {
       const auto phase = scene_->profile.phase("output");
-      observables_.write(state_, folder);
       folder.write_iterations(record);
       if (report.coupling) folder.write_coupling(record, *report.coupling);
-      fields.write(state_);
+      if (lagging() && state_.step > 1) observe(level_before(), folder, fields);
+      if (!lagging() || state_.step == loads_.steps()) observe(state_, folder, fields);
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
@@ -182,6 +185,23 @@ class Run {
     console.step_done(record);
   }
 
+  /// Whether a level is looked at one step later, when its pressures are known.
+  bool lagging() const { return scene_->integrator->pressures_lag(); }
+  /// Time of the last level that tables and fields hold, ms.
+  double observed_until() const { return lagging() ? state_.times[1] : state_.time; }
+  void observe(const State& level, ResultFolder& folder, FieldOutput<n>& fields) {
+    observables_.write(level, folder);
+    fields.write(level);
+  }
+  /// The last level but one as a state, for those who look at it.
+  const State& level_before() {
+    shown_.step = state_.step - 1;
+    shown_.time = state_.times[1];
+    shown_.now = state_.before[1];
+    shown_.wall_velocity = state_.wall_velocity_before;
+    return shown_;
+  }
+
   void announce(Console& console, RunLog& log) {
     const auto text = fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {} steps", program_, version,
                                   setup_.title, loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell,
@@ -189,6 +209,7 @@ class Run {
     console.line(text);
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
+    if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
     for (const auto& warning : setup_.warnings) log.warning(warning);
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
@@ -250,6 +271,7 @@ class Run {
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;
   State state_;
+  State shown_;  ///< a finished level, for output
   Observables<n> observables_;
   std::optional<EnergyBalance<n>> energy_;
   StepRecord total_;

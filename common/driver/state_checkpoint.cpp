@@ -21,6 +21,18 @@ void for_each_array(StateType& state, Visit visit) {
   }
   visit("wall_velocity", state.wall_velocity);
   visit("wall_acceleration", state.wall_acceleration);
+  if (!state.has_balances()) return;  // backward Euler has no more
+  for (std::size_t k = 0; k < state.balances.size(); ++k) {
+    visit(fmt::format("balance{}.mesh", k), state.balances[k].mesh);
+    visit(fmt::format("balance{}.flow", k), state.balances[k].fluid);
+    visit(fmt::format("balance{}.wall", k), state.balances[k].wall);
+  }
+  visit("wall_velocity_before", state.wall_velocity_before);
+  visit("rate.mesh", state.rate.mesh);
+  visit("rate.flow", state.rate.fluid);
+  visit("rate.wall", state.rate.wall);
+  visit("rate.wall_velocity", state.velocity_rate);
+  visit("rate.loads", state.load_rates);
 }
 
 }  // namespace
@@ -29,6 +41,11 @@ void store(const State& state, const Memory& memory, const std::vector<Stretch>&
   checkpoint.step = state.step;
   checkpoint.time = state.time;
   checkpoint.arrays["level_times"] = {state.times.begin(), state.times.end()};
+  if (state.has_balances()) {
+    checkpoint.arrays["balance_times"] = {state.balance_times.begin(), state.balance_times.end()};
+    checkpoint.arrays["since_jump"] = {static_cast<double>(state.since_jump),
+                                       static_cast<double>(state.balances_since_jump)};
+  }
   auto& numbers = checkpoint.arrays[stretches_name];
   for (const Stretch& stretch : stretches)
     numbers.insert(numbers.end(), {static_cast<double>(stretch.after), stretch.start, stretch.asked});
@@ -44,6 +61,13 @@ Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, 
   });
   const auto& times = require_size(file, checkpoint, "level_times", state.times.size());
   std::copy(times.begin(), times.end(), state.times.begin());
+  if (state.has_balances()) {
+    const auto& balance_times = require_size(file, checkpoint, "balance_times", state.balance_times.size());
+    std::copy(balance_times.begin(), balance_times.end(), state.balance_times.begin());
+    const auto& counts = require_size(file, checkpoint, "since_jump", 2);
+    state.since_jump = static_cast<int>(counts[0]);
+    state.balances_since_jump = static_cast<int>(counts[1]);
+  }
   state.step = static_cast<int>(checkpoint.step);
   state.time = checkpoint.time;
   state.now = state.before[0];

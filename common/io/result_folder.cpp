@@ -24,6 +24,7 @@ constexpr double pascal_per_kilopascal = 1000.0;
 struct Table {
   const char* file;
   const char* header;
+  bool of_steps = false;  ///< its rows are of steps, not of levels
 };
 constexpr const char* energy_file = "energy.csv";  // its columns depend on the scene
 constexpr Table centerline_table{"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa"};
@@ -31,12 +32,13 @@ constexpr Table wall_table{"wall_displacement.csv", "time_ms,z_mm,radial_mm,axia
 constexpr Table flow_table{"flow.csv",
                            "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
 constexpr Table iterations_table{"iterations.csv",
-                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s"};
+                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s", true};
 constexpr Table coupling_table{
     "coupling.csv",
     "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
     "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,wall_linear_iterations,"
-    "fluid_s,wall_s,mesh_motion_s,coupling_s"};
+    "fluid_s,wall_s,mesh_motion_s,coupling_s",
+    true};
 
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
 constexpr std::array<const char*, 11> result_files = {
@@ -138,7 +140,8 @@ ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables) : folder
   open_tables(tables, false);
 }
 
-ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs::path& from, double time)
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs::path& from, double time,
+                           double observed)
     : folder_(std::move(folder)) {
   std::error_code error;
   if (!fs::is_directory(from, error))
@@ -146,7 +149,7 @@ ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs
   prepare(folder_);
   if (!fs::equivalent(folder_, from, error)) remove_old_results(folder_);
   for (const auto& table : tables_of(tables))
-    copy_csv_until(from / table.file, folder_ / table.file, table.header, time);
+    copy_csv_until(from / table.file, folder_ / table.file, table.header, table.of_steps ? time : observed);
   if (tables.energy) {
     if (!fs::exists(from / energy_file, error))
       throw InputError((from / energy_file).string(), "output.energy", "is wanted, but the earlier run wrote none",

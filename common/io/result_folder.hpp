@@ -42,9 +42,10 @@ class ResultFolder {
   ResultFolder(std::filesystem::path folder, const ResultTables& tables);
 
   /// Continues the run in `from` after `time` (ms): rows up to then are kept, or copied when `folder` is another one.
+  /// \param observed  ms, likewise of the tables of waves and flow, which may lag behind the steps
   /// \throws InputError as above, and when a table of `from` is missing
-  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const std::filesystem::path& from,
-               double time);
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const std::filesystem::path& from, double time,
+               double observed);
 
   const std::filesystem::path& path() const { return folder_; }
 

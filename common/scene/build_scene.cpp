@@ -8,8 +8,8 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/time_scheme.hpp"
 #include "scene/wave_speed.hpp"
-#include "time/euler_newmark.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
@@ -34,11 +34,6 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   constexpr int n = Element::components;
   auto scene = std::make_unique<Scene<n>>();
   for (int k = 0; k < n; ++k) scene->axes[k] = Element::axis[k];
-  if (setup.time) {
-    scene->integrator =
-        std::make_unique<EulerNewmark<n>>(NewmarkParameters{setup.time->newmark_beta, setup.time->newmark_gamma});
-    scene->predictor = setup.time->predictor.value_or(1);
-  }
 
   const int fluid_region = setup.fluid ? mesh.region_index(group::fluid) : -1;
   std::vector<int> wall_regions;
@@ -84,6 +79,10 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->fluid = std::move(fluid);
   }
 
+  if (setup.time) {
+    scene->integrator = make_time_scheme(setup, *scene);
+    scene->predictor = setup.time->predictor.value_or(1);
+  }
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;
   if (scene->coupled()) scene->assemble_mesh_motion();

@@ -73,6 +73,9 @@ class Scene {
     state.now = zero;
     impose_conditions(state.now);
     state.before = {state.now, state.now, state.now};
+    integrator->prepare(state);
+    if (!state.velocity_rate.empty() || !state.rate.fluid.empty())
+      state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + 1, 0.0);
     return state;
   }
 
@@ -87,7 +90,7 @@ class Scene {
     in.fluid = state.now.fluid.data();
     in.fluid_reference = rates.fluid_reference.data();
     in.fluid_factor = rates.fluid_factor;
-    in.step = rates.step;
+    in.step = rates.interface.period;
     return in;
   }
   WallInput wall_input(const State& state, const StepRates& rates) const {

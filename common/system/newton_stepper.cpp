@@ -59,8 +59,19 @@ NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptio
 
 template <int n>
 StepReport NewtonStepper<n>::advance(State& state) {
-  const StepData data = loads_.next(state, *scene_.integrator);
   report_ = {};
+  const int stages = scene_.integrator->stages(state);
+  for (int stage = 0; stage < stages; ++stage) {
+    StepData data = loads_.next(state, *scene_.integrator, stage);
+    advance_stage(state, data);
+    if (keep_balances_) report_.balances.push_back({state.now, data});
+    scene_.integrator->accept(state, data);
+  }
+  return report_;
+}
+
+template <int n>
+void NewtonStepper<n>::advance_stage(State& state, const StepData& data) {
   NewtonReport solved = solve(state, data, scene_.predictor);
   if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
     // The extrapolated start can be the culprit, after a jump of the load for example.
@@ -71,8 +82,6 @@ StepReport NewtonStepper<n>::advance(State& state) {
     throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
                                        solved.count(), solved.failure),
                            remedy(solved));
-  scene_.integrator->accept(state, data);
-  return report_;
 }
 
 template <int n>
@@ -104,7 +113,7 @@ std::string NewtonStepper<n>::remedy(const NewtonReport& failed) const {
 
 template <int n>
 NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int predictor) {
-  predict(state, predictor, data.time);
+  scene_.integrator->predict(state, predictor, data);
   scene_.impose_conditions(state.now);
   scene_.impose_interface(state, data.rates);
   system_.work_on(state, data);

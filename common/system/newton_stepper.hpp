@@ -5,7 +5,6 @@
 
 #include "system/system.hpp"
 #include "time/loads.hpp"
-#include "time/predictor.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -38,6 +37,9 @@ class NewtonStepper : public Stepper {
   std::string name_of_step(const State& state, const StepData& data) const;
 
   std::string remedy(const NewtonReport& failed) const;
+
+  /// Solves the equations of a step, or of one stage of it; leaves their solution in state.now.
+  void advance_stage(State& state, const StepData& data);
 
   /// \param predictor  order of the extrapolated start
   NewtonReport solve(State& state, const StepData& data, int predictor);

@@ -7,11 +7,14 @@
 namespace fsi {
 
 template <int Components>
-StepRates EulerNewmark<Components>::rates(const State& state, double step) const {
+StepRates EulerNewmark<Components>::rates_of(const State& state, double step, int) const {
   assert(step > 0);
   const Solution& old = state.before[0];
   StepRates rates;
   rates.step = step;
+  rates.start = state.time;
+  rates.time = rates.end = state.time + step;
+  rates.load = {{rates.start, rates.end, 1}};
   rates.interface.period = step;
   rates.fluid_factor = 1.0 / step;
   rates.acceleration_factor = 1.0 / (newmark_.beta * step * step);

@@ -15,10 +15,11 @@ class EulerNewmark : public TimeIntegrator {
   explicit EulerNewmark(const NewmarkParameters& newmark = {}) : newmark_(newmark) {}
 
   NewmarkParameters newmark() const override { return newmark_; }
-  StepRates rates(const State& state, double step) const override;
   void accept(State& state, const StepData& data) const override;
 
  private:
+  StepRates rates_of(const State& state, double step, int stage) const override;
+
   NewmarkParameters newmark_;
 };
 

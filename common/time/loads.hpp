@@ -41,18 +41,38 @@ class Loads {
     return setup_.time ? setup_.load->mean(time_of(step - 1), time_of(step)) : time_of(step) * setup_.load->at_end();
   }
 
-  /// Data of the step that follows the state's last one.
-  StepData next(const State& state, const TimeIntegrator& integrator) const {
+  /// Data of the step that follows the state's last one, or of one stage of it.
+  StepData next(const State& state, const TimeIntegrator& integrator, int stage = 0) const {
     StepData data;
     const int step = state.step + 1;
     data.time = time_of(step);
-    data.rates = integrator.rates(state, step_length(step));
-    data.opening_pressures = opening_pressures(step);
-    data.wall_pressure = wall_pressure(step);
+    data.rates = integrator.rates(state, step_length(step), stage);
+    if (data.rates.is_static()) {
+      data.opening_pressures = opening_pressures(step);
+      data.wall_pressure = wall_pressure(step);
+      return data;
+    }
+    data.rates.end = data.rates.last_stage ? data.time : data.rates.end;
+    data.ends_at_jump = axis_.jumps_at(data.time);
+    for (std::size_t i = 0; i < openings_.size(); ++i)
+      data.opening_pressures.push_back(openings_[i].pressure ? of_balance(*openings_[i].pressure, data, state, i)
+                                                             : 0.0);
+    if (setup_.load) data.wall_pressure = of_balance(*setup_.load, data, state, openings_.size());
     return data;
   }
 
  private:
+  /// \param place  of the table in State::load_rates
+  static double of_balance(const PressureTable& table, const StepData& data, const State& state, std::size_t place) {
+    const StepRates& rates = data.rates;
+    double load = 0;
+    // Ends of shares that are the step's are taken as the axis has them, free of rounding.
+    const auto exact = [&](double time) { return time == state.time + rates.step ? data.time : time; };
+    for (const LoadShare& share : rates.load) load += share.weight * table.mean(share.from, exact(share.to));
+    if (rates.load_rate_weight != 0) load += rates.load_rate_weight * state.load_rates.at(place);
+    return load;
+  }
+
   const Case& setup_;
   std::vector<OpeningData> openings_;
   TimeAxis axis_;

@@ -6,9 +6,11 @@
 namespace fsi {
 
 std::array<double, 3> extrapolation_weights(const State& state, int order, double time) {
+  return extrapolation_weights(state.times, std::min({order, state.step, 2}), time);
+}
+
+std::array<double, 3> extrapolation_weights(const std::array<double, 3>& t, int order, double time) {
   static constexpr std::array<double, 3> equal_steps[] = {{1, 0, 0}, {2, -1, 0}, {3, -3, 1}};
-  order = std::min({order, state.step, 2});
-  const auto& t = state.times;
   const double step = time - t[0];
   bool equal = true;
   for (int level = 0; level < order; ++level) equal = equal && std::abs(t[level] - t[level + 1] - step) <= 1e-9 * step;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -22,7 +23,22 @@ struct State {
   std::array<Solution, 3> before;         ///< finished time levels, the latest first
   std::array<double, 3> times{};          ///< of these levels, as `time`
   std::vector<double> wall_velocity;      ///< vectors per wall node, mm/ms, at before[0]
-  std::vector<double> wall_acceleration;  ///< mm/ms^2
+  std::vector<double> wall_acceleration;  ///< mm/ms^2; of schemes with balances at the last of them
+
+  // What schemes keep whose equations do not hold at the end of each step (time/balance.hpp). Empty for backward Euler.
+  int since_jump = 0;                        ///< finished steps since the load last jumped
+  int balances_since_jump = 0;               ///< of `balances` that belong to them
+  std::array<Solution, 3> balances;          ///< solutions of the equations, the latest first
+  std::array<double, 3> balance_times{};     ///< ms
+  std::vector<double> wall_velocity_before;  ///< at before[1]
+  Solution rate;                             ///< d/dt of displacements and velocities at before[0] (generalised-alpha)
+  std::vector<double> velocity_rate;         ///< of the wall's velocity, mm/ms^2 (generalised-alpha)
+  std::vector<double> load_rates;            ///< what stands for the loads' values there, kPa (generalised-alpha)
+
+  // A first stage of the step in progress, of schemes with two.
+  Solution stage, stage_balance;         ///< the level at its end, the solution of its equations
+  std::vector<double> stage_velocity;    ///< of the wall at its end, mm/ms
+  double stage_end = 0, stage_time = 0;  ///< ms, of the level and of the balance
 
   /// state.now becomes the latest finished level.
   void finish_step(double at_time) {
@@ -33,6 +49,10 @@ struct State {
     ++step;
     time = at_time;
   }
+
+  /// The solution of the equations last solved: where pressures balance.
+  const Solution& last_balance() const { return has_balances() ? balances[0] : before[0]; }
+  bool has_balances() const { return !balances[0].fluid.empty() || !balances[0].wall.empty(); }
 };
 
 }  // namespace fsi

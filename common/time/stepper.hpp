@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "time/state.hpp"
+#include "time/step_data.hpp"
 
 namespace fsi {
 
@@ -29,6 +30,7 @@ struct StepReport {
   int linear_iterations = 0;         ///< Krylov iterations; 0 with direct solvers
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
+  std::vector<Balance> balances;  ///< what was solved, where Stepper::keep_balances() asked for it
 };
 
 /// What a stepper keeps between steps besides the state, by name: numbers that a restart needs to go on bit for bit.
@@ -46,6 +48,8 @@ class Stepper {
   /// Solves the next step and makes it the latest level of the state.
   /// \throws ConvergenceError; the state's finished levels are then untouched
   virtual StepReport advance(State& state) = 0;
+  /// Whether reports of steps have their balances, for those who look at what the equations did.
+  void keep_balances(bool keep) { keep_balances_ = keep; }
   /// Whether the steps' reports have a coupling part.
   virtual bool reports_coupling() const { return false; }
   /// Of the last step, also of one that failed.
@@ -54,6 +58,7 @@ class Stepper {
   virtual void recall(const Memory& memory) = 0;
 
  protected:
+  bool keep_balances_ = false;
   StepReport report_;
 };
 

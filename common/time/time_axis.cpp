@@ -14,16 +14,47 @@ constexpr double rounding = 1e-9;  // of a step: no further one for what is left
 }  // namespace
 
 TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullptr) {
+  if (time_ != nullptr)
+    for (const auto* table : {&setup.inlet, &setup.load})
+      if (*table)
+        for (double jump : (*table)->jumps())
+          if (jump > 0 && jump < time_->end) jumps_.push_back(jump);
+  std::sort(jumps_.begin(), jumps_.end());
+  jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
   stretches_ = {
       {0, 0,
        time_ != nullptr ? time_->step : static_cast<double>(setup.static_load.value_or(StaticData{}).load_steps)}};
 }
 
+std::vector<TimeAxis::Piece> TimeAxis::pieces(const Stretch& stretch) const {
+  std::vector<Piece> pieces;
+  double start = stretch.start;
+  for (double jump : jumps_) {
+    if (jump <= start + rounding * stretch.asked) continue;
+    const double steps = (jump - start) / stretch.asked;
+    const int count = static_cast<int>(std::ceil(steps - rounding));
+    const bool whole = std::abs(steps - count) <= rounding;
+    pieces.push_back({start, jump, count, whole ? stretch.asked : (jump - start) / count});
+    start = jump;
+  }
+  const int count = static_cast<int>(std::ceil((time_->end - start) / stretch.asked - rounding));
+  pieces.push_back({start, time_->end, std::max(0, count), stretch.asked});
+  return pieces;
+}
+
 int TimeAxis::planned(const Stretch& stretch) const {
-  if (time_ != nullptr)
-    return std::max(0, static_cast<int>(std::ceil((time_->end - stretch.start) / stretch.asked - rounding)));
+  if (time_ != nullptr) {
+    int steps = 0;
+    for (const Piece& piece : pieces(stretch)) steps += piece.steps;
+    return steps;
+  }
   // The rest of the load in equal steps, none larger than one of a whole run would be.
   return static_cast<int>(std::ceil((1 - stretch.start) * stretch.asked - rounding));
+}
+
+bool TimeAxis::jumps_at(double time) const {
+  return std::any_of(jumps_.begin(), jumps_.end(),
+                     [&](double jump) { return std::abs(time - jump) <= rounding * stretches_.back().asked; });
 }
 
 int TimeAxis::steps() const {
@@ -42,7 +73,15 @@ double TimeAxis::time_of(int step) const {
   if (time_ == nullptr) return stretch.start + (step - stretch.after) * (1 - stretch.start) / planned(stretch);
   for (const Stretch& next : stretches_)  // where one stretch ends and the next begins, its last step cut short
     if (next.after > 0 && step == next.after) return next.start;
-  return std::strtod(fmt::format("{:.12g}", stretch.start + (step - stretch.after) * stretch.asked).c_str(), nullptr);
+  int done = stretch.after;  // steps before the piece
+  for (const Piece& piece : pieces(stretch)) {
+    const int in_piece = step - done;
+    done += piece.steps;
+    if (step > done) continue;
+    if (step == done) return piece.end;
+    return std::strtod(fmt::format("{:.12g}", piece.start + in_piece * piece.step).c_str(), nullptr);
+  }
+  return time_->end;
 }
 
 bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time) {

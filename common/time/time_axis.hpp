@@ -13,7 +13,8 @@ struct Stretch {
   double asked = 0;  ///< what the case said then: time.step in ms; in statics static.load_steps
 };
 
-/// Where the steps of a run begin and end. A run that goes on from a checkpoint may have another step from there on;
+/// Where the steps of a run begin and end. Steps end where a load jumps: up to there a stretch has equal steps, none longer
+/// than asked. A run that goes on from a checkpoint may have another step from there on;
 /// what lies before keeps its times. Times are ms, in statics fractions of the load.
 class TimeAxis {
  public:
@@ -26,6 +27,9 @@ class TimeAxis {
   /// that goes on from it has the same times.
   double time_of(int step) const;
 
+  /// Whether a load jumps at the end of a step, which ends at `time`.
+  bool jumps_at(double time) const;
+
   const std::vector<Stretch>& stretches() const { return stretches_; }
   bool is_static() const { return time_ == nullptr; }
 
@@ -34,10 +38,18 @@ class TimeAxis {
   bool go_on(std::vector<Stretch> past, int last, double time);
 
  private:
+  /// Equal steps up to a jump, or the end of the run; the last of them may be shorter at the end.
+  struct Piece {
+    double start, end;
+    int steps;
+    double step;  ///< ms
+  };
   const Stretch& stretch_of(int step) const;
+  std::vector<Piece> pieces(const Stretch& stretch) const;
   int planned(const Stretch& stretch) const;  ///< steps from its start to the end of the run
 
-  const TimeData* time_;  ///< null in statics
+  const TimeData* time_;       ///< null in statics
+  std::vector<double> jumps_;  ///< ms, ascending, between start and end of the run
   std::vector<Stretch> stretches_;
 };
 

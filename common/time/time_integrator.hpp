@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "time/predictor.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -11,25 +14,48 @@ struct NewmarkParameters {
 };
 
 /// How rates follow from time levels: a time scheme. It is asked anew for each step, whose length may differ from the
-/// last one's, and keeps nothing between steps: all history is in the State.
+/// last one's, and keeps nothing between steps: all history is in the State. A step has one stage or two: each is one
+/// nonlinear solve.
 class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
   virtual bool is_static() const { return false; }
-  /// How the wall's velocity follows from its accelerations.
+  /// How the wall's velocity follows from its accelerations, of schemes of Newmark's family.
   virtual NewmarkParameters newmark() const { return {}; }
-  /// Rates of a step of length `step` (ms) from the state's finished levels.
-  virtual StepRates rates(const State& state, double step) const = 0;
-  /// Takes state.now as the result of the step: updates what the scheme needs of it and finishes the step.
+  /// What a user should know of it, for the log; empty: nothing.
+  virtual std::string about() const { return {}; }
+  /// Gives a state at rest, or with initial values, the history that the scheme keeps.
+  virtual void prepare(State&) const {}
+  /// Stages of the state's next step.
+  virtual int stages(const State&) const { return 1; }
+  /// Rates of a stage of a step of length `step` (ms) from the state's finished levels, and stages.
+  StepRates rates(const State& state, double step, int stage = 0) const { return rates_of(state, step, stage); }
+  /// Writes to state.now where the iteration of a step, or stage, starts: finished levels extrapolated by polynomials of
+  /// a degree of at most `order` (0 to 2).
+  virtual void predict(State& state, int order, const StepData& data) const { fsi::predict(state, order, data.time); }
+  /// Weights alike of what belongs to the last three solutions of the equations, the latest first: forces, say.
+  virtual std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const {
+    return extrapolation_weights(state, order, data.time);
+  }
+  /// Takes state.now as the solution of the stage's equations: carries it to the stage's end, updates what the scheme
+  /// needs of it and, after the last stage, finishes the step.
   virtual void accept(State& state, const StepData& data) const = 0;
+  /// Whether a step's pressures become known at its end only by those of the next: what belongs to the end of a step is
+  /// then best looked at after the next one, as before[1]. Until then they are extrapolated.
+  virtual bool pressures_lag() const { return false; }
+
+ private:
+  virtual StepRates rates_of(const State& state, double step, int stage) const = 0;
 };
 
 /// No time: load steps of a scene without inertia.
 class QuasiStatic : public TimeIntegrator {
  public:
   bool is_static() const override { return true; }
-  StepRates rates(const State&, double) const override { return {}; }
   void accept(State& state, const StepData& data) const override { state.finish_step(data.time); }
+
+ private:
+  StepRates rates_of(const State&, double, int) const override { return {}; }
 };
 
 }  // namespace fsi

@@ -160,10 +160,19 @@ class LinearStudy {
   }
 
  private:
-  /// The next step by Newton's method with a new Jacobian in each iteration; named systems are studied as they come.
+  /// The next step by Newton's method with a new Jacobian in each iteration; named systems, of its last stage, are
+  /// studied as they come.
   Json study_step(System<n>& system, State& state, Json& answers) {
-    const StepData data = loads_.next(state, *scene_->integrator);
-    predict(state, scene_->predictor, data.time);
+    Json history;
+    const int stages = scene_->integrator->stages(state);
+    for (int stage = 0; stage < stages; ++stage) history = study_stage(system, state, stage, answers);
+    return history;
+  }
+
+  /// \returns how Newton's method went in the stage
+  Json study_stage(System<n>& system, State& state, int stage, Json& answers) {
+    const StepData data = loads_.next(state, *scene_->integrator, stage);
+    scene_->integrator->predict(state, scene_->predictor, data);
     scene_->impose_conditions(state.now);
     scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
@@ -173,7 +182,7 @@ class LinearStudy {
     options.linear_tolerance = std::min(1e-9, tolerance_);
     options.observe_system = [&](int iteration) {
       for (const auto& named : systems_)
-        if (named.step == state.step + 1 && named.iteration == iteration)
+        if (data.rates.last_stage && named.step == state.step + 1 && named.iteration == iteration)
           answers.push_back(study(system, named, data.time));
     };
     const NewtonReport solved = newton(system, options);

@@ -44,7 +44,7 @@ class RobinNeumann : public InterfaceProblem<n> {
 
   /// The extrapolated displacement, and the load extrapolated alike.
   std::vector<double> first_guess(int order) const override {
-    const auto weights = extrapolation_weights(*state_, order, data_->time);
+    const auto weights = scene_.integrator->balance_weights(*state_, order, *data_);
     std::vector<double> x = Base::wall_displacement(state_->now);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const auto entry = Base::fluid_entry(scene_.interface[i / n], static_cast<int>(i % n));

@@ -27,7 +27,7 @@ class LinearisedScene {
       for (int step = 0; step < finished_steps; ++step) stepper.advance(state_);
     }
     data_ = loads_.next(state_, *scene_.integrator);
-    predict(state_, scene_.predictor, data_.time);
+    scene_.integrator->predict(state_, scene_.predictor, data_);
     scene_.impose_interface(state_, data_.rates);
     system_ = std::make_unique<System<n>>("coupled", scene_, number_scene(scene_), made_when_asked());
     system_->work_on(state_, data_);

@@ -141,7 +141,7 @@ TEST_F(Results, TellOfTheEnergyThatASceneHas) {
 TEST_F(Results, ContinueWithoutAnEarlierEnergyBalanceOnlyWhenNoneIsWanted) {
   ResultTables tables;
   { ResultFolder results(run_, tables); }
-  EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, run_, 0.2));
+  EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, run_, 0.2, 0.2));
   tables.energy = coupled;
   try {
     ResultFolder results(folder_ / "other", tables, run_, 0.2);
@@ -227,9 +227,9 @@ TEST_F(Results, ContinueInAnotherFolderAndLeaveTheFirst) {
 }
 
 TEST_F(Results, ContinueOnlyWhatIsComplete) {
-  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, folder_ / "missing", 0.2), InputError);
+  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, folder_ / "missing", 0.2, 0.2), InputError);
   { ResultFolder results(run_, {false, true, false}); }
-  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, run_, 0.2), InputError);
+  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, run_, 0.2, 0.2), InputError);
 }
 
 TEST_F(Results, SummaryTellsTimesAndCounts) {

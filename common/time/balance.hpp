@@ -1,0 +1,54 @@
+#pragma once
+
+#include "time/time_integrator.hpp"
+
+namespace fsi {
+
+/// Known values in the rates of one balance: d_m, (u, p), (d_s, p_s) as Solution, and the wall's velocity.
+struct References {
+  Solution of;
+  std::vector<double> wall_velocity;  ///< vectors per wall node, mm/ms
+};
+
+/// Schemes that treat displacements and velocities alike, as one system of first order (docs/theory.md, section 8.4):
+/// the equations hold at a time of balance, t_b, for unknowns there, with
+///   dy/dt = k (y - r),   y = d_m, u, d_s, v_s,
+/// one k and references r made of finished levels. So v_s = k (d_s - r), eliminated, a = k (v_s - r_v), and fluid, wall
+/// and mesh have one velocity on the interface. Pressures belong to t_b. Values at the stage's end are
+/// y_0 + (y - y_0) / theta; pressures are brought there through those of other balances, as long as no jump of the load
+/// lies between them.
+/// \tparam n  components of a vector
+template <int n>
+class BalanceScheme : public TimeIntegrator {
+ public:
+  void prepare(State& state) const override;
+  /// Velocities and displacements from levels, pressures from balances, as far back as the load has not jumped.
+  void predict(State& state, int order, const StepData& data) const override;
+  std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const override;
+  void accept(State& state, const StepData& data) const override;
+
+  /// Rates of a balance; where it lies, and its loads, are left to the scheme.
+  /// \param pressures  of an earlier balance, near in time
+  StepRates rates_from(double step, double k, References references, const Solution& pressures) const;
+  /// The finished level as references.
+  static References level(const State& state) { return {state.before[0], state.wall_velocity}; }
+
+ protected:
+  /// Storage of rates at the last level, zero as at rest.
+  static void prepare_rates(State& state);
+  /// What else a scheme keeps of a finished step. `end` holds the new level, before[0] still the old one.
+  virtual void keep(State&, const StepData&, const Solution& /*end*/,
+                    const std::vector<double>& /*end_velocity*/) const {}
+
+ private:
+  static void push(State& state, Solution balance, double time);
+};
+
+/// a x + b y of two reference sets.
+References combine(double a, const References& x, double b, const References& y);
+
+extern template class BalanceScheme<1>;
+extern template class BalanceScheme<2>;
+extern template class BalanceScheme<3>;
+
+}  // namespace fsi

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "time/balance.hpp"
+
+namespace fsi {
+
+/// The generalised-alpha method for systems of first order ([Jansen2000]; docs/theory.md, section 8.8), with
+/// displacements and velocities alike as [Liu2021] has it, pressures at the time of balance t_n + a_f dt:
+///   y' at a_m = k (y - r),   k = a_m / (a_f g dt),   r = y^n - (1 - a_m / g) y'^n / k,
+///   a_m = (3 - rho) / (2 (1 + rho)),   a_f = 1 / (1 + rho),   g = 1/2 + a_m - a_f.
+/// The load follows a rate's recursion, so that the impulse of a table is conserved. y' and the load's share in it go on
+/// through a jump of the load as if there were none: its full share comes within some steps, alternating about it, while
+/// the impulse is right at each step's end. A state begins at rest.
+template <int n>
+class GeneralisedAlpha : public BalanceScheme<n> {
+ public:
+  /// \param spectral_radius  rho at infinite frequency, 0 to 1; at most 0.5 is advised
+  explicit GeneralisedAlpha(double spectral_radius);
+
+  bool pressures_lag() const override { return true; }
+  void prepare(State& state) const override;
+
+ private:
+  StepRates rates_of(const State& state, double step, int stage) const override;
+  void keep(State& state, const StepData& data, const Solution& end,
+            const std::vector<double>& end_velocity) const override;
+
+  double a_m_, a_f_, g_;
+};
+
+extern template class GeneralisedAlpha<1>;
+extern template class GeneralisedAlpha<2>;
+extern template class GeneralisedAlpha<3>;
+
+}  // namespace fsi
