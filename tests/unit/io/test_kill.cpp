@@ -61,7 +61,7 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     ASSERT_LT(step, last_step);
     EXPECT_EQ(checkpoint.arrays.at("state"), std::vector<double>(1000, checkpoint.time));
     {
-      ResultFolder results(run, no_fluid, run, checkpoint.time);
+      ResultFolder results(run, no_fluid, run, checkpoint.time, checkpoint.time);
       FieldsWriter fields(run, grids, planned, run, checkpoint.step);
       write_step(results, fields, grids, step + 1);
     }

@@ -144,7 +144,7 @@ TEST_F(Results, ContinueWithoutAnEarlierEnergyBalanceOnlyWhenNoneIsWanted) {
   EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, run_, 0.2, 0.2));
   tables.energy = coupled;
   try {
-    ResultFolder results(folder_ / "other", tables, run_, 0.2);
+    ResultFolder results(folder_ / "other", tables, run_, 0.2, 0.2);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("--set output.energy=false"), std::string::npos) << error.what();
@@ -202,7 +202,7 @@ TEST_F(Results, ContinueAfterTheCheckpointInPlace) {
   // As a kill leaves it: rows of a step beyond the checkpoint, the last one torn.
   write_text(run_ / "flow.csv", contents_of(run_ / "flow.csv") + "0.5,1,2,3");
   {
-    ResultFolder results(run_, all_tables, run_, 0.1 * 3);
+    ResultFolder results(run_, all_tables, run_, 0.1 * 3, 0.1 * 3);
     for (int step = 4; step <= 5; ++step) write_step(results, step);
   }
   ResultFolder whole(folder_ / "whole", all_tables);
@@ -219,7 +219,7 @@ TEST_F(Results, ContinueInAnotherFolderAndLeaveTheFirst) {
   }
   const auto before = contents_of(run_ / "flow.csv");
   {
-    ResultFolder results(folder_ / "other", all_tables, run_, 0.2);
+    ResultFolder results(folder_ / "other", all_tables, run_, 0.2, 0.2);
     write_step(results, 3);
   }
   EXPECT_EQ(contents_of(run_ / "flow.csv"), before);
