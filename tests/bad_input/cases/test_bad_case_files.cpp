@@ -225,6 +225,19 @@ const std::vector<BadCase>& bad_cases() {
       {"NewmarkGammaLarge", coupled_case, "end = 12.0", "end = 12.0\nnewmark_gamma = 1.5",
        "case.toml:27: time.newmark_gamma: 1.5 is out of range; give a number > 0 and <= 1 (Newmark's gamma of the "
        "wall, default 1)"},
+      {"TimeSchemeUnknown", coupled_case, "end = 12.0", "end = 12.0\nscheme = \"midpiont\"",
+       "case.toml:27: time.scheme: \"midpiont\" is unknown; did you mean midpoint? There are euler, midpoint, bdf2, "
+       "generalised-alpha or tr-bdf2"},
+      {"NewmarkWithAnotherScheme", coupled_case, "end = 12.0", "end = 12.0\nnewmark_beta = 0.25",
+       "case.toml:27: time.newmark_beta: belongs to the scheme \"euler\", and this run has \"midpoint\"; remove it, or "
+       "set time.scheme = \"euler\""},
+      {"DampingWithAnotherScheme", coupled_case, "end = 12.0", "end = 12.0\nscheme = \"bdf2\"\ndamping = 0.4",
+       "case.toml:28: time.damping: belongs to the scheme \"midpoint\", and this run has \"bdf2\"; remove it, or set "
+       "time.scheme = \"midpoint\""},
+      {"SpectralRadiusAboveOne", coupled_case, "end = 12.0",
+       "end = 12.0\nscheme = \"generalised-alpha\"\nspectral_radius = 1.5",
+       "case.toml:28: time.spectral_radius: 1.5 is out of range; give a number >= 0 and <= 1 (of generalised-alpha at "
+       "infinite frequency, default 0.5; more than 0.5 lets pressures ring)"},
       {"PredictorOfOrderThree", coupled_case, "end = 12.0", "end = 12.0\npredictor = 3",
        "case.toml:27: time.predictor: 3 is out of range; give a whole number from 0 to 2 (order of the extrapolated "
        "start of each step, default 1; coupling schemes that iterate 2)"},

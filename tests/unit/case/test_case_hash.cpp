@@ -124,6 +124,9 @@ structure.layers.inside.k2 = 3
 structure.layers.inside.alpha = 45
 structure.layers.inside.fibre_scale = 1
 inlet.pressure = [[0, 4]]
+time.scheme = midpoint
+time.damping = chosen
+time.spectral_radius = 0.5
 time.newmark_beta = 1
 time.newmark_gamma = 1
 )";

@@ -120,6 +120,7 @@ pressure = 4
 [time]
 step = 0.5
 end = 2
+scheme = "euler"
 newmark_beta = 0.25
 newmark_gamma = 0.5
 predictor = 2
@@ -177,6 +178,7 @@ constant_operators = "rebuilt"
   EXPECT_EQ(layer.values.at("k2"), 3);
   EXPECT_EQ(layer.values.at("fibre_scale"), 0.5);
   EXPECT_EQ(scene.load->points, (Points{{0, 4}}));
+  EXPECT_EQ(scene.time->scheme, TimeScheme::euler);
   EXPECT_EQ(scene.time->newmark_gamma, 0.5);
   EXPECT_EQ(scene.time->predictor, 2);
   EXPECT_FALSE(scene.monolithic.newton.keep_jacobian);

@@ -54,6 +54,7 @@ TEST(Loads, OfAStepIsTheMeanOverItNotTheValueAtItsEnd) {
   EXPECT_EQ(loads.steps(), 4);
   State state;
   state.step = 1;
+  state.time = 0.5;
   const auto data = loads.next(state, EulerNewmark<1>());
   EXPECT_DOUBLE_EQ(data.time, 1.0);
   ASSERT_EQ(data.opening_pressures.size(), 2u);
