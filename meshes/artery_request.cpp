@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "mesh/artery/curved_edges.hpp"
+#include "mesh/artery/sector_images.hpp"
 #include "mesh/artery_generator.hpp"
+#include "mesh/group_names.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/mirror.hpp"
 
@@ -23,7 +27,12 @@ void check_combination(const ArteryRequest& request) {
   if (request.axisymmetric && request.around)
     refuse("--around", "an axisymmetric mesh has no cells around the axis", "leave one of the two options out");
   if (request.mirrored && request.sector == 360)
-    refuse("--mirrored", "there is no sector to mirror", "give --sector 90 or 180 as well");
+    refuse("--mirrored", "there is no sector to mirror", "give --sector, 90 or 180 for example, as well");
+  if (request.mirrored && request.sector > 0 && 360 % request.sector == 0 && 180 % request.sector != 0)
+    refuse("--mirrored",
+           fmt::format("{} sectors of {} degrees are not each other's mirror images all the way round",
+                       360 / request.sector, request.sector),
+           "give a --sector that divides 180 degrees, or leave this option out");
   if (request.adventitia_cells && request.sizes.adventitia == 0)
     refuse("--adventitia-cells", "the wall has no adventitia", "leave it out, or give --adventitia a thickness");
   if (request.error && request.for_element.empty())
@@ -40,6 +49,7 @@ ArteryCells cells_of(const ArteryRequest& request) {
   ArteryCells cells = recommended ? recommended->cells : artery_cells(request.sizes);
   const int sectors = request.sector > 0 && 360 % request.sector == 0 ? 360 / request.sector : 1;
   cells.around += (sectors - cells.around % sectors) % sectors;  // what was not asked for may be rounded up
+  cells.around = std::max(cells.around, sectors == 1 ? 0 : 2 * sectors);
   cells.lumen = request.lumen_cells.value_or(cells.lumen);
   cells.media = request.media_cells.value_or(cells.media);
   cells.adventitia = request.adventitia_cells.value_or(cells.adventitia);
@@ -55,6 +65,8 @@ TetrahedralMesh tube(const ArteryRequest& request) {
   if (!by_numbers(request)) return generate_artery(request.sizes);
   auto mesh = generate_artery(request.sizes, cells_of(request), request.sector);
   if (!request.mirrored) return mesh;
+  if (request.sector < 90)
+    return joined_with_sector_images(mesh, request.sector, group::symmetry[1], group::oblique_symmetry);
   mesh = joined_with_mirror_image(mesh, 1);
   return request.sector == 90 ? joined_with_mirror_image(mesh, 0) : mesh;
 }

@@ -99,8 +99,8 @@ void add_options(CLI::App& artery, Request& request) {
                               "the cylinders; 2 with --for p2p1, else 1"));
   in(kinds, artery.add_flag("--axisymmetric", asked.axisymmetric,
                             "Triangles in the plane of radius and axis, for axisymmetric scenes"));
-  in(kinds,
-     artery.add_option("--sector", asked.sector, "Degrees of the tube to mesh: 90 or 180, between planes of symmetry"))
+  in(kinds, artery.add_option("--sector", asked.sector,
+                              "Degrees of the tube to mesh, a whole part of the circle, between planes of symmetry"))
       ->capture_default_str();
   in(kinds, artery.add_flag("--mirrored", asked.mirrored, "The sector and its mirror images: the whole tube"));
 

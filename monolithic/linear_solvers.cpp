@@ -75,6 +75,18 @@ void refuse_pressures_per_layer(const Case& setup, const PartNodes& wall, const 
 }
 
 template <int n>
+void refuse_turned_frames(const Case& setup, const NodalFrames<n>* fluid, const NodalFrames<n>* wall,
+                          const std::string& what) {
+  for (const auto* frames : {fluid, wall})
+    if (frames && !frames->empty())
+      throw InputError(setup.path.string(), "mesh",
+                       "a plane of symmetry that is normal to no axis does not go with " + what +
+                           ": the paper's coupled system knows components along the axes only",
+                       "turn the mesh so that its planes are normal to axes, or use the linear solvers " +
+                           one_of(general_solver_names()));
+}
+
+template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<n>& blocks) {
   const auto known = linear_solver_names();
@@ -82,13 +94,16 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
   for (const auto& method : coupled_methods) {
     if (method.name != name) continue;
     if (!blocks.coupled()) break;  // not for one medium: the message comes below
-    refuse_pressures_per_layer(setup, *blocks.wall_nodes, "monolithic.linear_solver = \"" + name + "\"");
+    const std::string what = "monolithic.linear_solver = \"" + name + "\"";
+    refuse_pressures_per_layer(setup, *blocks.wall_nodes, what);
+    refuse_turned_frames<n>(setup, blocks.fluid_frames, blocks.wall_frames, what);
     return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup.monolithic));
   }
   return make_fast_or_direct(name, setup, blocks);
 }
 
-#define FSI_INSTANTIATE(n) \
+#define FSI_INSTANTIATE(n)                                                                                           \
+  template void refuse_turned_frames(const Case&, const NodalFrames<n>*, const NodalFrames<n>*, const std::string&); \
   template std::unique_ptr<LinearSolver> make_linear_solver(const std::string&, const Case&, const JacobianBlocks<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -34,7 +34,8 @@ struct FastSolver<n>::Iterative {
     if (blocks.mesh_laplacian) {
       std::vector<char> inner(blocks.numbering.mesh_rows.size());
       for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = blocks.numbering.mesh_rows[i].index >= 0;
-      extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner));
+      extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner),
+                                                         HarmonicExtensionOptions{}, blocks.fluid_frames);
       count_extension(blocks);
       mesh.resize(blocks.numbering.mesh.size());
       mesh_right.resize(mesh.size());

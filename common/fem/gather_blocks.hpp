@@ -2,6 +2,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "algebra/gathered_matrix.hpp"
+#include "fem/nodal_frames.hpp"
 #include "fem/unknowns.hpp"
 
 namespace fsi {
@@ -26,19 +27,35 @@ void gather_blocks(GatheredMatrix::Builder& builder, const BlockMatrix<Rows, Col
     }
 }
 
-/// The same for a matrix whose blocks hold one number per component, as the mesh motion's.
+/// The same for a matrix whose blocks hold one number per component of space, as the mesh motion's.
+/// \param frames  in which rows and columns are counted; null: along the axes of space
 template <int Components>
 void gather_diagonal_blocks(GatheredMatrix::Builder& builder, const BlockMatrix<1, Components>& matrix,
-                            const UnknownMap& rows, const UnknownMap& columns) {
+                            const UnknownMap& rows, const UnknownMap& columns,
+                            const NodalFrames<Components>* frames = nullptr) {
   const auto& graph = *matrix.graph;
   for (int a = 0; a < graph.rows(); ++a)
-    for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at)
+    for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {
+      const int b = graph.columns[at];
+      if (frames && (frames->at(a) || frames->at(b))) {
+        for (int i = 0; i < Components; ++i)
+          for (int j = 0; j < Components; ++j) {
+            const Unknown& row = rows[static_cast<std::size_t>(a) * Components + i];
+            const Unknown& column = columns[static_cast<std::size_t>(b) * Components + j];
+            if (row.index < 0 || column.index < 0) continue;
+            for (int k = 0; k < Components; ++k)
+              if (const double share = frames->share(k, a, b, i, j); share != 0)
+                builder.add(row.index, column.index, matrix.block(at) + k, row.factor * column.factor * share);
+          }
+        continue;
+      }
       for (int k = 0; k < Components; ++k) {
         const Unknown& row = rows[static_cast<std::size_t>(a) * Components + k];
-        const Unknown& column = columns[static_cast<std::size_t>(graph.columns[at]) * Components + k];
+        const Unknown& column = columns[static_cast<std::size_t>(b) * Components + k];
         if (row.index >= 0 && column.index >= 0)
           builder.add(row.index, column.index, matrix.block(at) + k, row.factor * column.factor);
       }
+    }
 }
 
 }  // namespace fsi

@@ -11,7 +11,7 @@ namespace fsi {
 
 template <class Element>
 FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open,
-                                    std::vector<std::size_t> mirrored)
+                                    VanishingComponents<n> mirrored)
     : part_(std::move(part)),
       form_(form),
       space_(function_space<Element>(part_)),

@@ -16,10 +16,9 @@ class FluidProblem : public Fluid<Element::components> {
   using Part = Submesh<Element::dim, Element::order>;
 
   /// \param open      surfaces in the part's node numbers, none of which moves
-  /// \param mirrored  entries of the vector layout that vanish in a mirror: normal to planes of symmetry, radial on an
-  ///                  axis
+  /// \param mirrored  components that vanish in a mirror: normal to planes of symmetry, radial on an axis
   FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open,
-               std::vector<std::size_t> mirrored = {});
+               VanishingComponents<n> mirrored = {});
 
   const Part& part() const { return part_; }
   const ElementPacks<Element>& packs() const { return packs_; }
@@ -47,7 +46,7 @@ class FluidProblem : public Fluid<Element::components> {
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
   FluidJacobian<n> jacobian_;
-  std::vector<std::size_t> mirrored_;
+  VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;
 };

@@ -7,6 +7,7 @@
 
 #include "fem/contributions.hpp"
 #include "fem/element_packs.hpp"
+#include "fem/nodal_frames.hpp"
 #include "fluid/fluid_input.hpp"
 #include "math/kinematics.hpp"
 
@@ -22,8 +23,8 @@ class PressureProjection {
  public:
   static constexpr int n = Element::components;
 
-  /// \param mirrored  entries of the vector layout that vanish: normal to planes of symmetry, radial on an axis
-  explicit PressureProjection(std::vector<std::size_t> mirrored) : mirrored_(std::move(mirrored)) {}
+  /// \param mirrored  components that vanish: normal to planes of symmetry, radial on an axis
+  explicit PressureProjection(VanishingComponents<n> mirrored) : mirrored_(std::move(mirrored)) {}
 
   /// Of in.fluid_reference on the domain of in.mesh_reference: vectors per fluid node in the vector layout, kPa/mm.
   /// \param nodes  of the fluid
@@ -71,10 +72,10 @@ class PressureProjection {
     gradient_.resize(static_cast<std::size_t>(nodes) * n);
     for (int a = 0; a < nodes; ++a)
       for (int k = 0; k < n; ++k) gradient_[Vector::vector(a, k)] = sums[Mixed::vector(a, k)] / sums[Mixed::scalar(a)];
-    for (const std::size_t entry : mirrored_) gradient_[entry] = 0;
+    mirrored_.clear(gradient_);
   }
 
-  std::vector<std::size_t> mirrored_;
+  VanishingComponents<n> mirrored_;
   std::vector<double> flow_, mesh_;  ///< of the level that the gradient belongs to
   std::vector<double> gradient_;
 };

@@ -15,8 +15,8 @@ namespace fsi {
 TetrahedralMesh generate_artery(const ArteryOptions& options);
 
 /// A mesh of the same volumes and surfaces by numbers of cells, which may be graded, of the whole tube or of a sector
-/// between planes of symmetry (see ring_section()), whose surfaces are `symmetry_x` and `symmetry_y`: nodes on them have
-/// x = 0 or y = 0 exactly. Stations stand in line; diagonals alternate around and along, so that the mesh is as stiff
+/// between planes of symmetry (see ring_section()), whose surfaces are `symmetry_y`, and `symmetry_x` or `symmetry_1`:
+/// nodes on the first two have y = 0 or x = 0 exactly. Stations stand in line; diagonals alternate around and along, so that the mesh is as stiff
 /// one way around as the other. Throws InputError with the fsi-mesh option at fault.
 TetrahedralMesh generate_artery(const ArteryShape& shape, const ArteryCells& cells, int sector_degrees = 360);
 

@@ -398,7 +398,8 @@ class Reader {
   }
 
   static bool has_meaning(const std::string& name) {
-    return std::find(group::surfaces.begin(), group::surfaces.end(), name) != group::surfaces.end();
+    return group::is_symmetry_plane(name) ||
+           std::find(group::surfaces.begin(), group::surfaces.end(), name) != group::surfaces.end();
   }
 
   /// Whether an element of a surface can belong to a volume that was left out.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 namespace fsi {
 
@@ -16,8 +17,13 @@ inline constexpr const char* inner = "inner";          ///< loaded face of a wal
 /// Planes normal to x, y, z that the body is mirrored in, or slides on: no displacement and no flow across them.
 /// Optional, on fluid and wall. The axis of an axisymmetric mesh needs no name: it is where r = 0.
 inline constexpr std::array<const char*, 3> symmetry{"symmetry_x", "symmetry_y", "symmetry_z"};
-inline constexpr std::array<const char*, 8> surfaces{inlet, outlet,      wall_ends,   outer,
-                                                     inner, symmetry[0], symmetry[1], symmetry[2]};
+/// Such a plane, of any normal: `symmetry`, or a name that begins with `symmetry_`. But for the three above, the facets
+/// tell the normal.
+constexpr bool is_symmetry_plane(std::string_view name) {
+  return name == "symmetry" || name.substr(0, 9) == "symmetry_";
+}
+inline constexpr const char* oblique_symmetry = "symmetry_1";  ///< that of a sector which is normal to no axis
+inline constexpr std::array<const char*, 5> surfaces{inlet, outlet, wall_ends, outer, inner};  ///< and those planes
 }  // namespace group
 
 }  // namespace fsi

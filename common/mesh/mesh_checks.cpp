@@ -19,6 +19,7 @@
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
+#include "mesh/symmetry_planes.hpp"
 
 namespace fsi {
 
@@ -53,10 +54,11 @@ class Checks {
   using Key = FacetKey<Dim>;
   using FacetSet = std::unordered_set<Key, FacetKeyHash>;
   using Words = CellWords<Dim>;
+  using Plane = SymmetryPlane<Dim, Order>;
 
  public:
   Checks(const Mesh& mesh, const SceneMeshNeeds& needs, const std::string& file)
-      : mesh_(mesh), needs_(needs), file_(file) {}
+      : mesh_(mesh), needs_(needs), file_(file), planes_(symmetry_planes(mesh)) {}
 
   void run() {
     volumes();
@@ -239,7 +241,7 @@ class Checks {
       surface(group::outer, layers_, wall, false);
       if (needs_.inner_surface) surface(group::inner, layers_, wall, true);
     }
-    symmetry_planes();
+    symmetry();
     straight_axis();
   }
 
@@ -258,42 +260,77 @@ class Checks {
   /// What can hold a wall whose ends are clamped nowhere: an axis or planes of symmetry.
   bool supported_by_symmetry() const {
     if (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric) return true;
-    return std::any_of(group::symmetry.begin(), group::symmetry.end(), [&](const char* name) {
-      const auto* facets = mesh_.facets(name);
-      return facets != nullptr && !facets->empty();
-    });
+    return !planes_.empty();
   }
 
-  void symmetry_planes() const {
+  void symmetry() const {
     std::vector<int> all(mesh_.regions.size());
     std::iota(all.begin(), all.end(), 0);
-    const double tolerance = 1e-6 * size();
-    for (int axis = 0; axis < 3; ++axis) {
-      const char* name = group::symmetry[axis];
-      const auto* facets = mesh_.facets(name);
-      if (facets == nullptr || facets->empty()) continue;
-      if (Dim == 2 && axis == (needs_.geometry == TriangleGeometry::axisymmetric ? 1 : 2))
+    for (const auto& plane : planes_) {
+      const std::string& name = plane.group->name;
+      const auto axis = std::find(group::symmetry.begin(), group::symmetry.end(), name) - group::symmetry.begin();
+      if (Dim == 2 && axis == (axisymmetric() ? 1 : 2))
         fail(name, "the mesh lies in this plane itself",
-             needs_.geometry == TriangleGeometry::axisymmetric
-                 ? "planes normal to the axis are symmetry_z; r is along x, the axis along z"
-                 : "sides of a plane mesh are symmetry_x or symmetry_y");
+             axisymmetric() ? "planes normal to the axis are symmetry_z; r is along x, the axis along z"
+                            : "sides of a plane mesh are symmetry_x or symmetry_y");
       surface(name, all, "fluid or wall", false);
-      for (const auto& facet : *facets) {
-        double low = mesh_.nodes[facet[0]][axis], high = low;
-        for (const int node : facet) {
-          low = std::min(low, mesh_.nodes[node][axis]);
-          high = std::max(high, mesh_.nodes[node][axis]);
-        }
-        if (high - low > tolerance)
-          fail(name,
-               fmt::format("the {} at {} does not lie in a plane normal to {}: its nodes are {:.3g} mm apart along it",
-                           Words::facet, text(centroid(facet)), "xyz"[axis], high - low),
-               "put flat faces normal to this axis only into this group, and turn the mesh if need be");
-      }
-      disjoint(group::inlet, name);
-      disjoint(group::outlet, name);
+      if (axis < 3)
+        normal_to(static_cast<int>(axis), plane);
+      else
+        flat(plane);
+      disjoint(group::inlet, name.c_str());
+      disjoint(group::outlet, name.c_str());
     }
   }
+
+  /// Facets that may lie in several planes normal to one axis.
+  void normal_to(int axis, const Plane& plane) const {
+    for (const auto& facet : plane.group->facets) {
+      double low = mesh_.nodes[facet[0]][axis], high = low;
+      for (const int node : facet) {
+        low = std::min(low, mesh_.nodes[node][axis]);
+        high = std::max(high, mesh_.nodes[node][axis]);
+      }
+      if (high - low > flatness())
+        fail(plane.group->name,
+             fmt::format("the {} at {} does not lie in a plane normal to {}: its nodes are {:.3g} mm apart along it",
+                         Words::facet, text(centroid(facet)), "xyz"[axis], high - low),
+             "put flat faces normal to this axis only into this group, and other planes into symmetry_1, symmetry_2 "
+             "and so on");
+    }
+  }
+
+  /// Facets that define a plane themselves.
+  void flat(const Plane& plane) const {
+    const auto& [group, normal] = plane;
+    if (Dim == 2 && axisymmetric() && normal[0] != 0)
+      fail(group->name, "its sides are not normal to the axis: turned about it they are no plane",
+           "put sides of one height only into this group");
+    double mean = 0, count = 0;
+    for (const auto& facet : group->facets)
+      for (const int node : facet) {
+        mean += dot(normal, mesh_.nodes[node]);
+        ++count;
+      }
+    mean /= count;
+    double furthest = 0;
+    const Facet* worst = nullptr;
+    for (const auto& facet : group->facets)
+      for (const int node : facet)
+        if (const double off = std::abs(dot(normal, mesh_.nodes[node]) - mean); off > furthest) {
+          furthest = off;
+          worst = &facet;
+        }
+    if (furthest > flatness())
+      fail(group->name,
+           fmt::format("its {} do not lie in one plane: the one at {} is {:.3g} mm off their mean plane", Words::facets,
+                       text(centroid(*worst)), furthest),
+           "put each plane into a group of its own: symmetry_1, symmetry_2 and so on");
+  }
+
+  /// How far off its plane a node may lie, mm.
+  double flatness() const { return 1e-6 * size(); }
+  bool axisymmetric() const { return needs_.geometry == TriangleGeometry::axisymmetric; }
 
   /// A side of quadratic triangles that runs from axis to axis beside it would be a wall.
   void straight_axis() const {
@@ -349,24 +386,25 @@ class Checks {
     return std::find(layers_.begin(), layers_.end(), mesh_.cell_region[cell]) != layers_.end();
   }
 
-  /// Groups whose faces hold the wall.
-  static constexpr std::array<const char*, 4> holding{group::wall_ends, group::symmetry[0], group::symmetry[1],
-                                                      group::symmetry[2]};
+  /// Calls visit(facets) for the facets of the named group and of the planes of symmetry.
+  template <class Visit>
+  void for_group_and_planes(const char* name, Visit visit) const {
+    if (const auto* facets = mesh_.facets(name)) visit(*facets);
+    for (const auto& plane : planes_) visit(plane.group->facets);
+  }
 
   /// A piece of the wall that nothing holds can drift away.
   void wall_held() const {
     if (layers_.empty() || (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric)) return;
     const auto roots = pieces([&](int cell) { return is_wall(cell); });
     std::vector<char> held(mesh_.cells.size(), 0);
-    for (const char* name : holding) {
-      const auto* facets = mesh_.facets(name);
-      if (facets == nullptr) continue;
-      for (const auto& facet : *facets) {
+    for_group_and_planes(group::wall_ends, [&](const auto& facets) {
+      for (const auto& facet : facets) {
         const auto [a, b] = cells_of_.at(facet_key<Dim>(facet));
         for (const int cell : {a, b})
           if (cell >= 0) held[roots[cell]] = 1;
       }
-    }
+    });
     for (std::size_t c = 0; c < roots.size(); ++c)
       if (is_wall(static_cast<int>(c)) && !held[roots[c]])
         fail(group::wall_ends,
@@ -381,8 +419,8 @@ class Checks {
     faces_that_meet_unshared();
 
     std::vector<Facet> held;
-    for (const char* name : holding)
-      if (const auto* facets = mesh_.facets(name)) held.insert(held.end(), facets->begin(), facets->end());
+    for_group_and_planes(group::wall_ends,
+                         [&](const auto& facets) { held.insert(held.end(), facets.begin(), facets.end()); });
     const auto clamped = facet_nodes(held);
     // An interface that ends on the axis is closed there.
     const auto on_axis = [&](int node) {
@@ -401,7 +439,7 @@ class Checks {
           fmt::format("the rim of the interface is not clamped: {} of its nodes are not in this group, the first at {}",
                       loose, text(mesh_.nodes[first])),
           "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
-          "symmetry_z");
+          "symmetry_z, or symmetry_1 and so on");
   }
 
   /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.
@@ -409,19 +447,18 @@ class Checks {
     const auto free_faces = [&](const std::vector<int>& regions, const std::vector<const char*>& named) {
       FacetSet skip;
       for (const char* name : named)
-        if (const auto* facets = mesh_.facets(name))
-          for (const auto& facet : *facets) skip.insert(facet_key<Dim>(facet));
+        for_group_and_planes(name, [&](const auto& facets) {
+          for (const auto& facet : facets) skip.insert(facet_key<Dim>(facet));
+        });
       std::vector<Facet> faces;
       for (const auto& facet : boundary_facets(mesh_, regions))
         if (const auto key = facet_key<Dim>(facet.nodes); cells_of_.at(key).second < 0 && !skip.count(key))
           faces.push_back(facet.nodes);
       return faces;
     };
-    const auto fluid =
-        free_faces({fluid_}, {group::inlet, group::outlet, group::symmetry[0], group::symmetry[1], group::symmetry[2]});
+    const auto fluid = free_faces({fluid_}, {group::inlet, group::outlet});
     if (fluid.empty()) return;
-    const auto wall = free_faces(
-        layers_, {group::wall_ends, group::outer, group::symmetry[0], group::symmetry[1], group::symmetry[2]});
+    const auto wall = free_faces(layers_, {group::wall_ends, group::outer});
 
     // Sorted along x, so that a facet is compared with those near it only.
     struct Placed {
@@ -477,6 +514,7 @@ class Checks {
   const Mesh& mesh_;
   const SceneMeshNeeds& needs_;
   const std::string& file_;
+  std::vector<Plane> planes_;
   int fluid_ = -1;
   std::vector<int> layers_;
   std::vector<std::pair<int, int>> pairs_;                               ///< cells that share a facet

@@ -112,9 +112,9 @@ double smallest_dihedral(const std::array<Point, 4>& x) {
 template <int Dim, int Order>
 int element_layers(const SimplexMesh<Dim, Order>& mesh, int region) {
   std::set<FacetKey<Dim>> ends;
-  for (const char* name : {group::wall_ends, group::symmetry[0], group::symmetry[1], group::symmetry[2]})
-    if (const auto* facets = mesh.facets(name))
-      for (const auto& facet : *facets) ends.insert(facet_key<Dim>(facet));
+  for (const auto& group : mesh.facet_groups)
+    if (group.name == group::wall_ends || group::is_symmetry_plane(group.name))
+      for (const auto& facet : group.facets) ends.insert(facet_key<Dim>(facet));
   std::vector<typename SimplexMesh<Dim, Order>::Facet> faces;
   for (const auto& facet : boundary_facets(mesh, {region}))
     if (!ends.count(facet_key<Dim>(facet.nodes))) faces.push_back(facet.nodes);

@@ -48,8 +48,8 @@ struct MeshQuality {
 };
 
 /// Element layers across a shell-like region: the fewest element edges, all inside the region, that lead from one of
-/// its faces to the other. Faces are the connected parts of its boundary without the groups `wall_ends`, `symmetry_x`,
-/// `symmetry_y` and `symmetry_z`. 0 when there are not exactly two of them (a solid region such as the fluid has one).
+/// its faces to the other. Faces are the connected parts of its boundary without `wall_ends` and the planes of symmetry.
+/// 0 when there are not exactly two of them (a solid region such as the fluid has one).
 template <int Dim, int Order>
 int element_layers(const SimplexMesh<Dim, Order>& mesh, int region);
 

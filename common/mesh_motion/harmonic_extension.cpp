@@ -51,8 +51,8 @@ void multiply_each(const CsrMatrix<double>& a, const std::vector<double>& x, std
 
 template <int n>
 HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
-                                        const HarmonicExtensionOptions& options)
-    : laplacian_(laplacian), inner_(std::move(inner)), options_(options) {
+                                        const HarmonicExtensionOptions& options, const NodalFrames<n>* frames)
+    : laplacian_(laplacian), inner_(std::move(inner)), options_(options), frames_(frames) {
   assert(inner_.size() == static_cast<std::size_t>(laplacian.graph->rows()) * n);
   values_.resize(inner_.size());
   rows_ = values_;
@@ -63,13 +63,16 @@ template <int n>
 void HarmonicExtension<n>::update() {
   groups_.clear();
   for (int k = 0; k < n; ++k) {
-    const auto group =
-        std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return same(g.components.front(), k); });
+    const bool mixed = is_mixed(k);
+    const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) {
+      return g.mixed == mixed && (mixed || same(g.components.front(), k));
+    });
     if (group != groups_.end()) {
       group->components.push_back(k);
     } else {
       groups_.emplace_back();
       groups_.back().components = {k};
+      groups_.back().mixed = mixed;
     }
   }
   for (Group& group : groups_) set_up(group);
@@ -86,29 +89,64 @@ bool HarmonicExtension<n>::same(int i, int k) const {
 }
 
 template <int n>
-void HarmonicExtension<n>::set_up(Group& group) {
+bool HarmonicExtension<n>::is_mixed(int component) const {
+  if (!frames_) return false;
+  return std::any_of(frames_->nodes().begin(), frames_->nodes().end(), [&](int node) {
+    const auto& axis = (*frames_->at(node))[component];
+    return std::count(axis.begin(), axis.end(), 0.0) < n - 1;
+  });
+}
+
+template <int n>
+template <class Visit>
+void HarmonicExtension<n>::for_row(const Group& group, std::size_t row, Visit visit) const {
   const auto& graph = *laplacian_.graph;
-  const int component = group.components.front();
-  group.row.assign(graph.rows(), -1);
-  for (int a = 0; a < graph.rows(); ++a)
-    if (inner_[VectorLayout<n>::vector(a, component)]) {
-      group.row[a] = static_cast<int>(group.node.size());
-      group.node.push_back(a);
+  const int node = static_cast<int>(group.entry[row] / n), component = static_cast<int>(group.entry[row] % n);
+  for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
+    const int other = graph.columns[at];
+    const double* numbers = laplacian_.block(at);
+    if (!group.mixed || (!frames_->at(node) && !frames_->at(other))) {
+      const int column = group.row[VectorLayout<n>::vector(other, component)];
+      if (column >= 0) visit(column, numbers[component]);
+      continue;
     }
-  const int rows = static_cast<int>(group.node.size());
-  group.iterative = rows >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
+    for (const int j : group.components) {
+      const int column = group.row[VectorLayout<n>::vector(other, j)];
+      if (column < 0) continue;
+      double value = 0;
+      for (int k = 0; k < n; ++k) value += frames_->share(k, node, other, component, j) * numbers[k];
+      visit(column, value);
+    }
+  }
+}
+
+template <int n>
+void HarmonicExtension<n>::set_up(Group& group) {
+  group.row.assign(inner_.size(), -1);
+  for (std::size_t node = 0; node < inner_.size(); node += n)
+    for (const int component : group.components) {
+      if (component != group.components.front() && !group.mixed) continue;
+      if (!inner_[node + component]) continue;
+      group.row[node + component] = static_cast<int>(group.entry.size());
+      group.entry.push_back(node + component);
+    }
+  group.offset = {0};
+  for (std::size_t k = 1; k < group.components.size() && !group.mixed; ++k)
+    group.offset.push_back(static_cast<std::size_t>(group.components[k] - group.components[0]));
+  const int rows = static_cast<int>(group.entry.size());
+  const int nodes = group.mixed ? rows / static_cast<int>(group.components.size()) : rows;
+  group.iterative = nodes >= options_.iterative_from.value_or(HarmonicExtensionOptions::standard_iterative_from(n));
   if (!group.iterative) {
     if (rows > 0) factorise(group);
     return;
   }
   CsrMatrix<double>& a = group.matrix;
   a.columns = rows;
-  for (int node : group.node) {
-    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
-      if (group.row[graph.columns[at]] >= 0) {
-        a.indices.push_back(group.row[graph.columns[at]]);
-        a.values.push_back(laplacian_.block(at)[component]);
-      }
+  for (std::size_t row = 0; row < group.entry.size(); ++row) {
+    for_row(group, row, [&](int column, double value) {
+      a.indices.push_back(column);
+      a.values.push_back(value);
+    });
     a.offsets.push_back(static_cast<int>(a.indices.size()));
   }
   ScalarMultigrid::Options options;
@@ -119,16 +157,14 @@ void HarmonicExtension<n>::set_up(Group& group) {
 template <int n>
 void HarmonicExtension<n>::factorise(Group& group) {
   // The matrix is symmetric: its rows serve as columns.
-  const auto& graph = *laplacian_.graph;
   SparseMatrix& a = group.columns;
   a = {};
   a.offsets = {0};
-  for (int node : group.node) {
-    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
-      if (group.row[graph.columns[at]] >= 0) {
-        a.rows.push_back(group.row[graph.columns[at]]);
-        a.values.push_back(laplacian_.block(at)[group.components.front()]);
-      }
+  for (std::size_t row = 0; row < group.entry.size(); ++row) {
+    for_row(group, row, [&](int column, double value) {
+      a.rows.push_back(column);
+      a.values.push_back(value);
+    });
     a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
   }
   group.solver = DirectSolver();
@@ -141,11 +177,13 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
   iterations_ = 0;
 #pragma omp parallel for schedule(static) if (inner_.size() > 50000)
   for (std::size_t i = 0; i < inner_.size(); ++i) values_[i] = inner_[i] ? 0 : field[i];
+  if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
   multiply_components<n>(laplacian_, values_, rows_);
+  if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);
   for (Group& group : groups_) {
-    if (group.node.empty()) continue;
+    if (group.entry.empty()) continue;
     if (group.iterative) {
-      const std::size_t count = group.components.size();
+      const std::size_t count = group.offset.size();
       const bool converged = count == 1   ? iterate<1>(group, right, field, tolerance)
                              : count == 2 ? iterate<2>(group, right, field, tolerance)
                                           : iterate<3>(group, right, field, tolerance);
@@ -159,17 +197,16 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
 template <int n>
 void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<double>& right,
                                           std::vector<double>& field) {
-  const std::size_t rows = group.node.size();
-  right_.assign(group.components.size(), std::vector<double>(rows));
-  for (std::size_t c = 0; c < group.components.size(); ++c)
+  const std::size_t rows = group.entry.size();
+  right_.assign(group.offset.size(), std::vector<double>(rows));
+  for (std::size_t c = 0; c < group.offset.size(); ++c)
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t entry = VectorLayout<n>::vector(group.node[i], group.components[c]);
+      const std::size_t entry = group.entry[i] + group.offset[c];
       right_[c][i] = right[entry] - rows_[entry];
     }
   group.solver.solve_each(group.columns, right_, solution_);
-  for (std::size_t c = 0; c < group.components.size(); ++c)
-    for (std::size_t i = 0; i < rows; ++i)
-      field[VectorLayout<n>::vector(group.node[i], group.components[c])] = solution_[c][i];
+  for (std::size_t c = 0; c < group.offset.size(); ++c)
+    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] = solution_[c][i];
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old
@@ -179,13 +216,13 @@ template <int m>
 bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& right, std::vector<double>& field,
                                    double tolerance) {
   constexpr int lanes = m == 1 ? 1 : padded<m>;
-  const int rows = static_cast<int>(group.node.size());
+  const int rows = static_cast<int>(group.entry.size());
   const std::size_t size = static_cast<std::size_t>(rows) * m;
   std::vector<double> x(size), r(size), z(size), p(size, 0.0), q(size);
   std::vector<float> single_r(static_cast<std::size_t>(rows) * lanes, 0.0f), single_z(single_r);
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < m; ++k) {
-      const std::size_t entry = VectorLayout<n>::vector(group.node[i], group.components[k]);
+      const std::size_t entry = group.entry[i] + group.offset[k];
       x[static_cast<std::size_t>(i) * m + k] = field[entry];
       r[static_cast<std::size_t>(i) * m + k] = right[entry] - rows_[entry];
     }
@@ -240,8 +277,7 @@ bool HarmonicExtension<n>::iterate(Group& group, const std::vector<double>& righ
   iterations_ = std::max(iterations_, iteration);
   if (!done()) return false;
   for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < m; ++k)
-      field[VectorLayout<n>::vector(group.node[i], group.components[k])] = x[static_cast<std::size_t>(i) * m + k];
+    for (int k = 0; k < m; ++k) field[group.entry[i] + group.offset[k]] = x[static_cast<std::size_t>(i) * m + k];
   return true;
 }
 

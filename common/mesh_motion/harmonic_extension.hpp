@@ -6,6 +6,7 @@
 #include "algebra/block_matrix.hpp"
 #include "algebra/csr_matrix.hpp"
 #include "algebra/direct_solver.hpp"
+#include "fem/nodal_frames.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
@@ -25,15 +26,18 @@ struct HarmonicExtensionOptions {
 
 /// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are
 /// solved at once, by a factorisation or, where that is large, by conjugate gradients in double precision around a
-/// V-cycle of smoothed aggregation in single precision. Results do not depend on the number of threads.
+/// V-cycle of smoothed aggregation in single precision. Components that frames of nodes mix have one matrix together.
+/// Results do not depend on the number of threads.
 /// \tparam n  components of a node
 template <int n>
 class HarmonicExtension {
  public:
   /// \param laplacian  symmetric, one number per node pair and component, conditions not imposed; must outlive this
   /// \param inner      per node and component: its value is sought, its row an equation
+  /// \param frames     of nodes whose components, in all vectors and in `inner`, are those of a frame; must outlive this;
+  ///                   null: none
   HarmonicExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
-                    const HarmonicExtensionOptions& options = {});
+                    const HarmonicExtensionOptions& options = {}, const NodalFrames<n>* frames = nullptr);
 
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular
@@ -52,20 +56,27 @@ class HarmonicExtension {
   int iterations() const { return iterations_; }
 
  private:
-  /// Components of one matrix.
+  /// Components of one matrix: several that have the same, or several that frames mix, each with rows of its own.
   struct Group {
     std::vector<int> components;
-    std::vector<int> row;       ///< per node; -1 where the value is given
-    std::vector<int> node;      ///< per row
-    CsrMatrix<double> matrix;   ///< of the iteration
-    ScalarMultigrid multigrid;  ///< its preconditioner
-    SparseMatrix columns;       ///< of the factorisation
+    bool mixed = false;
+    std::vector<int> row;             ///< per entry of the vector layout; -1 where the value is given
+    std::vector<std::size_t> entry;   ///< per row, of the first of its vectors
+    std::vector<std::size_t> offset;  ///< from there to the entry of each of its vectors
+    CsrMatrix<double> matrix;         ///< of the iteration
+    ScalarMultigrid multigrid;        ///< its preconditioner
+    SparseMatrix columns;             ///< of the factorisation
     DirectSolver solver;
     bool iterative = false;
   };
 
   bool same(int i, int k) const;
+  /// Some frame is turned out of this component's axis.
+  bool is_mixed(int component) const;
   void set_up(Group& group);
+  /// Calls visit(column, value) for the entries of a row of the group's matrix, columns ascending.
+  template <class Visit>
+  void for_row(const Group& group, std::size_t row, Visit visit) const;
   void factorise(Group& group);
   void solve_directly(const Group& group, const std::vector<double>& right, std::vector<double>& field);
   template <int m>
@@ -74,6 +85,7 @@ class HarmonicExtension {
   const BlockMatrix<1, n>& laplacian_;
   std::vector<char> inner_;
   HarmonicExtensionOptions options_;
+  const NodalFrames<n>* frames_;
   std::vector<Group> groups_;
   int iterations_ = 0;
   std::vector<std::vector<double>> right_, solution_;  ///< by component

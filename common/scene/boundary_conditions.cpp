@@ -7,8 +7,10 @@
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
+#include "fem/held_components.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh/symmetry_planes.hpp"
 
 namespace fsi {
 
@@ -45,26 +47,11 @@ std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>&
   return marks;
 }
 
-/// Fixes the component along one axis of space on all nodes of a part that lie on a symmetry plane normal to it, and of
-/// an axisymmetric part the radial one on the axis.
-/// Returns their entries in the vector layout.
-template <class Element>
-std::vector<std::size_t> fix_normal_components(
-    const MeshOf<Element>& mesh, const PartOf<Element>& part,
-    const std::vector<DirichletConditions<Element::components>*>& conditions) {
-  std::vector<std::size_t> entries;
-  for (int k = 0; k < Element::components; ++k) {
-    auto on = nodes_on<Element>(part, group_facets(mesh, group::symmetry[Element::axis[k]]));
-    if constexpr (Element::axisymmetric)
-      if (k == 0)
-        for (int a = 0; a < part.node_count(); ++a) on[a] = on[a] || part.nodes[a][0] == 0;
-    for (int a = 0; a < part.node_count(); ++a) {
-      if (!on[a]) continue;
-      for (auto* condition : conditions) condition->fix(a, k);
-      entries.push_back(VectorLayout<Element::components>::vector(a, k));
-    }
-  }
-  return entries;
+/// Fixes these components of fields.
+template <int n>
+void fix(const VanishingComponents<n>& components, const std::vector<DirichletConditions<n>*>& conditions) {
+  for (const std::size_t entry : components.entries)
+    for (auto* condition : conditions) condition->fix(static_cast<int>(entry) / n, static_cast<int>(entry) % n);
 }
 
 /// Facets of the fluid's boundary at which it sticks: those in none of the given sets and not on the axis.
@@ -106,12 +93,44 @@ FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<i
 }
 
 template <class Element>
+VanishingComponents<Element::components> mirrored_components(const MeshOf<Element>& mesh, const PartOf<Element>& part) {
+  constexpr int n = Element::components;
+  struct Plane {
+    std::vector<char> on;  ///< per node of the part
+    Direction<n> normal;
+  };
+  std::vector<Plane> planes;
+  for (const auto& plane : symmetry_planes(mesh)) {
+    Direction<n> normal;
+    for (int k = 0; k < n; ++k) normal[k] = plane.normal[Element::axis[k]];
+    planes.push_back({nodes_on<Element>(part, plane.group->facets), normal});
+  }
+  VanishingComponents<n> mirrored;
+  std::vector<Direction<n>> normals;
+  for (int a = 0; a < part.node_count(); ++a) {
+    normals.clear();
+    for (const auto& plane : planes)
+      if (plane.on[a]) normals.push_back(plane.normal);
+    if (Element::axisymmetric && part.nodes[a][0] == 0) {
+      normals.emplace_back();
+      normals.back()[0] = 1;
+    }
+    if (normals.empty()) continue;
+    const auto held = hold<n>(normals);
+    if (held.turned) mirrored.frames.turn(a, held.axes);
+    for (int k = 0; k < n; ++k)
+      if (held.held[k]) mirrored.entries.push_back(VectorLayout<n>::vector(a, k));
+  }
+  return mirrored;
+}
+
+template <class Element>
 DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall) {
   DirichletConditions<Element::components> conditions(wall.node_count());
   const auto ends = nodes_on<Element>(wall, group_facets(mesh, group::wall_ends));
   for (int a = 0; a < wall.node_count(); ++a)
     if (ends[a]) conditions.fix(a);
-  fix_normal_components<Element>(mesh, wall, {&conditions});
+  fix<Element::components>(mirrored_components<Element>(mesh, wall), {&conditions});
   return conditions;
 }
 
@@ -125,7 +144,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   FluidBoundary<Element> boundary;
   boundary.velocity = boundary.mesh = DirichletConditions<n>(nodes);
   std::vector<FacetsOf<Element>> not_closed{interface};
-  for (const char* plane : group::symmetry) not_closed.push_back(group_facets(mesh, plane));
+  for (const auto& plane : symmetry_planes(mesh)) not_closed.push_back(plane.group->facets);
   for (const auto& opening : openings) {
     const FacetsOf<Element> facets = group_facets(mesh, opening.surface);
     not_closed.push_back(facets);
@@ -140,7 +159,8 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
       boundary.velocity.fix(a);
       boundary.mesh.fix(a);
     }
-  boundary.mirrored = fix_normal_components<Element>(mesh, fluid, {&boundary.velocity, &boundary.mesh});
+  boundary.mirrored = mirrored_components<Element>(mesh, fluid);
+  fix<n>(boundary.mirrored, {&boundary.velocity, &boundary.mesh});
   const auto wet = nodes_on<Element>(fluid, interface);
   const auto areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, interface));
   for (int a = 0; a < nodes; ++a) {
@@ -159,6 +179,8 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
 }
 
 #define FSI_INSTANTIATE(Element)                                                                                 \
+  template VanishingComponents<Element::components> mirrored_components<Element>(const MeshOf<Element>&,         \
+                                                                                 const PartOf<Element>&);        \
   template FacetsOf<Element> in_part<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                 \
   template FacetsOf<Element> inner_surface<Element>(const MeshOf<Element>&, const std::vector<int>&);            \
   template DirichletConditions<Element::components> wall_conditions<Element>(const MeshOf<Element>&,             \

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "case/openings.hpp"
+#include "fem/nodal_frames.hpp"
 #include "mesh/submesh.hpp"
 #include "scene/scene.hpp"
 
@@ -33,6 +34,11 @@ FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& 
 template <class Element>
 FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions);
 
+/// The components normal to symmetry planes at the nodes of a part on them, and of an axisymmetric part the radial ones
+/// on the axis. Where the normals, or what is free between two planes, are along no axis of space, nodes get a frame.
+template <class Element>
+VanishingComponents<Element::components> mirrored_components(const MeshOf<Element>& mesh, const PartOf<Element>& part);
+
 /// The wall's displacement is zero on the clamped ends; on symmetry planes and on the axis its normal component is.
 template <class Element>
 DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall);
@@ -44,7 +50,7 @@ struct FluidBoundary {
   std::vector<InterfaceNode> interface;
   std::vector<double> interface_areas;  ///< that belongs to each of its nodes, mm^2
   std::vector<OpenBoundary<Element::components>> open;
-  std::vector<std::size_t> mirrored;  ///< entries of the vector layout normal to symmetry planes, or radial on the axis
+  VanishingComponents<Element::components> mirrored;  ///< normal to planes of symmetry, radial on the axis
 };
 
 /// No slip on every facet that is neither open nor interface nor on a symmetry plane or the axis, and on the rims where

@@ -45,6 +45,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     wall_part = submesh(mesh, wall_regions);
     if (setup.structure->layer_pressure == LayerPressure::separate) wall_part = split_between_regions(wall_part);
     scene->wall_conditions = wall_conditions<Element>(mesh, wall_part);
+    scene->wall_frames = mirrored_components<Element>(mesh, wall_part).frames;
     std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
       layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
@@ -69,6 +70,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
                                 scene->wall ? &scene->wall_conditions : nullptr);
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
+    scene->fluid_frames = boundary.mirrored.frames;
     scene->interface = std::move(boundary.interface);
     scene->interface_areas = std::move(boundary.interface_areas);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};

@@ -8,7 +8,8 @@
 
 namespace fsi {
 
-/// Prescribed components of a vector field at the nodes of one medium, with their values: zero unless given.
+/// Prescribed components of a vector field at the nodes of one medium, with their values: zero unless given. At nodes
+/// with a frame (NodalFrames) components are the frame's, and values zero.
 /// \tparam Components  of a vector
 template <int Components>
 class DirichletConditions {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/profile.hpp"
+#include "fem/nodal_frames.hpp"
 #include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "scene/dirichlet_conditions.hpp"
@@ -40,6 +41,8 @@ class Scene {
   Conditions velocity_conditions;        ///< of the fluid's velocity
   Conditions mesh_conditions;            ///< of the mesh displacement
   Conditions wall_conditions;            ///< of the wall's displacement
+  NodalFrames<n> fluid_frames;           ///< of nodes whose conditions are along no axis of space; for both above
+  NodalFrames<n> wall_frames;            ///< on the interface those of the fluid
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
   int predictor = 1;        ///< order of the extrapolated start of each step
   mutable Profile profile;  ///< also of those who only read the scene

@@ -15,7 +15,7 @@ GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks) {
   if (blocks.fluid) gather_blocks(builder, *blocks.fluid, numbering.fluid_rows, numbering.fluid);
   if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.fluid_rows, numbering.mesh);
   if (blocks.mesh_laplacian)
-    gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh);
+    gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh, blocks.fluid_frames);
   return GatheredMatrix(std::move(builder));
 }
 

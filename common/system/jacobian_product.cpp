@@ -27,7 +27,9 @@ void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<doub
     add_to_system(numbering.fluid_rows, fluid_rows_, y);
   }
   if (blocks_.mesh_laplacian) {
+    if (blocks_.fluid_frames) blocks_.fluid_frames->template to_space<VectorLayout<n>>(mesh_);
     multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);
+    if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<VectorLayout<n>>(mesh_rows_);
     add_to_system(numbering.mesh_rows, mesh_rows_, y);
   }
   if (blocks_.wall) {

@@ -7,6 +7,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "base/profile.hpp"
+#include "fem/nodal_frames.hpp"
 #include "fem/nodal_layout.hpp"
 #include "mesh/submesh.hpp"
 #include "system/field_numbering.hpp"
@@ -32,6 +33,9 @@ struct JacobianBlocks {
   const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
   const BlockMatrix<1, n>* mesh_laplacian = nullptr;         ///< of the mesh motion, one number per component
   const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
+  /// Nodes whose components of vectors are those of a frame, in all blocks but those of the mesh motion; null: none.
+  const NodalFrames<n>* fluid_frames = nullptr;
+  const NodalFrames<n>* wall_frames = nullptr;
   const PartNodes* fluid_nodes = nullptr;
   const PartNodes* wall_nodes = nullptr;
   const std::vector<InterfacePair>* interface = nullptr;  ///< all of it, clamped nodes too; null for one part alone

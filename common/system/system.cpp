@@ -45,6 +45,8 @@ JacobianBlocks<n> System<n>::blocks() {
   }
   if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
   if (blocks.fluid && blocks.wall) blocks.interface = &interface_;
+  if (!scene_.fluid_frames.empty()) blocks.fluid_frames = &scene_.fluid_frames;
+  if (!scene_.wall_frames.empty()) blocks.wall_frames = &scene_.wall_frames;
   blocks.mesh_laplacian_version = &scene_.mesh_motion_assemblies;
   blocks.profile = &scene_.profile;
   return blocks;
@@ -116,9 +118,36 @@ double System<n>::solve(double tolerance) {
 
 template <int n>
 void System<n>::move(double step) {
-  if (!numbering_.mesh.empty()) add_to_field(numbering_.mesh, increment_, step, state_->now.mesh);
-  if (!numbering_.fluid.empty()) add_to_field(numbering_.fluid, increment_, step, state_->now.fluid);
-  if (!numbering_.wall.empty()) add_to_field(numbering_.wall, increment_, step, state_->now.wall);
+  if (!numbering_.mesh.empty()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
+  if (!numbering_.fluid.empty()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
+  if (!numbering_.wall.empty()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
+}
+
+template <int n>
+template <class Layout>
+void System<n>::add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
+                              std::vector<double>& field) const {
+  add_to_field(map, increment_, step, field);
+  for (const int node : frames.nodes()) {  // in place of components of the frame, which that took for those of space
+    Direction<n> turned{}, component{};
+    for (int k = 0; k < n; ++k)
+      if (const Unknown& unknown = map[Layout::vector(node, k)]; unknown.index >= 0)
+        component[k] = turned[k] = step * unknown.factor * increment_[unknown.index];
+    NodalFrames<n>::to_space(*frames.at(node), turned.data());
+    for (int k = 0; k < n; ++k) field[Layout::vector(node, k)] += turned[k] - component[k];
+  }
+}
+
+template <int n>
+template <class Layout>
+void System<n>::add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows) {
+  if (frames.empty()) {
+    add_to_system(map, rows, residual_);
+    return;
+  }
+  rows_ = rows;
+  frames.template to_frames<Layout>(rows_);
+  add_to_system(map, rows_, residual_);
 }
 
 template <int n>
@@ -131,6 +160,7 @@ double System<n>::size() const {
 template <int n>
 double System<n>::rounding() {
   std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
+  // At nodes with a frame the components of space will do: as large as those of the frame but for a factor near one.
   const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
     for (std::size_t i = 0; i < map.size(); ++i)
       if (map[i].index >= 0) x[map[i].index] = std::max(x[map[i].index], std::abs(field[i] / map[i].factor));
@@ -164,14 +194,20 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   if (!numbering_.mesh_rows.empty()) {
     mesh_residual_.resize(state_->now.mesh.size());
     multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
-    add_to_system(numbering_.mesh_rows, mesh_residual_, residual_);
+    add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_);
   }
   if (!numbering_.fluid_rows.empty()) {
     assert(scene_.fluid);
     result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                           fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
-    add_to_system(numbering_.fluid_rows, fluid_residual_, residual_);
+    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_);
     if (impedance_) add_impedance(derivatives);
+    if (derivatives) {
+      auto& jacobian = scene_.fluid->jacobian(derivatives_);
+      scene_.fluid_frames.turn_blocks(jacobian.fluid);
+      if (derivatives_ == FluidDerivatives::fluid_and_domain)
+        scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
+    }
   }
   if (!numbering_.wall_rows.empty()) {
     assert(scene_.wall);
@@ -179,7 +215,8 @@ AssemblyResult System<n>::assemble(bool derivatives) {
                                          state_->now.wall, wall_residual_, derivatives));
     if (!data_->interface_load.empty())
       for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
-    add_to_system(numbering_.wall_rows, wall_residual_, residual_);
+    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_);
+    if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
   }
   return result;
 }
@@ -189,12 +226,15 @@ void System<n>::add_impedance(bool derivatives) {
   assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
-    const double c = impedance_->impedance[i];
+    const double c = impedance_->impedance[i];  // the same in all directions, and so in every frame
+    Direction<n> slip;
+    for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
+    if (const auto* axes = scene_.fluid_frames.at(node)) NodalFrames<n>::to_frame(*axes, slip.data());
     for (int k = 0; k < n; ++k) {
       const std::size_t entry = Mixed::vector(node, k);
       const Unknown& row = numbering_.fluid_rows[entry];
       if (row.index < 0) continue;
-      residual_[row.index] += row.factor * c * (state_->now.fluid[entry] - impedance_->velocity[i * n + k]);
+      residual_[row.index] += row.factor * c * slip[k];
       if (!derivatives) continue;
       auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
       fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += c;

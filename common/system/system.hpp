@@ -90,6 +90,15 @@ class System : public NewtonProblem {
 
   void add_impedance(bool derivatives);
 
+  /// field += step * (the increment of its unknowns)
+  template <class Layout>
+  void add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
+                     std::vector<double>& field) const;
+
+  /// The system's residual += the rows of a part, which are along the axes of space.
+  template <class Layout>
+  void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows);
+
   /// terms += |J| |x| of the Jacobian last assembled.
   void add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
 
@@ -122,6 +131,7 @@ class System : public NewtonProblem {
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
+  std::vector<double> rows_;  ///< of a part in its frames
   std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;
   std::vector<double> weights_;
 };

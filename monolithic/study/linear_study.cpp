@@ -117,6 +117,7 @@ class LinearStudy {
       throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
                        "give [fluid] and [structure]");
     refuse_pressures_per_layer(setup, scene_->wall->nodes(), "--linear-systems");
+    refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, "--linear-systems");
     if (systems_.back().step > loads_.steps())
       throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
                        fmt::format("give steps up to {}", loads_.steps()));

@@ -83,11 +83,14 @@ class InterfaceProblem {
     in.fluid = moved.fluid.data();
     std::vector<double> rows;
     scene_.fluid->assemble(in, data_->opening_pressures, rows);
+    std::vector<double> loads = data_->interface_load;
+    scene_.fluid_frames.template to_frames<MixedLayout<n>>(rows);  // where some components are free, and others held
+    scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);
     double gap = 0, force = 0;
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) {
         if (wall_.numbering().wall_rows[wall_entry(node, k)].index < 0) continue;
-        const double load = data_->interface_load[wall_entry(node, k)];
+        const double load = loads[wall_entry(node, k)];
         const double lack = rows[fluid_entry(node, k)] - load;
         gap += lack * lack;
         force += load * load;

@@ -20,7 +20,8 @@ class MeshMotionSolver {
     for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = numbering.mesh_rows[i].index >= 0;
     zero_.assign(inner.size(), 0.0);
     const auto phase = scene_.profile.phase("factorisation: mesh motion");
-    extension_ = std::make_unique<HarmonicExtension<n>>(scene_.mesh_motion, std::move(inner));
+    extension_ = std::make_unique<HarmonicExtension<n>>(scene_.mesh_motion, std::move(inner),
+                                                        HarmonicExtensionOptions{}, &scene_.fluid_frames);
     version_ = scene_.mesh_motion_assemblies;
   }
 
@@ -33,7 +34,9 @@ class MeshMotionSolver {
       version_ = scene_.mesh_motion_assemblies;
     }
     const auto phase = scene_.profile.phase("solve: mesh motion");
+    scene_.fluid_frames.template to_frames<VectorLayout<n>>(mesh);
     extension_->solve(zero_, mesh);
+    scene_.fluid_frames.template to_space<VectorLayout<n>>(mesh);
   }
 
  private:

@@ -46,12 +46,20 @@ class RobinNeumann : public InterfaceProblem<n> {
   std::vector<double> first_guess(int order) const override {
     const auto weights = scene_.integrator->balance_weights(*state_, order, *data_);
     std::vector<double> x = Base::wall_displacement(state_->now);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto entry = Base::fluid_entry(scene_.interface[i / n], static_cast<int>(i % n));
-      if (fluid_.numbering().fluid[entry].index < 0 || robin_.impedance[i / n] == 0) continue;
-      double load = 0;
-      for (int level = 0; level < 3; ++level) load += weights[level] * loads_[level][i];
-      x[i] += data_->rates.interface.displacement(load / robin_.impedance[i / n], 0.0);
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
+      if (robin_.impedance[i] == 0) continue;
+      const auto& node = scene_.interface[i];
+      const auto* axes = scene_.fluid_frames.at(node.fluid);  // in which some components are free, and others held
+      Direction<n> further{};
+      for (int k = 0; k < n; ++k)
+        for (int level = 0; level < 3; ++level) further[k] += weights[level] * loads_[level][i * n + k];
+      if (axes) NodalFrames<n>::to_frame(*axes, further.data());
+      for (int k = 0; k < n; ++k) {
+        const bool held = fluid_.numbering().fluid[Base::fluid_entry(node, k)].index < 0;
+        further[k] = held ? 0 : data_->rates.interface.displacement(further[k] / robin_.impedance[i], 0.0);
+      }
+      if (axes) NodalFrames<n>::to_space(*axes, further.data());
+      for (int k = 0; k < n; ++k) x[i * n + k] += further[k];
     }
     return x;
   }

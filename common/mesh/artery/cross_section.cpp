@@ -80,12 +80,9 @@ namespace {
 
 /// How many times the sector goes into the circle.
 int sectors_in_circle(const ArteryCells& cells, int degrees) {
-  if (degrees != 360 && degrees != 180 && degrees != 90)
-    throw InputError("fsi-mesh", "--sector",
-                     degrees > 0 && 360 % degrees == 0
-                         ? fmt::format("the planes that bound {} degrees are not all normal to an axis", degrees)
-                         : fmt::format("{} degrees will not do", degrees),
-                     "give 90 or 180, or 360 for the whole tube");
+  if (degrees <= 0 || 360 % degrees != 0)
+    throw InputError("fsi-mesh", "--sector", fmt::format("{} degrees will not do", degrees),
+                     "give a whole part of the circle, like 45, 60, 90 or 180, or 360 for the whole tube");
   const int sectors = 360 / degrees;
   if (cells.around % sectors != 0 || cells.around < 2 * sectors)
     throw InputError(
@@ -183,11 +180,11 @@ CrossSection ring_section(const ArteryShape& shape, const ArteryCells& cells, in
     start.push_back({from, rings[k].node(0)});
     end.push_back({rings[k].node(rings[k].cells), to});
   }
-  if (sectors == 4) {
-    section.sides.push_back({group::symmetry[0], end});
+  if (sectors == 2) {
+    start.insert(start.end(), end.begin(), end.end());
     section.sides.push_back({group::symmetry[1], start});
   } else {
-    start.insert(start.end(), end.begin(), end.end());
+    section.sides.push_back({sectors == 4 ? group::symmetry[0] : group::oblique_symmetry, end});
     section.sides.push_back({group::symmetry[1], start});
   }
   return section;

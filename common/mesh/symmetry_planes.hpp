@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// A plane of symmetry of a mesh.
+template <int Dim, int Order>
+struct SymmetryPlane {
+  const typename SimplexMesh<Dim, Order>::FacetGroup* group;
+  /// Unit vector, either way round. Of `symmetry_x`, `symmetry_y` and `symmetry_z` the axis; else the mean normal of the
+  /// facets, components below 1e-10 taken for rounding: zero.
+  Point normal;
+};
+
+/// The planes of symmetry of a mesh: groups with such a name (group::is_symmetry_plane) and facets, in their order. They
+/// refer to the mesh. That each is flat is for check_scene_mesh() to see.
+template <int Dim, int Order>
+std::vector<SymmetryPlane<Dim, Order>> symmetry_planes(const SimplexMesh<Dim, Order>& mesh);
+
+}  // namespace fsi
