@@ -201,13 +201,13 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                           fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
     add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_);
-    if (impedance_) add_impedance(derivatives);
     if (derivatives) {
       auto& jacobian = scene_.fluid->jacobian(derivatives_);
       scene_.fluid_frames.turn_blocks(jacobian.fluid);
       if (derivatives_ == FluidDerivatives::fluid_and_domain)
         scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
     }
+    if (impedance_) add_impedance(derivatives);
   }
   if (!numbering_.wall_rows.empty()) {
     assert(scene_.wall);
@@ -226,7 +226,7 @@ void System<n>::add_impedance(bool derivatives) {
   assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
-    const double c = impedance_->impedance[i];  // the same in all directions, and so in every frame
+    const double c = impedance_->impedance[i];
     Direction<n> slip;
     for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
     if (const auto* axes = scene_.fluid_frames.at(node)) NodalFrames<n>::to_frame(*axes, slip.data());
