@@ -7,10 +7,12 @@
 #include <map>
 
 #include "fem/gather_blocks.hpp"
+#include "fem/held_components.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/differences.hpp"
 #include "support/scenes.hpp"
+#include "system/jacobian_product.hpp"
 #include "system/system.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -63,6 +65,44 @@ struct Scenario {
     scene->impose_interface(state, data.rates);
     data.opening_pressures = {1.332};
   }
+
+  /// Gives a third of the nodes a frame of any axes, on both sides of the interface the same, with one or two components
+  /// that are held: as at planes of symmetry and where two of them meet.
+  void turn_nodes() {
+    Random random(9);
+    const auto condition = [&](int node, const HeldComponents<3>& held, NodalFrames<3>& frames, auto&... conditions) {
+      frames.turn(node, held.axes);
+      for (int k = 0; k < 3; ++k)
+        if (held.held[k]) (conditions.fix(node, k), ...);
+    };
+    const auto held_components = [&] {
+      std::vector<Direction<3>> normals(random() > 0 ? 2 : 1);
+      for (auto& normal : normals) {
+        for (double& x : normal) x = random();
+        const double length = std::sqrt(detail::dot<3>(normal, normal));
+        for (double& x : normal) x /= length;
+      }
+      return hold<3>(normals);
+    };
+    const auto& nodes = scene->wall->nodes();
+    const auto turn_wall = [&](int node, const HeldComponents<3>& held) {
+      for (int a = 0; a < nodes.node_count(); ++a)
+        if (nodes.original_of(a) == node) condition(a, held, scene->wall_frames, scene->wall_conditions);
+    };
+    std::vector<char> wet_fluid(scene->fluid->node_count(), 0), wet_wall(nodes.node_count(), 0);
+    for (const auto& node : scene->interface) {
+      wet_fluid[node.fluid] = wet_wall[node.wall] = 1;
+      if (random() > -0.3 || node.clamped) continue;
+      const auto held = held_components();
+      condition(node.fluid, held, scene->fluid_frames, scene->velocity_conditions, scene->mesh_conditions);
+      turn_wall(node.wall, held);
+    }
+    for (int a = 0; a < scene->fluid->node_count(); ++a)
+      if (!wet_fluid[a] && random() < -0.3)
+        condition(a, held_components(), scene->fluid_frames, scene->velocity_conditions, scene->mesh_conditions);
+    for (int a = 0; a < nodes.node_count(); ++a)
+      if (nodes.original_of(a) == a && !wet_wall[a] && random() < -0.3) turn_wall(a, held_components());
+  }
 };
 
 /// x -> R(x + t direction) of a system around a state.
@@ -75,9 +115,16 @@ class Line {
     State there = from_.state;
     system_.work_on(there, from_.data);  // the numbering's factors are the step's
     const auto& numbering = system_.numbering();
-    if (!numbering.mesh.empty()) add_to_field(numbering.mesh, direction_, t, there.now.mesh);
-    if (!numbering.fluid.empty()) add_to_field(numbering.fluid, direction_, t, there.now.fluid);
-    if (!numbering.wall.empty()) add_to_field(numbering.wall, direction_, t, there.now.wall);
+    const auto add = [&](auto layout, const UnknownMap& map, const NodalFrames<3>& frames, std::vector<double>& field) {
+      using Layout = decltype(layout);
+      if (map.empty()) return;
+      frames.to_frames<Layout>(field);
+      add_to_field(map, direction_, t, field);
+      frames.to_space<Layout>(field);
+    };
+    add(VectorLayout<3>(), numbering.mesh, from_.scene->fluid_frames, there.now.mesh);
+    add(MixedLayout<3>(), numbering.fluid, from_.scene->fluid_frames, there.now.fluid);
+    add(MixedLayout<3>(), numbering.wall, from_.scene->wall_frames, there.now.wall);
     EXPECT_TRUE(std::isfinite(system_.evaluate()));
     return system_.residual();
   }
@@ -135,8 +182,9 @@ constexpr double first_step = 0.05;  // larger ones leave the range of second or
 
 /// The assembled matrix against differences of the assembled residual, whole and group of equations by group: a block
 /// of small entries cannot hide behind one of large ones.
-void check_system(const Scenario& scenario, Numbering numbering, const std::string& name) {
-  System<3> system(name, *scenario.scene, std::move(numbering));
+void check_system(const Scenario& scenario, Numbering numbering, const std::string& name,
+                  const InterfaceImpedance* impedance = nullptr) {
+  System<3> system(name, *scenario.scene, std::move(numbering), {}, SystemNorm::volumes, impedance);
   State state = scenario.state;
   system.work_on(state, scenario.data);
   system.linearise();
@@ -207,6 +255,55 @@ TEST(CoupledJacobian, WithPressuresPerLayer) {
   EXPECT_TRUE(scenario.scene->wall->nodes().has_copies());
   check_system(scenario, number_scene(*scenario.scene), "coupled, pressures per layer");
   check_system(scenario, number_wall(*scenario.scene), "wall alone, pressures per layer");
+}
+
+TEST(TurnedJacobian, OfAllSystemsWithNodesThatHaveFrames) {
+  Scenario scenario("artery", stretched, false, LayerPressure::separate);
+  scenario.turn_nodes();
+  EXPECT_GT(scenario.scene->fluid_frames.nodes().size(), 15u);
+  EXPECT_GT(scenario.scene->wall_frames.nodes().size(), 10u);
+  check_system(scenario, number_scene(*scenario.scene), "turned nodes, coupled");
+  check_system(scenario, number_fluid(*scenario.scene), "turned nodes, fluid");
+  check_system(scenario, number_wall(*scenario.scene), "turned nodes, wall");
+  InterfaceImpedance impedance;
+  Random random(4);
+  for (const auto& node : scenario.scene->interface) {
+    impedance.nodes.push_back(node.fluid);
+    impedance.impedance.push_back(1 + 0.5 * random());
+    for (int k = 0; k < 3; ++k) impedance.velocity.push_back(random());
+  }
+  check_system(scenario, number_fluid_and_domain(*scenario.scene), "turned nodes, fluid and domain", &impedance);
+}
+
+/// The product from blocks and that with the gathered matrix agree, and move() takes increments along the frames.
+TEST(TurnedJacobian, ProductsAndSteps) {
+  Scenario scenario("neo-hookean");
+  scenario.turn_nodes();
+  auto& scene = *scenario.scene;
+  System<3> system("coupled", scene, number_scene(scene));
+  State state = scenario.state;
+  system.work_on(state, scenario.data);
+  system.evaluate();
+  system.linearise();
+  GatheredMatrix gathered = gather_jacobian(system.blocks());
+  gathered.update();
+  const auto x = direction_for(groups_of(system.numbering(), scenario), 5);
+  std::vector<double> y;
+  JacobianProduct<3>(system.blocks()).multiply(x, y);
+  const auto expected = product(gathered.matrix(), x);
+  EXPECT_LT(norm(difference(y, expected)), 1e-13 * norm(expected));
+
+  const auto before = state.now;
+  ASSERT_TRUE(std::isfinite(system.solve(1e-12)));
+  system.move(0.5);
+  auto moved = difference(state.now.fluid, before.fluid);
+  EXPECT_GT(norm(moved), 0);
+  scene.fluid_frames.to_frames<MixedLayout<3>>(moved);
+  for (const int node : scene.fluid_frames.nodes())
+    for (int k = 0; k < 3; ++k)
+      if (scene.velocity_conditions.fixes(node, k)) {
+        EXPECT_LT(std::abs(moved[4 * node + k]), 1e-13 * largest(moved));
+      }
 }
 
 TEST(PartitionedJacobian, OfTheFluidWithTheInterfaceVelocityPrescribed) {

@@ -206,7 +206,7 @@ TEST(BadScene, RimNotClamped) {
       verdict(file.text_41()),
       "tube.msh: wall_ends: the rim of the interface is not clamped: 4 of its nodes are not in this group, the first "
       "at (1, 1, 2); put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
-      "symmetry_z");
+      "symmetry_z, or symmetry_1 and so on");
 }
 
 TEST(BadScene, FluidInTwoPieces) {

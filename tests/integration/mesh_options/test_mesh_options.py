@@ -40,7 +40,9 @@ class MeshOptions(FolderTest):
             (("--axisymmetric", "--order", 2), {8, 9}, ends),
             (("--sector", 90, "--order", 2), {9, 11}, [*ends, "symmetry_x", "symmetry_y"]),
             (("--sector", 180), {2, 4}, [*ends, "symmetry_y"]),
+            (("--sector", 60), {2, 4}, [*ends, "symmetry_1", "symmetry_y"]),
             (("--sector", 90, "--mirrored"), {2, 4}, ends),
+            (("--sector", 60, "--mirrored", "--order", 2), {9, 11}, ends),
         ):
             with self.subTest(options=options):
                 lines, process = self.made(*FEW, *options)
@@ -75,7 +77,7 @@ class MeshOptions(FolderTest):
             (("--for", "p2p1", "--level", "fine"), "--for"),
             (("--for", "p2p1", "--error", "3"), "--error: '3' is no percentage"),
             (("--for", "p7"), "--for: there are no meshes recommended for 'p7'"),
-            (("--sector", "45"), "--sector: the planes that bound 45 degrees are not all normal to an axis"),
+            (("--sector", "50"), "--sector: 50 degrees will not do"),
             (("--sector", "90", "--axisymmetric"), "--sector"),
             (("--sector", "90", "--around", "9"), "--around: 9 cells cannot be shared by 4 sectors"),
             (("--mirrored",), "--mirrored"),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "mesh/artery_generator.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -13,6 +14,7 @@
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/renumber.hpp"
+#include "mesh/symmetry_planes.hpp"
 #include "meshes.hpp"
 #include "support/meshes.hpp"
 
@@ -220,11 +222,56 @@ TEST(MeshChecksInTwoDimensions, FindsCracksAndFoldedMeshes) {
 TEST(MeshChecksInTwoDimensions, SymmetryPlanesAreNormalToTheirAxis) {
   auto mesh = meridian_tube();
   mesh.facet_groups.push_back({"symmetry_x", *mesh.facets("symmetry_z")});
-  EXPECT_EQ(verdict(mesh, tube_needs()),
-            "mesh: symmetry_x: the edge at (1.125, 0, 3) does not lie in a plane normal to x: its nodes are 0.25 mm "
-            "apart along it; put flat faces normal to this axis only into this group, and turn the mesh if need be");
+  EXPECT_EQ(
+      verdict(mesh, tube_needs()),
+      "mesh: symmetry_x: the edge at (1.125, 0, 3) does not lie in a plane normal to x: its nodes are 0.25 mm "
+      "apart along it; put flat faces normal to this axis only into this group, and other planes into symmetry_1, "
+      "symmetry_2 and so on");
   mesh.facet_groups.back().name = "symmetry_y";
   EXPECT_EQ(verdict(mesh, tube_needs()).substr(0, 54), "mesh: symmetry_y: the mesh lies in this plane itself; ");
+}
+
+TEST(MeshChecksInTwoDimensions, PlanesOfABodyOfRevolutionAreNormalToItsAxis) {
+  auto mesh = meridian_tube();
+  for (auto& group : mesh.facet_groups)
+    if (group.name == "symmetry_z") group.name = "symmetry_1";
+  EXPECT_EQ(verdict(mesh, tube_needs()), "accepted");
+  for (auto& x : mesh.nodes)
+    if (x[2] == 3) x[2] += 0.2 * x[0];
+  EXPECT_EQ(
+      verdict(mesh, tube_needs()),
+      "mesh: symmetry_1: its sides are not normal to the axis: turned about it they are no plane; put sides of one "
+      "height only into this group");
+}
+
+TEST(SymmetryPlanes, FacetsTellTheNormal) {
+  const auto mesh = generate_artery(ArteryShape{}, ArteryCells{}, 60);
+  auto needs = tube_needs();
+  needs.layers.push_back("adventitia");
+  const auto normal_of = [&](const std::string& name) {
+    for (const auto& plane : symmetry_planes(mesh))
+      if (plane.group->name == name) return plane.normal;
+    return Point{};
+  };
+  EXPECT_EQ(symmetry_planes(mesh).size(), 2u);
+  EXPECT_EQ(normal_of("symmetry_y"), (Point{0, 1, 0}));
+  const Point normal = normal_of("symmetry_1");
+  EXPECT_NEAR(std::abs(normal[0]), std::sqrt(0.75), 1e-15);
+  EXPECT_NEAR(normal[1], -normal[0] / std::sqrt(3), 1e-15);
+  EXPECT_EQ(normal[2], 0);
+  EXPECT_EQ(verdict(mesh, needs), "accepted");
+
+  // Two planes in one group are none.
+  auto both = mesh;
+  for (auto& group : both.facet_groups)
+    if (group.name == "symmetry_1")
+      group.facets.insert(group.facets.end(), mesh.facets("symmetry_y")->begin(), mesh.facets("symmetry_y")->end());
+  const auto message = verdict(both, needs);
+  EXPECT_EQ(message.substr(0, 68), "mesh: symmetry_1: its triangles do not lie in one plane: the one at ");
+  EXPECT_NE(message.find(" mm off their mean plane; put each plane into a group of its own: symmetry_1, symmetry_2 and "
+                         "so on"),
+            std::string::npos)
+      << message;
 }
 
 TEST(MeshChecks, RefuseFoldedCurvedCells) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mesh/artery/curved_edges.hpp"
+#include "mesh/artery/sector_images.hpp"
 #include "mesh/artery_generator.hpp"
 #include "mesh/curved_cells.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -94,6 +95,41 @@ TEST(Mirror, QuadraticCellsKeepTheirEdges) {
     return nodes;
   };
   EXPECT_EQ(sorted(whole.nodes), sorted(other.nodes));
+}
+
+TEST(SectorImages, AreTheWholeTube) {
+  ArteryShape shape;
+  shape.length = 2;
+  ArteryCells cells;
+  cells.around = 24;
+  cells.axial = 3;
+  for (const int degrees : {30, 45, 60, 90}) {
+    SCOPED_TRACE(degrees);
+    const auto part = generate_artery(shape, cells, degrees);
+    const int images = 360 / degrees;
+    const char* last = degrees == 90 ? "symmetry_x" : "symmetry_1";
+    const auto whole = joined_with_sector_images(part, degrees, "symmetry_y", last);
+    EXPECT_NO_THROW(check_scene_mesh(whole, artery_needs(), "whole"));
+    EXPECT_EQ(whole.facets("symmetry_y"), nullptr);
+    EXPECT_EQ(whole.facets(last), nullptr);
+    EXPECT_EQ(whole.cells.size(), images * part.cells.size());
+    // Nodes inside a sector count once for each, those on a plane once for two, those on the axis once.
+    std::set<int> first, second;
+    for (const auto& facet : *part.facets("symmetry_y")) first.insert(facet.begin(), facet.end());
+    for (const auto& facet : *part.facets(last)) second.insert(facet.begin(), facet.end());
+    std::size_t axis = 0;
+    for (const int node : first) axis += second.count(node);
+    const std::size_t on_planes = first.size() + second.size() - 2 * axis;
+    EXPECT_EQ(axis, 4u);
+    EXPECT_EQ(whole.nodes.size(), images * (part.nodes.size() - on_planes - axis) + images / 2 * on_planes + axis);
+    for (const char* group : {"inlet", "outlet", "wall_ends", "outer"})
+      EXPECT_EQ(whole.facets(group)->size(), images * part.facets(group)->size()) << group;
+    const auto of_part = measure_quality(part), of_whole = measure_quality(whole);
+    EXPECT_NEAR(of_whole.min_eta, of_part.min_eta, 1e-12);
+    for (int r = 0; r < 3; ++r) EXPECT_NEAR(of_whole.regions[r].volume, images * of_part.regions[r].volume, 1e-11);
+    EXPECT_TRUE(std::equal(part.nodes.begin(), part.nodes.end(), whole.nodes.begin()));
+    EXPECT_TRUE(std::equal(part.cells.begin(), part.cells.end(), whole.cells.begin()));
+  }
 }
 
 TEST(Mirror, ReversedSimplexKeepsEachEdgesMiddle) {

@@ -8,6 +8,7 @@
 
 #include "algebra/block_products.hpp"
 #include "base/threads.hpp"
+#include "fem/held_components.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
 #include "support/random.hpp"
 
@@ -101,6 +102,42 @@ TEST(HarmonicExtension, IterationAndFactorisationAgree) {
 
 TEST(HarmonicExtension, AComponentWithAMatrixOfItsOwn) {
   expect_both_ways_agree(Problem(14, 2.5));
+}
+
+/// Nodes of one face have frames, turned about the last component's axis, in which one component is sought and one given.
+TEST(HarmonicExtension, FramesMixComponents) {
+  Problem problem(14, 2.5);
+  NodalFrames<3> frames;
+  const Direction<3> normal{0.8, 0.6, 0};
+  const auto held = hold<3>({normal});
+  for (int i = 0; i < 14; ++i)
+    for (int j = 0; j < 14; ++j) {
+      const int node = 14 * i + j;  // of the face where the first index is zero
+      frames.turn(node, held.axes);
+      for (int k = 0; k < 3; ++k) problem.inner[3 * node + k] = !held.held[k];
+    }
+  HarmonicExtension<3> by_factors(problem.laplacian, problem.inner, direct(), &frames),
+      by_iteration(problem.laplacian, problem.inner, iterative(), &frames);
+  auto first = problem.field, second = problem.field;
+  by_factors.solve(problem.right, first);
+  by_iteration.solve(problem.right, second);
+  EXPECT_FALSE(by_factors.iterates());
+  EXPECT_TRUE(by_iteration.iterates());
+  EXPECT_LT(by_iteration.iterations(), 30);
+  EXPECT_LT(largest_difference(first, second), 1e-10);
+  // In space: the rows of A field are the right-hand side's, but for what holds the normal component.
+  auto solution = first, right = problem.right;
+  frames.to_space<VectorLayout<3>>(solution);
+  std::vector<double> rows(solution.size());
+  multiply_components<3>(problem.laplacian, solution, rows);
+  frames.to_frames<VectorLayout<3>>(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (problem.inner[i]) {
+      EXPECT_NEAR(rows[i], right[i], 1e-12);
+    } else {
+      EXPECT_EQ(first[i], problem.field[i]);
+    }
+  }
 }
 
 TEST(HarmonicExtension, ComponentsMayBeGivenOneByOne) {

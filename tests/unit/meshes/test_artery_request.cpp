@@ -74,7 +74,7 @@ TEST(ArteryRequest, EveryNumberGoesWhereItsNameSays) {
 
 TEST(ArteryRequest, MirroredSectorsAreTheWholeTube) {
   auto request = short_request();
-  for (const int degrees : {90, 180}) {
+  for (const int degrees : {30, 45, 60, 90, 180}) {
     SCOPED_TRACE(degrees);
     request.sector = degrees;
     request.mirrored = false;
@@ -82,8 +82,7 @@ TEST(ArteryRequest, MirroredSectorsAreTheWholeTube) {
     request.mirrored = true;
     const auto whole = made<3, 1>(request);
     EXPECT_EQ(whole.cells.size(), part.cells.size() * (360 / degrees));
-    EXPECT_EQ(whole.facets("symmetry_x"), nullptr);
-    EXPECT_EQ(whole.facets("symmetry_y"), nullptr);
+    for (const char* plane : {"symmetry_x", "symmetry_y", "symmetry_1"}) EXPECT_EQ(whole.facets(plane), nullptr);
   }
 }
 
@@ -137,7 +136,7 @@ TEST(ArteryRequest, RefusesOptionsThatContradictEachOther) {
     r.axisymmetric = true;
     r.around = 12;
   });
-  expect_refused("fsi-mesh: --mirrored: there is no sector to mirror; give --sector 90 or 180",
+  expect_refused("fsi-mesh: --mirrored: there is no sector to mirror; give --sector, 90 or 180",
                  [](auto& r) { r.mirrored = true; });
   expect_refused("fsi-mesh: --adventitia-cells: the wall has no adventitia", [](auto& r) {
     r.sizes.adventitia = 0;
@@ -145,7 +144,12 @@ TEST(ArteryRequest, RefusesOptionsThatContradictEachOther) {
   });
   expect_refused("fsi-mesh: --error: belongs to --for", [](auto& r) { r.error = "3%"; });
   expect_refused("fsi-mesh: --order: there are no meshes of order 3; give 1 or 2", [](auto& r) { r.order = 3; });
-  expect_refused("fsi-mesh: --sector: the planes that bound 60 degrees", [](auto& r) { r.sector = 60; });
+  expect_refused("fsi-mesh: --mirrored: 3 sectors of 120 degrees are not each other's mirror images all the way round",
+                 [](auto& r) {
+                   r.sector = 120;
+                   r.mirrored = true;
+                 });
+  expect_refused("fsi-mesh: --sector: 100 degrees will not do", [](auto& r) { r.sector = 100; });
   expect_refused("fsi-mesh: --sector: -90 degrees will not do", [](auto& r) { r.sector = -90; });
   expect_refused("fsi-mesh: --around: 10 cells cannot be shared", [](auto& r) {
     r.sector = 90;
