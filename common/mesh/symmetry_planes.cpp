@@ -42,8 +42,8 @@ Point mean_normal(const SimplexMesh<Dim, Order>& mesh,
 }  // namespace
 
 template <int Dim, int Order>
-std::vector<SymmetryPlane<Dim, Order>> symmetry_planes(const SimplexMesh<Dim, Order>& mesh) {
-  std::vector<SymmetryPlane<Dim, Order>> planes;
+SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>& mesh) {
+  SymmetryPlanes<Dim, Order> planes;
   if (mesh.cells.empty()) return planes;
   for (const auto& group : mesh.facet_groups) {
     if (!group::is_symmetry_plane(group.name) || group.facets.empty()) continue;
@@ -55,8 +55,7 @@ std::vector<SymmetryPlane<Dim, Order>> symmetry_planes(const SimplexMesh<Dim, Or
   return planes;
 }
 
-#define INSTANTIATE(Dim, Order) \
-  template std::vector<SymmetryPlane<Dim, Order>> symmetry_planes(const SimplexMesh<Dim, Order>&);
+#define INSTANTIATE(Dim, Order) template SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 

@@ -15,10 +15,12 @@ struct SymmetryPlane {
   /// facets, components below 1e-10 taken for rounding: zero.
   Point normal;
 };
+template <int Dim, int Order>
+using SymmetryPlanes = std::vector<SymmetryPlane<Dim, Order>>;
 
 /// The planes of symmetry of a mesh: groups with such a name (group::is_symmetry_plane) and facets, in their order. They
 /// refer to the mesh. That each is flat is for check_scene_mesh() to see.
 template <int Dim, int Order>
-std::vector<SymmetryPlane<Dim, Order>> symmetry_planes(const SimplexMesh<Dim, Order>& mesh);
+SymmetryPlanes<Dim, Order> symmetry_planes(const SimplexMesh<Dim, Order>& mesh);
 
 }  // namespace fsi
