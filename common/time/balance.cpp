@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -63,6 +64,12 @@ void BalanceScheme<n>::prepare(State& state) const {
   for (auto& balance : state.balances) balance = state.now;
   state.balance_times = {state.time, state.time, state.time};
   state.wall_velocity_before = state.wall_velocity;
+}
+
+template <int n>
+double BalanceScheme<n>::last_step(const State& state, double step) {
+  const double last = state.times[0] - state.times[1];
+  return state.step == 0 || std::abs(last - step) <= 1e-9 * step ? step : last;
 }
 
 template <int n>

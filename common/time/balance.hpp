@@ -34,6 +34,9 @@ class BalanceScheme : public TimeIntegrator {
   static References level(const State& state) { return {state.before[0], state.wall_velocity}; }
 
  protected:
+  /// Length of the state's last step, ms; `step`, the next one's, where there is none or they differ by the rounding of
+  /// times alone: factors of equal steps are then equal, and a Jacobian made for them serves on.
+  static double last_step(const State& state, double step);
   /// Storage of rates at the last level, zero as at rest.
   static void prepare_rates(State& state);
   /// What else a scheme keeps of a finished step. `end` holds the new level, before[0] still the old one.

@@ -7,7 +7,7 @@ namespace fsi {
 template <int n>
 StepRates Bdf2<n>::rates_of(const State& state, double step, int stage) const {
   if (stages(state) == 2) return TrBdf2<n>::first_rates(*this, state, step, stage);
-  const double last = state.times[0] - state.times[1], q = step / last;
+  const double last = this->last_step(state, step), q = step / last;
   const double k = (1 + 2 * q) / ((1 + q) * step), square = (1 + q) * (1 + q) / (1 + 2 * q);
   const References before{state.before[1], state.wall_velocity_before};
   StepRates rates =
