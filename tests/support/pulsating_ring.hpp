@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -44,26 +45,57 @@ inline double flow_rate_change(const PulsatingRing& ring, const RingMotion& at, 
          mass;
 }
 
-/// From rest, under a pressure that is constant until `off` and zero then, by the classical Runge-Kutta method in steps
-/// of at most `step`, one of which ends at the jump.
+/// One step of the classical Runge-Kutta method.
+inline RingMotion moved_on(const PulsatingRing& ring, const RingMotion& now, double pressure, double h) {
+  const auto moved = [&](const RingMotion& slope, double by) {
+    return RingMotion{now.a + by * slope.a, now.q + by * slope.q};
+  };
+  const auto slope = [&](const RingMotion& at) {
+    return RingMotion{at.q / at.a, flow_rate_change(ring, at, pressure)};
+  };
+  const auto k1 = slope(now), k2 = slope(moved(k1, h / 2)), k3 = slope(moved(k2, h / 2)), k4 = slope(moved(k3, h));
+  return {now.a + h / 6 * (k1.a + 2 * k2.a + 2 * k3.a + k4.a), now.q + h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q)};
+}
+
+/// Goes on under a constant pressure in steps of at most `step`. Fibres of the whole wall begin to act at a = R_i, where
+/// S(a) has a kink: a step ends there.
+inline void march_on(const PulsatingRing& ring, RingMotion& now, double pressure, double time, double step) {
+  const int steps = static_cast<int>(std::ceil(time / step - 1e-9));
+  const double h = time / steps;
+  for (int i = 0; i < steps; ++i) {
+    RingMotion next = moved_on(ring, now, pressure, h);
+    if ((now.a - inner_radius) * (next.a - inner_radius) < 0) {
+      double before = 0, gap_before = now.a - inner_radius, part = h / 2;
+      for (int k = 0; k < 20; ++k) {  // secant method
+        const double gap = moved_on(ring, now, pressure, part).a - inner_radius;
+        if (gap == gap_before) break;
+        const double better = part - gap * (part - before) / (gap - gap_before);
+        before = part;
+        gap_before = gap;
+        part = better;
+      }
+      next = moved_on(ring, moved_on(ring, now, pressure, part), pressure, h - part);
+    }
+    now = next;
+  }
+}
+
+/// From rest, under a pressure that is constant until `off` and zero then, in steps of at most `step`, one of which ends
+/// at the jump.
 inline RingMotion ring_motion(const PulsatingRing& ring, double pressure, double off, double time, double step) {
   RingMotion now;
-  const auto march = [&](double from, double to, double p) {
-    const int steps = static_cast<int>(std::ceil((to - from) / step - 1e-9));
-    const double h = (to - from) / steps;
-    const auto moved = [&](const RingMotion& slope, double by) {
-      return RingMotion{now.a + by * slope.a, now.q + by * slope.q};
-    };
-    const auto slope = [&](const RingMotion& at) { return RingMotion{at.q / at.a, flow_rate_change(ring, at, p)}; };
-    for (int i = 0; i < steps; ++i) {
-      const auto k1 = slope(now), k2 = slope(moved(k1, h / 2)), k3 = slope(moved(k2, h / 2)), k4 = slope(moved(k3, h));
-      now.a += h / 6 * (k1.a + 2 * k2.a + 2 * k3.a + k4.a);
-      now.q += h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q);
-    }
-  };
-  march(0, std::min(off, time), pressure);
-  if (time > off) march(off, time, 0);
+  march_on(ring, now, pressure, std::min(off, time), step);
+  if (time > off) march_on(ring, now, 0, time - off, step);
   return now;
+}
+
+/// The fluid's pressure at the wall, kPa: what the wall feels less the viscous normal stress.
+inline double pressure_at_wall(const PulsatingRing& ring, const RingMotion& at, double pressure) {
+  const double a2 = at.a * at.a, b2 = a2 + outer_radius * outer_radius - inner_radius * inner_radius;
+  const double felt =
+      ring.static_pressure(at.a) + ring.wall_density * (flow_rate_change(ring, at, pressure) * 0.5 * std::log(b2 / a2) +
+                                                        0.5 * at.q * at.q * (1 / b2 - 1 / a2));
+  return felt - 2 * ring.viscosity * at.q / a2;
 }
 
 /// The ring as the toolkit steps it, and exact in space: backward Euler for fluid and interface, Newmark's method with

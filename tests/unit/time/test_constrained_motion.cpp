@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "marching.hpp"
@@ -50,7 +50,7 @@ struct Angle {
 Angle exact(double t) {
   Angle now;
   const auto march = [&](double length, double f) {
-    const int steps = 2000;
+    const int steps = 200;
     const double h = length / steps;
     const auto slope = [&](const Angle& at) { return Angle{at.rate, f * std::cos(at.value)}; };
     const auto moved = [&](const Angle& by, double s) {
@@ -70,57 +70,92 @@ double pressure(const Angle& at, double f) {
   return 0.5 * (f * std::sin(at.value) + at.rate * at.rate);
 }
 
-/// Errors of position, velocity and settled pressure at the end; the largest of the pressure a fifth of the time after
-/// each jump.
-std::array<double, 4> errors_of(const TimeIntegrator& scheme, int steps, bool uneven) {
+struct Errors {
+  double position, velocity, pressure;  ///< at the end, pressures settled
+  double largest_pressure;              ///< from 0.1 after each jump on
+};
+
+/// \param ends  of the steps
+Errors errors_of(const TimeIntegrator& scheme, const std::vector<double>& ends) {
   State state = started(scheme, {{}, {}, {1, 0, 0}}, 2);
-  std::array<double, 4> errors{};
-  for (double time : step_ends({0, jump, end}, steps, uneven)) {
+  Errors errors{};
+  const int level = scheme.pressures_lag() ? 1 : 0;
+  for (double time : ends) {
     march_step(scheme, state, time, force, swing);
-    const int level = scheme.pressures_lag() ? 1 : 0;
     const double then = state.times[level], since = then > jump ? then - jump : then;
-    errors[2] = std::abs(state.before[level].wall[2] - pressure(exact(then), then > jump ? -1 : 3));
-    if (since > 0.1) errors[3] = std::max(errors[3], errors[2]);
+    errors.pressure = std::abs(state.before[level].wall[2] - pressure(exact(then), then > jump ? -1 : 3));
+    if (since > 0.1) errors.largest_pressure = std::max(errors.largest_pressure, errors.pressure);
   }
   const Angle at = exact(end);
-  errors[0] = std::hypot(state.now.wall[0] - std::cos(at.value), state.now.wall[1] - std::sin(at.value));
-  errors[1] = std::hypot(state.wall_velocity[0] + at.rate * std::sin(at.value),
-                         state.wall_velocity[1] - at.rate * std::cos(at.value));
+  errors.position = std::hypot(state.now.wall[0] - std::cos(at.value), state.now.wall[1] - std::sin(at.value));
+  errors.velocity = std::hypot(state.wall_velocity[0] + at.rate * std::sin(at.value),
+                               state.wall_velocity[1] - at.rate * std::cos(at.value));
   return errors;
 }
 
-class ConstrainedMotion : public testing::TestWithParam<int> {
- protected:
-  static std::shared_ptr<const TimeIntegrator> scheme() {
-    switch (GetParam()) {
-      case 0:
-        return std::make_shared<ShiftedMidpoint<2>>(0.0);
-      case 1:
-        return std::make_shared<ShiftedMidpoint<2>>(1.0);
-      case 2:
-        return std::make_shared<Bdf2<2>>();
-      case 3:
-        return std::make_shared<TrBdf2<2>>();
-      case 4:
-        return std::make_shared<GeneralisedAlpha<2>>(0.0);
-      default:
-        return std::make_shared<GeneralisedAlpha<2>>(0.5);
-    }
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Schemes, ConstrainedMotion, testing::Range(0, 6));
+Errors orders(const Errors& coarse, const Errors& fine) {
+  return {std::log2(coarse.position / fine.position), std::log2(coarse.velocity / fine.velocity),
+          std::log2(coarse.pressure / fine.pressure), std::log2(coarse.largest_pressure / fine.largest_pressure)};
+}
+Errors orders_of(const TimeIntegrator& scheme, bool uneven) {
+  return orders(errors_of(scheme, step_ends({0, jump, end}, 60, uneven)),
+                errors_of(scheme, step_ends({0, jump, end}, 120, uneven)));
+}
 
-TEST_P(ConstrainedMotion, IsOfSecondOrderInPositionVelocityAndPressureThroughAJump) {
-  const auto integrator = scheme();
-  for (bool uneven : {false, true}) {
-    const auto coarse = errors_of(*integrator, 60, uneven), fine = errors_of(*integrator, 120, uneven);
-    const char* names[] = {"position", "velocity", "pressure", "pressure, largest"};
-    for (int i = 0; i < 4; ++i) {
-      const double order = std::log2(coarse[i] / fine[i]);
-      printf("%d %d %s %g %g %.3f\n", GetParam(), uneven, names[i], coarse[i], fine[i], order);
-      EXPECT_NEAR(order, 2, 0.2) << names[i] << (uneven ? ", unequal steps" : "");
-    }
+TEST(ConstrainedMotion, IsOfSecondOrderInPositionVelocityAndPressureThroughAJump) {
+  const std::vector<std::shared_ptr<const TimeIntegrator>> schemes = {
+      std::make_shared<ShiftedMidpoint<2>>(0.0), std::make_shared<ShiftedMidpoint<2>>(1.0), std::make_shared<Bdf2<2>>(),
+      std::make_shared<GeneralisedAlpha<2>>(0.0), std::make_shared<GeneralisedAlpha<2>>(0.5)};
+  for (std::size_t i = 0; i < schemes.size(); ++i) {
+    const Errors order = orders_of(*schemes[i], false);
+    EXPECT_NEAR(order.position, 2, 0.1) << i;
+    EXPECT_NEAR(order.velocity, 2, 0.1) << i;
+    EXPECT_NEAR(order.pressure, 2, 0.1) << i;
+    // Those of the midpoint rule alternate after a jump, by O(dt), until that has died.
+    EXPECT_NEAR(order.largest_pressure, i < 2 ? 1.2 : 2, 0.2) << i;
   }
+}
+
+// A second difference through unequal steps, as both stages of TR-BDF2 are, has accelerations of first order.
+TEST(ConstrainedMotion, PressuresOfBackwardDifferencesWithUnequalStepsAreOfFirstOrder) {
+  const std::vector<std::pair<std::shared_ptr<const TimeIntegrator>, bool>> schemes = {
+      {std::make_shared<TrBdf2<2>>(), false},
+      {std::make_shared<TrBdf2<2>>(), true},
+      {std::make_shared<Bdf2<2>>(), true},
+      {std::make_shared<GeneralisedAlpha<2>>(0.0), true}};
+  for (const auto& [scheme, uneven] : schemes) {
+    const Errors order = orders_of(*scheme, uneven);
+    EXPECT_NEAR(order.position, 2, 0.1);
+    EXPECT_NEAR(order.velocity, 2, 0.1);
+    EXPECT_NEAR(order.largest_pressure, 1, 0.1);
+  }
+}
+
+/// Steps twice as long from the middle of each half on.
+std::vector<double> longer_steps(int steps) {
+  std::vector<double> ends;
+  for (double from : {0.0, jump}) {
+    for (int i = 1; i <= steps; ++i) ends.push_back(from + 0.25 * i / steps);
+    for (int i = 1; i <= steps / 2; ++i) ends.push_back(i == steps / 2 ? from + 0.5 : from + 0.25 + 0.5 * i / steps);
+  }
+  return ends;
+}
+
+// Where balances lie inside the step, levels keep off the constraint by a multiple of dt^2. When the step changes that
+// multiple does, within a step: the pressure is wrong for a while by an amount that does not fall with the step
+// (docs/theory.md, section 8.9). It dies within some steps with generalised-alpha; with the midpoint rule it first
+// grows, until its shift takes effect.
+TEST(ConstrainedMotion, AChangeOfTheStepShakesPressuresOfBalancesInsideIt) {
+  const auto after = [](const TimeIntegrator& scheme, int steps) { return errors_of(scheme, longer_steps(steps)); };
+  const Bdf2<2> bdf2;
+  EXPECT_NEAR(orders(after(bdf2, 60), after(bdf2, 120)).largest_pressure, 1, 0.1);
+  const GeneralisedAlpha<2> alpha(0.5);
+  EXPECT_NEAR(orders(after(alpha, 60), after(alpha, 120)).largest_pressure, 0, 0.1);
+  EXPECT_NEAR(orders(after(alpha, 60), after(alpha, 120)).pressure, 2, 0.1);
+  EXPECT_NEAR(orders(after(alpha, 60), after(alpha, 120)).velocity, 2, 0.1);
+  const ShiftedMidpoint<2> midpoint(1.0);
+  EXPECT_NEAR(orders(after(midpoint, 60), after(midpoint, 120)).position, 2, 0.1);
+  EXPECT_LT(orders(after(midpoint, 60), after(midpoint, 120)).largest_pressure, 0);
 }
 
 /// What TR-BDF2 is not: the midpoint rule up to g dt and then the second backward difference.
@@ -144,16 +179,16 @@ class MidpointBdf2 : public BalanceScheme<2> {
 };
 
 // Its first stage ends off the constraint by O(dt^2), which the second one corrects within a part of the step: an
-// acceleration, and so a pressure, that does not fall with the step. Position and velocity do not show it.
-TEST(MidpointFollowedByBackwardDifferences, HasPressuresThatAreWrongAtEveryStepLength) {
-  const MidpointBdf2 scheme;
-  const auto coarse = errors_of(scheme, 60, false), fine = errors_of(scheme, 240, false);
-  printf("sdirk %g %g %g %g\n", coarse[0], coarse[1], coarse[2], coarse[3]);
-  printf("sdirk %g %g %g %g\n", fine[0], fine[1], fine[2], fine[3]);
+// acceleration, and so a pressure, that is wrong at every step length.
+TEST(ConstrainedMotion, MidpointStageBeforeBackwardDifferencesHasWrongPressuresAtEveryStepLength) {
+  const auto ends = [](int steps) { return step_ends({0, jump, end}, steps, false); };
+  const MidpointBdf2 refused;
+  const Errors coarse = errors_of(refused, ends(60)), fine = errors_of(refused, ends(240));
   const double largest = pressure(exact(jump), 3);
-  EXPECT_GT(coarse[3], 0.05 * largest);
-  EXPECT_GT(fine[3], 0.9 * coarse[3]);
-  EXPECT_LT(fine[0], coarse[0] / 12);
+  EXPECT_GT(coarse.largest_pressure, largest);
+  EXPECT_NEAR(fine.largest_pressure, coarse.largest_pressure, 0.1 * coarse.largest_pressure);
+  const Errors of_tr_bdf2 = errors_of(TrBdf2<2>(), ends(240));
+  EXPECT_LT(of_tr_bdf2.largest_pressure, 0.005 * largest);
 }
 
 }  // namespace
