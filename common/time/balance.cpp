@@ -67,6 +67,30 @@ void BalanceScheme<n>::prepare(State& state) const {
 }
 
 template <int n>
+References BalanceScheme<n>::start(const State& state, double step) const {
+  using Mixed = MixedLayout<n>;
+  References start = level(state);
+  // After three equal steps alone. Where steps change all the time levels keep no course, and shifts would make motions
+  // grow that the steps hardly resolve.
+  const auto& t = state.balance_times;
+  const double last = last_step(state, step);
+  const bool steady =
+      state.step > 2 && std::abs(t[0] - t[1] - last) <= 1e-9 * last && std::abs(t[1] - t[2] - last) <= 1e-9 * last;
+  const double shift = steady ? level_shift(state, step) : 0.0;
+  if (shift == 0) return start;
+  const double weight = shift / (last * last);
+  const auto move = [&](std::vector<double> Solution::*field, std::size_t i) {
+    const auto& balances = state.balances;
+    (start.of.*field)[i] += weight * ((balances[0].*field)[i] - 2 * (balances[1].*field)[i] + (balances[2].*field)[i]);
+  };
+  for (std::size_t i = 0; i < start.of.mesh.size(); ++i) move(&Solution::mesh, i);
+  const int nodes = static_cast<int>(start.of.wall.size()) / Mixed::entries;
+  for (int node = 0; node < nodes; ++node)
+    for (int c = 0; c < n; ++c) move(&Solution::wall, Mixed::vector(node, c));
+  return start;
+}
+
+template <int n>
 double BalanceScheme<n>::last_step(const State& state, double step) {
   const double last = state.times[0] - state.times[1];
   return state.step == 0 || std::abs(last - step) <= 1e-9 * step ? step : last;
@@ -159,8 +183,9 @@ void BalanceScheme<n>::accept(State& state, const StepData& data) const {
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   const StepRates& rates = data.rates;
+  const Solution from = start(state, rates.step).of;
   Solution end;
-  for_each_field([&](auto field) { end.*field = carried(state.before[0].*field, state.now.*field, rates.carry); });
+  for_each_field([&](auto field) { end.*field = carried(from.*field, state.now.*field, rates.carry); });
   std::vector<double> end_velocity(state.wall_velocity.size());
   const int nodes = static_cast<int>(end_velocity.size()) / n;
   for (int node = 0; node < nodes; ++node)
@@ -196,7 +221,7 @@ void BalanceScheme<n>::accept(State& state, const StepData& data) const {
       state.wall_acceleration[i] =
           rates.acceleration_factor * state.now.wall[Mixed::vector(node, c)] + rates.acceleration_history[i];
     }
-  keep(state, data, end, end_velocity);
+  keep(state, data, from, end, end_velocity);
   state.now = std::move(end);
   state.wall_velocity_before = std::move(state.wall_velocity);
   state.wall_velocity = std::move(end_velocity);

@@ -32,6 +32,9 @@ class BalanceScheme : public TimeIntegrator {
   StepRates rates_from(double step, double k, References references, const Solution& pressures) const;
   /// The finished level as references.
   static References level(const State& state) { return {state.before[0], state.wall_velocity}; }
+  /// The level that a step of length `step` (ms) starts from, as references: the finished one; where the step changes after
+  /// equal ones, its displacements moved by level_shift times their second derivative, that of the last three balances.
+  References start(const State& state, double step) const;
 
  protected:
   /// Length of the state's last step, ms; `step`, the next one's, where there is none or they differ by the rounding of
@@ -39,9 +42,13 @@ class BalanceScheme : public TimeIntegrator {
   static double last_step(const State& state, double step);
   /// Storage of rates at the last level, zero as at rest.
   static void prepare_rates(State& state);
-  /// What else a scheme keeps of a finished step. `end` holds the new level, before[0] still the old one.
-  virtual void keep(State&, const StepData&, const Solution& /*end*/,
+  /// What else a scheme keeps of a finished step, from the level `start` to the level `end`.
+  virtual void keep(State&, const StepData&, const Solution& /*start*/, const Solution& /*end*/,
                     const std::vector<double>& /*end_velocity*/) const {}
+  /// ms^2. Displacements at levels are not those of balances but lie off their course by -theta (1 - theta) dt^2 / 2 times
+  /// its second derivative: what belongs to another step than the last one's has to change when the step does, or the
+  /// next balances would correct it with pressures that are wrong at every step length (docs/theory.md, section 8.9).
+  virtual double level_shift(const State&, double /*step*/) const { return 0; }
 
  private:
   static void push(State& state, Solution balance, double time);

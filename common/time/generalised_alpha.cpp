@@ -27,7 +27,7 @@ StepRates GeneralisedAlpha<n>::rates_of(const State& state, double step, int) co
   const auto [a_m, g] = weights(state, step);
   const double k = a_m / (a_f_ * g * step), kept = 1 - a_m / g;
   const References rate{state.rate, state.velocity_rate};
-  StepRates rates = this->rates_from(step, k, combine(1, this->level(state), -kept / k, rate), state.balances[0]);
+  StepRates rates = this->rates_from(step, k, combine(1, this->start(state, step), -kept / k, rate), state.balances[0]);
   rates.start = state.time;
   rates.end = state.time + step;
   rates.carry = a_f_;
@@ -38,7 +38,13 @@ StepRates GeneralisedAlpha<n>::rates_of(const State& state, double step, int) co
 }
 
 template <int n>
-void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solution& end,
+double GeneralisedAlpha<n>::level_shift(const State& state, double step) const {
+  const double last = this->last_step(state, step);
+  return -0.5 * a_f_ * (1 - a_f_) * (step * step - last * last);
+}
+
+template <int n>
+void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solution& start, const Solution& end,
                                const std::vector<double>& end_velocity) const {
   const double step = data.rates.step;
   const Weights weight = weights(state, step);
@@ -49,9 +55,9 @@ void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solutio
   const auto follow = [&](std::vector<double>& rate, const std::vector<double>& y, const std::vector<double>& old) {
     for (std::size_t i = 0; i < rate.size(); ++i) rate[i] = (y[i] - old[i]) / (g * step) - (1 - g) / g * rate[i];
   };
-  follow(state.rate.mesh, end.mesh, state.before[0].mesh);
-  follow(state.rate.fluid, end.fluid, state.before[0].fluid);
-  follow(state.rate.wall, end.wall, state.before[0].wall);
+  follow(state.rate.mesh, end.mesh, start.mesh);
+  follow(state.rate.fluid, end.fluid, start.fluid);
+  follow(state.rate.wall, end.wall, start.wall);
   follow(state.velocity_rate, end_velocity, state.wall_velocity);
   for (std::size_t i = 0; i < loads.size(); ++i)
     state.load_rates[i] = (loads[i] - (1 - a_m) * state.load_rates[i]) / a_m;

@@ -25,7 +25,8 @@ class GeneralisedAlpha : public BalanceScheme<n> {
 
  private:
   StepRates rates_of(const State& state, double step, int stage) const override;
-  void keep(State& state, const StepData& data, const Solution& end,
+  double level_shift(const State& state, double step) const override;
+  void keep(State& state, const StepData& data, const Solution& start, const Solution& end,
             const std::vector<double>& end_velocity) const override;
 
   struct Weights {

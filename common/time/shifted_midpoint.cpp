@@ -13,14 +13,26 @@ std::string ShiftedMidpoint<n>::about() const {
 
 template <int n>
 StepRates ShiftedMidpoint<n>::rates_of(const State& state, double step, int) const {
-  const double theta = std::min(1.0, 0.5 + damping_ * step);
-  StepRates rates = this->rates_from(step, 1 / (theta * step), this->level(state), state.balances[0]);
+  const double theta = theta_of(step);
+  StepRates rates = this->rates_from(step, 1 / (theta * step), this->start(state, step), state.balances[0]);
   rates.start = state.time;
   rates.end = state.time + step;
   rates.time = theta < 1 ? state.time + theta * step : rates.end;
   rates.carry = theta;
   rates.load = {{rates.start, rates.end, 1}};
   return rates;
+}
+
+template <int n>
+double ShiftedMidpoint<n>::theta_of(double step) const {
+  return std::min(1.0, 0.5 + damping_ * step);
+}
+
+template <int n>
+double ShiftedMidpoint<n>::level_shift(const State& state, double step) const {
+  if (damping_ == 0) return 0;  // what a shift leaves behind would not die, and no energy should come or go
+  const auto of = [&](double length) { return -0.5 * theta_of(length) * (1 - theta_of(length)) * length * length; };
+  return of(step) - of(this->last_step(state, step));
 }
 
 template class ShiftedMidpoint<1>;

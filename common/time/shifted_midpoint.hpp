@@ -17,6 +17,8 @@ class ShiftedMidpoint : public BalanceScheme<n> {
 
  private:
   StepRates rates_of(const State& state, double step, int stage) const override;
+  double level_shift(const State& state, double step) const override;
+  double theta_of(double step) const;
 
   double damping_;
 };

@@ -59,7 +59,8 @@ StepRates TrBdf2<n>::rates_of(const State& state, double step, int stage) const 
 }
 
 template <int n>
-void TrBdf2<n>::keep(State& state, const StepData& data, const Solution&, const std::vector<double>&) const {
+void TrBdf2<n>::keep(State& state, const StepData& data, const Solution&, const Solution&,
+                     const std::vector<double>&) const {
   const StepRates& rates = data.rates;
   const auto differenced = [](double k, const std::vector<double>& y, const std::vector<double>& r) {
     std::vector<double> rate(y.size());

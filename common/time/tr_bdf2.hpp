@@ -23,7 +23,7 @@ class TrBdf2 : public BalanceScheme<n> {
 
  private:
   StepRates rates_of(const State& state, double step, int stage) const override;
-  void keep(State& state, const StepData& data, const Solution& end,
+  void keep(State& state, const StepData& data, const Solution& start, const Solution& end,
             const std::vector<double>& end_velocity) const override;
 };
 

@@ -1,6 +1,7 @@
 // Observed order of the time schemes on fixed meshes: backward Euler for the fluid, Newmark with beta = gamma = 1 for
-// the wall, and the schemes of second order. tau of the fluid's stabilisation depends on the step; for steps so short that 2/dt prevails in it, the
-// solution on a given mesh goes on changing with the step. The fluids here are viscous enough to keep clear of that.
+// the wall, and the schemes of second order. tau of the fluid's stabilisation depends on the step; for steps so short
+// that 2/dt prevails in it, the solution on a given mesh goes on changing with the step. The fluids here are viscous
+// enough to keep clear of that, or their elements have no tau.
 
 #include <gtest/gtest.h>
 
@@ -136,9 +137,9 @@ INSTANTIATE_TEST_SUITE_P(TimeConvergence, SecondOrder,
                                          TimeScheme::generalised_alpha),
                          name_of);
 
-// A smooth pulse at the inlet of a short tube of Taylor-Hood elements: one with jumps, and fibres that begin to act, would move the stiffest modes of
-// the mesh, which no step here resolves (jumps: test_ring_in_time.cpp). One step more is taken, so that pressures at the
-// time looked at are settled.
+// A smooth pulse at the inlet of a short tube of Taylor-Hood elements: jumps, and fibres that begin to act, would move
+// the stiffest modes of the mesh, which no step here resolves (for both: test_ring_in_time.cpp). One step more is taken,
+// so that pressures at the time looked at are settled.
 TEST_P(SecondOrder, CoupledMotionInEveryField) {
   Case setup = coupled_case("mooney-rivlin");
   setup.fluid->viscosity = 0.5;
