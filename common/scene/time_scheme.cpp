@@ -18,8 +18,8 @@ namespace fsi {
 
 namespace {
 
-/// Of the scene's frequency. On the artery of docs/results.md it makes 0.4/ms, found best there by trial.
-constexpr double share = 0.5;
+/// Of the scene's frequency: what the artery's wave tolerates best (docs/theory.md, section 8.5), 0.2/ms there.
+constexpr double share = 0.25;
 
 /// Largest distance of the wall's nodes from the axis of its fibres' frame, mm.
 template <int n>
