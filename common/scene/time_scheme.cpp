@@ -51,6 +51,17 @@ double radius_of_fluid(const Case& setup, const Fluid<n>& fluid) {
   return setup.geometry == Geometry::axisymmetric ? smallest : smallest / 2;
 }
 
+/// Shortest time between two jumps of the load, the start counted among them, ms; infinite when there is no jump.
+double shortest_pulse(const Case& setup) {
+  double shortest = std::numeric_limits<double>::infinity(), last = 0;
+  if (setup.inlet)
+    for (double jump : setup.inlet->jumps()) {
+      if (jump > last) shortest = std::min(shortest, jump - last);
+      last = jump;
+    }
+  return shortest;
+}
+
 }  // namespace
 
 template <int n>
@@ -68,7 +79,8 @@ double midpoint_damping(const Case& setup, const Scene<n>& scene) {
     return share * std::sqrt(stiffness / volume / scene.wall->constants().density) / radius_of_wall(setup, *scene.wall);
   }
   const AleFluid& form = scene.fluid->form();
-  return form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, *scene.fluid), 2);
+  const double decay = form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, *scene.fluid), 2);
+  return std::max(decay, share / shortest_pulse(setup));
 }
 
 template <int n>

@@ -11,7 +11,9 @@ namespace fsi {
 /// a scene in other units has the same answer.
 ///   fluid and wall:  c_w / R, the wave speed (wave_speed.hpp) over the radius 2 V_f / A,
 ///   wall alone:      sqrt(E / ((1 - nu^2) rho_s)) / R, R the largest distance from its axis,
-///   fluid alone:     nu (2.405 / R)^2, the decay of the slowest flow in a pipe, R half its smallest extent.
+///   fluid alone:     the larger of nu (2.405 / R)^2, the decay of the slowest flow in a pipe, R half its smallest extent,
+///                    and a quarter over the shortest time between jumps of the load: without waves only these make
+///                    stabilised velocities alternate.
 template <int n>
 double midpoint_damping(const Case& setup, const Scene<n>& scene);
 

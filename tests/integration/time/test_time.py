@@ -19,7 +19,8 @@ class TimeAxis(FolderTest):
 
     def test_end_is_hit(self):
         for step, end, count in ((0.1, "0.3", 3), (0.125, "0.375", 3), (0.07, "0.49", 7)):  # 3 * 0.1 > 0.3 in doubles
-            folder = self.march(end, f"time.step={step}", f"time.end={end}", "output.every=1")
+            pulse = f"inlet.until={2 * step}"  # steps end where the load jumps
+            folder = self.march(end, f"time.step={step}", f"time.end={end}", pulse, "output.every=1")
             self.assertEqual((len(times(folder)), times(folder)[-1]), (count, end))
             for name in ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv"):
                 self.assertEqual(table(folder, name)[-1, 0], float(end))
