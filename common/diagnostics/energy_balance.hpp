@@ -1,34 +1,44 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/scene.hpp"
-#include "time/loads.hpp"
 
 namespace fsi {
 
-/// Follows the energy of a scene from step to step (docs/energy.md). Reads states only: it can change no solution. What
-/// it keeps of the last step it can make again of a restored state, bit for bit.
+/// Follows the energy of a scene from step to step (docs/energy.md). Reads states and balances only: it can change no
+/// solution. What it keeps of the last step it can make again of a restored state, bit for bit.
 template <int n>
 class EnergyBalance {
  public:
   /// \param state  the one that the next step starts from
-  EnergyBalance(const Scene<n>& scene, const Loads& loads, const State& state)
-      : scene_(scene), loads_(loads), acceleration_(state.wall_acceleration) {
-    energy_ = terms(state).energy();
+  EnergyBalance(const Scene<n>& scene, const State& state) : scene_(scene) {
     parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic()};
+    keep(state);
+    energy_ = energies(state).energy();
   }
 
   const EnergyParts& parts() const { return parts_; }
 
-  /// The balance of the step that led to `state`, the successor of the last one seen.
-  EnergyRecord step_to(const State& state) {
-    EnergyRecord record = terms(state);
+  /// The balance of energy of the step that led to `state`, the successor of the last one seen.
+  /// \param balances  that the step solved, in their order (StepReport::balances)
+  EnergyRecord step_to(const State& state, const std::vector<Balance>& balances) {
+    EnergyRecord record = energies(state);
+    const StepRates& first = balances.front().data.rates;
+    if (first.previous_weight != 0) add(state, again_.value(), first.previous_weight, first.step, nullptr, record);
+    const std::vector<double>* wall_before = &wall_before_;
+    for (const Balance& balance : balances) {
+      const StepRates& rates = balance.data.rates;
+      add(state, balance, rates.weight, rates.step, wall_before, record);
+      wall_before = &balance.at.wall;
+    }
+    if (quadratic()) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
     record.remainder = record.supply() - (record.energy() - energy_) - record.viscous - record.numerical();
     energy_ = record.energy();
-    acceleration_ = state.wall_acceleration;
+    keep(state);
     return record;
   }
 
@@ -40,72 +50,102 @@ class EnergyBalance {
     return false;
   }
 
-  // One function for every use, never inlined: on restart it must give the bits that the run would have had.
-  [[gnu::noinline]] EnergyRecord terms(const State& state) const {
-    const Solution &now = state.before[0], &old = state.before[1];
+  /// What the next step will need of the state that it starts from.
+  void keep(const State& state) {
+    wall_before_ = state.last_balance().wall;
+    wall_velocity_ = state.wall_velocity;
+    again_ = scene_.integrator->balance_again(state);
+  }
+
+  /// Energies of the last level, with pressures of the last balance.
+  EnergyRecord energies(const State& state) const {
     EnergyRecord record;
-    const double step = state.step > 0 ? loads_.step_length(state.step) : loads_.step_length(1);
-    if (scene_.fluid) {
-      const double rate = 1.0 / step;
-      FluidInput in;
-      in.step = step;
-      in.fluid = now.fluid.data();
-      in.fluid_reference = old.fluid.data();
-      in.fluid_factor = rate;
-      if (scene_.coupled()) {
-        in.mesh = now.mesh.data();
-        in.mesh_reference = old.mesh.data();
-        in.mesh_factor = rate;
-      }
-      const FluidEnergy fluid = scene_.fluid->energy(in);
-      record.fluid_kinetic = fluid.kinetic;
-      record.viscous = fluid.viscous;
-      record.fluid_inertia = fluid.inertia;
-      record.fluid_mesh_motion = fluid.mesh_motion;
-      record.fluid_divergence = fluid.divergence;
-      record.fluid_stabilisation = fluid.stabilisation;
-      const auto pressures = loads_.opening_pressures(state.step);
-      const auto& open = scene_.fluid->open_boundaries();
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        const double kinetic = step * scene_.fluid->kinetic_outflow(open[i], now.fluid);
-        if (open[i].name() == group::inlet)
-          record.inlet_kinetic -= kinetic;
-        else
-          record.outlet_kinetic += kinetic;
-        if (i < pressures.size() && pressures[i] != 0)
-          record.inlet_work -= step * pressures[i] * open[i].outflow(now.fluid);
-      }
-      if (quadratic()) record.fluid_quadrature = fluid.convection - (record.outlet_kinetic - record.inlet_kinetic);
-    }
+    const Solution& level = state.before[0];
+    if (scene_.fluid) record.fluid_kinetic = scene_.fluid->kinetic_energy(level.mesh, level.fluid);
     if (scene_.wall) {
-      WallStep in;
-      in.wall = now.wall.data();
-      in.wall_old = old.wall.data();
-      if (!scene_.is_static()) {
-        in.velocity = state.wall_velocity.data();
-        in.acceleration = state.wall_acceleration.data();
-        in.acceleration_old = acceleration_.data();
-        in.step = step;
-        in.beta = scene_.integrator->newmark().beta;
-        in.gamma = scene_.integrator->newmark().gamma;
-      }
-      const WallEnergy wall = scene_.wall->energy(in);
+      const WallEnergy wall = scene_.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall);
       record.wall_kinetic = wall.kinetic;
       record.wall_isochoric = wall.isochoric;
       record.wall_volumetric = wall.volumetric;
-      record.wall_inertia = wall.inertia;
-      record.wall_stress = wall.stress;
-      record.wall_stabilisation = wall.stabilisation;
-      record.load_work = scene_.wall->pressure_work(loads_.wall_pressure(state.step), old.wall, now.wall);
     }
     return record;
   }
 
+  /// Adds what a balance of the step to `state` does.
+  /// \param step         ms, of the step; 0 in statics
+  /// \param wall_before  the wall at the balance before; null for a balance that counts a second time
+  void add(const State& state, const Balance& balance, double weight, double step,
+           const std::vector<double>* wall_before, EnergyRecord& record) const {
+    if (scene_.fluid) add_fluid(state, balance, weight, step, record);
+    if (scene_.wall) add_wall(state, balance, weight, step, wall_before, record);
+  }
+
+  void add_fluid(const State& state, const Balance& balance, double weight, double step, EnergyRecord& record) const {
+    const StepRates& rates = balance.data.rates;
+    const Solution &start = state.before[1], &end = state.before[0];
+    FluidStep in;
+    in.balance = scene_.fluid_input(balance.at, rates);
+    in.weight = weight;
+    in.duration = weight * step;
+    in.fluid_start = start.fluid.data();
+    in.fluid_end = end.fluid.data();
+    if (scene_.coupled()) {
+      in.mesh_start = start.mesh.data();
+      in.mesh_end = end.mesh.data();
+    }
+    const FluidWork work = scene_.fluid->work(in);
+    record.viscous += work.viscous;
+    record.fluid_inertia += work.inertia;
+    record.fluid_mesh_motion += work.mesh_motion;
+    record.fluid_divergence += work.divergence;
+    record.fluid_stabilisation += work.stabilisation;
+    if (quadratic()) record.fluid_quadrature += work.convection;
+    const auto& open = scene_.fluid->open_boundaries();
+    const auto& pressures = balance.data.opening_pressures;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const double kinetic = in.duration * scene_.fluid->kinetic_outflow(open[i], balance.at.fluid);
+      if (open[i].name() == group::inlet)
+        record.inlet_kinetic -= kinetic;
+      else
+        record.outlet_kinetic += kinetic;
+      if (i < pressures.size() && pressures[i] != 0)
+        record.inlet_work -= in.duration * pressures[i] * open[i].outflow(balance.at.fluid);
+    }
+  }
+
+  void add_wall(const State& state, const Balance& balance, double weight, double step,
+                const std::vector<double>* wall_before, EnergyRecord& record) const {
+    const StepRates& rates = balance.data.rates;
+    const Solution &start = state.before[1], &end = state.before[0];
+    // Without time the way of the step stands for a velocity.
+    const std::vector<double>& reference = rates.is_static() ? start.wall : rates.wall_reference;
+    WallStep in;
+    in.balance = scene_.wall_input(balance.at, rates);
+    in.reference = reference.data();
+    in.weight = weight;
+    in.start = start.wall.data();
+    in.end = end.wall.data();
+    if (!rates.is_static()) {
+      in.rate = rates.interface.rate();
+      in.duration = weight * step;
+      in.velocity_start = wall_velocity_.data();
+      in.velocity_end = state.wall_velocity.data();
+    }
+    if (wall_before) in.wall_before = wall_before->data();
+    const WallWork work = scene_.wall->work(in);
+    record.wall_inertia += work.inertia;
+    record.wall_stress += work.stress;
+    record.wall_stabilisation += work.stabilisation;
+    record.load_work +=
+        in.duration * in.rate * scene_.wall->pressure_work(balance.data.wall_pressure, reference, balance.at.wall);
+  }
+
   const Scene<n>& scene_;
-  const Loads& loads_;
   EnergyParts parts_;
-  double energy_ = 0;                 ///< at the last step's end
-  std::vector<double> acceleration_;  ///< of the wall at the last step's end
+  double energy_ = 0;                  ///< at the last step's end
+  std::vector<double> wall_before_;    ///< at the last balance
+  std::vector<double> wall_velocity_;  ///< at the last step's end
+  std::optional<Balance> again_;       ///< the last balance, if the next step counts it again
 };
 
 }  // namespace fsi

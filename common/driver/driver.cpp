@@ -92,9 +92,10 @@ class Run {
     if (restarted) recall();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
-    if (setup_.output.energy && !state_.has_balances()) {
+    if (setup_.output.energy) {
       const auto phase = scene_->profile.phase("energy balance");
-      tables.energy = energy_.emplace(*scene_, loads_, state_).parts();
+      tables.energy = energy_.emplace(*scene_, state_).parts();
+      stepper_->keep_balances(true);
     }
     ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
                                     : ResultFolder(line_.output, tables);
@@ -168,7 +169,7 @@ class Run {
     total_.linear_iterations += record.linear_iterations;
     if (energy_) {
       const auto phase = scene_->profile.phase("energy balance");
-      folder.write_energy(record, energy_->step_to(state_));
+      folder.write_energy(record, energy_->step_to(state_, report.balances));
     }
     {
       const auto phase = scene_->profile.phase("output");

@@ -46,7 +46,9 @@ class Fluid {
   /// The derivatives last assembled. Storage appears with the first request.
   virtual FluidJacobian<n>& jacobian(FluidDerivatives derivatives) = 0;
 
-  virtual FluidEnergy energy(const FluidInput& in) const = 0;
+  /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p).
+  virtual double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const = 0;
+  virtual FluidWork work(FluidStep step) const = 0;
   /// Kinetic energy that flows out through an open boundary, uJ/ms, for flow arrays (u, p).
   double kinetic_outflow(const OpenBoundary<n>& open, const std::vector<double>& flow) const {
     return form().density * open.kinetic_outflow(nodes().nodes, flow);

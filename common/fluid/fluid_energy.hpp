@@ -9,68 +9,91 @@ namespace fsi {
 namespace detail {
 
 template <class Element>
-struct PreparedEnergy {
+struct PreparedWork {
   AleFluid::Prepared<MetricOf<Element>, Pack, Pack> form;
-  Pack volume_step;  ///< J_1 - J_0
-  Pack defect;       ///< D - (J_1 - J_0), D = dt J div w
+  Pack since_start;      ///< J - J_0
+  Pack to_end;           ///< J_1 - J
+  Pack mesh_divergence;  ///< D = W cof F : grad w
 };
 
 }  // namespace detail
 
-/// \param in  of a step by backward Euler, whose references are the last level
+/// (rho/2 J, |u|^2) in uJ, of a level in the layouts of FluidInput. \param mesh  null where the domain is rigid
 template <class Element>
-FluidEnergy fluid_energy(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in) {
+double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& packs, const double* mesh,
+                            const double* fluid) {
+  constexpr int n = Element::components;
+  const auto integrals = [&](const auto& pack, int, std::size_t) {
+    NodalVector<Element> d{}, u{};
+    gather<MixedLayout<n>>(u, pack, fluid);
+    if (mesh) gather<VectorLayout<n>>(d, pack, mesh);
+    return pack_integrals<Element, 1>(
+        pack.geometry, [&](const auto& g) { return volume_change(gradient_of(d, g)) + 1.0; },
+        [&](const Pack& volume_ratio, const auto& g, int) {
+          const Vec3<Pack> velocity = value_of(u, g);
+          return std::array<Pack, 1>{Pack(0.5 * form.density) * volume_ratio * dot(velocity, velocity)};
+        });
+  };
+  return sum_over_elements<1>(packs, integrals)[0];
+}
+
+/// Of one balance of a step.
+template <class Element>
+FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const FluidStep& step) {
   constexpr int n = Element::components;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
+  const FluidInput& in = step.balance;
   form.step = in.step;
+  const Pack duration(step.duration), weight(step.weight);
   const auto integrals = [&](const auto& pack, int, std::size_t) {
-    NodalVector<Element> d{}, d_old{}, u{}, u_old{}, rate, convection, projected{};
-    NodalScalar<Element> p{};
-    gather<Mixed>(u, pack, in.fluid);
-    gather<Mixed>(u_old, pack, in.fluid_reference);
-    gather<Mixed>(p, pack, in.fluid);
-    if (in.projected_gradient) gather<Vector>(projected, pack, in.projected_gradient);
+    NodalVector<Element> d_start{}, d_end{}, u_start{}, u_end{};
+    detail::FluidPack<Element> at;
     if (in.mesh) {
-      gather<Vector>(d, pack, in.mesh);
-      gather<Vector>(d_old, pack, in.mesh_reference);
+      at.template gather_from<true>(in, pack);
+      gather<Vector>(d_start, pack, step.mesh_start);
+      gather<Vector>(d_end, pack, step.mesh_end);
+    } else {
+      at.template gather_from<false>(in, pack);
     }
-    for (int a = 0; a < Element::nodes; ++a)
-      for (int k = 0; k < n; ++k) {
-        rate.at[a][k] = Pack(in.fluid_factor) * (u.at[a][k] - u_old.at[a][k]);
-        convection.at[a][k] = u.at[a][k] - Pack(in.mesh_factor) * (d.at[a][k] - d_old.at[a][k]);
-      }
-    return pack_integrals<Element, 7>(
+    gather<Mixed>(u_start, pack, step.fluid_start);
+    gather<Mixed>(u_end, pack, step.fluid_end);
+    return pack_integrals<Element, 6>(
         pack.geometry,
         [&](const auto& g) {
-          detail::PreparedEnergy<Element> k;
-          const Mat3<Pack> h = gradient_of(d, g), h_old = gradient_of(d_old, g);
-          k.form = form.prepare(h, gradient_of(u, g), gradient_of(p, g), pack.geometry.metric);
-          k.volume_step = volume_change(h) - volume_change(h_old);
-          k.defect = contract(k.form.cofactor_gradient, h - h_old) - k.volume_step;
+          detail::PreparedWork<Element> k;
+          const Mat3<Pack> h = gradient_of(at.d, g);
+          k.form = form.prepare(h, gradient_of(at.u, g), gradient_of(at.p, g), pack.geometry.metric);
+          const Pack change = volume_change(h);
+          k.since_start = change - volume_change(gradient_of(d_start, g));
+          k.to_end = volume_change(gradient_of(d_end, g)) - change;
+          k.mesh_divergence =
+              duration * Pack(in.mesh_factor) * contract(k.form.cofactor_gradient, h - gradient_of(at.d_reference, g));
           return k;
         },
-        [&](const detail::PreparedEnergy<Element>& k, const auto& g, int) {
-          const Vec3<Pack> now = value_of(u, g), old = value_of(u_old, g), step = now - old;
-          const Vec3<Pack> c = value_of(convection, g);
-          const auto power = form.power(k.form, value_of(rate, g), c, value_of(projected, g));
-          const Pack half_density(0.5 * form.density), square = dot(now, now);
+        [&](const detail::PreparedWork<Element>& k, const auto& g, int) {
+          const Vec3<Pack> u = value_of(at.u, g), u0 = value_of(u_start, g), u1 = value_of(u_end, g);
+          const Vec3<Pack> rate = value_of(at.rate, g), c = value_of(at.convection, g);
+          const auto power = form.power(k.form, rate, c, value_of(at.projected, g));
+          const Pack half_density(0.5 * form.density), square = dot(u, u);
           const Pack volume = half_density * k.form.volume_ratio;
-          const Pack divergence = Pack(form.step) * volume * k.form.divergence * square;
-          const Pack mesh_divergence = half_density * (k.defect + k.volume_step) * square;
-          return std::array<Pack, 7>{
-              volume * square,
-              Pack(form.step) * power.viscous,
-              Pack(form.step) * power.stabilisation,
-              volume * dot(step, step),
-              half_density * (k.defect * square + k.volume_step * (square - dot(old, old))),
+          const Pack divergence = duration * volume * k.form.divergence * square;
+          const Pack mesh_divergence = half_density * k.mesh_divergence * square;
+          // Differences first: W du/dt . u - omega (|u_1|^2 - |u_0|^2) / 2 free of cancellation
+          const Vec3<Pack> change = weight * (u1 - u0);
+          const Pack inertia = Pack(2.0) * dot(duration * rate - change, u) + dot(change, (u - u0) - (u1 - u));
+          return std::array<Pack, 6>{
+              duration * power.viscous,
+              duration * power.stabilisation,
+              volume * inertia,
+              mesh_divergence - half_density * weight * (k.to_end * dot(u1, u1) + k.since_start * dot(u0, u0)),
               -divergence,
-              Pack(2 * form.step) * volume * dot(k.form.velocity_gradient * c, now) + divergence - mesh_divergence,
+              Pack(2.0) * duration * volume * dot(k.form.velocity_gradient * c, u) + divergence - mesh_divergence,
           };
         });
   };
-  const auto sums = sum_over_elements<7>(packs, integrals);
-  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
+  const auto sums = sum_over_elements<6>(packs, integrals);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
 }
 
 }  // namespace fsi

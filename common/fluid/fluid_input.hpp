@@ -32,19 +32,41 @@ struct FluidJacobian {
 /// Which derivatives an element loop is asked for.
 enum class FluidDerivatives { none, fluid, fluid_and_domain };
 
-/// Energy of the fluid at the end of a step, and what the step's discrete equations, tested with (u, -p), do besides
-/// changing it (docs/energy.md); all in uJ = mm^3 kPa. With the step's ends 0 and 1, D = cof F_1 : grad(d_1 - d_0):
-///   dt (rho J (du/dt + grad u F^-1 c), u) = kinetic_1 - kinetic_0 + inertia + mesh_motion + divergence + outflow,
+/// One balance of a step: where its equations hold, with what weight, and the levels between which the step leads.
+struct FluidStep {
+  FluidInput balance;
+  double duration = 0;                 ///< ms, of the balance in the step: its weight times the step
+  double weight = 1;                   ///< those of a step add up to one
+  const double* mesh_start = nullptr;  ///< levels, as in FluidInput; null where the domain is rigid
+  const double* mesh_end = nullptr;
+  const double* fluid_start = nullptr;
+  const double* fluid_end = nullptr;
+};
+
+/// What the discrete equations of one balance, tested with its (u, -p) for its duration W, do besides changing the kinetic
+/// energy (docs/energy.md); all in uJ = mm^3 kPa. With levels 0 and 1, values without index those of the balance, weight
+/// omega and D = W cof F : grad w, summed over the balances of a step
+///   W (rho J (du/dt + grad u F^-1 c), u) = kinetic_1 - kinetic_0 + inertia + mesh_motion + divergence + outflow,
 /// where outflow is that of rho/2 |u|^2 through the open faces and the integration rule makes `convection` equal to it:
 /// for linear elements. Otherwise convection takes the outflow's place.
-struct FluidEnergy {
-  double kinetic = 0;        ///< (rho/2 J, |u|^2) at the end
-  double viscous = 0;        ///< dt (mu J (grad u F^-1 + ...^T), grad u F^-1)
-  double stabilisation = 0;  ///< dt times the power of the SUPG, PSPG and grad-div terms
-  double inertia = 0;        ///< (rho/2 J, |u_1 - u_0|^2): backward Euler
-  double mesh_motion = 0;    ///< rho/2 ((D, |u_1|^2) - (J_1 - J_0, |u_0|^2)): the domain's motion is not conserved
-  double divergence = 0;     ///< -dt rho/2 (J div u, |u|^2): convection in convective form
-  double convection = 0;     ///< dt rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
+struct FluidWork {
+  double viscous = 0;        ///< W (mu J (grad u F^-1 + ...^T), grad u F^-1)
+  double stabilisation = 0;  ///< W times the power of the SUPG, PSPG and grad-div terms
+  double inertia = 0;        ///< rho (W J du/dt, u) - omega rho/2 (J, |u_1|^2 - |u_0|^2): the scheme in time
+  /// rho/2 (D, |u|^2) + omega rho/2 [(J - J_1, |u_1|^2) - (J - J_0, |u_0|^2)]: the domain's motion is not conserved
+  double mesh_motion = 0;
+  double divergence = 0;  ///< -W rho/2 (J div u, |u|^2): convection in convective form
+  double convection = 0;  ///< W rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
+
+  FluidWork& operator+=(const FluidWork& b) {
+    viscous += b.viscous;
+    stabilisation += b.stabilisation;
+    inertia += b.inertia;
+    mesh_motion += b.mesh_motion;
+    divergence += b.divergence;
+    convection += b.convection;
+    return *this;
+  }
 };
 
 }  // namespace fsi

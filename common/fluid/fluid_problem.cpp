@@ -42,9 +42,15 @@ auto FluidProblem<Element>::jacobian(FluidDerivatives derivatives) -> FluidJacob
 }
 
 template <class Element>
-FluidEnergy FluidProblem<Element>::energy(const FluidInput& in) const {
+double FluidProblem<Element>::kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const {
+  return fluid_kinetic_energy(form_, packs_, mesh.empty() ? nullptr : mesh.data(), flow.data());
+}
+
+template <class Element>
+FluidWork FluidProblem<Element>::work(FluidStep step) const {
   PressureProjection<Element> projection(mirrored_);
-  return fluid_energy(form_, packs_, with_projection(in, projection));
+  step.balance = with_projection(step.balance, projection);
+  return fluid_work(form_, packs_, step);
 }
 
 template <class Element>

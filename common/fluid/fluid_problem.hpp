@@ -32,7 +32,8 @@ class FluidProblem : public Fluid<Element::components> {
   AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
                           FluidDerivatives derivatives = FluidDerivatives::none) override;
   FluidJacobian<n>& jacobian(FluidDerivatives derivatives) override;
-  FluidEnergy energy(const FluidInput& in) const override;
+  double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const override;
+  FluidWork work(FluidStep step) const override;
 
   std::size_t element_count() const override { return part_.cells.size(); }
   double volume() const override;

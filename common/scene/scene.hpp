@@ -82,23 +82,25 @@ class Scene {
     return state;
   }
 
-  /// What the element loops read of a state, in a step with these rates.
-  FluidInput fluid_input(const State& state, const StepRates& rates) const {
+  /// What the element loops read of a state, or solution, in a step with these rates.
+  FluidInput fluid_input(const State& state, const StepRates& rates) const { return fluid_input(state.now, rates); }
+  WallInput wall_input(const State& state, const StepRates& rates) const { return wall_input(state.now, rates); }
+  FluidInput fluid_input(const Solution& now, const StepRates& rates) const {
     FluidInput in;
     if (coupled()) {
-      in.mesh = state.now.mesh.data();
+      in.mesh = now.mesh.data();
       in.mesh_reference = rates.mesh_reference.data();
       in.mesh_factor = rates.interface.rate();
     }
-    in.fluid = state.now.fluid.data();
+    in.fluid = now.fluid.data();
     in.fluid_reference = rates.fluid_reference.data();
     in.fluid_factor = rates.fluid_factor;
     in.step = rates.interface.period;
     return in;
   }
-  WallInput wall_input(const State& state, const StepRates& rates) const {
+  WallInput wall_input(const Solution& now, const StepRates& rates) const {
     WallInput in;
-    in.wall = state.now.wall.data();
+    in.wall = now.wall.data();
     if (!rates.is_static()) {
       in.acceleration_history = rates.acceleration_history.data();
       in.acceleration_factor = rates.acceleration_factor;

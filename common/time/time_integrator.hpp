@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "time/predictor.hpp"
@@ -37,6 +38,9 @@ class TimeIntegrator {
   virtual std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const {
     return extrapolation_weights(state, order, data.time);
   }
+  /// The balance last solved, made again of the state, where the next step counts it once more
+  /// (StepRates::previous_weight).
+  virtual std::optional<Balance> balance_again(const State&) const { return std::nullopt; }
   /// Takes state.now as the solution of the stage's equations: carries it to the stage's end, updates what the scheme
   /// needs of it and, after the last stage, finishes the step.
   virtual void accept(State& state, const StepData& data) const = 0;

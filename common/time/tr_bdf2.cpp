@@ -59,6 +59,23 @@ StepRates TrBdf2<n>::rates_of(const State& state, double step, int stage) const 
 }
 
 template <int n>
+std::optional<Balance> TrBdf2<n>::balance_again(const State& state) const {
+  if (state.since_jump == 0) return std::nullopt;
+  const double step = state.times[0] - state.times[1], k = 2 / (g * step);
+  const References rate{state.rate, state.velocity_rate};
+  Balance balance{state.balances[0], {}};
+  StepData& data = balance.data;
+  data.time = state.time;
+  data.rates = this->rates_from(step, k, combine(1, this->level(state), -1 / k, rate), state.balances[1]);
+  data.rates.stage = 1;
+  data.rates.time = data.rates.end = state.time;
+  data.rates.start = state.time - (1 - g) * step;
+  data.opening_pressures.assign(state.load_rates.begin(), state.load_rates.end() - 1);
+  data.wall_pressure = state.load_rates.back();
+  return balance;
+}
+
+template <int n>
 void TrBdf2<n>::keep(State& state, const StepData& data, const Solution&, const Solution&,
                      const std::vector<double>&) const {
   const StepRates& rates = data.rates;

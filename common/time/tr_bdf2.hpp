@@ -17,6 +17,7 @@ class TrBdf2 : public BalanceScheme<n> {
  public:
   int stages(const State&) const override { return 2; }
   void prepare(State& state) const override;
+  std::optional<Balance> balance_again(const State& state) const override;
 
   /// A first step without history, for other schemes, too.
   static StepRates first_rates(const BalanceScheme<n>& scheme, const State& state, double step, int stage);

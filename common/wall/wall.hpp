@@ -39,8 +39,13 @@ class Wall {
   virtual AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                                   std::vector<double>& residual, bool derivatives = false) = 0;
 
-  virtual WallEnergy energy(const WallStep& in) const = 0;
-  /// Work of the pressure on the pressurised facets, as they are at the step's end, in a step from `old` to `now`; uJ.
+  /// \param wall      (d, .) of a level
+  /// \param velocity  of the level, vector layout; empty in statics
+  /// \param balance   (., p) of the balance whose pressures are to count
+  virtual WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
+                            const std::vector<double>& balance) const = 0;
+  virtual WallWork work(const WallStep& step) const = 0;
+  /// Work of the pressure on the pressurised facets, as they are in `now`, on the way from `old` to `now`; uJ.
   virtual double pressure_work(double pressure, const std::vector<double>& old,
                                const std::vector<double>& now) const = 0;
 

@@ -9,104 +9,179 @@ namespace fsi {
 namespace detail {
 
 /// Radau's rule on (0, 1] with its last point at 1, exact for polynomials of degree four.
-inline constexpr double radau_point[] = {0.15505102572168219018, 0.64494897427831780982};
+inline constexpr double radau_point[] = {0.15505102572168219018, 0.64494897427831780982, 1.0};
 inline constexpr double radau_weight[] = {0.37640306270046727506, 0.51248582618842161383, 1.0 / 9.0};
 
+template <class Element>
+using LayerFibres = const std::vector<std::array<Fibres, Element::points>>*;
+
 template <class Element, class M>
-WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& in) {
+WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const double* wall,
+                        const double* velocity, const double* balance) {
   constexpr int n = Element::components;
-  using Vector = VectorLayout<n>;
-  using Mixed = MixedLayout<n>;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
-    const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
-    NodalVector<Element> d{}, d_old{}, v{}, a{}, a_old{};
-    NodalScalar<Element> p{}, p_old{};
-    gather<Mixed>(d, pack, in.wall);
-    gather<Mixed>(p, pack, in.wall);
-    gather<Mixed>(d_old, pack, in.wall_old);
-    gather<Mixed>(p_old, pack, in.wall_old);
-    if (in.velocity) {
-      gather<Vector>(v, pack, in.velocity);
-      gather<Vector>(a, pack, in.acceleration);
-      gather<Vector>(a_old, pack, in.acceleration_old);
-    }
-    struct Stress {
-      Pack energy;  ///< Psi
-      Pack lead;    ///< (F_1 S'_1 - mean of F S' along the step) : grad dd
-    };
+    const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
+    NodalVector<Element> d{}, v{};
+    NodalScalar<Element> p{};
+    gather<MixedLayout<n>>(d, pack, wall);
+    gather<MixedLayout<n>>(p, pack, balance);
+    if (velocity) gather<VectorLayout<n>>(v, pack, velocity);
     struct Prepared {
-      Mat3<Pack> now, old, step;  ///< grad d_1, grad d_0, grad dd
-      Stress isotropic;           ///< of materials without fibres
-      Pack stabilisation;
-      Pack defect;  ///< cof F_1 : grad dd - (J_1 - J_0)
+      Strain<Pack> strain;
+      Pack isotropic;  ///< Psi of materials without fibres
     };
-    const auto stress = [&](const Prepared& k, const typename M::FibreData& fibre) {
-      const auto f = deformation(k.now);
-      const auto strain = strain_of(f);
-      Mat3<Pack> lead = Pack(1 - radau_weight[2]) * form.isochoric_flux(f, strain, fibre);
-      for (int point = 0; point < 2; ++point) {
-        const auto f_between = deformation(k.old + Pack(radau_point[point]) * k.step);
-        const auto flux = form.isochoric_flux(f_between, strain_of(f_between), fibre);
-        lead = lead - Pack(radau_weight[point]) * flux;
-      }
-      return Stress{form.material.energy(strain, fibre), contract(lead, k.step)};
-    };
-    constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
-    return pack_integrals<Element, 6>(
+    return pack_integrals<Element, 3>(
         pack.geometry,
         [&](const auto& g) {
-          const Mat3<Pack> h = gradient_of(d, g), h_old = gradient_of(d_old, g), dh = h - h_old;
-          const auto f = deformation(h), f_old = deformation(h_old);
           Prepared k;
-          k.now = h;
-          k.old = h_old;
-          k.step = dh;
-          if constexpr (!has_fibres) k.isotropic = stress(k, {});
-          k.stabilisation = Pack(0.0);
-          if constexpr (Element::stabilised) {
-            const auto grad_p = gradient_of(p, g);
-            k.stabilisation = dot(form.stabilisation_flux(f_old, gradient_of(p_old, g), pack.geometry.size_squared) -
-                                      form.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
-                                  grad_p);
-          }
-          k.defect = contract(f.cofactor_gradient, dh) - (f.volume_change - f_old.volume_change);
+          k.strain = strain_of(deformation(gradient_of(d, g)));
+          if constexpr (!has_fibres) k.isotropic = form.material.energy(k.strain, {});
           return k;
         },
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
-          const Stress isochoric = has_fibres ? stress(k, fibres_at<Element, M>(fibres, index, q)) : k.isotropic;
-          const Pack pressure = value_of(p, g), dp = pressure - value_of(p_old, g);
-          const Vec3<Pack> dd = value_of(d, g) - value_of(d_old, g), velocity = value_of(v, g);
-          const Vec3<Pack> now = value_of(a, g), old = value_of(a_old, g);
-          const Vec3<Pack> mean = Pack(in.gamma) * now + Pack(1 - in.gamma) * old;
-          const Vec3<Pack> lag = Pack(1 - in.gamma) * dd + Pack((in.beta - 0.5 * in.gamma) * in.step * in.step) * mean;
-          const Pack density(form.density), half_compliance(0.5 / form.bulk_modulus);
-          return std::array<Pack, 6>{
-              Pack(0.5) * density * dot(velocity, velocity),
-              isochoric.energy,
-              half_compliance * pressure * pressure,
-              density * dot(now - old, lag),
-              isochoric.lead - pressure * k.defect + half_compliance * dp * dp,
-              k.stabilisation,
+          const Vec3<Pack> v_here = value_of(v, g);
+          const Pack pressure = value_of(p, g);
+          Pack isochoric = k.isotropic;
+          if constexpr (has_fibres) isochoric = form.material.energy(k.strain, fibres_at<Element, M>(fibres, index, q));
+          return std::array<Pack, 3>{
+              Pack(0.5 * form.density) * dot(v_here, v_here),
+              isochoric,
+              Pack(0.5 / form.bulk_modulus) * pressure * pressure,
           };
         });
   };
-  const auto sums = sum_over_elements<6>(layer.packs, integrals);
-  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+  const auto sums = sum_over_elements<3>(layer.packs, integrals);
+  return {sums[0], sums[1], sums[2]};
 }
 
-}  // namespace detail
+template <class Element, class M>
+WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& step) {
+  constexpr int n = Element::components;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  const Pack duration(step.duration), weight(step.weight);
+  const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
+    const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
+    WallPack<Element> at;
+    NodalVector<Element> reference{}, d_before{}, d_start{}, d_end{}, v_start{}, v_end{}, moved;
+    NodalScalar<Element> p_before{};
+    at.gather_from(step.balance, pack);
+    gather<Mixed>(reference, pack, step.reference);
+    gather<Mixed>(d_start, pack, step.start);
+    gather<Mixed>(d_end, pack, step.end);
+    if (step.wall_before) {
+      gather<Mixed>(d_before, pack, step.wall_before);
+      gather<Mixed>(p_before, pack, step.wall_before);
+    }
+    if (step.velocity_end) {
+      gather<Vector>(v_start, pack, step.velocity_start);
+      gather<Vector>(v_end, pack, step.velocity_end);
+    }
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int k = 0; k < n; ++k)
+        moved.at[a][k] = Pack(step.duration * step.rate) * (at.d.at[a][k] - reference.at[a][k]);
+    struct Prepared {
+      Mat3<Pack> now;         ///< grad d
+      Mat3<Pack> moved;       ///< W grad v
+      Mat3<Pack> start, way;  ///< grad d_0, grad(d_1 - d_0)
+      Pack isotropic;         ///< of materials without fibres: what the stress does beyond the change of energy
+      Pack defect;            ///< W cof F : grad v - (J - J_b)
+      Pack stabilisation;
+    };
+    const auto stress = [&](const Prepared& k, const typename M::FibreData& fibre) {
+      const auto flux_at = [&](const Mat3<Pack>& h) {
+        const auto f = deformation(h);
+        return form.isochoric_flux(f, strain_of(f), fibre);
+      };
+      const Mat3<Pack> flux = flux_at(k.now);
+      Pack beyond = contract(flux, k.moved - weight * k.way);
+      for (int point = 0; point < 3; ++point)
+        beyond += Pack(radau_weight[point]) *
+                  contract(flux - flux_at(k.start + Pack(radau_point[point]) * k.way), weight * k.way);
+      return beyond;
+    };
+    return pack_integrals<Element, 3>(
+        pack.geometry,
+        [&](const auto& g) {
+          Prepared k;
+          k.now = gradient_of(at.d, g);
+          k.moved = gradient_of(moved, g);
+          k.start = gradient_of(d_start, g);
+          k.way = gradient_of(d_end, g) - k.start;
+          if constexpr (!has_fibres) k.isotropic = stress(k, {});
+          const auto f = deformation(k.now);
+          k.defect = contract(f.cofactor_gradient, k.moved);
+          k.stabilisation = Pack(0.0);
+          if (step.wall_before) {
+            const auto before = deformation(gradient_of(d_before, g));
+            k.defect = k.defect - (f.volume_change - before.volume_change);
+            if constexpr (Element::stabilised) {
+              const auto grad_p = gradient_of(at.p, g);
+              k.stabilisation =
+                  dot(form.stabilisation_flux(before, gradient_of(p_before, g), pack.geometry.size_squared) -
+                          form.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
+                      grad_p);
+            }
+          }
+          return k;
+        },
+        [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
+          Pack beyond = k.isotropic;
+          if constexpr (has_fibres) beyond = stress(k, fibres_at<Element, M>(fibres, index, q));
+          const Pack pressure = value_of(at.p, g);
+          beyond = beyond - pressure * k.defect;
+          if (step.wall_before) {
+            const Pack dp = pressure - value_of(p_before, g);
+            beyond += Pack(0.5 / form.bulk_modulus) * dp * dp;
+          }
+          // Differences first: W a . v - omega (|v_1|^2 - |v_0|^2) / 2 free of cancellation
+          const Vec3<Pack> v0 = value_of(v_start, g), v1 = value_of(v_end, g), change = weight * (v1 - v0);
+          const Vec3<Pack> v = Pack(step.rate) * (value_of(at.d, g) - value_of(reference, g));
+          const Pack inertia =
+              dot(duration * value_of(at.acceleration, g) - change, v) + Pack(0.5) * dot(change, (v - v0) - (v1 - v));
+          return std::array<Pack, 3>{Pack(form.density) * inertia, beyond, k.stabilisation};
+        });
+  };
+  const auto sums = sum_over_elements<3>(layer.packs, integrals);
+  return {sums[0], sums[1], sums[2]};
+}
 
-template <class Element>
-WallEnergy wall_energy(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers, const WallStep& in) {
-  WallEnergy all;
+/// Calls visit(form, layer) for each layer.
+template <class Element, class Visit>
+void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers, Visit visit) {
   for (const auto& layer : layers)
     std::visit(
         [&](const auto& material) {
           using M = std::decay_t<decltype(material)>;
-          const Hyperelastic<M> form{wall.density, wall.bulk_modulus, wall.stabilisation, material, wall.wave_speed};
-          all += detail::layer_energy(form, layer, in);
+          visit(Hyperelastic<M>{wall.density, wall.bulk_modulus, wall.stabilisation, material, wall.wave_speed}, layer);
         },
         layer.material);
+}
+
+}  // namespace detail
+
+/// \param wall      (d, .) of a level
+/// \param velocity  of the level, vector layout; null in statics
+/// \param balance   (., p) of the balance whose pressures are to count
+template <class Element>
+WallEnergy wall_energy(const WallConstants& constants, const std::vector<WallLayer<Element>>& layers,
+                       const double* wall, const double* velocity, const double* balance) {
+  WallEnergy all;
+  detail::for_each_layer(constants, layers, [&](const auto& form, const auto& layer) {
+    all += detail::layer_energy(form, layer, wall, velocity, balance);
+  });
+  return all;
+}
+
+/// Of one balance of a step.
+template <class Element>
+WallWork wall_work(const WallConstants& constants, const std::vector<WallLayer<Element>>& layers,
+                   const WallStep& step) {
+  WallWork all;
+  detail::for_each_layer(constants, layers,
+                         [&](const auto& form, const auto& layer) { all += detail::layer_work(form, layer, step); });
   return all;
 }
 

@@ -38,37 +38,53 @@ struct WallConstants {
   double wave_speed = 0;  ///< c_w of the stabilisation, mm/ms; 0: statics, no fluid, or not asked for
 };
 
-/// Two ends of a step of the wall. Wall arrays hold (d, p) in the mixed layout, in mm and kPa, the others are in
-/// the vector layout; those are null in statics.
+/// One balance of a step of the wall: where its equations hold, with what weight, and the levels between which the step
+/// leads. Wall arrays hold (d, p) in the mixed layout, in mm and kPa, velocities are in the vector layout.
 struct WallStep {
-  const double* wall = nullptr;
-  const double* wall_old = nullptr;
-  const double* velocity = nullptr;      ///< mm/ms
-  const double* acceleration = nullptr;  ///< mm/ms^2
-  const double* acceleration_old = nullptr;
-  double step = 0, beta = 1, gamma = 1;  ///< of Newmark's scheme; step in ms
+  WallInput balance;
+  const double* reference = nullptr;  ///< r: the balance's velocity is v = rate (d - r)
+  double rate = 1;                    ///< 1/ms; 1 in statics, where "velocity" is d - r
+  double duration = 1;                ///< ms, of the balance in the step: its weight times the step; 1 in statics
+  double weight = 1;                  ///< those of a step add up to one
+  /// The balance before, whose volume equation is subtracted; null for one that has had its turn in the step before.
+  const double* wall_before = nullptr;
+  const double* start = nullptr;  ///< levels
+  const double* end = nullptr;
+  const double* velocity_start = nullptr;  ///< mm/ms; null in statics
+  const double* velocity_end = nullptr;
 };
 
-/// Energy of the wall at the end of a step, and what the step's discrete equations, momentum tested with the step's
-/// displacement d_1 - d_0, volume at both ends with -p_1, do besides changing it (docs/energy.md); all in uJ = mm^3
-/// kPa. With da = a_1 - a_0, dd = d_1 - d_0 and S(d, p, q) = (tau J F^-T grad p, F^-T grad q):
-///   (rho a_1, dd) = kinetic_1 - kinetic_0 + inertia,
-///   (F S' - p J F^-T, grad dd) = isochoric_1 - isochoric_0 + volumetric_1 - volumetric_0 + stress + stabilisation,
-/// the latter up to the sixth order of grad dd where the stress is smooth: its mean along the step is by Radau's rule.
+/// Energy of the wall, uJ = mm^3 kPa.
 struct WallEnergy {
-  double kinetic = 0;     ///< rho/2 (v, v), v Newmark's velocity, at the end
-  double isochoric = 0;   ///< (Psi, 1), the materials' energy, at the end
-  double volumetric = 0;  ///< (p / kappa, p) / 2 at the end
-  double inertia = 0;     ///< rho (da, (1 - gamma) dd + (beta - gamma/2) dt^2 (gamma a_1 + (1 - gamma) a_0))
-  /// (F_1 S'_1 - mean of F S' along the step, grad dd) - (p_1, cof F_1 : grad dd - (J_1 - J_0)) + (dp / kappa, dp) / 2:
-  /// stress and pressure at the step's end, not along it
-  double stress = 0;
-  double stabilisation = 0;  ///< S(d_1, p_1, p_1) - S(d_0, p_0, p_1)
+  double kinetic = 0;     ///< rho/2 (v, v)
+  double isochoric = 0;   ///< (Psi, 1), the materials' energy
+  double volumetric = 0;  ///< (p / kappa, p) / 2
 
   WallEnergy& operator+=(const WallEnergy& b) {
     kinetic += b.kinetic;
     isochoric += b.isochoric;
     volumetric += b.volumetric;
+    return *this;
+  }
+};
+
+/// What the discrete equations of one balance, momentum tested with its velocity v for its duration W, the difference of
+/// the volume equations to the balance before with -p, do besides changing the energy (docs/energy.md); all in uJ. With
+/// levels 0 and 1, values without index those of the balance, index b those of the balance before, weight omega and
+/// S(d, p, q) = (tau J F^-T grad p, F^-T grad q), summed over the balances of a step
+///   W (rho a, v) = kinetic_1 - kinetic_0 + inertia,
+///   W (F S' - p J F^-T, grad v) = isochoric_1 - isochoric_0 + volumetric_1 - volumetric_0 + stress + stabilisation,
+/// the volumetric energy being that of balances; up to the sixth order of grad(d_1 - d_0) where the stress is smooth: its
+/// mean along the step is by Radau's rule.
+struct WallWork {
+  double inertia = 0;  ///< rho (W a, v) - omega rho/2 (|v_1|^2 - |v_0|^2, 1): the scheme in time
+  /// W (F S', grad v) - omega (mean of F S' on the straight way from d_0 to d_1, grad(d_1 - d_0))
+  /// - (p, W cof F : grad v - (J - J_b)) + (p - p_b, p - p_b) / (2 kappa): stress and pressure of the balance, not along
+  /// the step
+  double stress = 0;
+  double stabilisation = 0;  ///< S(d, p, p) - S(d_b, p_b, p)
+
+  WallWork& operator+=(const WallWork& b) {
     inertia += b.inertia;
     stress += b.stress;
     stabilisation += b.stabilisation;

@@ -66,8 +66,14 @@ AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressu
 }
 
 template <class Element>
-WallEnergy WallProblem<Element>::energy(const WallStep& in) const {
-  return wall_energy(constants_, layers_, in);
+WallEnergy WallProblem<Element>::energy(const std::vector<double>& wall, const std::vector<double>& velocity,
+                                        const std::vector<double>& balance) const {
+  return wall_energy(constants_, layers_, wall.data(), velocity.empty() ? nullptr : velocity.data(), balance.data());
+}
+
+template <class Element>
+WallWork WallProblem<Element>::work(const WallStep& step) const {
+  return wall_work(constants_, layers_, step);
 }
 
 template <class Element>

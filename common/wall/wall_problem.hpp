@@ -32,7 +32,9 @@ class WallProblem : public Wall<Element::components> {
 
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                           std::vector<double>& residual, bool derivatives = false) override;
-  WallEnergy energy(const WallStep& in) const override;
+  WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
+                    const std::vector<double>& balance) const override;
+  WallWork work(const WallStep& step) const override;
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
   WallMatrix<n>& jacobian() override;
 
