@@ -18,7 +18,7 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
     for (const auto* table : {&setup.inlet, &setup.load})
       if (*table)
         for (double jump : (*table)->jumps())
-          if (jump > 0 && jump < time_->end) jumps_.push_back(jump);
+          if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);  // at the end, too: a restart goes on from it
   std::sort(jumps_.begin(), jumps_.end());
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
   stretches_ = {
