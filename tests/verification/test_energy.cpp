@@ -219,6 +219,49 @@ TEST(EnergyBalance, LeavesOverTheTestedResidualOfArbitraryTaylorHoodBalances) {
   for (const auto* material : {"neo-hookean", "artery"}) check_arbitrary_steps<P2P1Tetrahedron>(material);
 }
 
+// What Newmark's method and the midpoint rule take, in closed form (docs/energy.md): here the velocities at the ends of
+// steps count, which the remainder does not see.
+TEST(EnergyBalance, InertiaOfTheWallHasTheClosedFormOfItsScheme) {
+  for (const TimeScheme scheme : {TimeScheme::euler, TimeScheme::midpoint}) {
+    Case setup = lively_case("neo-hookean");
+    setup.time->scheme = scheme;
+    setup.time->damping = 0.2;
+    ArbitrarySteps<P1Tetrahedron> steps(setup);
+    const Wall<3>& wall = *steps.scene().wall;
+    // (rho x, y) of vectors per node, by way of the residual
+    const auto product = [&](const std::vector<double>& x, const std::vector<double>& y) {
+      const std::vector<double> zero(x.size(), 0.0), flat(x.size() / 3 * 4, 0.0);
+      std::vector<double> with, without;
+      steps.scene().wall->assemble({flat.data(), x.data(), 0}, 0, flat, with);
+      steps.scene().wall->assemble({flat.data(), zero.data(), 0}, 0, flat, without);
+      double sum = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) sum += (with[i / 3 * 4 + i % 3] - without[i / 3 * 4 + i % 3]) * y[i];
+      return sum;
+    };
+    for (double step : {0.5, 0.3}) {
+      const State before = steps.state();
+      const double taken = steps.advance(step).wall_inertia;
+      const State& after = steps.state();
+      const std::size_t size = 3 * static_cast<std::size_t>(wall.node_count());
+      std::vector<double> x(size), y(size);
+      for (std::size_t i = 0; i < size; ++i) {
+        const double beta = setup.time->newmark_beta, gamma = setup.time->newmark_gamma, theta = 0.5 + 0.2 * step;
+        const double a0 = before.wall_acceleration[i], a1 = after.wall_acceleration[i];
+        const std::size_t w = i / 3 * 4 + i % 3;
+        const double moved = after.before[0].wall[w] - after.before[1].wall[w];
+        const double faster = after.wall_velocity[i] - before.wall_velocity[i];
+        x[i] = scheme == TimeScheme::euler ? a1 - a0 : (theta - 0.5) * faster;
+        y[i] = scheme == TimeScheme::euler
+                   ? (1 - gamma) * moved + (beta - gamma / 2) * step * step * (gamma * a1 + (1 - gamma) * a0)
+                   : faster;
+      }
+      fmt::print("{}: inertia of the wall {:.6e}\n", name_of(scheme), taken);
+      EXPECT_NEAR(taken, product(x, y), 1e-13) << name_of(scheme);
+      EXPECT_GT(std::abs(taken), 1e-4);
+    }
+  }
+}
+
 // The balance that the next step's trapezoidal rule counts again, made of the state: on restart there is no other.
 TEST(EnergyBalance, MakesTheLastBalanceAgainOfTheState) {
   Case setup = lively_case("neo-hookean");
