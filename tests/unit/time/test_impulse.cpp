@@ -1,4 +1,4 @@
-// The impulse of a load in the discrete balances, for every scheme and any table (docs/theory.md, section 8.4).
+// The impulse of a load in the discrete balances, for every scheme and any table (docs/theory.md, section 8.9).
 
 #include <gtest/gtest.h>
 
