@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "algebra/register_blocks.hpp"
+#include "condensed_solver/interface_shape_derivatives.hpp"
 #include "condensed_solver/velocity_pressure_layout.hpp"
 #include "fem/nodal_layout.hpp"
 
 namespace fsi {
 
-/// The Jacobian of velocities and pressures, F = [A G; B C], mesh motion left out, in single precision. Half the memory
-/// of the assembled matrices, and arranged so that products and smoothers run over whole registers. Vectors hold
-/// `lanes` floats a velocity node (padded with zero), then one a pressure.
+/// The Jacobian of velocities and pressures, F = [A G; B C], in single precision. Of the mesh motion A has what
+/// InterfaceShapeDerivatives gives, the rest is left out. Half the memory of the assembled matrices, and arranged so
+/// that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
+/// zero), then one a pressure.
 template <int n>
 class VelocityPressureMatrix {
  public:
@@ -28,6 +31,7 @@ class VelocityPressureMatrix {
     make_momentum_pattern();
     make_continuity_pattern();
     momentum_.values.resize(momentum_.columns.size() * n * lanes);
+    shape_derivatives_ = std::make_unique<InterfaceShapeDerivatives<n>>(blocks, layout, momentum_);
     gradient_.resize(gradient_columns_.size() * lanes);
     divergence_.resize(continuity_velocities_.size() * lanes);
     compressibility_.resize(continuity_velocities_.size());
@@ -62,6 +66,7 @@ class VelocityPressureMatrix {
   /// Takes the present values of the block matrices.
   void fill() {
     fill_momentum();
+    shape_derivatives_->add_to(momentum_);
     fill_continuity();
   }
 
@@ -251,6 +256,7 @@ class VelocityPressureMatrix {
   JacobianBlocks<n> blocks_;
   const VelocityPressureLayout<n>& layout_;
   RegisterBlocks<n, n> momentum_;  ///< A
+  std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;
   std::vector<int> gradient_offsets_, gradient_columns_;
   std::vector<float> gradient_;  ///< `lanes` numbers a block
   std::vector<int> continuity_offsets_, continuity_velocities_, continuity_pressures_;

@@ -1,0 +1,84 @@
+// What the condensed matrix knows of the mesh motion: on the interface, all that needs no harmonic extension.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condensed_solver/velocity_pressure_matrix.hpp"
+#include "support/linear_systems.hpp"
+#include "system/jacobian_product.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+/// Products of the condensed matrix and of the whole Jacobian with velocities of the interface, the mesh elsewhere at
+/// rest: their difference in the interface's momentum equations over the part of them that comes from the mesh motion.
+double relative_error(Numbering numbering, Scene<3>& scene) {
+  System<3> system("scene", scene, std::move(numbering));
+  State state = scene.at_rest();
+  for (std::size_t i = 0; i < state.now.fluid.size(); ++i) state.now.fluid[i] = std::sin(static_cast<double>(i));
+  StepData data;
+  data.rates = scene.integrator->rates(state, 0.125);
+  data.opening_pressures = {1.332};
+  data.interface_load.assign(state.now.wall.size(), 0.0);
+  system.work_on(state, data);
+  system.evaluate();
+  system.linearise();
+  auto blocks = system.blocks();
+  VelocityPressureLayout<3> layout(blocks);
+  VelocityPressureMatrix<3> matrix(blocks, layout);
+  matrix.fill();
+
+  std::vector<char> wet(layout.velocities, 0);
+  for (const auto& node : scene.interface)
+    if (layout.velocity_of_fluid[node.fluid] >= 0) wet[layout.velocity_of_fluid[node.fluid]] = 1;
+  std::vector<double> v(layout.size(), 0.0), mine, x(static_cast<std::size_t>(blocks.numbering.size), 0.0), all, rows,
+      fixed_mesh;
+  for (std::size_t i = 0; i < layout.velocity_size(); ++i)
+    if (wet[i / 3]) v[i] = std::cos(static_cast<double>(i));
+  std::vector<float> single, product;
+  matrix.take(v, 1, single);
+  product.resize(matrix.size());
+  matrix.multiply(single, product);
+  matrix.give(product, 1, mine);
+
+  layout.give(v, x);
+  JacobianProduct<3>(blocks).multiply(x, all);
+  layout.take(all, rows);
+  blocks.shape_derivatives = nullptr;
+  JacobianProduct<3>(blocks).multiply(x, all);
+  layout.take(all, fixed_mesh);
+  double error = 0, shape = 0;
+  for (std::size_t i = 0; i < layout.velocity_size(); ++i) {
+    if (!wet[i / 3]) continue;
+    error += std::pow(mine[i] - rows[i], 2);
+    shape += std::pow(rows[i] - fixed_mesh[i], 2);
+  }
+  EXPECT_GT(shape, 0);
+  return std::sqrt(error / shape);
+}
+
+TEST(InterfaceShapeDerivatives, AreThoseOfTheJacobianInFluidAndWall) {
+  auto& scene = linearised_box().scene();
+  EXPECT_LT(relative_error(number_scene(scene), scene), 1e-3);
+}
+
+TEST(InterfaceShapeDerivatives, AreThoseOfTheJacobianInTheFluidWithItsDomain) {
+  auto& scene = linearised_box().scene();
+  EXPECT_LT(relative_error(number_fluid_and_domain(scene), scene), 1e-3);
+}
+
+// A part alone has no mesh motion: its matrix is the Jacobian.
+TEST(InterfaceShapeDerivatives, AreNoneWhereTheMeshIsGiven) {
+  auto& scene = linearised_box().scene();
+  System<3> system("scene", scene, number_fluid(scene, /*free_interface=*/true));
+  const auto blocks = system.blocks();
+  VelocityPressureLayout<3> layout(blocks);
+  RegisterBlocks<3, 3> momentum;
+  InterfaceShapeDerivatives<3>(blocks, layout, momentum).add_to(momentum);
+  EXPECT_TRUE(momentum.values.empty());
+}
+
+}  // namespace
+
+}  // namespace fsi::test
