@@ -67,6 +67,7 @@ void FastSolver<n>::update() {
     const OneDenseThread same_bits_for_any_number;
     direct_->update();
   } else {
+    const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
     if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
     iterative_->layout.update();
     iterative_->matrix.fill();
@@ -257,6 +258,7 @@ template <int n>
 void FastSolver<n>::correct(double tolerance, double relative, LinearReport& report) {
   Iterative& it = *iterative_;
   const Numbering& numbering = blocks_.numbering;
+  const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
   it.layout.take(it.residual, it.right);
   if (it.extension && it.extension_version != *blocks_.mesh_laplacian_version) {
     it.extension->update();
