@@ -38,13 +38,25 @@ StepReport CouplingStepper<n>::advance(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
+  const bool started_far = starts_far_;
+  const AlternationMonitor march = march_;
+  const VelocityGapMonitor velocity_gap = velocity_gap_;
   const int stages = scene_.integrator->stages(state);
-  for (int stage = 0; stage < stages; ++stage) {
-    StepData data = loads_.next(state, *scene_.integrator, stage);
-    advance_stage(state, data);
-    if (keep_balances_) report_.balances.push_back({state.now, data});
-    scene_.integrator->accept(state, data);
+  try {
+    for (int stage = 0; stage < stages; ++stage) {
+      StepData data = loads_.next(state, *scene_.integrator, stage);
+      advance_stage(state, data);
+      if (keep_balances_) report_.balances.push_back({state.now, data});
+      scene_.integrator->accept(state, data);
+    }
+  } catch (const ConvergenceError&) {  // the run may try again with a shorter step
+    accelerator_->abandon();
+    starts_far_ = started_far;
+    march_ = march;
+    velocity_gap_ = velocity_gap;
+    throw;
   }
+  problem_->finish_step();
   return report_;
 }
 
@@ -65,7 +77,8 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     try {
       pass = problem_->pass(x, accuracy);
       measure(pass);
-      if (!scheme_.one_pass && agrees() && (accuracy.tolerance > 0.1 * demand() || accuracy.linearised_wall)) {
+      if (!scheme_.one_pass && agrees() &&
+          (accuracy.tolerance > std::max(0.1 * demand(), final_tolerance()) || accuracy.linearised_wall)) {
         // Agreement cannot be better than the sub-problems' own accuracy.
         pass = problem_->refine({final_tolerance(), false});
         measure(pass);
@@ -88,6 +101,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     accuracy.tolerance =
         std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
     const Stopwatch watch(coupling_.algebra_seconds);
+    accelerator_->aim(demand() * norm(pass.displacement));
     accelerator_->correct(x, pass.residual);
     if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
   }
@@ -112,7 +126,7 @@ Memory CouplingStepper<n>::memory() const {
 template <int n>
 void CouplingStepper<n>::recall(const Memory& memory) {
   problem_->recall(memory);
-  if (!memory.step_changed) accelerator_->recall(memory);
+  accelerator_->recall(memory);  // differences of another step are secants all the same (docs/coupling.md)
   const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
     const auto found = memory.numbers.find(name);
     return found == memory.numbers.end() ? 0.0 : found->second;
@@ -124,7 +138,11 @@ void CouplingStepper<n>::recall(const Memory& memory) {
 
 template <int n>
 double CouplingStepper<n>::demand() const {
-  return options_.force_tolerance > 0 ? std::min(options_.tolerance, options_.force_tolerance) : options_.tolerance;
+  double demand = options_.tolerance;
+  if (options_.force_tolerance > 0) demand = std::min(demand, options_.force_tolerance);
+  if (weighs_pressure() && coupling_.pressure_residual > coupling_.displacement_residual)
+    demand = std::min(demand, options_.tolerance * coupling_.displacement_residual / coupling_.pressure_residual);
+  return demand;
 }
 
 template <int n>
@@ -140,12 +158,14 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = norm(pass.residual);
   coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
   coupling_.force_residual = problem_->force_residual();
+  coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
 }
 
 template <int n>
 bool CouplingStepper<n>::agrees() const {
-  return (coupling_.displacement_residual <= options_.tolerance ||
-          coupling_.displacement_gap <= options_.absolute_tolerance) &&
+  const double residual = weighs_pressure() ? std::max(coupling_.displacement_residual, coupling_.pressure_residual)
+                                            : coupling_.displacement_residual;
+  return (residual <= options_.tolerance || coupling_.displacement_gap <= options_.absolute_tolerance) &&
          (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
 }
 
@@ -153,20 +173,22 @@ template <int n>
 void CouplingStepper<n>::log_pass() {
   const AcceleratorStatus status = accelerator_->status();
   const CouplingCost& cost = problem_->cost;
-  report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
-                                        passes_, coupling_.displacement_residual, coupling_.force_residual,
-                                        status.columns > 0 ? fmt::format("columns {}", status.columns)
-                                                           : fmt::format("relaxation {:.5f}", status.relaxation),
-                                        cost.fluid_newton, cost.wall_newton));
+  report_.history.push_back(
+      fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  pressure {:.3e}  force {:.3e}  {}  newton {} + {}",
+                  passes_, coupling_.displacement_residual, coupling_.pressure_residual, coupling_.force_residual,
+                  status.columns > 0 ? fmt::format("columns {}", status.columns)
+                                     : fmt::format("relaxation {:.5f}", status.relaxation),
+                  cost.fluid_newton, cost.wall_newton));
 }
 
 template <int n>
 void CouplingStepper<n>::give_up(const State& state, const StepData& data, const char* what) const {
   throw ConvergenceError(
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
-                  "{:.2e}, wanted {:g}; force {:.2e}{}",
+                  "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
                   state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
-                  options_.tolerance, coupling_.force_residual,
+                  options_.tolerance, coupling_.pressure_residual,
+                  weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "", coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);
 }

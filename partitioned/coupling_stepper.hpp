@@ -42,16 +42,20 @@ class CouplingStepper : public Stepper {
   /// error of d, that its nonlinearity would only mislead the accelerator.
   static constexpr double far = 0.8;
   static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
+  static constexpr double sub_problem_rounding =
+      1e-13;  ///< below it increments of their Newton iterations are rounding
 
   /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
   /// makes it unstable at three times the wall's mass (docs/coupling.md).
   int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
 
-  /// The tighter of the demands on the interface.
+  bool weighs_pressure() const { return options_.tolerance_of == ToleranceOf::pressure; }
+  /// The tightest of the demands on the interface, as one on |d~ - d| / |d~|; that on the pressure as the last pass
+  /// weighs it.
   double demand() const;
   /// Sub-problems are solved a hundred times tighter than the interface; early passes as loosely as their residual
   /// allows.
-  double final_tolerance() const { return sub_problem_share * demand(); }
+  double final_tolerance() const { return std::max(sub_problem_share * demand(), sub_problem_rounding); }
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.

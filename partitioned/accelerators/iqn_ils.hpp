@@ -22,6 +22,7 @@ class IqnIls : public Accelerator {
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
+  void abandon() override { columns_.abandon(); }
   AcceleratorStatus status() const override { return status_; }
   void remember(Memory& memory) const override;
   void recall(const Memory& memory) override;

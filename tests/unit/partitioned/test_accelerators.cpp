@@ -183,7 +183,7 @@ TEST(IqnIls, ForgetsStepsThatAreTooOld) {
 
 TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
   for (const int n : {1, 3, 6}) {
-    NewtonKrylov method(1e-8, unfiltered());
+    NewtonKrylov method(unfiltered());
     const AddedMassMap map{n};
     auto x = zero(map);
     // Each Newton step builds at most n directions; its forcing leaves a tenth at first, far less at last.
@@ -192,14 +192,14 @@ TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
 }
 
 TEST(NewtonKrylov, ConvergesOnANonlinearMap) {
-  NewtonKrylov method(1e-9, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{});
   const AddedMassMap map{20, 50.0};
   auto x = zero(map);
   EXPECT_LE(corrections(method, map, x, 1e-9), 100);
 }
 
 TEST(NewtonKrylov, KnowsALinearProblemInTheNextStep) {
-  NewtonKrylov method(1e-8, unfiltered());
+  NewtonKrylov method(unfiltered());
   AddedMassMap map{6};
   auto x = zero(map);
   corrections(method, map, x, 1e-8);
@@ -209,7 +209,7 @@ TEST(NewtonKrylov, KnowsALinearProblemInTheNextStep) {
 
 TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
   const AddedMassMap map{12, 10.0}, next{12, 10.0, 0.3};
-  NewtonKrylov method(1e-6, QuasiNewtonOptions{}), restarted(1e-6, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{}), restarted(QuasiNewtonOptions{});
   auto x = zero(map);
   corrections(method, map, x, 1e-6);
   Memory memory;
@@ -221,7 +221,7 @@ TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
 }
 
 TEST(NewtonKrylov, SurvivesAZeroResidualAndAPassCutShort) {
-  NewtonKrylov method(1e-9, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{});
   const AddedMassMap map{5};
   auto x = zero(map);
   method.start();
