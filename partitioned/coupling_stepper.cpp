@@ -64,6 +64,7 @@ template <int n>
 void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   order_ = first_order();
   start(state, data);
+  note_period(data.rates.interface.period);
   accelerator_->start();
   monitor_.start();
   std::vector<double> x = problem_->first_guess(order_), good_x;
@@ -114,6 +115,7 @@ Memory CouplingStepper<n>::memory() const {
   Memory memory = problem_->memory();
   accelerator_->remember(memory);
   memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
+  memory.numbers["interface_period"] = period_;
   if (scheme_.one_pass) {
     memory.numbers["alternating_steps"] = march_.steps();
     memory.numbers["last_gap"] = march_.last_gap();
@@ -126,14 +128,22 @@ Memory CouplingStepper<n>::memory() const {
 template <int n>
 void CouplingStepper<n>::recall(const Memory& memory) {
   problem_->recall(memory);
-  accelerator_->recall(memory);  // differences of another step are secants all the same (docs/coupling.md)
+  accelerator_->recall(memory);
   const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
     const auto found = memory.numbers.find(name);
     return found == memory.numbers.end() ? 0.0 : found->second;
   };
+  period_ = number("interface_period");
   if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
   if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
   velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
+}
+
+template <int n>
+void CouplingStepper<n>::note_period(double period) {
+  if (period_ > 0 && period <= likeness * period_ && period_ <= likeness * period) return;
+  if (period_ > 0) accelerator_->change(period > period_);
+  period_ = period;
 }
 
 template <int n>

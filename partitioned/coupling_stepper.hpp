@@ -41,6 +41,8 @@ class CouplingStepper : public Stepper {
   /// Relative interface residual beyond which the wall is linearised: there d~ lies so far off, a hundred times the
   /// error of d, that its nonlinearity would only mislead the accelerator.
   static constexpr double far = 0.8;
+  /// Ratio of two periods of the interface's kinematics up to which differences of passes serve as they are.
+  static constexpr double likeness = 1.2;
   static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
   static constexpr double sub_problem_rounding =
       1e-13;  ///< below it increments of their Newton iterations are rounding
@@ -62,6 +64,8 @@ class CouplingStepper : public Stepper {
   void advance_stage(State& state, StepData& data);
 
   void start(State& state, StepData& data);
+  /// Tells the accelerator when the interface's displacements weigh otherwise than they did.
+  void note_period(double period);
 
   void measure(const Pass& pass);
   bool agrees() const;
@@ -94,6 +98,7 @@ class CouplingStepper : public Stepper {
   VelocityGapMonitor velocity_gap_;  ///< and of what they leave
   int passes_ = 0;                   ///< of the stage in progress
   int order_ = 0;                    ///< of the extrapolated start
+  double period_ = 0;                ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet
   bool starts_far_ = true;           ///< the last step's first guess was far from its end
 };
 

@@ -28,6 +28,8 @@ class Accelerator {
   virtual void accept(const std::vector<double>& /*x*/, const std::vector<double>& /*r*/) {}
   /// It ended without an answer: what it taught is forgotten, the run may try again with a shorter step.
   virtual void abandon() {}
+  /// From here on r is another function, much alike: of a shorter step, or a longer one.
+  virtual void change(bool /*longer*/) {}
   /// Where |r| will be small enough. Told before each correction, for those who work no further than that.
   virtual void aim(double /*residual*/) {}
   virtual AcceleratorStatus status() const = 0;

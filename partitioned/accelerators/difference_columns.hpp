@@ -29,6 +29,7 @@ class DifferenceColumns {
   /// Forgets the columns of the step, or stage, in progress.
   void abandon();
   void add(std::vector<double> v, std::vector<double> w);
+  void clear() { columns_.clear(); }
   /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left.
   FilteredQr factorise();
 

@@ -28,6 +28,7 @@ class NewtonKrylov : public Accelerator {
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
   void abandon() override;
+  void change(bool) override { columns_.clear(); }
   void aim(double residual) override { aim_ = residual; }
   AcceleratorStatus status() const override { return {0, static_cast<int>(h_.size())}; }
   bool allows_change() const override { return at_base_; }
