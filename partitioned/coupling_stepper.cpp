@@ -26,6 +26,13 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
         "", "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
+  if (const auto time_scheme = setup.time ? setup.time->scheme : TimeScheme::euler;
+      scheme_.one_pass && (time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2))
+    throw InputError("", "time.scheme",
+                     fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
+                                 "comes back with every step, and the pressure is wrong",
+                                 time_schemes().name_of(time_scheme), scheme_.name),
+                     "use \"euler\", \"generalised-alpha\" or \"bdf2\", or a coupling scheme that iterates");
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
@@ -144,6 +151,12 @@ void CouplingStepper<n>::note_period(double period) {
   if (period_ > 0 && period <= likeness * period_ && period_ <= likeness * period) return;
   if (period_ > 0) accelerator_->change(period > period_);
   period_ = period;
+  if (!weighs_pressure()) return;
+  report_.history.push_back(
+      fmt::format("interface: velocities over {:g} ms, where a gap between fluid and wall is worth {:.4g} kPa/mm; "
+                  "tolerance {:g} of "
+                  "the pressure and of the displacement",
+                  period, problem_->pressure_per_gap(), options_.tolerance));
 }
 
 template <int n>

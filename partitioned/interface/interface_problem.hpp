@@ -67,14 +67,8 @@ class InterfaceProblem {
 
   /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
-  /// the wall lacks. A scheme that carries values on from a balance by 1/theta makes 1/theta times as much of the gap,
-  /// which comes back in each later step (1 - theta)/theta times as large; the sum of such remainders of all steps, as
-  /// of numbers that know nothing of each other, is meant (docs/coupling.md).
-  double pressure_per_gap() const {
-    const double theta = data_->rates.carry, kept = (1 - theta) / theta;
-    const double rings_on = 1 / (theta * std::sqrt(std::max(1 - kept * kept, least_damping)));
-    return rings_on * membrane_.push_stiffness(data_->rates.acceleration_factor);
-  }
+  /// the wall lacks (docs/coupling.md).
+  double pressure_per_gap() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
   /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
   double pressure_residual(const std::vector<double>& residual) const {
     double gap = 0, force = 0;
@@ -195,7 +189,6 @@ class InterfaceProblem {
 
  private:
   static constexpr double linearised_tolerance = 1e-4;
-  static constexpr double least_damping = 0.01;  ///< 1 - ((1 - theta)/theta)^2: a hundred steps' remainders
   /// Of Newton's method on the wall, before its Jacobian is renewed. Fibres that switch on and off make the tangent
   /// jump to and fro while the iterates of a step lie close together: an old Jacobian is worth keeping longer than
   /// elsewhere (artery: a quarter of the factorisations that 0.4 takes).

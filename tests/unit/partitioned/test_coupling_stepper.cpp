@@ -252,6 +252,19 @@ TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
   EXPECT_THROW(CouplingStepper<3>(*scene, loads, setup), InputError);
 }
 
+TEST(CouplingStepper, ExplicitIsRefusedWhereItsGapRings) {
+  for (const TimeScheme time_scheme : every_time_scheme) {
+    const Case setup = short_pulse("explicit", 1e-6, time_scheme);
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    const bool rings = time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2;
+    if (rings)
+      EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError);
+    else
+      EXPECT_NO_THROW(CouplingStepper<2>(*scene, loads, setup));
+  }
+}
+
 TEST(CouplingStepper, ADivergingIterationEndsEarly) {
   Case setup = partitioned_case("constant", 1e-6);
   setup.partitioned.relaxation = 3;             // more than 2 diverges without any added mass
