@@ -71,11 +71,14 @@ class InterfaceProblem {
   double pressure_per_gap() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
   /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
   double pressure_residual(const std::vector<double>& residual) const {
+    std::vector<double> loads = data_->interface_load;
+    scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);  // where some components are free, and others held
     double gap = 0, force = 0;
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k) {
+        const auto entry = wall_entry(scene_.interface[i], k);
         const double lack = membrane_.node_areas[i] * residual[i * n + k];
-        const double load = data_->interface_load[wall_entry(scene_.interface[i], k)];
+        const double load = wall_.numbering().wall_rows[entry].index < 0 ? 0.0 : loads[entry];
         gap += lack * lack;
         force += load * load;
       }
