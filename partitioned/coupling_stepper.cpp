@@ -26,6 +26,13 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
         "", "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
+  if (const auto time_scheme = setup.time ? setup.time->scheme : TimeScheme::euler;
+      scheme_.one_pass && (time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2))
+    throw InputError("", "time.scheme",
+                     fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
+                                 "comes back with every step, and the pressure is wrong",
+                                 time_schemes().name_of(time_scheme), scheme_.name),
+                     "use \"euler\", \"generalised-alpha\" or \"bdf2\", or a coupling scheme that iterates");
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
@@ -38,13 +45,25 @@ StepReport CouplingStepper<n>::advance(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
+  const bool started_far = starts_far_;
+  const AlternationMonitor march = march_;
+  const VelocityGapMonitor velocity_gap = velocity_gap_;
   const int stages = scene_.integrator->stages(state);
-  for (int stage = 0; stage < stages; ++stage) {
-    StepData data = loads_.next(state, *scene_.integrator, stage);
-    advance_stage(state, data);
-    if (keep_balances_) report_.balances.push_back({state.now, data});
-    scene_.integrator->accept(state, data);
+  try {
+    for (int stage = 0; stage < stages; ++stage) {
+      StepData data = loads_.next(state, *scene_.integrator, stage);
+      advance_stage(state, data);
+      if (keep_balances_) report_.balances.push_back({state.now, data});
+      scene_.integrator->accept(state, data);
+    }
+  } catch (const ConvergenceError&) {  // the run may try again with a shorter step
+    accelerator_->abandon();
+    starts_far_ = started_far;
+    march_ = march;
+    velocity_gap_ = velocity_gap;
+    throw;
   }
+  problem_->finish_step();
   return report_;
 }
 
@@ -52,6 +71,7 @@ template <int n>
 void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   order_ = first_order();
   start(state, data);
+  note_period(data.rates.interface.period);
   accelerator_->start();
   monitor_.start();
   std::vector<double> x = problem_->first_guess(order_), good_x;
@@ -65,7 +85,8 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     try {
       pass = problem_->pass(x, accuracy);
       measure(pass);
-      if (!scheme_.one_pass && agrees() && (accuracy.tolerance > 0.1 * demand() || accuracy.linearised_wall)) {
+      if (!scheme_.one_pass && agrees() &&
+          (accuracy.tolerance > std::max(0.1 * demand(), final_tolerance()) || accuracy.linearised_wall)) {
         // Agreement cannot be better than the sub-problems' own accuracy.
         pass = problem_->refine({final_tolerance(), false});
         measure(pass);
@@ -88,6 +109,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     accuracy.tolerance =
         std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
     const Stopwatch watch(coupling_.algebra_seconds);
+    accelerator_->aim(demand() * norm(pass.displacement));
     accelerator_->correct(x, pass.residual);
     if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
   }
@@ -100,6 +122,7 @@ Memory CouplingStepper<n>::memory() const {
   Memory memory = problem_->memory();
   accelerator_->remember(memory);
   memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
+  memory.numbers["interface_period"] = period_;
   if (scheme_.one_pass) {
     memory.numbers["alternating_steps"] = march_.steps();
     memory.numbers["last_gap"] = march_.last_gap();
@@ -112,19 +135,37 @@ Memory CouplingStepper<n>::memory() const {
 template <int n>
 void CouplingStepper<n>::recall(const Memory& memory) {
   problem_->recall(memory);
-  if (!memory.step_changed) accelerator_->recall(memory);
+  accelerator_->recall(memory);
   const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
     const auto found = memory.numbers.find(name);
     return found == memory.numbers.end() ? 0.0 : found->second;
   };
+  period_ = number("interface_period");
   if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
   if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
   velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
 }
 
 template <int n>
+void CouplingStepper<n>::note_period(double period) {
+  if (period_ > 0 && period <= likeness * period_ && period_ <= likeness * period) return;
+  if (period_ > 0) accelerator_->change(period > period_);
+  period_ = period;
+  if (!weighs_pressure()) return;
+  report_.history.push_back(
+      fmt::format("interface: velocities over {:g} ms, where a gap between fluid and wall is worth {:.4g} kPa/mm; "
+                  "tolerance {:g} of "
+                  "the pressure and of the displacement",
+                  period, problem_->pressure_per_gap(), options_.tolerance));
+}
+
+template <int n>
 double CouplingStepper<n>::demand() const {
-  return options_.force_tolerance > 0 ? std::min(options_.tolerance, options_.force_tolerance) : options_.tolerance;
+  double demand = options_.tolerance;
+  if (options_.force_tolerance > 0) demand = std::min(demand, options_.force_tolerance);
+  if (weighs_pressure() && coupling_.pressure_residual > coupling_.displacement_residual)
+    demand = std::min(demand, options_.tolerance * coupling_.displacement_residual / coupling_.pressure_residual);
+  return demand;
 }
 
 template <int n>
@@ -140,12 +181,14 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = norm(pass.residual);
   coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
   coupling_.force_residual = problem_->force_residual();
+  coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
 }
 
 template <int n>
 bool CouplingStepper<n>::agrees() const {
-  return (coupling_.displacement_residual <= options_.tolerance ||
-          coupling_.displacement_gap <= options_.absolute_tolerance) &&
+  const double residual = weighs_pressure() ? std::max(coupling_.displacement_residual, coupling_.pressure_residual)
+                                            : coupling_.displacement_residual;
+  return (residual <= options_.tolerance || coupling_.displacement_gap <= options_.absolute_tolerance) &&
          (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
 }
 
@@ -153,20 +196,22 @@ template <int n>
 void CouplingStepper<n>::log_pass() {
   const AcceleratorStatus status = accelerator_->status();
   const CouplingCost& cost = problem_->cost;
-  report_.history.push_back(fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  force {:.3e}  {}  newton {} + {}",
-                                        passes_, coupling_.displacement_residual, coupling_.force_residual,
-                                        status.columns > 0 ? fmt::format("columns {}", status.columns)
-                                                           : fmt::format("relaxation {:.5f}", status.relaxation),
-                                        cost.fluid_newton, cost.wall_newton));
+  report_.history.push_back(
+      fmt::format("coupling {:3d}  |d~ - d| / |d~| = {:.3e}  pressure {:.3e}  force {:.3e}  {}  newton {} + {}",
+                  passes_, coupling_.displacement_residual, coupling_.pressure_residual, coupling_.force_residual,
+                  status.columns > 0 ? fmt::format("columns {}", status.columns)
+                                     : fmt::format("relaxation {:.5f}", status.relaxation),
+                  cost.fluid_newton, cost.wall_newton));
 }
 
 template <int n>
 void CouplingStepper<n>::give_up(const State& state, const StepData& data, const char* what) const {
   throw ConvergenceError(
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
-                  "{:.2e}, wanted {:g}; force {:.2e}{}",
+                  "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
                   state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
-                  options_.tolerance, coupling_.force_residual,
+                  options_.tolerance, coupling_.pressure_residual,
+                  weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "", coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);
 }

@@ -41,23 +41,31 @@ class CouplingStepper : public Stepper {
   /// Relative interface residual beyond which the wall is linearised: there d~ lies so far off, a hundred times the
   /// error of d, that its nonlinearity would only mislead the accelerator.
   static constexpr double far = 0.8;
+  /// Ratio of two periods of the interface's kinematics up to which differences of passes serve as they are.
+  static constexpr double likeness = 1.2;
   static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
+  static constexpr double sub_problem_rounding =
+      1e-13;  ///< below it increments of their Newton iterations are rounding
 
   /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
   /// makes it unstable at three times the wall's mass (docs/coupling.md).
   int first_order() const { return predictor_.value_or(scheme_.one_pass ? 1 : 2); }
 
-  /// The tighter of the demands on the interface.
+  bool weighs_pressure() const { return options_.tolerance_of == ToleranceOf::pressure; }
+  /// The tightest of the demands on the interface, as one on |d~ - d| / |d~|; that on the pressure as the last pass
+  /// weighs it.
   double demand() const;
   /// Sub-problems are solved a hundred times tighter than the interface; early passes as loosely as their residual
   /// allows.
-  double final_tolerance() const { return sub_problem_share * demand(); }
+  double final_tolerance() const { return std::max(sub_problem_share * demand(), sub_problem_rounding); }
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.
   void advance_stage(State& state, StepData& data);
 
   void start(State& state, StepData& data);
+  /// Tells the accelerator when the interface's displacements weigh otherwise than they did.
+  void note_period(double period);
 
   void measure(const Pass& pass);
   bool agrees() const;
@@ -90,6 +98,7 @@ class CouplingStepper : public Stepper {
   VelocityGapMonitor velocity_gap_;  ///< and of what they leave
   int passes_ = 0;                   ///< of the stage in progress
   int order_ = 0;                    ///< of the extrapolated start
+  double period_ = 0;                ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet
   bool starts_far_ = true;           ///< the last step's first guess was far from its end
 };
 

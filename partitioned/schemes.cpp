@@ -51,7 +51,7 @@ Made iqn_imvj(const Options& o) {
   return std::make_unique<IqnImvj>(dirichlet_quasi_newton(o));
 }
 Made newton_krylov(const Options& o) {
-  return std::make_unique<NewtonKrylov>(o.tolerance, dirichlet_quasi_newton(o));
+  return std::make_unique<NewtonKrylov>(dirichlet_quasi_newton(o));
 }
 Made robin(const Options& o) {
   return std::make_unique<ConstantRelaxation>(factor_or(robin_factor, o));

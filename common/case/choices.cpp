@@ -53,6 +53,12 @@ const NameTable<TimeScheme>& time_schemes() {
   return table;
 }
 
+const NameTable<ToleranceOf>& tolerance_kinds() {
+  static const NameTable<ToleranceOf> table{
+      "partitioned.tolerance_of", {{"pressure", ToleranceOf::pressure}, {"displacement", ToleranceOf::displacement}}};
+  return table;
+}
+
 const NameTable<LayerPressure>& layer_pressures() {
   static const NameTable<LayerPressure> table{
       "structure.layer_pressure", {{"continuous", LayerPressure::continuous}, {"separate", LayerPressure::separate}}};

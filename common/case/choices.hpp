@@ -46,7 +46,14 @@ enum class LayerPressure {
 /// time.scheme (docs/theory.md, section 8).
 enum class TimeScheme { euler, midpoint, bdf2, generalised_alpha, tr_bdf2 };
 
+/// partitioned.tolerance_of: what the tolerance of the interface is meant for (docs/coupling.md).
+enum class ToleranceOf {
+  displacement,  ///< the gap between fluid and wall, relative to the displacement, as the paper has it
+  pressure       ///< besides, the pressure that the gap is worth in one step, relative to that between them
+};
+
 const NameTable<TimeScheme>& time_schemes();
+const NameTable<ToleranceOf>& tolerance_kinds();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();
 const NameTable<LayerPressure>& layer_pressures();

@@ -87,8 +87,12 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using QuasiNewton = QuasiNewtonOptions;
   return {
       leaf("scheme", optional, "coupling: {}", name_from(at(&P::scheme), coupling_scheme_names())),
-      leaf("tolerance", optional, "interface change relative to its displacement, default {}",
+      leaf("tolerance", optional, "gap between fluid and wall relative to the interface's displacement, default {}",
            number(at(&P::tolerance), tolerance)),
+      leaf("tolerance_of", optional,
+           "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
+           "that on the interface; displacement: for the displacement alone, as the paper has it",
+           name_from(at(&P::tolerance_of), tolerance_kinds())),
       leaf("absolute_tolerance", optional,
            "interface change in {unit} (Euclidean norm) that is small enough too, default {}",
            number(at(&P::absolute_tolerance), not_negative, quantity::length())),

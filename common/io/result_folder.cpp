@@ -37,7 +37,7 @@ constexpr Table coupling_table{
     "coupling.csv",
     "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
     "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,wall_linear_iterations,"
-    "fluid_s,wall_s,mesh_motion_s,coupling_s",
+    "fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual",
     true};
 
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
@@ -205,7 +205,7 @@ void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport
                            c.relaxation, number(c.columns), c.displacement_residual, c.displacement_gap,
                            c.force_residual, number(c.fluid_newton_iterations), number(c.wall_newton_iterations),
                            number(c.fluid_linear_iterations), number(c.wall_linear_iterations), c.fluid_seconds,
-                           c.wall_seconds, c.mesh_seconds, c.algebra_seconds});
+                           c.wall_seconds, c.mesh_seconds, c.algebra_seconds, c.pressure_residual});
 }
 
 void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {

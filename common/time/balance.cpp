@@ -139,7 +139,11 @@ void BalanceScheme<n>::predict(State& state, int order, const StepData& data) co
   const std::array<double, 3> times =
       within ? std::array<double, 3>{state.stage_end, state.times[0], state.times[1]} : state.times;
   const int known = state.since_jump + (within ? 1 : 0);
-  const auto w = extrapolation_weights(times, std::min({order, known, 2}), data.rates.time);
+  auto w = extrapolation_weights(times, std::min({order, known, 2}), data.rates.end);
+  // A balance within a stage has its values on the line between both ends: a curve's own would be off by dt^2, and
+  // velocities made of it by dt.
+  for (double& weight : w) weight *= data.rates.carry;
+  w[0] += 1 - data.rates.carry;
   for_each_field([&](auto field) {
     const auto &x0 = levels[0]->*field, &x1 = levels[1]->*field, &x2 = levels[2]->*field;
     auto& x = state.now.*field;

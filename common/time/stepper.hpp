@@ -18,6 +18,7 @@ struct CouplingReport {
   double displacement_residual = 0;  ///< |d~ - d| / |d~| on the interface
   double displacement_gap = 0;       ///< |d~ - d|, mm
   double force_residual = 0;         ///< what the momentum balance lacks there, relative to the force
+  double pressure_residual = 0;      ///< the pressure that the gap is worth, relative to that between fluid and wall
   int fluid_newton_iterations = 0, wall_newton_iterations = 0;
   int fluid_linear_iterations = 0, wall_linear_iterations = 0;
   double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0, algebra_seconds = 0;

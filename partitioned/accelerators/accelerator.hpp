@@ -20,12 +20,18 @@ struct AcceleratorStatus {
 class Accelerator {
  public:
   virtual ~Accelerator() = default;
-  /// A time step begins.
+  /// A time step, or a stage of it, begins.
   virtual void start() = 0;
   /// Moves x, given its residual.
   virtual void correct(std::vector<double>& x, const std::vector<double>& r) = 0;
-  /// The step ended with this x and its residual.
+  /// The step, or stage, ended with this x and its residual.
   virtual void accept(const std::vector<double>& /*x*/, const std::vector<double>& /*r*/) {}
+  /// It ended without an answer: what it taught is forgotten, the run may try again with a shorter step.
+  virtual void abandon() {}
+  /// From here on r is another function, much alike: of a shorter step, or a longer one.
+  virtual void change(bool /*longer*/) {}
+  /// Where |r| will be small enough. Told before each correction, for those who work no further than that.
+  virtual void aim(double /*residual*/) {}
   virtual AcceleratorStatus status() const = 0;
   /// The next residual may come from sub-problems solved in another way than the last: it is not compared with it
   /// alone.

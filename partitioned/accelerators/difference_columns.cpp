@@ -1,5 +1,6 @@
 #include "partitioned/accelerators/difference_columns.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace fsi {
@@ -7,6 +8,11 @@ namespace fsi {
 void DifferenceColumns::start() {
   for (Column& column : columns_) ++column.age;
   while (!columns_.empty() && columns_.back().age > reused_steps_) columns_.pop_back();
+}
+
+void DifferenceColumns::abandon() {
+  columns_.erase(std::remove_if(columns_.begin(), columns_.end(), [](const Column& column) { return column.age == 0; }),
+                 columns_.end());
 }
 
 void DifferenceColumns::add(std::vector<double> v, std::vector<double> w) {

@@ -15,18 +15,21 @@ class DifferenceColumns {
   struct Column {
     std::vector<double> v;  ///< difference of residuals
     std::vector<double> w;  ///< what it belongs to: the owner's choice
-    int age;                ///< in time steps
+    int age;                ///< in time steps, or stages
   };
 
   /// \param most          columns kept
-  /// \param reused_steps  earlier time steps whose columns are kept
+  /// \param reused_steps  earlier time steps, or stages, whose columns are kept
   /// \param filter        a column is dropped when less than this part of its v is new
   DifferenceColumns(int most, int reused_steps, double filter)
       : most_(static_cast<std::size_t>(most)), reused_steps_(reused_steps), filter_(filter) {}
 
-  /// A time step begins.
+  /// A time step, or a stage of it, begins.
   void start();
+  /// Forgets the columns of the step, or stage, in progress.
+  void abandon();
   void add(std::vector<double> v, std::vector<double> w);
+  void clear() { columns_.clear(); }
   /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left.
   FilteredQr factorise();
 

@@ -10,6 +10,28 @@ void IqnIls::start() {
   last_x_.clear();
   status_ = {};
   columns_.start();
+  if (before_.rank() > 0 && ++before_age_ > most_before) before_ = {};
+}
+
+void IqnIls::change(bool longer) {
+  before_age_ = 0;
+  if (longer) {  // the wall's stiffness, which they know too little of, then weighs more
+    before_ = {};
+    columns_.clear();
+    return;
+  }
+  const FilteredQr qr = columns_.factorise();
+  auto rows = qr.pseudo_inverse();
+  std::vector<std::vector<double>> left;
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    left.push_back(columns_[j].w);
+    axpy(-(1 - options_.mixing), columns_[j].v, left.back());
+    axpy(-1, before_.times(columns_[j].v), left.back());
+  }
+  for (std::size_t j = 0; j < rows.size(); ++j) before_.add(std::move(left[j]), std::move(rows[j]));
+  const auto most = static_cast<std::size_t>(options_.columns);
+  if (before_.rank() > most) before_.truncate((most + 1) / 2, LowRankMap::truncation);
+  columns_.clear();
 }
 
 void IqnIls::add_difference(const std::vector<double>& x, const std::vector<double>& r) {
@@ -27,7 +49,7 @@ void IqnIls::add_difference(const std::vector<double>& x, const std::vector<doub
 void IqnIls::correct(std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
   const FilteredQr qr = columns_.factorise();
-  if (columns_.empty()) {
+  if (columns_.empty() && before_.rank() == 0) {
     axpy(options_.relaxation, r, x);
     status_ = {options_.relaxation, 0};
     return;
@@ -38,7 +60,11 @@ void IqnIls::correct(std::vector<double>& x, const std::vector<double>& r) {
     axpy(-c[j], columns_[j].w, x);
     axpy((1 - options_.mixing) * c[j], columns_[j].v, x);
   }
-  status_ = {0, static_cast<int>(columns_.size())};
+  status_ = {0, static_cast<int>(columns_.size() + before_.rank())};
+  if (before_.rank() == 0) return;
+  std::vector<double> unexplained = r;
+  for (std::size_t j = 0; j < c.size(); ++j) axpy(-c[j], columns_[j].v, unexplained);
+  axpy(-1, before_.times(unexplained), x);
 }
 
 void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) {
@@ -47,10 +73,15 @@ void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) 
 
 void IqnIls::remember(Memory& memory) const {
   columns_.remember(memory, "iqn_ils");
+  before_.remember(memory, "iqn_ils.before");
+  memory.numbers["iqn_ils.before.age"] = before_age_;
 }
 
 void IqnIls::recall(const Memory& memory) {
   columns_.recall(memory, "iqn_ils");
+  before_.recall(memory, "iqn_ils.before");
+  const auto age = memory.numbers.find("iqn_ils.before.age");
+  before_age_ = age == memory.numbers.end() ? 0 : static_cast<int>(age->second);
 }
 
 }  // namespace fsi

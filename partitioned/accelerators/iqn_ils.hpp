@@ -5,6 +5,7 @@
 #include "case/quasi_newton_options.hpp"
 #include "partitioned/accelerators/accelerator.hpp"
 #include "partitioned/accelerators/difference_columns.hpp"
+#include "partitioned/accelerators/low_rank_map.hpp"
 
 namespace fsi {
 
@@ -15,13 +16,22 @@ namespace fsi {
 /// This takes the part of r that V does not explain, r + V c, as it is. It may be relaxed by a factor m instead,
 ///   x <- x~ + W c - (1 - m) (r + V c),
 /// as in Anderson mixing: good where unexplained parts are overshot too, though less than the others.
+/// Columns of another r, of a step of another length, would contradict the new ones where both are nearly parallel.
+/// They become a map instead, as in the multi-vector method (iqn_imvj.hpp),
+///   L <- L + (W - (1 - m) V - L V) V^+,
+/// which answers for what the columns that follow do not explain, x <- x~ + W c - (1 - m + L) (r + V c), in the first
+/// steps after the change. Later ones are better without it.
 class IqnIls : public Accelerator {
  public:
+  static constexpr int most_before = 1;  ///< steps, or stages, in which L serves
+
   explicit IqnIls(const QuasiNewtonOptions& options)
       : options_(options), columns_(options.columns, options.reused_steps, options.filter) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
+  void abandon() override { columns_.abandon(); }
+  void change(bool longer) override;
   AcceleratorStatus status() const override { return status_; }
   void remember(Memory& memory) const override;
   void recall(const Memory& memory) override;
@@ -31,6 +41,8 @@ class IqnIls : public Accelerator {
 
   QuasiNewtonOptions options_;
   DifferenceColumns columns_;  ///< of r and of x~ = x + r
+  LowRankMap before_;          ///< L, of steps of other lengths
+  int before_age_ = 0;         ///< steps, or stages, since the last change
   std::vector<double> last_x_, last_r_;
   AcceleratorStatus status_;
 };

@@ -65,24 +65,15 @@ void IqnImvj::accept(const std::vector<double>& x, const std::vector<double>& r)
   auto rows = qr.pseudo_inverse();
   for (std::size_t j = 0; j < rows.size(); ++j) jacobian_.add(std::move(a_[qr.kept()[j]]), std::move(rows[j]));
   if (jacobian_.rank() > static_cast<std::size_t>(options_.columns))
-    jacobian_.truncate(static_cast<std::size_t>(options_.columns + 1) / 2, truncation);
+    jacobian_.truncate(static_cast<std::size_t>(options_.columns + 1) / 2, LowRankMap::truncation);
 }
 
 void IqnImvj::remember(Memory& memory) const {
-  std::vector<double>&a = memory.arrays["iqn_imvj.a"], &b = memory.arrays["iqn_imvj.b"];
-  for (const auto& column : jacobian_.left()) a.insert(a.end(), column.begin(), column.end());
-  for (const auto& column : jacobian_.right()) b.insert(b.end(), column.begin(), column.end());
-  memory.numbers["iqn_imvj.rank"] = static_cast<double>(jacobian_.rank());
+  jacobian_.remember(memory, "iqn_imvj");
 }
 
 void IqnImvj::recall(const Memory& memory) {
-  jacobian_ = {};
-  const auto rank = memory.numbers.find("iqn_imvj.rank");
-  if (rank == memory.numbers.end() || rank->second == 0) return;
-  const auto &a = memory.arrays.at("iqn_imvj.a"), &b = memory.arrays.at("iqn_imvj.b");
-  const auto size = static_cast<std::ptrdiff_t>(a.size()) / static_cast<std::ptrdiff_t>(rank->second);
-  for (auto from = std::ptrdiff_t{0}; from < static_cast<std::ptrdiff_t>(a.size()); from += size)
-    jacobian_.add({a.begin() + from, a.begin() + from + size}, {b.begin() + from, b.begin() + from + size});
+  jacobian_.recall(memory, "iqn_imvj");
 }
 
 }  // namespace fsi

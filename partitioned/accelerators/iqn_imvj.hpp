@@ -16,8 +16,6 @@ namespace fsi {
 /// of them takes their place.
 class IqnImvj : public Accelerator {
  public:
-  static constexpr double truncation = 1e-4;  ///< singular values dropped, relative to the largest
-
   /// options.columns bounds the terms of J; when they are more, half of them stay. options.reused_steps is not used.
   explicit IqnImvj(const QuasiNewtonOptions& options) : options_(options) {}
   void start() override;

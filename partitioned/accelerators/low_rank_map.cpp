@@ -63,4 +63,22 @@ void LowRankMap::truncate(std::size_t rank, double tolerance) {
   b_ = columns_of(right);
 }
 
+void LowRankMap::remember(Memory& memory, const std::string& name) const {
+  std::vector<double>&a = memory.arrays[name + ".a"], &b = memory.arrays[name + ".b"];
+  for (const auto& column : a_) a.insert(a.end(), column.begin(), column.end());
+  for (const auto& column : b_) b.insert(b.end(), column.begin(), column.end());
+  memory.numbers[name + ".rank"] = static_cast<double>(rank());
+}
+
+void LowRankMap::recall(const Memory& memory, const std::string& name) {
+  a_.clear();
+  b_.clear();
+  const auto rank = memory.numbers.find(name + ".rank");
+  if (rank == memory.numbers.end() || rank->second == 0) return;
+  const auto &a = memory.arrays.at(name + ".a"), &b = memory.arrays.at(name + ".b");
+  const auto size = static_cast<std::ptrdiff_t>(a.size()) / static_cast<std::ptrdiff_t>(rank->second);
+  for (auto from = std::ptrdiff_t{0}; from < static_cast<std::ptrdiff_t>(a.size()); from += size)
+    add({a.begin() + from, a.begin() + from + size}, {b.begin() + from, b.begin() + from + size});
+}
+
 }  // namespace fsi

@@ -1,13 +1,19 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "time/stepper.hpp"
 
 namespace fsi {
 
 /// A linear map J = sum of a_i b_i^T between interface vectors.
 class LowRankMap {
  public:
+  static constexpr double truncation =
+      1e-4;  ///< singular values that truncate() may well drop, relative to the largest
+
   std::size_t rank() const { return a_.size(); }
   void add(std::vector<double> a, std::vector<double> b);
   /// J x
@@ -15,6 +21,9 @@ class LowRankMap {
   /// Replaces J by its best approximation of a rank of at most `rank`, singular values below `tolerance` times the
   /// largest left out (the restart RS-SVD of [Scheufele2017]).
   void truncate(std::size_t rank, double tolerance);
+
+  void remember(Memory& memory, const std::string& name) const;
+  void recall(const Memory& memory, const std::string& name);
 
   const std::vector<std::vector<double>>& left() const { return a_; }
   const std::vector<std::vector<double>>& right() const { return b_; }

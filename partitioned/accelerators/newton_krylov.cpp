@@ -70,6 +70,12 @@ void NewtonKrylov::accept(const std::vector<double>&, const std::vector<double>&
   keep_products();
 }
 
+void NewtonKrylov::abandon() {
+  columns_.abandon();
+  products_.clear();
+  p_.clear();
+}
+
 void NewtonKrylov::keep_products() {
   for (std::size_t j = 0; j < products_.size(); ++j) columns_.add(std::move(products_[j]), std::move(p_[j]));
   products_.clear();
@@ -84,7 +90,7 @@ void NewtonKrylov::begin(const std::vector<double>& x, const std::vector<double>
   const double ratio = last_beta_ > 0 ? beta_ / last_beta_ : 1;
   forcing_ = std::clamp(0.9 * ratio * ratio, smallest_forcing, largest_forcing);
   // No tighter than what the coupling's tolerance leaves to do.
-  if (beta_ > 0) forcing_ = std::clamp(0.3 * tolerance_ * norm(x) / beta_, forcing_, largest_forcing);
+  if (beta_ > 0) forcing_ = std::clamp(0.3 * aim_ / beta_, forcing_, largest_forcing);
   last_beta_ = beta_;
   h_.clear();
   q_.clear();

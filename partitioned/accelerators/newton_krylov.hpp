@@ -22,15 +22,14 @@ class NewtonKrylov : public Accelerator {
  public:
   static constexpr int most_directions = 60;
 
-  /// \param tolerance  of the coupling: no Newton step is solved much tighter than that needs
-  NewtonKrylov(double tolerance, const QuasiNewtonOptions& options)
-      : tolerance_(tolerance),
-        mixing_(options.mixing),
-        columns_(options.columns, options.reused_steps, options.filter),
-        qr_({}, 0) {}
+  explicit NewtonKrylov(const QuasiNewtonOptions& options)
+      : mixing_(options.mixing), columns_(options.columns, options.reused_steps, options.filter), qr_({}, 0) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
+  void abandon() override;
+  void change(bool) override { columns_.clear(); }
+  void aim(double residual) override { aim_ = residual; }
   AcceleratorStatus status() const override { return {0, static_cast<int>(h_.size())}; }
   bool allows_change() const override { return at_base_; }
   void remember(Memory& memory) const override;
@@ -43,7 +42,8 @@ class NewtonKrylov : public Accelerator {
   void probe(std::vector<double>& x);
   double minimise(std::vector<double>& y) const;
 
-  double tolerance_, mixing_;
+  double aim_ = 0;  ///< no Newton step is solved much tighter than that needs
+  double mixing_;
   DifferenceColumns columns_;  ///< v = J w
   FilteredQr qr_;              ///< of their V, as it was at the base point
   int halvings_ = 0;           ///< of the last Newton step

@@ -16,6 +16,7 @@ void ConstantRelaxation::correct(std::vector<double>& x, const std::vector<doubl
 }
 
 void AitkenRelaxation::start() {
+  start_ = factor_;
   factor_ = std::clamp(std::abs(factor_), smallest_start, largest_start_);
   last_x_.clear();
 }

@@ -27,15 +27,18 @@ class AitkenRelaxation : public Accelerator {
  public:
   /// \param first_factor   of the first correction of all
   /// \param largest_start  bound on the first factor of each step
-  AitkenRelaxation(double first_factor, double largest_start) : factor_(first_factor), largest_start_(largest_start) {}
+  AitkenRelaxation(double first_factor, double largest_start)
+      : factor_(first_factor), start_(first_factor), largest_start_(largest_start) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
+  void abandon() override { factor_ = start_; }
   AcceleratorStatus status() const override { return {factor_, 0}; }
   void remember(Memory& memory) const override;
   void recall(const Memory& memory) override;
 
  private:
-  double factor_, largest_start_;
+  double factor_, start_;  ///< and as it was when the step began
+  double largest_start_;
   std::vector<double> last_x_, last_r_;
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "case/case.hpp"
 #include "condensed_solver/fast_or_direct.hpp"
+#include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
 #include "scene/scene.hpp"
@@ -32,10 +34,12 @@ template <int n>
 class InterfaceProblem {
  public:
   InterfaceProblem(Scene<n>& scene, const PartitionedData& options)
-      : scene_(scene), wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
+      : scene_(scene),
+        membrane_(membrane_of(scene)),
+        wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
   virtual ~InterfaceProblem() = default;
 
-  /// Starts a step: state.now holds the first guess of all fields.
+  /// Starts a step, or a stage of it: state.now holds the first guess of all fields.
   virtual void start(State& state, StepData& data) {
     state_ = &state;
     data_ = &data;
@@ -52,11 +56,34 @@ class InterfaceProblem {
   /// After a first pass without an answer: makes the fluid's interface stiffer, for the rest of the run, where a pass
   /// may then have one. \returns false when it cannot, or not any more
   virtual bool stiffen() { return false; }
-  /// The step was accepted with the last pass.
+  /// The stage was accepted with the last pass.
   virtual void accept() {}
+  /// All stages of a step have been accepted. What they left is forgotten unless this is called before the next start()
+  /// of a first stage.
+  virtual void finish_step() {}
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
   /// differences of its positions, are then the wall's.
   void follow_wall() { move_mesh(wall_displacement(state_->now)); }
+
+  /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
+  /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
+  /// the wall lacks (docs/coupling.md).
+  double pressure_per_gap() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
+  /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
+  double pressure_residual(const std::vector<double>& residual) const {
+    std::vector<double> loads = data_->interface_load;
+    scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);  // where some components are free, and others held
+    double gap = 0, force = 0;
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) {
+        const auto entry = wall_entry(scene_.interface[i], k);
+        const double lack = membrane_.node_areas[i] * residual[i * n + k];
+        const double load = wall_.numbering().wall_rows[entry].index < 0 ? 0.0 : loads[entry];
+        gap += lack * lack;
+        force += load * load;
+      }
+    return gap > 0 ? pressure_per_gap() * std::sqrt(gap / std::max(force, 1e-300)) : 0.0;
+  }
 
   /// |d~ - d^{n-1}| of the last pass, mm.
   double movement() const {
@@ -157,6 +184,7 @@ class InterfaceProblem {
   }
 
   Scene<n>& scene_;
+  Membrane membrane_;                                 ///< the wall on the interface
   std::unique_ptr<MeshMotionSolver<n>> mesh_motion_;  ///< made when first asked for
   System<n> wall_;
   State* state_ = nullptr;

@@ -20,6 +20,11 @@ struct Membrane {
 
   /// Hoop stiffness E h / ((1 - nu^2) R^2): pressure per normal displacement, kPa/mm.
   double stiffness() const { return tension / (radius * radius); }
+  /// Pressure per normal displacement within a step, kPa/mm, a being `acceleration_factor` (1/ms^2):
+  ///   a rho_s h + E h / ((1 - nu^2) R^2).
+  double push_stiffness(double acceleration_factor) const {
+    return acceleration_factor * density * thickness + stiffness();
+  }
 
   /// Traction per interface velocity, kPa/(mm/ms), with which the wall answers within a step whose acceleration is
   /// `acceleration_factor` (1/ms^2) times the displacement. Pushed outward, its whole thickness moves, and the hoop
@@ -32,7 +37,7 @@ struct Membrane {
   double impedance(double acceleration_factor, double step) const {
     const double inertia = acceleration_factor * density;
     const double depth = std::sqrt(shear_modulus / inertia);
-    const double across = step * (inertia * thickness + stiffness());
+    const double across = step * push_stiffness(acceleration_factor);
     const double along = step * inertia * depth * std::tanh(thickness / depth);
     return 2 / (1 / across + 1 / along);
   }

@@ -23,12 +23,11 @@ namespace fsi {
 template <int n>
 class RobinNeumann : public InterfaceProblem<n> {
   using Base = InterfaceProblem<n>;
-  using Base::cost, Base::scene_, Base::state_, Base::data_;
+  using Base::cost, Base::scene_, Base::membrane_, Base::state_, Base::data_;
 
  public:
   RobinNeumann(Scene<n>& scene, const PartitionedData& options)
       : Base(scene, options),
-        membrane_(membrane_of(scene)),
         fluid_("fluid", scene, number_fluid_and_domain(scene), Base::solver_factory(options), SystemNorm::entries,
                &robin_) {
     for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);
@@ -38,6 +37,7 @@ class RobinNeumann : public InterfaceProblem<n> {
 
   void start(State& state, StepData& data) override {
     Base::start(state, data);
+    if (data.rates.stage == 0) stage_loads_.clear();  // of a step that failed
     robin_.impedance = impedance_of(data.rates);
     fluid_.work_on(state, data);
   }
@@ -52,7 +52,7 @@ class RobinNeumann : public InterfaceProblem<n> {
       const auto* axes = scene_.fluid_frames.at(node.fluid);  // in which some components are free, and others held
       Direction<n> further{};
       for (int k = 0; k < n; ++k)
-        for (int level = 0; level < 3; ++level) further[k] += weights[level] * loads_[level][i * n + k];
+        for (std::size_t level = 0; level < 3; ++level) further[k] += weights[level] * load_before(level)[i * n + k];
       if (axes) NodalFrames<n>::to_frame(*axes, further.data());
       for (int k = 0; k < n; ++k) {
         const bool held = fluid_.numbering().fluid[Base::fluid_entry(node, k)].index < 0;
@@ -94,11 +94,18 @@ class RobinNeumann : public InterfaceProblem<n> {
   }
 
   void accept() override {
-    std::swap(loads_[2], loads_[1]);
-    std::swap(loads_[1], loads_[0]);
+    stage_loads_.emplace_back(Base::interface_size());
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k)
-        loads_[0][i * n + k] = fluid_.fluid_residual()[Base::fluid_entry(scene_.interface[i], k)];
+        stage_loads_.back()[i * n + k] = fluid_.fluid_residual()[Base::fluid_entry(scene_.interface[i], k)];
+  }
+  void finish_step() override {
+    for (auto& load : stage_loads_) {
+      std::swap(loads_[2], loads_[1]);
+      std::swap(loads_[1], loads_[0]);
+      loads_[0] = std::move(load);
+    }
+    stage_loads_.clear();
   }
 
   Memory memory() const override {
@@ -136,6 +143,12 @@ class RobinNeumann : public InterfaceProblem<n> {
     return impedance;
   }
 
+  /// lambda of the last solutions of the equations, those of the step in progress among them, the latest first.
+  const std::vector<double>& load_before(std::size_t level) const {
+    const std::size_t stages = stage_loads_.size();
+    return level < stages ? stage_loads_[stages - 1 - level] : loads_[level - stages];
+  }
+
   /// The fluid's domain follows its own interface velocity, so that the answer is a function of the datum alone. Newton's
   /// method keeps to it once it holds, and finds the mesh inside.
   void follow_fluid(State& state) {
@@ -145,11 +158,11 @@ class RobinNeumann : public InterfaceProblem<n> {
             state.now.fluid[Base::fluid_entry(node, k)], data_->rates.wall_reference[Base::wall_entry(node, k)]);
   }
 
-  Membrane membrane_;
   double stiffening_ = 1;     ///< of the membrane's impedance
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
   System<n> fluid_;
-  std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first
+  std::array<std::vector<double>, 3> loads_;      ///< lambda of the last stages of finished steps, the latest first
+  std::vector<std::vector<double>> stage_loads_;  ///< lambda of the stages of the step in progress
 };
 
 }  // namespace fsi

@@ -90,12 +90,13 @@ TEST_F(Results, TellHowFluidAndWallCameToAgree) {
   coupling.wall_newton_iterations = 24;
   coupling.wall_linear_iterations = 7;
   coupling.mesh_seconds = 0.5;
+  coupling.pressure_residual = 3e-6;
   results.write_coupling({3, 0.375, 8, 44, 7, 0.75}, coupling);
   EXPECT_EQ(contents_of(run_ / "coupling.csv"),
             "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
             "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,"
-            "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s\n"
-            "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0\n");
+            "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual\n"
+            "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0,3e-06\n");
 }
 
 TEST_F(Results, TellOfTheEnergyThatASceneHas) {

@@ -181,9 +181,46 @@ TEST(IqnIls, ForgetsStepsThatAreTooOld) {
   EXPECT_GE(corrections(accelerator, map, x, 1e-8), 4) << "as if there had been no step before";
 }
 
+TEST(IqnIls, KeepsWhatItKnowsThroughAChange) {
+  const AddedMassMap map{8};
+  const auto again = [&](bool changes, bool longer = false) {
+    IqnIls accelerator(unfiltered());
+    auto x = zero(map);
+    corrections(accelerator, map, x, 1e-8);
+    if (changes) accelerator.change(longer);
+    x = zero(map);
+    return corrections(accelerator, map, x, 1e-7);
+  };
+  EXPECT_LE(again(true), again(false) + 1) << "as a map instead of columns";
+  EXPECT_LT(again(true), 4);
+  EXPECT_GT(again(true, true), 4) << "begins anew";
+}
+
+TEST(IqnIls, AnAbandonedStepTeachesNothing) {
+  const AddedMassMap map{8};
+  IqnIls accelerator(unfiltered());
+  auto x = zero(map);
+  corrections(accelerator, map, x, 1e-8);
+  accelerator.start();
+  for (int k = 0; k < 3; ++k) {
+    auto r = map.residual(x);
+    for (double& value : r) value *= -1e3;
+    accelerator.correct(x, r);
+  }
+  const auto ages = [&] {
+    Memory memory;
+    accelerator.remember(memory);
+    return memory.arrays.at("iqn_ils.age");
+  };
+  EXPECT_EQ(ages().front(), 0);
+  accelerator.abandon();
+  ASSERT_FALSE(ages().empty());
+  for (const double age : ages()) EXPECT_GT(age, 0);
+}
+
 TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
   for (const int n : {1, 3, 6}) {
-    NewtonKrylov method(1e-8, unfiltered());
+    NewtonKrylov method(unfiltered());
     const AddedMassMap map{n};
     auto x = zero(map);
     // Each Newton step builds at most n directions; its forcing leaves a tenth at first, far less at last.
@@ -192,14 +229,14 @@ TEST(NewtonKrylov, NeedsABaseAndADirectionPerDimensionOnALinearProblem) {
 }
 
 TEST(NewtonKrylov, ConvergesOnANonlinearMap) {
-  NewtonKrylov method(1e-9, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{});
   const AddedMassMap map{20, 50.0};
   auto x = zero(map);
   EXPECT_LE(corrections(method, map, x, 1e-9), 100);
 }
 
 TEST(NewtonKrylov, KnowsALinearProblemInTheNextStep) {
-  NewtonKrylov method(1e-8, unfiltered());
+  NewtonKrylov method(unfiltered());
   AddedMassMap map{6};
   auto x = zero(map);
   corrections(method, map, x, 1e-8);
@@ -209,7 +246,7 @@ TEST(NewtonKrylov, KnowsALinearProblemInTheNextStep) {
 
 TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
   const AddedMassMap map{12, 10.0}, next{12, 10.0, 0.3};
-  NewtonKrylov method(1e-6, QuasiNewtonOptions{}), restarted(1e-6, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{}), restarted(QuasiNewtonOptions{});
   auto x = zero(map);
   corrections(method, map, x, 1e-6);
   Memory memory;
@@ -221,7 +258,7 @@ TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
 }
 
 TEST(NewtonKrylov, SurvivesAZeroResidualAndAPassCutShort) {
-  NewtonKrylov method(1e-9, QuasiNewtonOptions{});
+  NewtonKrylov method(QuasiNewtonOptions{});
   const AddedMassMap map{5};
   auto x = zero(map);
   method.start();

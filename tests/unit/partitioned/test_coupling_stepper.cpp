@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <optional>
+
 #include "base/threads.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
@@ -10,6 +14,7 @@
 #include "support/nodal_arrays.hpp"
 #include "support/scenes.hpp"
 #include "system/newton_stepper.hpp"
+#include "time/tr_bdf2.hpp"
 
 namespace fsi::test {
 
@@ -163,6 +168,62 @@ TEST_P(EachScheme, ReportsWhatItDid) {
   EXPECT_EQ(coupling.mesh_seconds > 0, !mesh_is_the_fluids);
 }
 
+/// A short piece of the axisymmetric artery, quadratic elements, pushed for one step.
+Case short_pulse(const std::string& scheme, double tolerance, TimeScheme time_scheme, double step = 0.0625) {
+  Case setup = partitioned_case(scheme, tolerance);
+  setup.structure->layer_pressure = LayerPressure::separate;
+  setup.time = TimeData{step, 100 * step, 1, 1, std::nullopt};
+  setup.time->scheme = time_scheme;
+  setup.inlet = PressureTable{{{0.0, 1.332}, {0.0625, 1.332}, {0.0625, 0.0}}};
+  return setup;
+}
+
+auto short_artery() {
+  ArteryShape shape;
+  shape.length = 3;
+  ArteryCells cells;
+  cells.lumen = 2;
+  cells.media = cells.adventitia = 1;
+  cells.axial = 4;
+  return with_mid_edge_nodes(generate_artery_section(shape, cells));
+}
+
+constexpr std::array every_time_scheme{TimeScheme::euler, TimeScheme::midpoint, TimeScheme::bdf2,
+                                       TimeScheme::generalised_alpha, TimeScheme::tr_bdf2};
+
+/// Largest difference of the fluid's pressures relative to the largest pressure, at each step's last balance.
+std::vector<double> pressures_apart(const Case& setup, int steps) {
+  const auto mesh = short_artery();
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, mesh),
+             other = build_scene<P2P1AxisymmetricTriangle>(setup, mesh);
+  const Loads loads(setup);
+  NewtonOptions newton;
+  newton.tolerance = 1e-11;
+  NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
+  CouplingStepper<2> parts(*other, loads, setup);
+  State a = scene->at_rest(), b = other->at_rest();
+  std::vector<double> apart;
+  for (int step = 0; step < steps; ++step) {
+    whole.advance(a);
+    parts.advance(b);
+    double gap = 0, pressure = 0;
+    const auto &p = a.last_balance().fluid, &q = b.last_balance().fluid;
+    for (std::size_t i = 2; i < p.size(); i += 3) {
+      gap = std::max(gap, std::abs(p[i] - q[i]));
+      pressure = std::max(pressure, std::abs(p[i]));
+    }
+    apart.push_back(gap / pressure);
+  }
+  return apart;
+}
+
+TEST_P(EachScheme, AgreesWithTheMonolithicDriverInEachTimeScheme) {
+  if (GetParam() == "constant" || GetParam() == "aitken") GTEST_SKIP() << "hundreds of passes";
+  for (const TimeScheme time_scheme : every_time_scheme)
+    for (const double apart : pressures_apart(short_pulse(GetParam(), 1e-8, time_scheme), 3))
+      EXPECT_LT(apart, 1e-6) << time_schemes().name_of(time_scheme);
+}
+
 INSTANTIATE_TEST_SUITE_P(CouplingStepper, EachScheme,
                          testing::Values("constant", "aitken", "iqn-ils", "iqn-imvj", "newton-krylov", "robin-neumann",
                                          "robin-neumann-iqn", "robin-neumann-imvj"),
@@ -189,6 +250,19 @@ TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
   const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
   const Loads loads(setup);
   EXPECT_THROW(CouplingStepper<3>(*scene, loads, setup), InputError);
+}
+
+TEST(CouplingStepper, ExplicitIsRefusedWhereItsGapRings) {
+  for (const TimeScheme time_scheme : every_time_scheme) {
+    const Case setup = short_pulse("explicit", 1e-6, time_scheme);
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    const bool rings = time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2;
+    if (rings)
+      EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError);
+    else
+      EXPECT_NO_THROW(CouplingStepper<2>(*scene, loads, setup));
+  }
 }
 
 TEST(CouplingStepper, ADivergingIterationEndsEarly) {
@@ -264,6 +338,124 @@ TEST(CouplingStepper, SaysWhenItDoesNotConvergeAndLeavesTheFinishedLevels) {
   EXPECT_EQ(state.step, 0);
   EXPECT_EQ(largest(state.before[0].wall), 0);
   EXPECT_EQ(stepper.report().outer_iterations, 2);
+}
+
+TEST(CouplingStepper, AToleranceLeavesThePressureTheSameErrorAtEachStepLength) {
+  const auto worst = [](TimeScheme time_scheme, double step, ToleranceOf kind) {
+    Case setup = short_pulse("robin-neumann-iqn", 1e-3, time_scheme, step);
+    setup.partitioned.tolerance_of = kind;
+    const auto apart = pressures_apart(setup, static_cast<int>(std::lround(0.25 / step)));
+    return *std::max_element(apart.begin(), apart.end());
+  };
+  for (const TimeScheme time_scheme : every_time_scheme)
+    for (const double step : {0.0625, 0.015625})  // some steps' errors meet
+      EXPECT_LT(worst(time_scheme, step, ToleranceOf::pressure), 2e-2)
+          << time_schemes().name_of(time_scheme) << ", " << step << " ms";
+  EXPECT_GT(worst(TimeScheme::midpoint, 0.015625, ToleranceOf::displacement), 0.1)
+      << "so that the above means something";
+}
+
+/// TR-BDF2 whose second stages meet a load that no wall bears, once `breaks` is set.
+class Breaking : public TimeIntegrator {
+ public:
+  explicit Breaking(const bool& breaks) : breaks_(breaks) {}
+  void prepare(State& state) const override { scheme_.prepare(state); }
+  int stages(const State& state) const override { return scheme_.stages(state); }
+  void predict(State& state, int order, const StepData& data) const override { scheme_.predict(state, order, data); }
+  std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const override {
+    return scheme_.balance_weights(state, order, data);
+  }
+  void accept(State& state, const StepData& data) const override { scheme_.accept(state, data); }
+
+ private:
+  StepRates rates_of(const State& state, double step, int stage) const override {
+    StepRates rates = scheme_.rates(state, step, stage);
+    if (breaks_ && stage == 1) rates.load = {{0, 0.01, 1e9}};
+    return rates;
+  }
+  TrBdf2<2> scheme_;
+  const bool& breaks_;
+};
+
+TEST(CouplingStepper, AFailedSecondStageLeavesNoTrace) {
+  const Case setup = short_pulse("robin-neumann-iqn", 1e-6, TimeScheme::tr_bdf2);
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+  bool breaks = false;
+  scene->integrator = std::make_unique<Breaking>(breaks);
+  const Loads loads(setup);
+  CouplingStepper<2> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  stepper.advance(state);
+  const Memory before = stepper.memory();
+  EXPECT_GT(largest(before.arrays.at("load1")), 0) << "of the first stage";
+  breaks = true;
+  EXPECT_THROW(stepper.advance(state), ConvergenceError);
+  EXPECT_EQ(state.step, 1);
+  for (const char* load : {"load0", "load1", "load2"})
+    EXPECT_EQ(stepper.memory().arrays.at(load), before.arrays.at(load));
+  breaks = false;
+  stepper.advance(state);
+  EXPECT_EQ(stepper.memory().arrays.at("load2"), before.arrays.at("load0"));
+}
+
+/// What an adaptive step does: the same stepper, after a step that did not converge, is asked again.
+TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
+  for (const char* scheme : {"robin-neumann-iqn", "iqn-imvj", "newton-krylov", "aitken"}) {
+    Case setup = short_pulse(scheme, 1e-4, TimeScheme::midpoint);
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
+               other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    CouplingStepper<2> stepper(*scene, loads, setup), undisturbed(*other, loads, setup);
+    State state = scene->at_rest();
+    State same = state;
+    stepper.advance(state);
+    undisturbed.advance(same);
+    State broken = state;
+    for (double& u : broken.before[0].fluid) u *= 1e6;
+    for (double& u : broken.before[0].mesh) u *= 1e6;
+    EXPECT_THROW(stepper.advance(broken), ConvergenceError) << scheme;
+    const Memory before = undisturbed.memory(), after = stepper.memory();
+    for (const auto& [name, values] : before.arrays) {
+      const bool is_kept =
+          name.rfind("load", 0) == 0 || name.rfind("iqn", 0) == 0 || name.rfind("newton_krylov", 0) == 0;
+      if (!is_kept || name.find(".age") != std::string::npos) continue;
+      EXPECT_EQ(values, after.arrays.at(name)) << scheme << ": " << name;
+    }
+    stepper.advance(state);
+    undisturbed.advance(same);
+    EXPECT_LT(norm(difference(state.now.wall, same.now.wall)), 1e-3 * norm(same.now.wall)) << scheme;
+  }
+}
+
+TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
+  // A fourth step half as long, with and without what the first three taught.
+  for (const char* scheme : {"iqn-ils", "iqn-imvj", "robin-neumann-iqn", "robin-neumann-imvj"}) {
+    Case setup = short_pulse(scheme, 1e-6, TimeScheme::midpoint), shorter = setup;
+    shorter.time->step = 0.03125;
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    CouplingStepper<2> stepper(*scene, loads, setup);
+    State state = scene->at_rest();
+    for (int n = 0; n < 3; ++n) stepper.advance(state);
+    Memory memory = stepper.memory();
+    memory.step_changed = true;
+    std::array<int, 2> passes{};
+    for (const bool kept : {false, true}) {
+      const auto fresh = build_scene<P2P1AxisymmetricTriangle>(shorter, short_artery());
+      Loads finer(shorter);
+      finer.axis().go_on(loads.axis().stretches(), state.step, state.time);
+      CouplingStepper<2> next(*fresh, finer, shorter);
+      Memory known = memory;
+      if (!kept)
+        for (const char* name : {"iqn_ils.age", "iqn_ils.v", "iqn_ils.w"}) known.arrays[name].clear();
+      if (!kept) known.numbers["iqn_imvj.rank"] = 0;
+      next.recall(known);
+      State copy = state;
+      passes[kept ? 1 : 0] = next.advance(copy).outer_iterations;
+      EXPECT_DOUBLE_EQ(copy.time, state.time + 0.03125);
+    }
+    EXPECT_LT(passes[1], passes[0]) << scheme;
+  }
 }
 
 }  // namespace
