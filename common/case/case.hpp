@@ -91,10 +91,17 @@ struct MultigridData {
 /// [monolithic]
 struct MonolithicData {
   std::string linear_solver = "fast";  ///< one of linear_solver_names()
-  NewtonOptions newton;
+  NewtonOptions newton = standard_newton();
   FastOptions fast;
   KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
   MultigridData multigrid;
+
+  /// A tolerance that leaves a tenth of the discretisation's error at most (docs/accuracy.md).
+  static NewtonOptions standard_newton() {
+    NewtonOptions options;
+    options.tolerance = 1e-3;
+    return options;
+  }
 };
 
 /// [partitioned]

@@ -307,7 +307,7 @@ std::vector<CaseKey<TimeData>> time_keys() {
       leaf("newmark_gamma", optional, "Newmark's gamma of the wall, default {}",
            number(at(&TimeData::newmark_gamma), newmark)),
       leaf("predictor", optional,
-           "order of the extrapolated start of each step, default 1; coupling schemes that iterate 2",
+           "order of the extrapolated start of each step, default 2; euler of fsi-monolithic and explicit coupling 1",
            whole(at(&TimeData::predictor), 0, 2), KeyRole::running),
   };
 }

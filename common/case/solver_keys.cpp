@@ -71,10 +71,16 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
           "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
           [](M& monolithic) -> MultigridData& { return monolithic.multigrid; },
           [](const M& monolithic) { return &monolithic.multigrid; }, KeyRole::running, check_multigrid),
-      leaf("mode", optional, "{}; kept: factors serve while the residual keeps falling; full: new ones each iteration",
-           name_from(at(&M::newton, &NewtonOptions::keep_jacobian), newton_modes())),
-      leaf("newton_tolerance", optional, "last increment relative to the first of the step, default {}",
-           number(at(&M::newton, &NewtonOptions::tolerance), tolerance)),
+      leaf("mode", optional,
+           "{}; kept: factors serve while the residual keeps falling; full: new ones each iteration; linearised: kept "
+           "over "
+           "steps, each solved as far as its estimated error asks, by one solve where that is enough",
+           name_from(at(&M::newton, &NewtonOptions::mode), newton_modes())),
+      leaf(
+          "newton_tolerance", optional,
+          "last increment relative to the first of the step, or (linearised) estimated error relative to what the step "
+          "changes, default {}",
+          number(at(&M::newton, &NewtonOptions::tolerance), tolerance)),
       leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
            number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),
       leaf("max_iterations", optional, "Newton iterations per step, default {}",

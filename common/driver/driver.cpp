@@ -167,6 +167,8 @@ class Run {
     total_.outer_iterations += record.outer_iterations;
     total_.newton_iterations += record.newton_iterations;
     total_.linear_iterations += record.linear_iterations;
+    record.solver_error = report.solver_error;
+    total_.solver_error = std::max(total_.solver_error, record.solver_error);
     if (energy_) {
       const auto phase = scene_->profile.phase("energy balance");
       folder.write_energy(record, energy_->step_to(state_, report.balances));
@@ -256,6 +258,7 @@ class Run {
                           {"outer_iterations", total_.outer_iterations},
                           {"newton_iterations", total_.newton_iterations},
                           {"linear_iterations", total_.linear_iterations},
+                          {"largest_solver_error", total_.solver_error},
                           {"wall_s", seconds_since(start_)}};
     summary_["peak_memory_MiB"] = peak_memory_mib();
     summary_.update(profile_json(scene_->profile));

@@ -32,7 +32,9 @@ constexpr Table wall_table{"wall_displacement.csv", "time_ms,z_mm,radial_mm,axia
 constexpr Table flow_table{"flow.csv",
                            "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
 constexpr Table iterations_table{"iterations.csv",
-                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s", true};
+                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s,"
+                                 "solver_error",
+                                 true};
 constexpr Table coupling_table{
     "coupling.csv",
     "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
@@ -196,7 +198,7 @@ void ResultFolder::write_iterations(const StepRecord& record) {
   iterations_.value().write({static_cast<double>(record.step), record.time,
                              static_cast<double>(record.outer_iterations),
                              static_cast<double>(record.newton_iterations),
-                             static_cast<double>(record.linear_iterations), record.wall_seconds});
+                             static_cast<double>(record.linear_iterations), record.wall_seconds, record.solver_error});
 }
 
 void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& c) {

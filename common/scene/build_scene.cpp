@@ -83,7 +83,9 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
 
   if (setup.time) {
     scene->integrator = make_time_scheme(setup, *scene);
-    scene->predictor = setup.time->predictor.value_or(1);
+    const bool first_order =
+        setup.time->scheme == TimeScheme::euler && setup.monolithic.newton.mode != NewtonMode::linearised;
+    scene->predictor = setup.time->predictor.value_or(first_order ? 1 : 2);
   }
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;

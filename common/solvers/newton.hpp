@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,17 +31,31 @@ class NewtonProblem {
   virtual void move(double step) = 0;
   /// Norm of the iterate, in the norm of the increments.
   virtual double size() const = 0;
+  /// The last increment relative to what the iterate differs by from the last solution, in time or load; infinite where
+  /// nobody knows.
+  virtual double relative_increment() const { return std::numeric_limits<double>::infinity(); }
   /// Norm of the rounding error that the residual carries: it cannot be made smaller. 0: unknown. Asked when
   /// linearised.
   virtual double rounding() { return 0; }
 };
 
+/// When Newton's method makes a Jacobian, and when it stops.
+enum class NewtonMode {
+  kept,       ///< a Jacobian, of earlier calls too, serves while the residual keeps falling (chord iterations)
+  full,       ///< a new Jacobian each iteration
+  linearised  ///< a Jacobian serves until it is told to be renewed; stops at the estimated error of the iterate
+};
+
 struct NewtonOptions {
-  double tolerance = 1e-8;        ///< converged when the increment's norm is below this times `reference`
+  NewtonMode mode = NewtonMode::kept;
+  /// kept, full: converged when the increment's norm is below this times `reference`. linearised: when the estimated
+  /// error is below this times what the solution changes.
+  double tolerance = 1e-8;
   double reference = 0;           ///< 0: the norm of the first increment ([Langer2018], algorithm 1)
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
   int max_iterations = 30;
-  bool keep_jacobian = true;     ///< use a Jacobian, of earlier calls too, while the residual keeps falling
+  bool renew = false;            ///< linearised: begin with a new Jacobian, also where an earlier one is kept
+  double contraction = 0;        ///< linearised: of increments in an earlier call with the Jacobian; 0: unknown
   double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less (0: as
                                  ///< the problem advises),
   int keep_iterations = 12;      ///< or after so many iterations of one call
@@ -52,13 +67,12 @@ struct NewtonOptions {
   std::function<void(int iteration)> observe_system;
 };
 
-/// Names of keep_jacobian: "kept" (true), "full"
-const NameTable<bool>& newton_modes();
+const NameTable<NewtonMode>& newton_modes();
 
 /// One row of the convergence history.
 struct NewtonIteration {
   double increment = 0;     ///< norm of the increment, as taken
-  double residual = 0;      ///< norm of the residual after it
+  double residual = 0;      ///< norm of the residual after it; 0: not evaluated
   double step = 1;          ///< length of the step: 1 unless backtracking cut it
   bool linearised = false;  ///< a new Jacobian was made for it
   int linear_iterations = 0;
@@ -67,11 +81,14 @@ struct NewtonIteration {
 struct NewtonReport {
   bool converged = false;
   double first_residual = 0;
+  double error = 0;        ///< estimated, of the last iterate relative to what the solution changes
+  double contraction = 0;  ///< linearised: of the last two increments; 0: there was one
   std::vector<NewtonIteration> iterations;
   std::string failure;  ///< why it stopped, when it did not converge
 
   int count() const { return static_cast<int>(iterations.size()); }
   int linear_iterations() const;
+  int linearisations() const;
 };
 
 /// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.

@@ -14,6 +14,12 @@
 
 namespace fsi {
 
+namespace {
+
+constexpr double smallest_change = 0.01;  // of a field: changes below count as large as this
+
+}  // namespace
+
 template <int n>
 System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver,
                   SystemNorm norm, const InterfaceImpedance* impedance)
@@ -155,6 +161,36 @@ double System<n>::size() const {
   return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
                    weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
                    weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
+}
+
+template <int n>
+double System<n>::relative_increment() const {
+  // Where values alternate from step to step, two steps show what changes beside that.
+  const bool two = data_->rates.stage == 0 && state_->balances_since_jump > 1;
+  const Solution& before = two                      ? state_->balances[1]
+                           : data_->rates.stage > 0 ? state_->stage_balance
+                                                    : state_->last_balance();
+  double largest = 0;
+  const auto compare = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& now,
+                           const std::vector<double>& old) {
+    for (const bool scalar : {false, true}) {
+      double increment = 0, change = 0, size = 0;
+      for (std::size_t i = 0; i < map.size(); ++i) {
+        if ((i % Mixed::entries == n) != scalar) continue;
+        const double volume = volumes[i / Mixed::entries];
+        const double moved = map[i].index < 0 ? 0 : map[i].factor * increment_[map[i].index];
+        increment += volume * moved * moved;
+        change += volume * (now[i] - old[i]) * (now[i] - old[i]);
+        size += volume * now[i] * now[i];
+      }
+      const double steps = two ? 4 : 1;  // squared
+      const double worth = std::max(std::min(change / steps, size), smallest_change * smallest_change * size);
+      if (increment > 0) largest = std::max(largest, increment / worth);
+    }
+  };
+  compare(numbering_.fluid, fluid_volumes_, state_->now.fluid, before.fluid);
+  compare(numbering_.wall, wall_volumes_, state_->now.wall, before.wall);
+  return std::sqrt(largest);
 }
 
 template <int n>

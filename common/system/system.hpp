@@ -78,6 +78,9 @@ class System : public NewtonProblem {
   void move(double step) override;
 
   double size() const override;
+  /// The largest of velocities, displacements of the wall and pressures of both: the pressures of the next step feel
+  /// errors of displacements that count little in a norm of all fields.
+  double relative_increment() const override;
 
   /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Wall displacements count as
   /// large as the elements, since stresses are differences of terms of order one (I - I_1/3 C^-1) whatever the strain.

@@ -34,6 +34,12 @@ std::vector<double> carried(const std::vector<double>& from, const std::vector<d
   return end;
 }
 
+/// Weights of three values in a straight line that is blind to what alternates: through the means of neighbours.
+std::array<double, 3> smooth_weights(const std::array<double, 3>& t, double time) {
+  const double latest = 0.5 * (t[0] + t[1]), before = 0.5 * (t[1] + t[2]), along = (time - latest) / (latest - before);
+  return {0.5 * (1 + along), 0.5, -0.5 * along};
+}
+
 /// Pressures of both media: those of q0, or between (beyond) those of two balances, q = (1 - w) q0 + w q1.
 template <int n>
 void set_pressures(Solution& to, const Solution& q0, const Solution& q1, double w) {
@@ -131,26 +137,41 @@ StepRates BalanceScheme<n>::rates_from(double step, double k, References referen
 
 template <int n>
 void BalanceScheme<n>::predict(State& state, int order, const StepData& data) const {
-  // What is known, the latest first: in a second stage the first one comes before the finished levels.
+  // Solutions of the equations, the latest first, then the level at the jump: what alternates from level to level is
+  // not in the solutions between them.
   const bool within = data.rates.stage > 0;
-  const std::array<const Solution*, 3> levels =
-      within ? std::array<const Solution*, 3>{&state.stage, &state.before[0], &state.before[1]}
-             : std::array<const Solution*, 3>{&state.before[0], &state.before[1], &state.before[2]};
-  const std::array<double, 3> times =
-      within ? std::array<double, 3>{state.stage_end, state.times[0], state.times[1]} : state.times;
-  const int known = state.since_jump + (within ? 1 : 0);
-  auto w = extrapolation_weights(times, std::min({order, known, 2}), data.rates.end);
-  // A balance within a stage has its values on the line between both ends: a curve's own would be off by dt^2, and
-  // velocities made of it by dt.
-  for (double& weight : w) weight *= data.rates.carry;
-  w[0] += 1 - data.rates.carry;
-  for_each_field([&](auto field) {
-    const auto &x0 = levels[0]->*field, &x1 = levels[1]->*field, &x2 = levels[2]->*field;
+  std::array<const Solution*, 3> known{};
+  std::array<double, 3> times{};
+  int count = 0;
+  const auto add = [&](const Solution& solution, double time) {
+    if (count == 3) return;
+    known[count] = &solution;
+    times[count++] = time;
+  };
+  if (within) add(state.stage_balance, state.stage_time);
+  for (int i = 0; i < std::min(state.balances_since_jump, 3); ++i) add(state.balances[i], state.balance_times[i]);
+  if (state.since_jump < 3) add(state.before[state.since_jump], state.times[state.since_jump]);
+  for (int i = count; i < 3; ++i) known[i] = known[0];  // of no weight
+  const auto extrapolate = [&](std::vector<double> Solution::*field, const std::array<double, 3>& w) {
+    const auto &x0 = known[0]->*field, &x1 = known[1]->*field, &x2 = known[2]->*field;
     auto& x = state.now.*field;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = w[0] * x0[i] + w[1] * x1[i] + w[2] * x2[i];
-  });
+  };
+  const auto w = extrapolation_weights(times, std::min({order, count - 1, 2}), data.rates.time);
+  for_each_field([&](auto field) { extrapolate(field, w); });
+  if (count == 1 && order > 0) {  // through a jump of the load displacements go on with the velocity that they have
+    const double ahead = data.rates.time - state.time;
+    for (std::size_t i = 0; i < state.wall_velocity.size(); ++i)
+      state.now.wall[MixedLayout<n>::vector(static_cast<int>(i) / n, static_cast<int>(i) % n)] +=
+          ahead * state.wall_velocity[i];
+    const auto through = extrapolation_weights(state, 1, data.rates.time);
+    for (std::size_t i = 0; i < state.now.mesh.size(); ++i)
+      state.now.mesh[i] = through[0] * state.before[0].mesh[i] + through[1] * state.before[1].mesh[i];
+  }
 
-  const auto v = balance_weights(state, order, data);
+  auto v = balance_weights(state, order, data);
+  if (order == 2 && data.rates.carry < 1 && state.balances_since_jump > 2)
+    v = smooth_weights(state.balance_times, data.rates.time);
   const std::array<const Solution*, 3> balances =
       within ? std::array<const Solution*, 3>{&state.stage_balance, &state.balances[0], &state.balances[1]}
              : std::array<const Solution*, 3>{&state.balances[0], &state.balances[1], &state.balances[2]};

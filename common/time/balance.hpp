@@ -22,7 +22,8 @@ template <int n>
 class BalanceScheme : public TimeIntegrator {
  public:
   void prepare(State& state) const override;
-  /// Velocities and displacements from levels, pressures from balances, as far back as the load has not jumped.
+  /// From balances, as far back as the load has not jumped, displacements and velocities from the level at the jump,
+  /// too. Displacements go on through a jump with the wall's velocity.
   void predict(State& state, int order, const StepData& data) const override;
   std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const override;
   void accept(State& state, const StepData& data) const override;

@@ -178,7 +178,7 @@ class LinearStudy {
     scene_->impose_interface(state, data.rates);
     system.work_on(state, data);
     NewtonOptions options = setup_.monolithic.newton;
-    options.keep_jacobian = false;
+    options.mode = NewtonMode::full;
     options.stop_at_rounding = false;  // the last increment tells the order of convergence
     options.linear_tolerance = std::min(1e-9, tolerance_);
     options.observe_system = [&](int iteration) {

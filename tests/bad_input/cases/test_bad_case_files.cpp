@@ -240,7 +240,7 @@ const std::vector<BadCase>& bad_cases() {
        "infinite frequency, default 0.5; more than 0.5 lets pressures ring)"},
       {"PredictorOfOrderThree", coupled_case, "end = 12.0", "end = 12.0\npredictor = 3",
        "case.toml:27: time.predictor: 3 is out of range; give a whole number from 0 to 2 (order of the extrapolated "
-       "start of each step, default 1; coupling schemes that iterate 2)"},
+       "start of each step, default 2; euler of fsi-monolithic and explicit coupling 1)"},
       {"LoadStepsZero", static_case, "load_steps = 5", "load_steps = 0",
        "case.toml:13: static.load_steps: 0 is out of range; give a whole number from 1 to 1000000 (equal steps in "
        "which the load is raised, default 10)"},
@@ -290,7 +290,7 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:29: monolithic.multigrid.fluid_smoother: \"vanca\" is unknown; did you mean vanka? There are "
        "braess-sarazin or vanka"},
       {"ModeUnknown", coupled_case, "linear_solver = \"direct\"", "mode = \"keep\"",
-       "case.toml:28: monolithic.mode: \"keep\" is unknown; did you mean kept? There are kept or full"},
+       "case.toml:28: monolithic.mode: \"keep\" is unknown; did you mean kept? There are kept, full or linearised"},
       {"SchemeUnknown", coupled_case, "\"aitken\"", "\"aitkin\"",
        "case.toml:31: partitioned.scheme: \"aitkin\" is unknown; did you mean aitken? There are " +
            one_of(coupling_scheme_names())},
@@ -324,7 +324,8 @@ const std::vector<BadCase>& bad_cases() {
        "default 8; 0: no fields)"},
       {"NewtonToleranceZero", coupled_case, "newton_tolerance = 1e-8", "newton_tolerance = 0",
        "case.toml:29: monolithic.newton_tolerance: 0 is out of range; give a number > 0 and < 1 (last increment "
-       "relative to the first of the step, default 1e-8)"},
+       "relative to the first of the step, or (linearised) estimated error relative to what the step changes, default "
+       "0.001)"},
       {"ToleranceOne", coupled_case, "tolerance = 1e-6", "tolerance = 1",
        "case.toml:32: partitioned.tolerance: 1 is out of range; give a number > 0 and < 1 (interface change relative "
        "to its displacement, default 1e-6)"},

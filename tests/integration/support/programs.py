@@ -108,8 +108,9 @@ def times(folder):
 
 
 def iterations_without_seconds(folder):
-    lines = (Path(folder) / "iterations.csv").read_text().splitlines()
-    return [line.rsplit(",", 1)[0] for line in lines]
+    rows = [line.split(",") for line in (Path(folder) / "iterations.csv").read_text().splitlines()]
+    seconds = rows[0].index("wall_s")
+    return [row[:seconds] + row[seconds + 1 :] for row in rows]
 
 
 NEWTON = re.compile(r"newton +\d+  increment (\S+)  residual (\S+)(?:  step (\S+))?(  new jacobian)?$")

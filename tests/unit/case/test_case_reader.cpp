@@ -181,7 +181,7 @@ constant_operators = "rebuilt"
   EXPECT_EQ(scene.time->scheme, TimeScheme::euler);
   EXPECT_EQ(scene.time->newmark_gamma, 0.5);
   EXPECT_EQ(scene.time->predictor, 2);
-  EXPECT_FALSE(scene.monolithic.newton.keep_jacobian);
+  EXPECT_EQ(scene.monolithic.newton.mode, NewtonMode::full);
   EXPECT_EQ(scene.monolithic.newton.residual_tolerance, 1e-7);
   EXPECT_EQ(scene.monolithic.newton.max_iterations, 7);
   EXPECT_EQ(scene.monolithic.newton.linear_tolerance, 1e-6);
@@ -231,7 +231,7 @@ TEST(CaseReader, OverridesEntries) {
   EXPECT_EQ(scene.fluid->density, 2);
   EXPECT_EQ(scene.title, "no quotes needed");
   EXPECT_EQ(scene.output.fields, std::vector<std::string>{"pressure"});
-  EXPECT_FALSE(scene.monolithic.newton.keep_jacobian);
+  EXPECT_EQ(scene.monolithic.newton.mode, NewtonMode::full);
   EXPECT_EQ(scene.inlet->points, (Points{{0, 3.5}, {0.2, 3.5}, {0.2, 0}}));
   EXPECT_EQ(scene.time->steps(), 5);
 }

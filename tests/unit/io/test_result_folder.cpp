@@ -20,10 +20,10 @@ void write_step(ResultFolder& results, int step) {
   results.write_centerline(time, {0, 0.1}, {1.332 / step, 1.0 / 3.0});
   results.write_wall(time, {0.5}, {1e-17}, {-0.25});
   results.write_flow(time, {1, 2, 0.003, 0.004});
-  results.write_iterations({step, time, 4, 9, 0, 0.75});
+  results.write_iterations({step, time, 4, 9, 0, 0.75, 0.002});
   EnergyRecord energy;
   energy.inlet_work = 0.25 * step;
-  results.write_energy({step, time, 4, 9, 0, 0.75}, energy);
+  results.write_energy({step, time, 4, 9, 0, 0.75, 0.002}, energy);
 }
 
 class Results : public FolderTest {
@@ -75,7 +75,8 @@ TEST_F(Results, TablesHaveTheColumnsThatScriptsRelyOn) {
   EXPECT_EQ(contents_of(run_ / "flow.csv"),
             "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa\n0.1,1,2,3,4\n");
   EXPECT_EQ(contents_of(run_ / "iterations.csv"),
-            "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s\n1,0.1,4,9,0,0.75\n");
+            "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s,solver_error\n1,0.1,4,9,0,0.75,0."
+            "002\n");
 }
 
 TEST_F(Results, TellHowFluidAndWallCameToAgree) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -33,9 +34,13 @@ class Scalar : public NewtonProblem {
   }
   void move(double step) override { x += step * increment_; }
   double size() const override { return std::abs(x); }
+  double relative_increment() const override {
+    return std::abs(increment_) / std::max(std::abs(x - before), 0.01 * std::abs(x));
+  }
   double rounding() override { return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x); }
 
   double x;
+  double before = 0;  // the last solution
   int evaluations = 0, linearisations = 0;
 
  private:
@@ -50,7 +55,7 @@ Scalar square_root_of_two(double start = 2) {
 
 NewtonOptions full_newton() {
   NewtonOptions options;
-  options.keep_jacobian = false;
+  options.mode = NewtonMode::full;
   options.tolerance = 1e-14;
   return options;
 }
@@ -256,6 +261,73 @@ TEST(Newton, ReferenceReplacesTheFirstIncrement) {
   options.reference = 1e3;  // the first increment, 0.5, is already below a thousandth of it
   auto problem = square_root_of_two();
   EXPECT_EQ(newton(problem, options).count(), 1);
+}
+
+NewtonOptions linearised(double tolerance) {
+  NewtonOptions options;
+  options.mode = NewtonMode::linearised;
+  options.tolerance = tolerance;
+  return options;
+}
+
+// x^2 = 2 from 1.4, the last solution being 1. The second increment is 0.0051 of the first; a chord's errors fall by
+// 1 - sqrt(2) / 1.4 = 0.010 each.
+TEST(Newton, LinearisedEstimatesItsErrorByTheContractionOfIncrements) {
+  auto problem = square_root_of_two(1.4);
+  problem.before = 1;
+  const auto report = newton(problem, linearised(1e-3));
+  ASSERT_TRUE(report.converged);
+  EXPECT_EQ(report.count(), 2) << "one increment alone tells no contraction";
+  EXPECT_NEAR(report.contraction, 0.0051, 1e-4);
+  const double error = std::abs(problem.x - std::sqrt(2.0)) / (std::sqrt(2.0) - 1);
+  EXPECT_GT(report.error, 0.4 * error);
+  EXPECT_LT(report.error, error);
+  EXPECT_EQ(problem.evaluations, 2) << "the residual after the last increment is nobody's business";
+}
+
+TEST(Newton, LinearisedTakesOneSolveWhereAnEarlierContractionMakesItAccurate) {
+  auto options = linearised(1e-3);
+  auto problem = square_root_of_two(1.4);
+  problem.before = 1;
+  options.contraction = newton(problem, options).contraction;
+  problem.x = 1.43;
+  const auto report = newton(problem, options);
+  ASSERT_TRUE(report.converged);
+  EXPECT_EQ(report.count(), 1);
+  EXPECT_LE(std::abs(problem.x - std::sqrt(2.0)), 1e-3 * (std::sqrt(2.0) - 1));
+
+  problem.x = 2.4;  // a step too large: the first increment is too long for the contraction to make it good
+  const auto large = newton(problem, options);
+  ASSERT_TRUE(large.converged);
+  EXPECT_GT(large.count(), 2);
+  EXPECT_LE(std::abs(problem.x - std::sqrt(2.0)), 1e-3 * (std::sqrt(2.0) - 1));
+}
+
+TEST(Newton, LinearisedFallsBackToStepsCutShort) {
+  Scalar problem([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); }, 3);
+  const auto report = newton(problem, linearised(1e-6));
+  ASSERT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(problem.x, 0, 1e-5);
+  EXPECT_LT(report.iterations.front().step, 1);
+}
+
+TEST(Newton, LinearisedBeginsWithANewJacobianWhereItIsTold) {
+  auto options = linearised(1e-3);
+  auto problem = square_root_of_two(1.4);
+  EXPECT_TRUE(newton(problem, options).iterations.front().linearised) << "there was none";
+  problem.x = 1.41;
+  EXPECT_FALSE(newton(problem, options).iterations.front().linearised);
+  problem.x = 1.41;
+  options.renew = true;
+  EXPECT_TRUE(newton(problem, options).iterations.front().linearised);
+}
+
+TEST(Newton, LinearisedAsksNoMoreThanTheIterateIsWorth) {
+  auto problem = square_root_of_two(1.4142);
+  problem.before = 1.4142135;  // next to nothing changes
+  const auto report = newton(problem, linearised(1e-3));
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.count(), 2);
 }
 
 }  // namespace
