@@ -38,13 +38,21 @@ StepReport CouplingStepper<n>::advance(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
+  if (unfinished_) problem_->take_back();  // the step before failed in its second stage
+  problem_->begin_step();
+  unfinished_ = true;
   const int stages = scene_.integrator->stages(state);
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
+    if (rejects(state, data)) {
+      problem_->take_back();
+      break;
+    }
     if (keep_balances_) report_.balances.push_back({state.now, data});
     scene_.integrator->accept(state, data);
   }
+  unfinished_ = false;
   return report_;
 }
 

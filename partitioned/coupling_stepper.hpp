@@ -31,6 +31,8 @@ class CouplingStepper : public Stepper {
   bool reports_coupling() const override { return true; }
 
   StepReport advance(State& state) override;
+  /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
+  bool can_retry() const override { return !scheme_.one_pass; }
 
   Memory memory() const override;
   void recall(const Memory& memory) override;
@@ -88,6 +90,7 @@ class CouplingStepper : public Stepper {
   DivergenceMonitor monitor_;        ///< of the step's passes
   AlternationMonitor march_;         ///< of the steps, with one pass each,
   VelocityGapMonitor velocity_gap_;  ///< and of what they leave
+  bool unfinished_ = false;          ///< the step has begun and not ended
   int passes_ = 0;                   ///< of the stage in progress
   int order_ = 0;                    ///< of the extrapolated start
   bool starts_far_ = true;           ///< the last step's first guess was far from its end

@@ -54,6 +54,9 @@ class InterfaceProblem {
   virtual bool stiffen() { return false; }
   /// The step was accepted with the last pass.
   virtual void accept() {}
+  /// A step begins, of one stage or two; take_back() forgets what was accepted since.
+  virtual void begin_step() {}
+  virtual void take_back() {}
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
   /// differences of its positions, are then the wall's.
   void follow_wall() { move_mesh(wall_displacement(state_->now)); }

@@ -101,6 +101,9 @@ class RobinNeumann : public InterfaceProblem<n> {
         loads_[0][i * n + k] = fluid_.fluid_residual()[Base::fluid_entry(scene_.interface[i], k)];
   }
 
+  void begin_step() override { kept_loads_ = loads_; }
+  void take_back() override { loads_ = kept_loads_; }
+
   Memory memory() const override {
     Memory memory = Base::memory();
     if (fluid_.linearised()) remember("fluid", fluid_.linearisation_point(), memory);
@@ -149,7 +152,8 @@ class RobinNeumann : public InterfaceProblem<n> {
   double stiffening_ = 1;     ///< of the membrane's impedance
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
   System<n> fluid_;
-  std::array<std::vector<double>, 3> loads_;  ///< lambda of the last steps, the latest first
+  std::array<std::vector<double>, 3> loads_;       ///< lambda of the last steps, the latest first
+  std::array<std::vector<double>, 3> kept_loads_;  ///< as they were when the step began
 };
 
 }  // namespace fsi
