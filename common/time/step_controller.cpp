@@ -8,8 +8,9 @@ namespace fsi {
 namespace {
 
 constexpr double safety = 0.9, growth = 2, shrinkage = 0.2;
-constexpr double rungs = 4;           // to an octave
-constexpr double negligible = 1e-10;  // an error below this says no more than that
+constexpr double smallest_change = 0.95;  // downwards
+constexpr double rungs = 4;               // to an octave
+constexpr double negligible = 1e-10;      // an error below this says no more than that
 constexpr double rounding = 1e-9;
 constexpr double of_failed_step = 0.25;  // what is left of the length of a step without solution
 
@@ -34,16 +35,19 @@ void StepController::accept(double) {
 
 void StepController::accept(double length, double error) {
   error = std::max(error, negligible);
-  const double integral = std::pow(error, -0.7 / order_);
-  const double proportional =
-      error_before_ > 0 ? std::pow(error_before_, 0.4 / order_) : std::pow(error, -0.3 / order_);
-  const double factor = std::clamp(safety * integral * proportional, shrinkage, growth);
+  // What the step before would have had at this length.
+  const double before =
+      error_before_ > 0 ? std::max(error_before_ * std::pow(length / length_before_, order_), negligible) : error;
   error_before_ = error;
-  const double next = rung(factor * length);
-  // Two rungs are worth another Jacobian. A step that was cut to end at a stop says nothing about the length wanted.
-  const bool grows = next > wanted_ * std::exp2(1.5 / rungs) && !held_;
-  if (grows || next < wanted_ * (1 - rounding) * std::min(1.0, length / wanted_)) wanted_ = next;
+  length_before_ = length;
+  const bool may_grow = !held_;
   held_ = false;
+  if (length < 0.5 * wanted_) return;  // cut to end at a stop: it says nothing about the length wanted
+  const double factor = safety * std::pow(error * before, -0.5 / order_);
+  const double next = rung(std::clamp(factor, shrinkage, growth) * length);
+  // Two rungs up are worth another Jacobian.
+  if ((may_grow && next > wanted_ * std::exp2(1.5 / rungs)) || (factor < smallest_change && next < wanted_))
+    wanted_ = next;
 }
 
 bool StepController::reject(double length, double error) {
@@ -60,9 +64,10 @@ void StepController::fail(double length) {
 }
 
 void StepController::recall(const std::vector<double>& memory) {
-  if (memory.size() != 2) return;
+  if (memory.size() != 3) return;
   wanted_ = std::min(memory[0], limits_.largest);
   error_before_ = memory[1];
+  length_before_ = memory[2];
 }
 
 }  // namespace fsi

@@ -11,9 +11,9 @@ struct StepLimits {
   double largest = 0;   ///< ms
 };
 
-/// Chooses the lengths of steps from estimates of their error, by proportional and integral control ([Hairer1996],
-/// section IV.2): with the error e of a step over the allowed one, which goes like the length to the power `order`,
-///   dt_new = dt 0.9 e^(-0.7 / order) e_before^(0.4 / order),
+/// Chooses the lengths of steps from estimates of their error by a digital filter, H0211 of [Soderlind2003]: with the
+/// error e of a step over the allowed one, which goes like the length to the power k,
+///   dt_new = dt 0.9 (e e_before)^(-1/(2k)) (dt / dt_before)^(-1/2),
 /// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart, and
 /// one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about right.
 class StepController {
@@ -35,7 +35,7 @@ class StepController {
   void fail(double length);
 
   /// For a restart.
-  std::vector<double> memory() const { return {wanted_, error_before_}; }
+  std::vector<double> memory() const { return {wanted_, error_before_, length_before_}; }
   void recall(const std::vector<double>& memory);
 
  private:
@@ -46,6 +46,7 @@ class StepController {
   int order_;
   double wanted_;
   double error_before_ = 0;  ///< of the last accepted step; 0: none
+  double length_before_ = 0;
   bool held_ = false;        ///< the last step was rejected or failed: the next does not grow
 };
 

@@ -178,8 +178,11 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vect
     if (!changed) {
       drop_insertions_after(last);
     } else {
+      const std::vector<double> stops = std::exchange(stops_, jumps_);  // equal steps need no times of output
       std::vector<Insertion> all;
       for (int step = 1; step <= last; ++step) all.push_back({step, time_of(step), length_of(step)});
+      stops_ = stops;
+      if (!all.empty()) all.back().end = time;
       insertions_ = std::move(all);
     }
     stretches_ = {{0, time, 0}};

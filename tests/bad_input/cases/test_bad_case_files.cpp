@@ -101,8 +101,8 @@ const std::vector<BadCase>& bad_cases() {
       {"NumberIsNan", coupled_case, "viscosity = 3.5e-3", "viscosity = nan",
        "case.toml:7: fluid.viscosity: nan is not finite; give a finite number (dynamic viscosity in kPa ms)"},
       {"NumberIsInfinite", coupled_case, "end = 12.0", "end = inf",
-       "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of the "
-       "step)"},
+       "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of an "
+       "equal step)"},
       {"WholeNumberIsDecimal", coupled_case, "every = 8", "every = 8.5",
        "case.toml:35: output.every: 8.5 is a decimal number; give a whole number (steps between entries of fields.h5, "
        "default 8; 0: no fields)"},
@@ -121,7 +121,8 @@ const std::vector<BadCase>& bad_cases() {
       // Missing
       {"ViscosityMissing", coupled_case, "viscosity = 3.5e-3\n", "",
        "case.toml:5: fluid.viscosity: missing; add it (dynamic viscosity in kPa ms)"},
-      {"StepMissing", coupled_case, "step = 0.125\n", "", "case.toml:24: time.step: missing; add it (time step in ms, or \"adaptive\")"},
+      {"StepMissing", coupled_case, "step = 0.125\n", "",
+       "case.toml:24: time.step: missing; add it (time step in ms, or \"adaptive\")"},
       {"PressureMissing", coupled_case, "pressure = 1.332\n", "",
        "case.toml:21: inlet.pressure: missing; add it (pressure in kPa, or a table of [time in ms, pressure in kPa], "
        "linear in between)"},
@@ -212,7 +213,8 @@ const std::vector<BadCase>& bad_cases() {
       {"StepZero", coupled_case, "step = 0.125", "step = 0",
        "case.toml:25: time.step: 0 is not positive; give a number > 0 (time step in ms, or \"adaptive\")"},
       {"EndNegative", coupled_case, "end = 12.0", "end = -12",
-       "case.toml:26: time.end: -12 is not positive; give a number > 0 (end of the run in ms, a multiple of an equal step)"},
+       "case.toml:26: time.end: -12 is not positive; give a number > 0 (end of the run in ms, a multiple of an equal "
+       "step)"},
       {"EndBeforeStep", coupled_case, "end = 12.0", "end = 0.1",
        "case.toml:26: time.end: 0.1 is less than one step of 0.125; give an end >= step"},
       {"EndNoMultiple", coupled_case, "end = 12.0", "end = 12.3",
@@ -236,10 +238,13 @@ const std::vector<BadCase>& bad_cases() {
        "step = \"adaptive\"\nfirst_step = 0.01\nsmallest_step = 0.1",
        "case.toml:27: time.smallest_step: 0.1 is more than the first step of 0.01; give at most 0.01"},
       {"RetriesNegative", coupled_case, "end = 12.0", "end = 12.0\nretries = -1",
-       "case.toml:27: time.retries: -1 is out of range; give a whole number from 0 to 20 (times that a step which finds "
+       "case.toml:27: time.retries: -1 is out of range; give a whole number from 0 to 20 (times that a step which "
+       "finds "
        "no solution is halved before the run gives up, default 4)"},
       {"IntervalZero", coupled_case, "[output]", "[output]\ninterval = 0",
-       "x"},
+       "case.toml:34: output.interval: 0 is not positive; give a number > 0 (time in ms between entries of fields.h5, "
+       "in "
+       "place of every: steps end there; with adaptive steps a twelfth of the run unless given)"},
       {"NewmarkBetaZero", coupled_case, "end = 12.0", "end = 12.0\nnewmark_beta = 0",
        "case.toml:27: time.newmark_beta: 0 is out of range; give a number > 0 and <= 1 (Newmark's beta of the wall, "
        "default 1)"},

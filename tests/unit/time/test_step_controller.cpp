@@ -33,7 +33,7 @@ TEST(StepController, FindsTheLengthOfTheToleranceAndKeepsIt) {
   for (const int order : {1, 2}) {
     March march({0.01, 1e-6, 10}, order);
     for (int i = 0; i < 100; ++i) march.step(1);
-    EXPECT_GT(march.controller.wanted(), 0.6);
+    EXPECT_GT(march.controller.wanted(), 0.5);
     EXPECT_LE(march.controller.wanted(), 1);
     EXPECT_EQ(march.rejected, 0);
     EXPECT_LE(march.changes, 12);  // growth by two or less each, from a hundredth

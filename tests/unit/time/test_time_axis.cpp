@@ -175,21 +175,23 @@ TEST(TimeAxis, AdaptiveStepsAreEqualUpToTheNextStop) {
 }
 
 TEST(TimeAxis, GoesOnFromEqualStepsToAdaptiveOnesAndBack) {
-  const Case equal = in_time(0.25, 2), chosen = adaptive(2);
+  Case equal = in_time(0.25, 2);
+  const Case chosen = adaptive(2);
+  equal.inlet = chosen.inlet;
   const TimeAxis before(equal);
   TimeAxis axis(chosen);
-  EXPECT_TRUE(axis.go_on(before.stretches(), 2, 0.5));
-  axis.choose(3, 0.5, 0.4);  // 1.5 in four steps
-  EXPECT_EQ(axis.time_of(1), 0.25);
-  EXPECT_EQ(axis.time_of(2), 0.5);
-  EXPECT_EQ(axis.time_of(3), 0.875);
+  EXPECT_TRUE(axis.go_on(before.stretches(), 2, 0.375));
+  axis.choose(3, 0.375, 0.5);  // 1.625 in four steps
+  EXPECT_EQ(axis.time_of(1), 0.125);
+  EXPECT_EQ(axis.time_of(2), 0.375);
+  EXPECT_EQ(axis.time_of(3), 0.78125);
   TimeAxis again(chosen);
-  EXPECT_FALSE(again.go_on(axis.stretches(), 3, 0.875, axis.insertions()));
-  EXPECT_EQ(again.choose(4, 0.875, 0.4), 0.375);
+  EXPECT_FALSE(again.go_on(axis.stretches(), 3, 0.78125, axis.insertions()));
+  EXPECT_EQ(again.choose(4, 0.78125, 0.5), 0.40625);
   TimeAxis back(equal);
-  EXPECT_TRUE(back.go_on(axis.stretches(), 3, 0.875, axis.insertions()));
+  EXPECT_TRUE(back.go_on(axis.stretches(), 3, 0.78125, axis.insertions()));
   EXPECT_EQ(back.steps(), 3 + 5);
-  const double times[] = {0, 0.25, 0.5, 0.875, 1.125, 1.375, 1.625, 1.875, 2};
+  const double times[] = {0, 0.125, 0.375, 0.78125, 1.03125, 1.28125, 1.53125, 1.78125, 2};
   for (int step = 0; step <= 8; ++step) EXPECT_EQ(back.time_of(step), times[step]) << step;
 }
 
