@@ -320,6 +320,7 @@ class Run {
                           {"newton_iterations", total_.newton_iterations},
                           {"linear_iterations", total_.linear_iterations},
                           {"rejected_steps", march_.attempts().rejected},
+                          {"steps_above_tolerance", march_.attempts().beyond},
                           {"failed_steps", march_.attempts().failed},
                           {"wall_s", seconds_since(start_)}};
     summary_["peak_memory_MiB"] = peak_memory_mib();

@@ -41,8 +41,8 @@ ErrorTerms error_terms(const TimeData& time, double damping) {
 
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene) {
-  const double rate = midpoint_damping(setup, scene), end = setup.time.value().end;
-  return 2 * rate * end > 1 ? 0.5 / rate : end;
+  const double rate = midpoint_damping(setup, scene);
+  return rate > 0 ? 0.5 / rate : setup.time.value().end;
 }
 
 template <int n>
@@ -53,7 +53,7 @@ March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Load
   const TimeData& time = *setup.time;
   const double swing = scene_time(setup, scene);
   StepLimits limits;
-  limits.largest = time.largest_step.value_or(std::min(largest_share * swing, time.end));
+  limits.largest = time.largest_step.value_or(largest_share * swing);
   const ErrorTerms terms = error_terms(time, midpoint_damping(setup, scene));
   const double first = first_share * swing * std::pow(time.tolerance / its_tolerance, 1.0 / terms.order);
   limits.first = time.first_step.value_or(std::min(first, limits.largest));

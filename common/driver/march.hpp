@@ -15,8 +15,8 @@
 
 namespace fsi {
 
-/// In which a scene swings once, ms: half the inverse of the midpoint rule's damping (scene/time_scheme.hpp), at most the run's
-/// end.
+/// Half the inverse of the midpoint rule's damping (scene/time_scheme.hpp), ms: of fluid and wall the time in which a wave
+/// goes as far as the radius. It does not depend on the end of the run, which may be put off.
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
 
