@@ -5,12 +5,12 @@
 
 namespace fsi {
 
-/// Notices a pressure that alternates from step to step: a sawtooth is what a time scheme leaves that does not damp what
-/// its steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
+/// Notices a pressure that alternates from step to step: a sawtooth is what a time scheme leaves that does not damp
+/// what its steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
 ///   a^n = p^(n-1) - (p^(n-2) + p^n) / 2,
 /// a sawtooth has <a^n, a^(n-1)> close to -|a^n| |a^(n-1)|, where what is smooth has a positive product. It is named when
-/// over six steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away, and
-/// its amplitude |a| / 2 is more than a twentieth of the pressure.
+/// over six steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away,
+/// and its amplitude |a| / 2 is more than a twentieth of the pressure.
 class RingingMonitor {
  public:
   static constexpr int fewest_steps = 6;

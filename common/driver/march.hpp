@@ -15,8 +15,8 @@
 
 namespace fsi {
 
-/// Half the inverse of the midpoint rule's damping (scene/time_scheme.hpp), ms: of fluid and wall the time in which a wave
-/// goes as far as the radius. It does not depend on the end of the run, which may be put off.
+/// A quarter of the inverse of the midpoint rule's damping (scene/time_scheme.hpp), ms: of fluid and wall the time in
+/// which a wave goes as far as the radius. It does not depend on the end of the run, which may be put off.
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
 
@@ -27,8 +27,8 @@ struct Attempts {
   int beyond = 0;    ///< accepted with too large an error: smaller ones are not allowed
 };
 
-/// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step that finds no
-/// solution is taken again with a part of its length; equal steps return to their grid behind it.
+/// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step that finds
+/// no solution is taken again with a part of its length; equal steps return to their grid behind it.
 template <int n>
 class March : private StepJudge {
  public:

@@ -14,8 +14,9 @@ struct StepLimits {
 /// Chooses the lengths of steps from estimates of their error by a digital filter, H0211 of [Soderlind2003]: with the
 /// error e of a step over the allowed one, which goes like the length to the power k,
 ///   dt_new = dt 0.9 (e e_before)^(-1/(2k)) (dt / dt_before)^(-1/2),
-/// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart, and
-/// one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about right.
+/// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart,
+/// and one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about
+/// right.
 class StepController {
  public:
   StepController(const StepLimits& limits, int order);

@@ -19,10 +19,10 @@ struct Insertion {
   double end = 0, length = 0;  ///< ms
 };
 
-/// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval: up to there
-/// a stretch has equal steps, none longer than asked. A run that goes on from a checkpoint may have another step from
-/// there on; what lies before keeps its times. Adaptive steps are inserted one by one, before a plan that only estimates
-/// how many are left. Times are ms, in statics fractions of the load.
+/// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval: up to
+/// there a stretch has equal steps, none longer than asked. A run that goes on from a checkpoint may have another step
+/// from there on; what lies before keeps its times. Adaptive steps are inserted one by one, before a plan that only
+/// estimates how many are left. Times are ms, in statics fractions of the load.
 class TimeAxis {
  public:
   /// One stretch from the start to the end, as the case asks.
