@@ -48,19 +48,26 @@ StepReport CouplingStepper<n>::advance(State& state) {
   const bool started_far = starts_far_;
   const AlternationMonitor march = march_;
   const VelocityGapMonitor velocity_gap = velocity_gap_;
+  const auto take_back = [&] {
+    accelerator_->abandon();
+    starts_far_ = started_far;
+    march_ = march;
+    velocity_gap_ = velocity_gap;
+  };
   const int stages = scene_.integrator->stages(state);
   try {
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       advance_stage(state, data);
+      if (rejects(state, data)) {
+        take_back();
+        return report_;
+      }
       if (keep_balances_) report_.balances.push_back({state.now, data});
       scene_.integrator->accept(state, data);
     }
   } catch (const ConvergenceError&) {  // the run may try again with a shorter step
-    accelerator_->abandon();
-    starts_far_ = started_far;
-    march_ = march;
-    velocity_gap_ = velocity_gap;
+    take_back();
     throw;
   }
   problem_->finish_step();

@@ -31,6 +31,8 @@ class CouplingStepper : public Stepper {
   bool reports_coupling() const override { return true; }
 
   StepReport advance(State& state) override;
+  /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
+  bool can_retry() const override { return !scheme_.one_pass; }
 
   Memory memory() const override;
   void recall(const Memory& memory) override;

@@ -1,8 +1,11 @@
 #include "case/case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 
 namespace fsi {
 
@@ -47,6 +50,20 @@ double wall_stabilisation(const Case& setup) {
 
 int TimeData::steps() const {
   return static_cast<int>(std::lround(std::ceil(end / step - 1e-9)));
+}
+
+std::vector<double> output_times(const Case& setup) {
+  std::vector<double> times;
+  if (!setup.time) return times;
+  const double end = setup.time->end;
+  const bool of_its_own = setup.time->adaptive && setup.output.every > 0 && !setup.output.fields.empty();
+  if (!setup.output.interval && !of_its_own) return times;
+  const double interval = setup.output.interval.value_or(end / 12);
+  const int count = static_cast<int>(std::ceil(end / interval - 1e-9));
+  // To twelve digits, as the ends of steps.
+  for (int k = 0; k < count; ++k) times.push_back(std::strtod(fmt::format("{:.12g}", k * interval).c_str(), nullptr));
+  times.push_back(end);
+  return times;
 }
 
 }  // namespace fsi

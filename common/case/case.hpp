@@ -63,16 +63,20 @@ struct StructureData {
 
 /// [time]; absent in a static case
 struct TimeData {
-  double step = 0;  ///< ms
-  double end = 0;   ///< ms
+  double step = 0;        ///< ms; 0: adaptive
+  bool adaptive = false;  ///< steps by an estimate of their error
+  double end = 0;         ///< ms
   double newmark_beta = 1;
   double newmark_gamma = 1;
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
   TimeScheme scheme = TimeScheme::midpoint;
   std::optional<double> damping{};  ///< 1/ms, of the midpoint rule's shift; empty: from the scene
   double spectral_radius = 0.5;     ///< of generalised-alpha, at infinite frequency
+  double tolerance = 0.01;          ///< of adaptive steps, relative to the solution
+  std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
+  int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
 
-  int steps() const;  ///< number of steps; `end` is hit exactly
+  int steps() const;  ///< number of fixed steps; `end` is hit exactly
 };
 
 /// [static]: a wall without inertia, the load raised in equal steps
@@ -122,9 +126,10 @@ struct PartitionedData {
 /// [output]
 struct OutputData {
   std::vector<std::string> fields = output_field_names();
-  int every = 8;             ///< steps between entries of fields.h5; 0: no fields
-  int checkpoint_every = 1;  ///< steps between checkpoints; 0: none
-  bool energy = true;        ///< energy.csv
+  int every = 8;                     ///< steps between entries of fields.h5; 0: no fields
+  std::optional<double> interval{};  ///< ms between entries of fields.h5, in place of `every`; steps end there
+  int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
+  bool energy = true;                ///< energy.csv
 };
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.
@@ -155,5 +160,9 @@ struct Case {
 
 /// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
 double wall_stabilisation(const Case& setup);
+
+/// Times at which steps end for the sake of output, ms: multiples of output.interval from 0 on, and the end. With adaptive
+/// steps a twelfth of the run stands for an interval that is not given. Empty where entries are counted in steps.
+std::vector<double> output_times(const Case& setup);
 
 }  // namespace fsi

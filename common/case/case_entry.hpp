@@ -59,6 +59,7 @@ class CaseEntry {
   std::string text() const;
   std::vector<CaseEntry> elements() const;
   bool is_array() const { return node_->is_array(); }
+  bool is_text() const { return node_->is_string(); }
   bool is_section() const { return node_->is_table(); }
 
   /// Entries of a section in the order of the file. \throws InputError when this is no section

@@ -264,6 +264,35 @@ CaseKey<Case> pressure_section(const std::string& name, const std::string& about
 
 // [time], [static].
 
+/// A number, or "adaptive".
+void read_step(const CaseEntry& entry, TimeData& time) {
+  time.adaptive = entry.is_text() && entry.text() == "adaptive";
+  time.step = 0;
+  if (time.adaptive) return;
+  if (entry.is_text()) {
+    const std::string given = entry.text();
+    if (edit_distance(given, "adaptive") <= 3) entry.refuse_name("is unknown", "did you mean \"adaptive\"?");
+  }
+  number(at(&TimeData::step), positive, quantity::time_step()).read(entry, time);
+}
+
+/// Adaptive steps: smallest <= first <= largest <= end.
+void check_adaptive(const CaseEntry& entry, const TimeData& time) {
+  const auto require = [&](const char* key, const std::optional<double>& value, const char* than, double bound) {
+    if (value && *value > bound)
+      entry.child(key).refuse(fmt::format("{} is more than the {} of {}", *value, than, bound),
+                              fmt::format("give at most {}", bound));
+  };
+  require("largest_step", time.largest_step, "end", time.end);
+  require("first_step", time.first_step, time.largest_step ? "largest step" : "end",
+          time.largest_step.value_or(time.end));
+  require("smallest_step", time.smallest_step,
+          time.first_step     ? "first step"
+          : time.largest_step ? "largest step"
+                              : "end",
+          time.first_step.value_or(time.largest_step.value_or(time.end)));
+}
+
 void check_time(const CaseEntry& entry, TimeData& time) {
   const auto require_scheme = [&](const char* key, TimeScheme scheme) {
     if (entry.has(key) && time.scheme != scheme)
@@ -276,6 +305,14 @@ void check_time(const CaseEntry& entry, TimeData& time) {
   require_scheme("damping", TimeScheme::midpoint);
   require_scheme("spectral_radius", TimeScheme::generalised_alpha);
   const auto end = entry.child("end");
+  if (time.adaptive) {
+    check_adaptive(entry, time);
+    return;
+  }
+  for (const char* key : {"tolerance", "first_step", "smallest_step", "largest_step"})
+    if (entry.has(key))
+      entry.child(key).refuse("belongs to adaptive steps, and this run has equal ones",
+                              "remove it, or set time.step = \"adaptive\"");
   if (time.end < time.step)
     end.refuse(fmt::format("{} is less than one step of {}", time.end, time.step), "give an end >= step");
   const double steps = time.end / time.step;
@@ -291,9 +328,24 @@ void check_time(const CaseEntry& entry, TimeData& time) {
 std::vector<CaseKey<TimeData>> time_keys() {
   constexpr Bounds newmark{0, 1, false, true};
   return {
-      leaf("step", required, "time step in {unit}", number(at(&TimeData::step), positive, quantity::time_step()),
-           KeyRole::stepping),
-      leaf("end", required, "end of the run in {unit}, a multiple of the step",
+      leaf<TimeData>(
+          "step", required, "time step in {unit}, or \"adaptive\"",
+          {read_step, [](const TimeData& time) { return time.adaptive ? "adaptive" : fmt::format("{}", time.step); },
+           "", quantity::time_step().unit},
+          KeyRole::stepping),
+      leaf("tolerance", optional, "error that adaptive steps aim at, relative to the solution, default {}",
+           number(at(&TimeData::tolerance), Bounds{0, 1, false, false}), KeyRole::running),
+      leaf("first_step", optional,
+           "of adaptive ones, at the start and after each jump of the load, in {unit}; without it found from the scene",
+           number(at(&TimeData::first_step), positive, quantity::time_step()), KeyRole::running),
+      leaf("smallest_step", optional, "of adaptive ones, in {unit}; without it found from the scene",
+           number(at(&TimeData::smallest_step), positive, quantity::time_step()), KeyRole::running),
+      leaf("largest_step", optional, "of adaptive ones, in {unit}; without it found from the scene",
+           number(at(&TimeData::largest_step), positive, quantity::time_step()), KeyRole::running),
+      leaf("retries", optional,
+           "times that a step which finds no solution is halved before the run gives up, default {}",
+           whole(at(&TimeData::retries), 0, 20), KeyRole::running),
+      leaf("end", required, "end of the run in {unit}, a multiple of an equal step",
            number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
       leaf("scheme", optional, "time scheme: {}", name_from(at(&TimeData::scheme), time_schemes())),
       leaf("damping", optional,

@@ -144,6 +144,10 @@ std::vector<CaseKey<OutputData>> output_keys() {
                        {read_fields, listed, listed(OutputData())}),
       leaf("every", optional, "steps between entries of fields.h5, default {}; 0: no fields",
            whole(at(&OutputData::every), 0)),
+      leaf("interval", optional,
+           "time in {unit} between entries of fields.h5, in place of every: steps end there; with adaptive steps a "
+           "twelfth of the run unless given",
+           number(at(&OutputData::interval), positive, quantity::time())),
       leaf("checkpoint_every", optional, "steps between checkpoints, default {}; 0: none",
            whole(at(&OutputData::checkpoint_every), 0)),
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),

@@ -25,6 +25,8 @@ class Console {
   /// quiet when asked for, terminal when the stream is one, else plain.
   static Style style_for(bool quiet, std::FILE* stream = stdout);
 
+  /// Another number of the run's last step.
+  void expect(std::int64_t last_step) { last_step_ = last_step; }
   /// A line of its own, e.g. the scene's size; not in quiet mode.
   void line(const std::string& text);
   /// What goes on inside a step, e.g. (3, 0.375, "newton 2, residual 1e-5"). Shown on a terminal only.

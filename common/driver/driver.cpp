@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -18,11 +19,13 @@
 #include "case/case_reader.hpp"
 #include "diagnostics/energy_balance.hpp"
 #include "diagnostics/failure_hint.hpp"
+#include "diagnostics/ringing_monitor.hpp"
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
 #include "driver/field_output.hpp"
 #include "driver/interruption.hpp"
 #include "driver/load_scene.hpp"
+#include "driver/march.hpp"
 #include "driver/observables.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
@@ -33,6 +36,8 @@
 namespace fsi {
 
 namespace {
+
+constexpr const char* march_prefix = "march.";  // of its numbers in a checkpoint
 
 using Clock = std::chrono::steady_clock;
 
@@ -82,8 +87,11 @@ class Run {
         scene_(loaded_.scene.get()),
         loads_(setup),
         stepper_(make_stepper.make(*scene_, loads_, setup)),
+        march_(setup, *scene_, *stepper_, loads_, [this](const std::string& said) { say(said); }),
         state_(scene_->at_rest()),
-        observables_(loaded_.points, *scene_) {}
+        observables_(loaded_.points, *scene_) {
+    if (!scene_->is_static()) ringing_.emplace(scene_time(setup, *scene_));
+  }
 
   /// To the last step or a signal; returns the program's exit code.
   int march() {
@@ -100,8 +108,9 @@ class Run {
     ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
                                     : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
+    log_ = &log;
     FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
-                          lagging() ? std::max(state_.step - 1, 0) : state_.step);
+                          restarted ? observed_until() : 0);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
     summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
@@ -155,8 +164,10 @@ class Run {
 
   void step(ResultFolder& folder, FieldOutput<n>& fields, Console& console, RunLog& log) {
     const auto start = Clock::now();
+    console.expect(loads_.steps());
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
-    const StepReport report = stepper_->advance(state_);
+    const StepReport report = march_.step(state_);
+    watch_ringing(console, log);
     StepRecord record;
     record.step = state_.step;
     record.time = state_.time;
@@ -182,10 +193,50 @@ class Run {
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
-    log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}", record.step, record.time,
-                         record.outer_iterations, record.newton_iterations));
+    log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,
+                         record.outer_iterations, record.newton_iterations,
+                         march_.errors() && march_.errors()->known ? "  error: " + march_.errors()->text() : ""));
+    console.expect(loads_.steps());
     for (const auto& entry : report.history) log.info("  " + entry);
     console.step_done(record);
+  }
+
+  /// Into the log, of a step in progress.
+  void say(const std::string& text) {
+    if (log_ != nullptr) log_->warning(text);
+  }
+
+  /// Names a pressure that alternates from step to step, once, and keeps the largest of it.
+  void watch_ringing(Console& console, RunLog& log) {
+    if (scene_->is_static() || !scene_->fluid) return;
+    const auto& at = state_.last_balance().fluid;
+    std::vector<double> pressures;
+    for (int node = 0; node < scene_->fluid->node_count(); ++node)
+      pressures.push_back(at[MixedLayout<n>::scalar(node)]);
+    const auto amplitude = ringing_->look(state_.has_balances() ? state_.balance_times[0] : state_.time, pressures);
+    if (loads_.axis().jumps_at(state_.time)) ringing_->restart();
+    if (!amplitude || *amplitude <= ringing_amplitude_) return;
+    const bool first = ringing_amplitude_ == 0;
+    ringing_amplitude_ = *amplitude;
+    const std::string said = fmt::format(
+        "the pressure alternates from step to step, by {:.3g} Pa at t = {:g} ms: the time scheme does not damp what "
+        "its "
+        "steps cannot resolve; {}",
+        1e3 * *amplitude, state_.time, remedy_of_ringing());
+    summary_["ringing"] = {{"amplitude_Pa", 1e3 * *amplitude}, {"time_ms", state_.time}, {"said", said}};
+    if (!first) return;
+    console.line(said);
+    log.warning(said);
+  }
+  std::string remedy_of_ringing() const {
+    switch (setup_.time->scheme) {
+      case TimeScheme::midpoint:
+        return "give a larger time.damping";
+      case TimeScheme::generalised_alpha:
+        return "give a smaller time.spectral_radius";
+      default:
+        return "take time.scheme = \"midpoint\"";
+    }
   }
 
   /// Whether a level is looked at one step later, when its pressures are known.
@@ -206,9 +257,11 @@ class Run {
   }
 
   void announce(Console& console, RunLog& log) {
-    const auto text = fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {} steps", program_, version,
-                                  setup_.title, loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell,
-                                  summary_["unknowns"]["coupled"].get<long>(), threads(), loads_.steps());
+    const auto text = fmt::format(
+        "{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {}", program_, version, setup_.title, loaded_.mesh.nodes,
+        loaded_.mesh.cells, loaded_.mesh.cell, summary_["unknowns"]["coupled"].get<long>(), threads(),
+        loads_.axis().is_adaptive() ? fmt::format("adaptive steps, tolerance {:g}", setup_.time->tolerance)
+                                    : fmt::format("{} steps", loads_.steps()));
     console.line(text);
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
@@ -227,7 +280,8 @@ class Run {
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
     checkpoint.mesh_hash = loaded_.mesh.hash;
-    store(state_, stepper_->memory(), loads_.axis().stretches(), checkpoint);
+    store(state_, stepper_->memory(), loads_.axis(), checkpoint);
+    for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
@@ -237,7 +291,11 @@ class Run {
     require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash);
     Memory memory = restore(file, checkpoint, state_);
     const auto stretches = stored_stretches(file, checkpoint);
-    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time);
+    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time, stored_insertions(file, checkpoint));
+    std::map<std::string, std::vector<double>> of_march;
+    for (const auto& [name, numbers] : checkpoint.arrays)
+      if (name.rfind(march_prefix, 0) == 0) of_march[name.substr(std::string(march_prefix).size())] = numbers;
+    march_.recall(of_march);
     if (memory.step_changed) step_change_ = text_of_change(stretches.back());
     stepper_->recall(memory);
   }
@@ -245,6 +303,11 @@ class Run {
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
   std::string text_of_change(const Stretch& before) const {
     const double asked = loads_.axis().stretches().back().asked;
+    if (loads_.axis().is_adaptive())
+      return fmt::format("time.step is adaptive from step {} on, {:g} ms before", state_.step + 1, before.asked);
+    if (before.asked == 0)
+      return fmt::format("time.step is {:g} ms from step {} on, adaptive before: {} steps to come", asked,
+                         state_.step + 1, loads_.steps() - state_.step);
     return loads_.axis().is_static()
                ? fmt::format("static.load_steps is {:g} from load step {} on, {:g} before: {} steps to come", asked,
                              state_.step + 1, before.asked, loads_.steps() - state_.step)
@@ -259,6 +322,9 @@ class Run {
                           {"newton_iterations", total_.newton_iterations},
                           {"linear_iterations", total_.linear_iterations},
                           {"largest_solver_error", total_.solver_error},
+                          {"rejected_steps", march_.attempts().rejected},
+                          {"steps_above_tolerance", march_.attempts().beyond},
+                          {"failed_steps", march_.attempts().failed},
                           {"wall_s", seconds_since(start_)}};
     summary_["peak_memory_MiB"] = peak_memory_mib();
     summary_.update(profile_json(scene_->profile));
@@ -274,6 +340,10 @@ class Run {
   Scene<n>* scene_;
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;
+  March<n> march_;
+  RunLog* log_ = nullptr;  ///< once there is one
+  std::optional<RingingMonitor> ringing_;
+  double ringing_amplitude_ = 0;  ///< kPa, the largest so far
   State state_;
   State shown_;  ///< a finished level, for output
   Observables<n> observables_;

@@ -63,7 +63,7 @@ static_assert(names_match(output_field_list, output_fields<3>), "case/choices.hp
 template <int n>
 FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids,
                             const TimeAxis& axis, const std::filesystem::path& folder,
-                            const std::filesystem::path& restarted_from, int first_step)
+                            const std::filesystem::path& restarted_from, double until)
     : axes_(scene.axes) {
   if (setup.output.every == 0 || setup.output.fields.empty()) return;
   const auto& wanted = setup.output.fields;
@@ -77,17 +77,22 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
   }
   if (grids_.empty()) return;
   for (auto& grid : grids_) middles_.push_back(separate_middles(grid));
-  const auto planned = planned_field_steps(axis.steps(), setup.output.every,
-                                           [&](std::int64_t step) { return axis.time_of(static_cast<int>(step)); });
+  std::vector<FieldStep> planned;
+  for (double time : output_times(setup)) planned.push_back({static_cast<std::int64_t>(planned.size()), time});
+  if (planned.empty())
+    planned = planned_field_steps(axis.planned_steps(), setup.output.every,
+                                  [&](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
   else
-    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, first_step);
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, until);
 }
 
 template <int n>
 void FieldOutput<n>::write(const State& state) {
-  if (!writer_ || !writer_->wants(state.step)) return;
+  if (!writer_) return;
+  const auto entry = writer_->entry_at(state.time);
+  if (!entry) return;
   FieldValues values;
   for (std::size_t g = 0; g < grids_.size(); ++g)
     for (const auto& field : grids_[g].fields)
@@ -104,7 +109,7 @@ void FieldOutput<n>::write(const State& state) {
               numbers[middle.point * components + k] = numbers[middle.node * components + k];
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
-  writer_->write(state.step, values);
+  writer_->write(*entry, values);
 }
 
 template <int n>

@@ -20,11 +20,11 @@ class FieldOutput {
   /// Nothing is written when the case wants no fields.
   /// \param grids           of the media, without fields
   /// \param restarted_from  result folder that the run continues; empty: a new run
-  /// \param first_step      last step of the checkpoint, or 0
+  /// \param until           ms, of the last level that the run there has written, or 0
   FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids, const TimeAxis& axis,
-              const std::filesystem::path& folder, const std::filesystem::path& restarted_from, int first_step);
+              const std::filesystem::path& folder, const std::filesystem::path& restarted_from, double until);
 
-  /// Writes the state's fields if its step is a planned one.
+  /// Writes the state's fields if an entry is planned for its time.
   void write(const State& state);
 
  private:

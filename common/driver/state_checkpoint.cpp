@@ -9,6 +9,7 @@ namespace fsi {
 namespace {
 
 constexpr const char* memory_prefix = "stepper.";
+constexpr const char* insertions_name = "inserted_steps";  // each: step, its end, its length
 constexpr const char* stretches_name = "step_lengths";  // per stretch: step before it, its start, what the case asked
 
 /// Calls visit(name, array) for every array of a state that a later step reads.
@@ -37,7 +38,7 @@ void for_each_array(StateType& state, Visit visit) {
 
 }  // namespace
 
-void store(const State& state, const Memory& memory, const std::vector<Stretch>& stretches, Checkpoint& checkpoint) {
+void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint) {
   checkpoint.step = state.step;
   checkpoint.time = state.time;
   checkpoint.arrays["level_times"] = {state.times.begin(), state.times.end()};
@@ -47,8 +48,13 @@ void store(const State& state, const Memory& memory, const std::vector<Stretch>&
                                        static_cast<double>(state.balances_since_jump)};
   }
   auto& numbers = checkpoint.arrays[stretches_name];
-  for (const Stretch& stretch : stretches)
+  for (const Stretch& stretch : axis.stretches())
     numbers.insert(numbers.end(), {static_cast<double>(stretch.after), stretch.start, stretch.asked});
+  if (!axis.insertions().empty()) {
+    auto& inserted = checkpoint.arrays[insertions_name];
+    for (const Insertion& step : axis.insertions())
+      inserted.insert(inserted.end(), {static_cast<double>(step.step), step.end, step.length});
+  }
   for_each_array(state,
                  [&](const std::string& name, const std::vector<double>& array) { checkpoint.arrays[name] = array; });
   for (const auto& [name, array] : memory.arrays) checkpoint.arrays[memory_prefix + name] = array;
@@ -88,6 +94,16 @@ std::vector<Stretch> stored_stretches(const std::filesystem::path& file, const C
   for (std::size_t i = 0; i < numbers.size(); i += 3)
     stretches.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
   return stretches;
+}
+
+std::vector<Insertion> stored_insertions(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  const auto found = checkpoint.arrays.find(insertions_name);
+  if (found == checkpoint.arrays.end()) return {};
+  const auto& numbers = require_size(file, checkpoint, insertions_name, found->second.size() / 3 * 3);
+  std::vector<Insertion> insertions;
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+    insertions.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
+  return insertions;
 }
 
 }  // namespace fsi

@@ -11,7 +11,7 @@
 namespace fsi {
 
 /// Adds the finished levels of a state, what the stepper keeps between steps, and the steps that led there.
-void store(const State& state, const Memory& memory, const std::vector<Stretch>& stretches, Checkpoint& checkpoint);
+void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint);
 
 /// The reverse; `state` comes at rest, for the sizes. \throws InputError naming `file` for arrays missing or of another
 /// size
@@ -19,5 +19,7 @@ Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, 
 
 /// The steps that led to the checkpoint. \throws InputError naming `file` when it does not tell
 std::vector<Stretch> stored_stretches(const std::filesystem::path& file, const Checkpoint& checkpoint);
+/// Those of them that were not planned. \throws as stored_stretches
+std::vector<Insertion> stored_insertions(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 }  // namespace fsi

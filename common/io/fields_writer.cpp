@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
@@ -26,6 +27,15 @@ namespace {
 
 std::string flags_dataset(const std::string& grid, const std::string& field) {
   return "/steps/written/" + grid + "." + field;
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether time a comes after b by more than rounding.
+bool later(double a, double b) {
+  return a - b > 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
 }  // namespace
@@ -120,9 +130,9 @@ struct FieldsWriter::Implementation {
     }
   }
 
-  /// Takes over the finished entries of an earlier fields.h5 up to `last_step`. The new file is made beside the old one
+  /// Takes over the finished entries of an earlier fields.h5 up to the time `until`. The new file is made beside the old one
   /// and replaces it complete.
-  void continue_from(const fs::path& old_path, std::int64_t last_step) {
+  void continue_from(const fs::path& old_path, double until) {
     const auto old = Hdf5File::open(old_path, false);
     require_same_grids(old, old_path);
     const auto old_numbers = old.read<std::int64_t>("/steps/number");
@@ -141,12 +151,15 @@ struct FieldsWriter::Implementation {
     for (std::size_t i = 0; i < old_numbers.size(); ++i) {
       const bool any =
           std::any_of(old_written.begin(), old_written.end(), [&](const auto& w) { return w.second[i] != 0; });
-      if (!any || old_numbers[i] > last_step) continue;
+      if (!any || later(old_times.at(i), until)) continue;
       kept.push_back(i);
       all.push_back({old_numbers[i], old_times.at(i)});
     }
-    for (const auto& step : steps)
-      if (step.step > last_step) all.push_back(step);
+    for (auto step : steps) {
+      if (!later(step.time, until)) continue;
+      if (!all.empty()) step.step = std::max(step.step, all.back().step + 1);
+      all.push_back(step);
+    }
     steps = std::move(all);
     for (auto& [name, flags] : written) {
       flags.assign(steps.size(), 0);
@@ -205,11 +218,11 @@ FieldsWriter::FieldsWriter(const fs::path& folder, std::vector<FieldGrid> grids,
 }
 
 FieldsWriter::FieldsWriter(const fs::path& folder, std::vector<FieldGrid> grids, std::vector<FieldStep> planned,
-                           const fs::path& from, std::int64_t last_step)
+                           const fs::path& from, double until)
     : self_(std::make_unique<Implementation>(folder, std::move(grids), std::move(planned))) {
   std::error_code error;
   if (fs::exists(from / "fields.h5", error))
-    self_->continue_from(from / "fields.h5", last_step);
+    self_->continue_from(from / "fields.h5", until);
   else
     self_->create();
 }
@@ -220,6 +233,12 @@ FieldsWriter& FieldsWriter::operator=(FieldsWriter&&) noexcept = default;
 
 bool FieldsWriter::wants(std::int64_t step) const {
   return self_->position(step) < self_->steps.size();
+}
+
+std::optional<std::int64_t> FieldsWriter::entry_at(double time) const {
+  for (const FieldStep& step : self_->steps)
+    if (!later(step.time, time) && !later(time, step.time)) return step.step;
+  return {};
 }
 
 void FieldsWriter::write(std::int64_t step, const FieldValues& values) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,8 +33,8 @@ struct FieldGrid {
 
 /// An entry of fields.h5.
 struct FieldStep {
-  std::int64_t step = 0;
-  double time = 0;  ///< ms
+  std::int64_t step = 0;  ///< its number: of the step in a run with equal steps, else of the entry
+  double time = 0;        ///< ms
 };
 
 /// Nodal values by (grid, field): N * components doubles, the components of a node side by side.
@@ -52,11 +53,11 @@ class FieldsWriter {
   /// \throws InputError when the files cannot be written
   FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, std::vector<FieldStep> planned);
 
-  /// Continues the fields in folder `from` (may be the same folder): entries up to `last_step` are kept, planned ones
-  /// up to there are not written again. A missing fields.h5 in `from` means that nothing is kept. \throws InputError
+  /// Continues the fields in folder `from` (may be the same folder): entries up to the time `until` (ms) are kept,
+  /// planned ones up to there are not written again; those behind get numbers behind the kept ones. A missing fields.h5 in `from` means that nothing is kept. \throws InputError
   /// when `from` holds grids of another size or an unreadable file
   FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, std::vector<FieldStep> planned,
-               const std::filesystem::path& from, std::int64_t last_step);
+               const std::filesystem::path& from, double until);
 
   ~FieldsWriter();
   FieldsWriter(FieldsWriter&&) noexcept;
@@ -64,6 +65,8 @@ class FieldsWriter {
 
   /// Whether write() has a place for this step; fields need not be gathered otherwise.
   bool wants(std::int64_t step) const;
+  /// The number of the entry planned for a time in ms, if there is one.
+  std::optional<std::int64_t> entry_at(double time) const;
 
   /// Writes all fields of all grids at a planned step. Writing a step again replaces it.
   /// \throws InputError when the disk is full

@@ -72,6 +72,7 @@ StepReport NewtonStepper<n>::advance(State& state) {
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
+    if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
     scene_.integrator->accept(state, data);
   }

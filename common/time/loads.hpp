@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "case/openings.hpp"
 #include "time/state.hpp"
 #include "time/time_axis.hpp"
@@ -21,12 +19,8 @@ class Loads {
   int steps() const { return axis_.steps(); }
   double time_of(int step) const { return axis_.time_of(step); }
 
-  /// Length of a step, ms; 0 in statics. The case's own but where the end of the run cuts the last step short.
-  double step_length(int step) const {
-    if (!setup_.time) return 0.0;
-    const double length = time_of(step) - time_of(step - 1), nominal = setup_.time->step;
-    return std::abs(length - nominal) <= 1e-9 * nominal ? nominal : length;
-  }
+  /// Length of a step, ms; 0 in statics.
+  double step_length(int step) const { return axis_.length_of(step); }
 
   /// kPa, of a step: at the open boundaries, in the order of openings_of(case).
   std::vector<double> opening_pressures(int step) const {

@@ -33,6 +33,14 @@ struct StepReport {
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
   std::vector<Balance> balances;  ///< what was solved, where Stepper::keep_balances() asked for it
+  bool rejected = false;          ///< the judge refused the solution: the state has not advanced
+};
+
+/// Looks at the solution of a step, in state.now, before it becomes a finished level.
+class StepJudge {
+ public:
+  virtual ~StepJudge() = default;
+  virtual bool accepts(const State& state, const StepData& data) = 0;
 };
 
 /// What a stepper keeps between steps besides the state, by name: numbers that a restart needs to go on bit for bit.
@@ -47,11 +55,16 @@ struct Memory {
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Solves the next step and makes it the latest level of the state.
+  /// Solves the next step and makes it the latest level of the state, unless the judge rejects it.
   /// \throws ConvergenceError; the state's finished levels are then untouched
   virtual StepReport advance(State& state) = 0;
   /// Whether reports of steps have their balances, for those who look at what the equations did.
   void keep_balances(bool keep) { keep_balances_ = keep; }
+  /// Who may refuse the solution of a step from now on, not owned; null: nobody. A step that was refused, or that failed,
+  /// can be taken again with another length.
+  void judge_by(StepJudge* judge) { judge_ = judge; }
+  /// Whether a step that failed may succeed with a smaller length.
+  virtual bool can_retry() const { return true; }
   /// Whether the steps' reports have a coupling part.
   virtual bool reports_coupling() const { return false; }
   /// Of the last step, also of one that failed.
@@ -60,8 +73,17 @@ class Stepper {
   virtual void recall(const Memory& memory) = 0;
 
  protected:
+  /// Of a step whose last stage is solved.
+  bool rejects(const State& state, const StepData& data) {
+    report_.rejected = judge_ != nullptr && data.rates.last_stage && !judge_->accepts(state, data);
+    return report_.rejected;
+  }
+
   bool keep_balances_ = false;
   StepReport report_;
+
+ private:
+  StepJudge* judge_ = nullptr;
 };
 
 }  // namespace fsi

@@ -21,24 +21,38 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
           if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);  // at the end, too: a restart goes on from it
   std::sort(jumps_.begin(), jumps_.end());
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
+  stops_ = jumps_;
+  if (time_ != nullptr)
+    for (double time : output_times(setup))
+      if (time > 0 && time < time_->end) stops_.push_back(time);
+  std::sort(stops_.begin(), stops_.end());
+  const double same = rounding * (time_ != nullptr ? time_->end : 1);
+  stops_.erase(std::unique(stops_.begin(), stops_.end(), [&](double a, double b) { return b - a <= same; }),
+               stops_.end());
   stretches_ = {
       {0, 0,
        time_ != nullptr ? time_->step : static_cast<double>(setup.static_load.value_or(StaticData{}).load_steps)}};
 }
 
+double TimeAxis::length_in(const Stretch& stretch) const {
+  if (stretch.asked > 0) return stretch.asked;
+  return insertions_.empty() ? time_->end : insertions_.back().length;
+}
+
 std::vector<TimeAxis::Piece> TimeAxis::pieces(const Stretch& stretch) const {
   std::vector<Piece> pieces;
   double start = stretch.start;
-  for (double jump : jumps_) {
-    if (jump <= start + rounding * stretch.asked) continue;
-    const double steps = (jump - start) / stretch.asked;
+  const double asked = length_in(stretch);
+  for (double stop : stops_) {
+    if (stop <= start + rounding * asked) continue;
+    const double steps = (stop - start) / asked;
     const int count = static_cast<int>(std::ceil(steps - rounding));
     const bool whole = std::abs(steps - count) <= rounding;
-    pieces.push_back({start, jump, count, whole ? stretch.asked : (jump - start) / count});
-    start = jump;
+    pieces.push_back({start, stop, count, whole ? asked : (stop - start) / count});
+    start = stop;
   }
-  const int count = static_cast<int>(std::ceil((time_->end - start) / stretch.asked - rounding));
-  pieces.push_back({start, time_->end, std::max(0, count), stretch.asked});
+  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - rounding));
+  pieces.push_back({start, time_->end, std::max(0, count), asked});
   return pieces;
 }
 
@@ -53,12 +67,16 @@ int TimeAxis::planned(const Stretch& stretch) const {
 }
 
 bool TimeAxis::jumps_at(double time) const {
-  return std::any_of(jumps_.begin(), jumps_.end(),
-                     [&](double jump) { return std::abs(time - jump) <= rounding * stretches_.back().asked; });
+  const double same = time_ == nullptr ? 0 : std::max(rounding * stretches_.back().asked, 1e-12 * time_->end);
+  return std::any_of(jumps_.begin(), jumps_.end(), [&](double jump) { return std::abs(time - jump) <= same; });
+}
+
+int TimeAxis::planned_steps() const {
+  return stretches_.back().after + planned(stretches_.back());
 }
 
 int TimeAxis::steps() const {
-  return stretches_.back().after + planned(stretches_.back());
+  return planned_steps() + static_cast<int>(insertions_.size());
 }
 
 const Stretch& TimeAxis::stretch_of(int step) const {
@@ -67,9 +85,26 @@ const Stretch& TimeAxis::stretch_of(int step) const {
   return stretches_[i];
 }
 
+int TimeAxis::inserted_before(int step) const {
+  const auto behind = std::lower_bound(insertions_.begin(), insertions_.end(), step,
+                                       [](const Insertion& inserted, int s) { return inserted.step < s; });
+  return static_cast<int>(behind - insertions_.begin());
+}
+
+const Insertion* TimeAxis::insertion(int step) const {
+  const std::size_t place = inserted_before(step);
+  return place < insertions_.size() && insertions_[place].step == step ? &insertions_[place] : nullptr;
+}
+
 double TimeAxis::time_of(int step) const {
+  if (step == 0) return 0;
+  if (const Insertion* inserted = insertion(step)) return inserted->end;
+  return planned_time_of(step - inserted_before(step));
+}
+
+double TimeAxis::planned_time_of(int step) const {
   const Stretch& stretch = stretch_of(step);
-  if (step == steps()) return time_ != nullptr ? time_->end : 1;
+  if (step == planned_steps()) return time_ != nullptr ? time_->end : 1;
   if (time_ == nullptr) return stretch.start + (step - stretch.after) * (1 - stretch.start) / planned(stretch);
   for (const Stretch& next : stretches_)  // where one stretch ends and the next begins, its last step cut short
     if (next.after > 0 && step == next.after) return next.start;
@@ -84,15 +119,88 @@ double TimeAxis::time_of(int step) const {
   return time_->end;
 }
 
-bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time) {
+double TimeAxis::length_of(int step) const {
+  if (time_ == nullptr) return 0;
+  if (const Insertion* inserted = insertion(step)) return inserted->length;
+  const double length = time_of(step) - time_of(step - 1);
+  const int planned_step = step - inserted_before(step);
+  const Stretch& stretch = stretch_of(planned_step);
+  const double asked = length_in(stretches_.back());
+  if (std::abs(length - asked) <= rounding * asked) return asked;
+  int done = stretch.after;
+  for (const Piece& piece : pieces(stretch)) {
+    done += piece.steps;
+    if (planned_step <= done) return std::abs(length - piece.step) <= rounding * piece.step ? piece.step : length;
+  }
+  return length;
+}
+
+double TimeAxis::next_stop(double time) const {
+  for (double stop : stops_)
+    if (stop > time + rounding * time_->end) return stop;
+  return time_->end;
+}
+
+double TimeAxis::choose(int step, double time, double longest) {
+  const double stop = next_stop(time);
+  const int count = std::max(1, static_cast<int>(std::ceil((stop - time) / longest - rounding)));
+  double length = (stop - time) / count;
+  drop_insertions_after(step - 1);
+  // Rounding is no reason for another Jacobian.
+  if (const Insertion* last = insertion(step - 1); last != nullptr && std::abs(last->length - length) <= 1e-9 * length)
+    length = last->length;
+  const double end = count == 1 ? stop : std::strtod(fmt::format("{:.12g}", time + length).c_str(), nullptr);
+  insertions_.push_back({step, end, length});
+  stretches_ = {{0, end, 0}};
+  return length;
+}
+
+void TimeAxis::halve(int step) {
+  const double start = time_of(step - 1), half = 0.5 * length_of(step);
+  const int place = inserted_before(step);
+  for (std::size_t i = place; i < insertions_.size(); ++i) ++insertions_[i].step;
+  if (Insertion* rest = place < static_cast<int>(insertions_.size()) ? &insertions_[place] : nullptr;
+      rest != nullptr && rest->step == step + 1)
+    rest->length = rest->end - (start + half);
+  insertions_.insert(insertions_.begin() + place, {step, start + half, half});
+}
+
+void TimeAxis::drop_insertions_after(int last) {
+  while (!insertions_.empty() && insertions_.back().step > last) insertions_.pop_back();
+}
+
+bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted) {
   const double asked = stretches_.back().asked;
   stretches_ = std::move(past);
+  insertions_ = std::move(inserted);
   const bool changed = asked != stretches_.back().asked;
+  if (asked == 0 && time_ != nullptr) {  // adaptive
+    if (!changed) {
+      drop_insertions_after(last);
+    } else {
+      const std::vector<double> stops = std::exchange(stops_, jumps_);  // equal steps need no times of output
+      std::vector<Insertion> all;
+      for (int step = 1; step <= last; ++step) all.push_back({step, time_of(step), length_of(step)});
+      stops_ = stops;
+      if (!all.empty()) all.back().end = time;
+      insertions_ = std::move(all);
+    }
+    stretches_ = {{0, time, 0}};
+    return changed;
+  }
+  if (changed && stretches_.back().asked == 0) {  // adaptive until here
+    drop_insertions_after(last);
+    stretches_ = {{0, time, asked}};
+    return true;
+  }
   // A run that ended between two steps of its stretch, its last one cut short, goes on from that end.
   const bool between = time_ != nullptr && std::abs(time_of(last) - time) > rounding * asked;
   if (changed || between) {
-    if (stretches_.back().after == last) stretches_.pop_back();
-    stretches_.push_back({last, time, asked});
+    drop_insertions_after(last);
+    if (insertion(last) != nullptr) insertions_.pop_back();  // from here the new steps are planned
+    const int after = last - static_cast<int>(insertions_.size());
+    if (stretches_.back().after == after) stretches_.pop_back();
+    stretches_.push_back({after, time, asked});
   }
   return changed;
 }

@@ -10,22 +10,47 @@ namespace fsi {
 struct Stretch {
   int after = 0;     ///< number of the step before its first
   double start = 0;  ///< end of that step: ms; in statics the fraction of the load
-  double asked = 0;  ///< what the case said then: time.step in ms; in statics static.load_steps
+  double asked = 0;  ///< what the case said then: time.step in ms, 0 if adaptive; in statics static.load_steps
 };
 
-/// Where the steps of a run begin and end. Steps end where a load jumps: up to there a stretch has equal steps, none longer
-/// than asked. A run that goes on from a checkpoint may have another step from there on;
-/// what lies before keeps its times. Times are ms, in statics fractions of the load.
+/// A step whose end is no planned one: half of a step that failed, or one that an error estimate chose.
+struct Insertion {
+  int step = 0;
+  double end = 0, length = 0;  ///< ms
+};
+
+/// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval: up to
+/// there a stretch has equal steps, none longer than asked. A run that goes on from a checkpoint may have another step
+/// from there on; what lies before keeps its times. Adaptive steps are inserted one by one, before a plan that only
+/// estimates how many are left. Times are ms, in statics fractions of the load.
 class TimeAxis {
  public:
   /// One stretch from the start to the end, as the case asks.
   explicit TimeAxis(const Case& setup);
 
-  /// Number of the run's last step.
+  /// Number of the run's last step; of adaptive steps an estimate.
   int steps() const;
   /// End of a step, 0 for step 0. To twelve digits: 3 * 0.1 is 0.3, as it is for a run that ends there, so that one
   /// that goes on from it has the same times.
   double time_of(int step) const;
+  /// Length of a step, ms; 0 in statics. Equal steps have equal bits.
+  double length_of(int step) const;
+
+  /// Numbers and ends of the steps of the plan alone, without inserted ones.
+  int planned_steps() const;
+  double planned_time_of(int step) const;
+
+  bool is_adaptive() const { return time_ != nullptr && time_->adaptive; }
+  /// The latest time, ms, up to which a step that begins at `time` may go.
+  double next_stop(double time) const;
+  /// Adaptive steps: `step`, which begins at `time`, is the first of equal ones to the next stop, none longer than
+  /// `longest` (ms) unless by rounding. Returns its length.
+  double choose(int step, double time, double longest);
+  /// Halves a step: it ends in the middle, and the rest becomes the step after it.
+  void halve(int step);
+  /// Takes back what was inserted behind step `last`.
+  void drop_insertions_after(int last);
+  const std::vector<Insertion>& insertions() const { return insertions_; }
 
   /// Whether a load jumps at the end of a step, which ends at `time`.
   bool jumps_at(double time) const;
@@ -35,7 +60,7 @@ class TimeAxis {
 
   /// Goes on from step `last`, which ended at `time`, in a run with these stretches. Returns whether the case asks for
   /// another step than the last of them; from there on it holds. The end is hit: a last step may be shorter.
-  bool go_on(std::vector<Stretch> past, int last, double time);
+  bool go_on(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted = {});
 
  private:
   /// Equal steps up to a jump, or the end of the run; the last of them may be shorter at the end.
@@ -47,10 +72,15 @@ class TimeAxis {
   const Stretch& stretch_of(int step) const;
   std::vector<Piece> pieces(const Stretch& stretch) const;
   int planned(const Stretch& stretch) const;  ///< steps from its start to the end of the run
+  double length_in(const Stretch& stretch) const;
+  int inserted_before(int step) const;
+  const Insertion* insertion(int step) const;
 
   const TimeData* time_;       ///< null in statics
   std::vector<double> jumps_;  ///< ms, ascending, between start and end of the run
+  std::vector<double> stops_;  ///< likewise: jumps and times of output
   std::vector<Stretch> stretches_;
+  std::vector<Insertion> insertions_;  ///< ascending in step
 };
 
 }  // namespace fsi

@@ -88,21 +88,21 @@ const std::vector<BadCase>& bad_cases() {
        "layers.wall = 3\n",
        "case.toml:7: structure.layers.wall: 3 is a whole number; make it a section [structure.layers.wall]"},
       {"NumberIsSection", coupled_case, "step = 0.125", "step.size = 0.125",
-       "case.toml:25: time.step: is a section; give a number (time step in ms)"},
+       "case.toml:25: time.step: is a section; give a number (time step in ms, or \"adaptive\")"},
       // Types
       {"NumberIsText", coupled_case, "viscosity = 3.5e-3", "viscosity = \"3.5e-3\"",
        "case.toml:7: fluid.viscosity: \"3.5e-3\" is a string; give a number (dynamic viscosity in kPa ms)"},
       {"NumberIsBoolean", coupled_case, "step = 0.125", "step = true",
-       "case.toml:25: time.step: true is a boolean; give a number (time step in ms)"},
+       "case.toml:25: time.step: true is a boolean; give a number (time step in ms, or \"adaptive\")"},
       {"NumberIsDate", coupled_case, "step = 0.125", "step = 2020-01-01",
-       "case.toml:25: time.step: 2020-01-01 is a date or time; give a number (time step in ms)"},
+       "case.toml:25: time.step: 2020-01-01 is a date or time; give a number (time step in ms, or \"adaptive\")"},
       {"NumberIsArray", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = [1e5, 2e5]",
        "case.toml:10: structure.bulk_modulus: [100000, 200000] is an array; give a number (bulk modulus in kPa)"},
       {"NumberIsNan", coupled_case, "viscosity = 3.5e-3", "viscosity = nan",
        "case.toml:7: fluid.viscosity: nan is not finite; give a finite number (dynamic viscosity in kPa ms)"},
       {"NumberIsInfinite", coupled_case, "end = 12.0", "end = inf",
-       "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of the "
-       "step)"},
+       "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of an "
+       "equal step)"},
       {"WholeNumberIsDecimal", coupled_case, "every = 8", "every = 8.5",
        "case.toml:35: output.every: 8.5 is a decimal number; give a whole number (steps between entries of fields.h5, "
        "default 8; 0: no fields)"},
@@ -121,7 +121,8 @@ const std::vector<BadCase>& bad_cases() {
       // Missing
       {"ViscosityMissing", coupled_case, "viscosity = 3.5e-3\n", "",
        "case.toml:5: fluid.viscosity: missing; add it (dynamic viscosity in kPa ms)"},
-      {"StepMissing", coupled_case, "step = 0.125\n", "", "case.toml:24: time.step: missing; add it (time step in ms)"},
+      {"StepMissing", coupled_case, "step = 0.125\n", "",
+       "case.toml:24: time.step: missing; add it (time step in ms, or \"adaptive\")"},
       {"PressureMissing", coupled_case, "pressure = 1.332\n", "",
        "case.toml:21: inlet.pressure: missing; add it (pressure in kPa, or a table of [time in ms, pressure in kPa], "
        "linear in between)"},
@@ -210,15 +211,40 @@ const std::vector<BadCase>& bad_cases() {
        "ends"},
       // Time
       {"StepZero", coupled_case, "step = 0.125", "step = 0",
-       "case.toml:25: time.step: 0 is not positive; give a number > 0 (time step in ms)"},
+       "case.toml:25: time.step: 0 is not positive; give a number > 0 (time step in ms, or \"adaptive\")"},
       {"EndNegative", coupled_case, "end = 12.0", "end = -12",
-       "case.toml:26: time.end: -12 is not positive; give a number > 0 (end of the run in ms, a multiple of the step)"},
+       "case.toml:26: time.end: -12 is not positive; give a number > 0 (end of the run in ms, a multiple of an equal "
+       "step)"},
       {"EndBeforeStep", coupled_case, "end = 12.0", "end = 0.1",
        "case.toml:26: time.end: 0.1 is less than one step of 0.125; give an end >= step"},
       {"EndNoMultiple", coupled_case, "end = 12.0", "end = 12.3",
        "case.toml:26: time.end: 12.3 is no multiple of the step 0.125; give 12.25 or 12.375"},
       {"StepsTooMany", coupled_case, "step = 0.125", "step = 1e-9",
        "case.toml:25: time.step: 1e-09 would take 1.2e+10 steps to 12; give a step that takes at most 1000000"},
+      {"StepMisspelt", coupled_case, "step = 0.125", "step = \"adaptiv\"",
+       "case.toml:25: time.step: \"adaptiv\" is unknown; did you mean \"adaptive\"?"},
+      {"ToleranceOfEqualSteps", coupled_case, "end = 12.0", "end = 12.0\ntolerance = 0.01",
+       "case.toml:27: time.tolerance: belongs to adaptive steps, and this run has equal ones; remove it, or set "
+       "time.step = \"adaptive\""},
+      {"ToleranceZero", coupled_case, "step = 0.125", "step = \"adaptive\"\ntolerance = 0",
+       "case.toml:26: time.tolerance: 0 is out of range; give a number > 0 and < 1 (error that adaptive steps aim at, "
+       "relative to the solution, default 0.01)"},
+      {"LargestStepBehindTheEnd", coupled_case, "step = 0.125", "step = \"adaptive\"\nlargest_step = 13",
+       "case.toml:26: time.largest_step: 13 is more than the end of 12; give at most 12"},
+      {"FirstStepAboveTheLargest", coupled_case, "step = 0.125",
+       "step = \"adaptive\"\nlargest_step = 0.25\nfirst_step = 0.5",
+       "case.toml:27: time.first_step: 0.5 is more than the largest step of 0.25; give at most 0.25"},
+      {"SmallestStepAboveTheFirst", coupled_case, "step = 0.125",
+       "step = \"adaptive\"\nfirst_step = 0.01\nsmallest_step = 0.1",
+       "case.toml:27: time.smallest_step: 0.1 is more than the first step of 0.01; give at most 0.01"},
+      {"RetriesNegative", coupled_case, "end = 12.0", "end = 12.0\nretries = -1",
+       "case.toml:27: time.retries: -1 is out of range; give a whole number from 0 to 20 (times that a step which "
+       "finds "
+       "no solution is halved before the run gives up, default 4)"},
+      {"IntervalZero", coupled_case, "[output]", "[output]\ninterval = 0",
+       "case.toml:34: output.interval: 0 is not positive; give a number > 0 (time in ms between entries of fields.h5, "
+       "in "
+       "place of every: steps end there; with adaptive steps a twelfth of the run unless given)"},
       {"NewmarkBetaZero", coupled_case, "end = 12.0", "end = 12.0\nnewmark_beta = 0",
        "case.toml:27: time.newmark_beta: 0 is out of range; give a number > 0 and <= 1 (Newmark's beta of the wall, "
        "default 1)"},
@@ -390,7 +416,7 @@ const std::vector<BadCase>& bad_cases() {
        coupled_case,
        "",
        "",
-       "--set: time.step: \"fast\" is a string; give a number (time step in ms)",
+       "--set: time.step: \"fast\" is a string; give a number (time step in ms, or \"adaptive\")",
        {"time.step=fast"}},
       {"SetBelowNumber",
        coupled_case,
@@ -470,7 +496,7 @@ const std::vector<BadCase>& bad_cases() {
        coupled_case,
        "",
        "",
-       "--set: time.step: \"\" is a string; give a number (time step in ms)",
+       "--set: time.step: \"\" is a string; give a number (time step in ms, or \"adaptive\")",
        {"time.step="}},
       {"SetTwoMeshes",
        coupled_case,
@@ -482,7 +508,7 @@ const std::vector<BadCase>& bad_cases() {
        coupled_case,
        "",
        "",
-       "--set: time.step: \"1 end=2\" is a string; give a number (time step in ms)",
+       "--set: time.step: \"1 end=2\" is a string; give a number (time step in ms, or \"adaptive\")",
        {"time.step=1\nend=2"}},
       {"SetSectionToNumber",
        coupled_case,

@@ -105,7 +105,7 @@ TEST_F(Fields, RestartForgetsStepsBehindTheCheckpoint) {
     FieldsWriter writer(folder_, grids_, planned_);
     for (const auto step : {0, 8, 16}) write(writer, step);
   }
-  FieldsWriter writer(folder_, grids_, planned_, folder_, 10);
+  FieldsWriter writer(folder_, grids_, planned_, folder_, 1.25);
   EXPECT_TRUE(listed(0) && listed(8));
   EXPECT_FALSE(listed(16));
   EXPECT_TRUE(writer.wants(16));
@@ -122,7 +122,7 @@ TEST_F(Fields, RestartExtendsTheRunInAnotherFolder) {
   }
   const auto before = contents_of(folder_ / "fields.h5");
   {
-    FieldsWriter writer(other, grids_, planned_field_steps(32, 4, steps_of(0.125)), folder_, 20);
+    FieldsWriter writer(other, grids_, planned_field_steps(32, 4, steps_of(0.125)), folder_, 2.5);
     write(writer, 24);
     const auto text = contents_of(other / "fields.xdmf");
     EXPECT_NE(text.find("\"step 20\""), std::string::npos);
@@ -130,6 +130,22 @@ TEST_F(Fields, RestartExtendsTheRunInAnotherFolder) {
     EXPECT_EQ(text.find("\"step 4\""), std::string::npos);  // was never written
   }
   EXPECT_EQ(contents_of(folder_ / "fields.h5"), before);
+}
+
+TEST_F(Fields, RestartNumbersEntriesBehindThoseThatAreKept) {
+  {
+    FieldsWriter writer(folder_, grids_, planned_);
+    for (const auto step : {0, 8, 16}) write(writer, step);
+  }
+  // Planned by time from here on, the numbers count entries.
+  FieldsWriter writer(folder_, grids_, {{0, 0.0}, {1, 1.5}, {2, 2.25}, {3, 3.0}}, folder_, 2.0);
+  EXPECT_TRUE(listed(0) && listed(8) && listed(16));
+  EXPECT_FALSE(writer.entry_at(1.5));
+  EXPECT_EQ(writer.entry_at(2.0), 16);
+  EXPECT_EQ(writer.entry_at(2.25), 17);
+  EXPECT_EQ(writer.entry_at(3.0), 18);
+  write(writer, 18);
+  EXPECT_TRUE(listed(18));
 }
 
 TEST_F(Fields, RestartWithMoreFieldsListsWhatEachStepHas) {
@@ -162,7 +178,7 @@ TEST_F(Fields, RestartRefusesAnotherMeshAndDamage) {
 }
 
 TEST_F(Fields, RestartWithoutEarlierFieldsStartsAfresh) {
-  FieldsWriter writer(folder_, grids_, planned_, folder_ / "nothing", 8);
+  FieldsWriter writer(folder_, grids_, planned_, folder_ / "nothing", 1.0);
   write(writer, 16);
   EXPECT_TRUE(listed(16));
 }

@@ -62,7 +62,7 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     EXPECT_EQ(checkpoint.arrays.at("state"), std::vector<double>(1000, checkpoint.time));
     {
       ResultFolder results(run, no_fluid, run, checkpoint.time, checkpoint.time);
-      FieldsWriter fields(run, grids, planned, run, checkpoint.step);
+      FieldsWriter fields(run, grids, planned, run, checkpoint.time);
       write_step(results, fields, grids, step + 1);
     }
 

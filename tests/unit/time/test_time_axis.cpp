@@ -102,6 +102,99 @@ TEST(TimeAxis, SplitsTheRestOfAStaticLoadInEqualSteps) {
   EXPECT_DOUBLE_EQ(last.time_of(4), axis.time_of(4));
 }
 
+TEST(TimeAxis, HalvesAFailedStepAndReturnsToItsGrid) {
+  const Case setup = in_time(0.5, 2);
+  TimeAxis axis(setup);
+  axis.halve(2);  // 0.5 to 1
+  axis.halve(3);  // 0.75 to 1, once the first half is done
+  EXPECT_EQ(axis.steps(), 6);
+  const double times[] = {0, 0.5, 0.75, 0.875, 1, 1.5, 2};
+  for (int step = 0; step <= 6; ++step) EXPECT_EQ(axis.time_of(step), times[step]) << step;
+  for (int step = 1; step <= 6; ++step) EXPECT_EQ(axis.length_of(step), times[step] - times[step - 1]) << step;
+  EXPECT_EQ(axis.planned_steps(), 4);
+  EXPECT_EQ(axis.planned_time_of(3), 1.5);
+
+  TimeAxis restarted(setup);  // between the halves
+  EXPECT_FALSE(restarted.go_on(axis.stretches(), 3, 0.875, axis.insertions()));
+  for (int step = 0; step <= 6; ++step) EXPECT_EQ(restarted.time_of(step), times[step]) << step;
+
+  const Case finer = in_time(0.25, 2);
+  TimeAxis changed(finer);
+  EXPECT_TRUE(changed.go_on(axis.stretches(), 2, 0.75, axis.insertions()));
+  const double finer_times[] = {0, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
+  EXPECT_EQ(changed.steps(), 7);
+  for (int step = 0; step <= 7; ++step) EXPECT_EQ(changed.time_of(step), finer_times[step]) << step;
+}
+
+TEST(TimeAxis, HalvesTheFirstHalfAgain) {
+  const Case setup = in_time(0.5, 1);
+  TimeAxis axis(setup);
+  axis.halve(1);
+  axis.halve(1);
+  EXPECT_EQ(axis.steps(), 4);
+  const double times[] = {0, 0.125, 0.25, 0.5, 1};
+  for (int step = 0; step <= 4; ++step) EXPECT_EQ(axis.time_of(step), times[step]) << step;
+  axis.drop_insertions_after(0);
+  EXPECT_EQ(axis.steps(), 2);
+}
+
+TEST(TimeAxis, StepsEndAtTimesOfOutput) {
+  Case setup = in_time(0.3, 1.2);
+  setup.output.interval = 0.5;
+  const TimeAxis axis(setup);
+  const double times[] = {0, 0.25, 0.5, 0.75, 1, 1.2};
+  EXPECT_EQ(axis.steps(), 5);
+  for (int step = 0; step <= 5; ++step) EXPECT_EQ(axis.time_of(step), times[step]) << step;
+  EXPECT_EQ(axis.length_of(2), 0.25);
+  EXPECT_FALSE(axis.jumps_at(0.5));
+}
+
+/// The artery's pulse.
+Case adaptive(double end) {
+  Case setup = in_time(0, end);
+  setup.time->adaptive = true;
+  setup.output.every = 0;
+  setup.inlet = PressureTable{{{0, 1}, {0.125, 1}, {0.125, 0}}};
+  return setup;
+}
+
+TEST(TimeAxis, AdaptiveStepsAreEqualUpToTheNextStop) {
+  const Case setup = adaptive(1);
+  TimeAxis axis(setup);
+  EXPECT_EQ(axis.choose(1, 0, 0.1), 0.0625);
+  EXPECT_EQ(axis.choose(1, 0, 0.05), 0.125 / 3);  // rejected
+  EXPECT_EQ(axis.choose(2, axis.time_of(1), 0.05), 0.125 / 3);
+  EXPECT_EQ(axis.choose(3, axis.time_of(2), 0.05), 0.125 / 3);
+  EXPECT_EQ(axis.time_of(3), 0.125);
+  EXPECT_TRUE(axis.jumps_at(axis.time_of(3)));
+  EXPECT_EQ(axis.choose(4, 0.125, 0.5), 0.4375);
+  EXPECT_EQ(axis.steps(), 5);
+  EXPECT_EQ(axis.choose(5, axis.time_of(4), 0.5), 0.4375);
+  EXPECT_EQ(axis.time_of(5), 1);
+  EXPECT_EQ(axis.steps(), 5);
+}
+
+TEST(TimeAxis, GoesOnFromEqualStepsToAdaptiveOnesAndBack) {
+  Case equal = in_time(0.25, 2);
+  const Case chosen = adaptive(2);
+  equal.inlet = chosen.inlet;
+  const TimeAxis before(equal);
+  TimeAxis axis(chosen);
+  EXPECT_TRUE(axis.go_on(before.stretches(), 2, 0.375));
+  axis.choose(3, 0.375, 0.5);  // 1.625 in four steps
+  EXPECT_EQ(axis.time_of(1), 0.125);
+  EXPECT_EQ(axis.time_of(2), 0.375);
+  EXPECT_EQ(axis.time_of(3), 0.78125);
+  TimeAxis again(chosen);
+  EXPECT_FALSE(again.go_on(axis.stretches(), 3, 0.78125, axis.insertions()));
+  EXPECT_EQ(again.choose(4, 0.78125, 0.5), 0.40625);
+  TimeAxis back(equal);
+  EXPECT_TRUE(back.go_on(axis.stretches(), 3, 0.78125, axis.insertions()));
+  EXPECT_EQ(back.steps(), 3 + 5);
+  const double times[] = {0, 0.125, 0.375, 0.78125, 1.03125, 1.28125, 1.53125, 1.78125, 2};
+  for (int step = 0; step <= 8; ++step) EXPECT_EQ(back.time_of(step), times[step]) << step;
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace fsi {
+
+/// Notices a pressure that alternates from step to step: a sawtooth is what a time scheme leaves that does not damp
+/// what its steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
+///   a^n = p^(n-1) - (p^(n-2) + p^n) / 2,
+/// a sawtooth has <a^n, a^(n-1)> close to -|a^n| |a^(n-1)|, where what is smooth has a positive product. It is named when
+/// over six steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away,
+/// and its amplitude |a| / 2 is more than a twentieth of the pressure.
+class RingingMonitor {
+ public:
+  static constexpr int fewest_steps = 6;
+  static constexpr double least_share = 0.05;  ///< of the pressure
+
+  /// \param scene_time  ms, in which the scene swings once; what dies faster than by half in it is let pass
+  explicit RingingMonitor(double scene_time) : scene_time_(scene_time) {}
+
+  /// \param time       ms, at which the pressures balance
+  /// \param pressures  kPa, of all places that count alike
+  /// \returns the amplitude in kPa, the largest over the places, while there is such a sawtooth
+  std::optional<double> look(double time, const std::vector<double>& pressures);
+  /// A jump of the load ends what can be compared.
+  void restart();
+
+ private:
+  double scene_time_;
+  std::vector<std::vector<double>> pressures_;  ///< the last ones, the latest last
+  std::vector<double> times_;
+  std::vector<double> deviation_;  ///< a of the last step
+  int alternating_ = 0;            ///< steps in a row
+  double since_ = 0;               ///< ms, of the first of them
+  double first_ = 0;               ///< |a| there
+};
+
+}  // namespace fsi

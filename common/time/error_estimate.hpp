@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "time/state.hpp"
+#include "time/step_data.hpp"
+
+namespace fsi {
+
+/// How the error of a scheme begins, docs/theory.md, section 8: what one step adds to y is
+///   constant dt^(order + 1) y^(order + 1) + shift dt^3 y''.
+struct ErrorTerms {
+  int order = 2;
+  double constant = 1.0 / 12;
+  double shift = 0;  ///< 1/ms, of the shifted midpoint rule
+};
+
+/// Errors of a step relative to the solution.
+struct StepErrors {
+  bool known = false;  ///< false: too few levels since the load last jumped
+  double displacement = 0, velocity = 0, pressure = 0;
+
+  double largest() const;
+  std::string text() const;  ///< "displacement 1.2e-3, velocity 2e-3, pressure 5e-3"
+};
+
+/// Estimates the error of a step from divided differences of its solution and the finished levels, as Milne's device
+/// does for steps of one length:
+///   displacement, velocity: what the step adds, as terms of the scheme's error say, times `scene_time` / dt: what such
+///                           steps add while the scene swings once;
+///   pressure:               constant dt^order times its derivative of that order, through the last balances: a
+///                           pressure answers to accelerations of the same step and adds nothing up.
+/// Norms are means over the volume. Displacement and velocity are relative to their largest norm so far, pressure to
+/// its largest of late: what the load made of it is forgotten within `scene_time`.
+/// \tparam n  components of a vector
+template <int n>
+class ErrorEstimate {
+ public:
+  /// \param fluid_volumes, wall_volumes  that belong to the nodes (fem/function_space.hpp), mm^3; empty: no such medium
+  /// \param scene_time                   ms
+  ErrorEstimate(std::vector<double> fluid_volumes, std::vector<double> wall_volumes, const ErrorTerms& terms,
+                double scene_time);
+
+  /// Of the solution in state.now of a step's last stage, before it is accepted.
+  StepErrors of(const State& state, const StepData& data);
+  /// The step that of() last looked at was accepted.
+  void accept(const StepData& data);
+
+  /// For a restart.
+  std::vector<double> memory() const;
+  void recall(const std::vector<double>& memory);
+
+ private:
+  struct Norms {
+    double displacement = 0, velocity = 0, pressure = 0;
+  };
+  /// Root of the mean square over the nodes of what `value(i)` is at the entries of the field.
+  template <class Value>
+  static double norm(const std::vector<double>& volumes, int entries, int first, int count, Value value);
+
+  std::vector<double> fluid_volumes_, wall_volumes_;
+  ErrorTerms terms_;
+  double scene_time_;
+  int since_jump_ = 0;  ///< finished steps since the load last jumped
+  Norms scale_;         ///< of the solution
+  Norms last_;          ///< of the step that of() looked at
+};
+
+extern template class ErrorEstimate<2>;
+extern template class ErrorEstimate<3>;
+
+}  // namespace fsi

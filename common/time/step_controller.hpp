@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+namespace fsi {
+
+/// What an error estimate may do to the step.
+struct StepLimits {
+  double first = 0;     ///< ms, at the start and after each jump of the load
+  double smallest = 0;  ///< ms
+  double largest = 0;   ///< ms
+};
+
+/// Chooses the lengths of steps from estimates of their error by a digital filter, H0211 of [Soderlind2003]: with the
+/// error e of a step over the allowed one, which goes like the length to the power k,
+///   dt_new = dt 0.9 (e e_before)^(-1/(2k)) (dt / dt_before)^(-1/2),
+/// no more than twice and no less than a fifth of dt. Lengths lie on a ladder of rungs a quarter of an octave apart,
+/// and one rung is no reason to grow: a step keeps its length, and the Jacobian that was made for it, while it is about
+/// right.
+class StepController {
+ public:
+  StepController(const StepLimits& limits, int order);
+
+  /// Length that the next step should have at most, ms.
+  double wanted() const { return wanted_; }
+
+  /// The load has jumped: what was estimated before says nothing any more.
+  void restart();
+  /// A step of this length (ms) whose error could not be estimated was accepted.
+  void accept(double length);
+  /// A step was accepted with an error of `error` times the allowed one.
+  void accept(double length, double error);
+  /// A step was rejected for its error. \returns false when no smaller one is allowed
+  bool reject(double length, double error);
+  /// A step found no solution.
+  void fail(double length);
+
+  /// For a restart.
+  std::vector<double> memory() const { return {wanted_, error_before_, length_before_}; }
+  void recall(const std::vector<double>& memory);
+
+ private:
+  /// The highest rung not above a length, within the limits.
+  double rung(double length) const;
+
+  StepLimits limits_;
+  int order_;
+  double wanted_;
+  double error_before_ = 0;  ///< of the last accepted step; 0: none
+  double length_before_ = 0;
+  bool held_ = false;        ///< the last step was rejected or failed: the next does not grow
+};
+
+}  // namespace fsi
