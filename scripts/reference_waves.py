@@ -35,17 +35,15 @@ class Run(NamedTuple):
     step: float  # ms
 
 
-# Cells through lumen, media, adventitia, and along the axis.
-GRIDS = {"coarsest": (3, 1, 1, 48), "coarse": (6, 2, 2, 96), "middle": (9, 3, 3, 144), "fine": (12, 4, 4, 192)}
-CELL = {"coarsest": 1, "coarse": 1 / 2, "middle": 1 / 3, "fine": 1 / 4}  # length in a common unit
-REFINED = ("fine", "middle", "coarse")  # at small steps, whose short waves the coarsest grid does not bear
-HALVED = ("fine", "coarse", "coarsest")  # at the step of the paper's cases
-GRADINGS = ("--lumen-grading", "3", "--axial-grading", "4")  # one grading: cells of all grids have one shape
+# Cells through lumen, media, adventitia, and along the axis: each grid halves the cells of the one before.
+GRIDS = {"coarse": (3, 1, 1, 48), "middle": (6, 2, 2, 96), "fine": (12, 4, 4, 192)}
+SIZES = (1, 2, 4)  # of the cells of the grids, the finest first
+GRADINGS = ("--lumen-grading", "3", "--axial-grading", "4")  # one grading: the grids are refinements of each other
 SCHEME = "midpoint"
-STEPS = (1 / 128, 1 / 64, 1 / 32)  # ms: the coarse grid
-SPACE_STEPS = {"neo-hookean": 1 / 64, "mooney-rivlin": 1 / 32, "artery": 1 / 32}  # ms: the refined grids
+STEPS = (1 / 128, 1 / 64, 1 / 32)  # ms: the middle grid
+SPACE_STEPS = {"neo-hookean": 1 / 64, "mooney-rivlin": 1 / 32, "artery": 1 / 32}  # ms: all grids
 CHECKED = "neo-hookean"  # the material, made first, with which is seen how much grids' differences depend on the step:
-CHECK_STEPS = (1 / 32, 1 / 64)  # ms: coarse and middle grid
+CHECK_STEPS = (1 / 32, 1 / 64)  # ms: middle and fine grid
 CASE = ("euler", 0.125)  # the paper's scheme and step: for the error of the mesh alone
 ORDERS = (1.0, 4.0)  # observed orders that are taken for an extrapolation
 LOWEST = 0.5  # order by which the error is estimated of solutions that hardly converge
@@ -79,29 +77,26 @@ def run(programs: Path, work: Path, material: str, one: Run) -> Path:
     return folder
 
 
-def in_space(material: str):
-    """The runs on grids at small steps, the finest first."""
-    return [Run(grid, SCHEME, SPACE_STEPS[material]) for grid in REFINED]
-
-
-def of_the_case():
-    """The runs with the paper's scheme and step, the finest first."""
-    return [Run(grid, *CASE) for grid in HALVED]
+def in_space(scheme: str, step: float):
+    """The runs on all grids, the finest first."""
+    return [Run(grid, scheme, step) for grid in reversed(GRIDS)]
 
 
 def in_time():
     """The runs with all steps, the finest first."""
-    return [Run("coarse", SCHEME, step) for step in STEPS]
+    return [Run("middle", SCHEME, step) for step in STEPS]
 
 
 def check(material: str):
-    """Middle and coarse grid at both steps."""
-    return [Run(grid, SCHEME, step) for grid in ("middle", "coarse") for step in CHECK_STEPS if material == CHECKED]
+    """Fine and middle grid at both steps."""
+    return [Run(grid, SCHEME, step) for grid in ("fine", "middle") for step in CHECK_STEPS if material == CHECKED]
 
 
 def needed(material: str):
     """All runs, the longest first."""
-    return list(dict.fromkeys([*in_space(material), *in_time(), *check(material), *of_the_case()]))
+    return list(
+        dict.fromkeys([*in_space(SCHEME, SPACE_STEPS[material]), *in_time(), *check(material), *in_space(*CASE)])
+    )
 
 
 def runs(programs: Path, work: Path, material: str, jobs: int):
@@ -142,11 +137,11 @@ def converged(finest_first: Sequence[Waves], sizes: Sequence[float]):
 def reference(material: str, found, column: str):
     """The waves with step and grid to zero, an estimate of their relative error, and the facts behind it."""
     time, time_facts = converged([found[one][column] for one in in_time()], STEPS)
-    on_grids = in_space(material)
-    space, space_facts = converged([found[one][column] for one in on_grids], [CELL[one.grid] for one in on_grids])
-    coarse = found[Run("coarse", SCHEME, SPACE_STEPS[material])][column]
+    on_grids = [found[one][column] for one in in_space(SCHEME, SPACE_STEPS[material])]
+    space, space_facts = converged(on_grids, SIZES)
+    middle = on_grids[1]
     z = space.z
-    kept = Waves(np.array(TIMES), z, time.at(TIMES, z) + space.values - coarse.at(TIMES, z))
+    kept = Waves(np.array(TIMES), z, time.at(TIMES, z) + space.values - middle.at(TIMES, z))
     change = change_with_step(material, found, column, kept)
     # The correction for the grid was found at a step that is not zero. Of second order, its change between two steps
     # whose squares differ by 3 parts tells what it lacks at either.
@@ -160,13 +155,13 @@ def reference(material: str, found, column: str):
 
 
 def change_with_step(material: str, found, column: str, kept: Waves) -> float:
-    """Of the difference between middle and coarse grid, relative to the waves; other materials take the checked one's."""
+    """Of the difference between fine and middle grid, relative to the waves; other materials take the checked one's."""
     if material != CHECKED:
         path = REFERENCES / CHECKED / "reference.json"
         return float(json.loads(path.read_text(encoding="utf-8"))["estimates"][column]["change_with_step"])
     one, other = (
-        found[Run("middle", SCHEME, step)][column].at(TIMES, kept.z)
-        - found[Run("coarse", SCHEME, step)][column].at(TIMES, kept.z)
+        found[Run("fine", SCHEME, step)][column].at(TIMES, kept.z)
+        - found[Run("middle", SCHEME, step)][column].at(TIMES, kept.z)
         for step in CHECK_STEPS
     )
     return norm(kept.z, one - other) / norm(kept.z, kept.values)
@@ -174,9 +169,8 @@ def change_with_step(material: str, found, column: str, kept: Waves) -> float:
 
 def space_reference(_: str, found, column: str):
     """The finest grid's waves at the step of the space study, and the error that its order tells."""
-    solutions = [found[one][column] for one in of_the_case()]
-    cells = [CELL[one.grid] for one in of_the_case()]
-    _, facts = converged(solutions, cells)
+    solutions = [found[one][column] for one in in_space(*CASE)]
+    _, facts = converged(solutions, SIZES)
     return kept_levels(solutions[0]), facts["left"], facts
 
 
@@ -201,15 +195,14 @@ def write(name: str, material: str, found, make, description: str, **more) -> No
 def write_both(material: str, found) -> None:
     what = f"the artery as an axisymmetric scene ({material}), p2p1, wall pressure separate in each layer"
     cells = {name: "-".join(map(str, counts)) for name, counts in GRIDS.items()}
-    through = "cells through lumen, media, adventitia and along the axis"
     steps = ", ".join(f"1/{round(1 / step)}" for step in reversed(STEPS))
-    grids = f"{through} {', '.join(cells[grid] for grid in REFINED[::-1])}"
+    grids = f"cells through lumen, media, adventitia and along the axis {', '.join(cells.values())}"
     write(
         material,
         material,
         found,
         reference,
-        f"{what}: midpoint rule, steps of {steps} ms on {cells['coarse']} cells extrapolated to zero by the observed "
+        f"{what}: midpoint rule, steps of {steps} ms on {cells['middle']} cells extrapolated to zero by the observed "
         f"order, and what the grid lacks, extrapolated by the observed order from {grids} at 1/{round(1 / SPACE_STEPS[material])} ms",
     )
     write(
@@ -217,7 +210,7 @@ def write_both(material: str, found) -> None:
         material,
         found,
         space_reference,
-        f"{what}: the finest of {through} {', '.join(cells[grid] for grid in HALVED[::-1])}, at {CASE[1]} ms by backward Euler",
+        f"{what}: the finest of {grids}, at {CASE[1]} ms by backward Euler",
         step_ms=CASE[1],
     )
 

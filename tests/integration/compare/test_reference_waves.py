@@ -17,16 +17,13 @@ specification.loader.exec_module(reference_waves)
 TIMES = np.arange(0.0, 12.01, 0.25)
 Z = np.linspace(0, 18, 19)
 EXACT = 3 + np.sin(TIMES)[:, None] * np.cos(Z)[None, :]
+CELL = {"coarse": 1, "middle": 1 / 2, "fine": 1 / 4}
 
 
 def solutions(time_error, space_order=2.0):
     """Waves of each run: the exact ones with an error of `time_error(step)` and one of an order in the cell's size."""
     return {
-        run: {
-            PRESSURE.column: Waves(
-                TIMES, Z, EXACT + time_error(run.step) + 0.1 * reference_waves.CELL[run.grid] ** space_order
-            )
-        }
+        run: {PRESSURE.column: Waves(TIMES, Z, EXACT + time_error(run.step) + 0.1 * CELL[run.grid] ** space_order)}
         for run in reference_waves.needed(reference_waves.CHECKED)
     }
 
@@ -56,7 +53,7 @@ class Extrapolation(unittest.TestCase):
         runs = solutions(lambda step: 2 * step**2)
         for run, waves in runs.items():
             w = waves[PRESSURE.column]
-            error = 50 * run.step**2 * reference_waves.CELL[run.grid] ** 2
+            error = 50 * run.step**2 * CELL[run.grid] ** 2
             waves[PRESSURE.column] = Waves(w.times, w.z, w.values + error)
         found, own_error, facts = reference_waves.reference(reference_waves.CHECKED, runs, PRESSURE.column)
         self.assertGreater(facts["left_of_both"], 1e-5)
@@ -73,7 +70,7 @@ class Extrapolation(unittest.TestCase):
     def test_the_reference_for_space_is_the_finest_grid_at_the_step_of_the_cases(self):
         runs = solutions(lambda step: 2 * step)
         found, own_error, _ = reference_waves.space_reference("", runs, PRESSURE.column)
-        fine = runs[reference_waves.of_the_case()[0]][PRESSURE.column]
+        fine = runs[reference_waves.in_space(*reference_waves.CASE)[0]][PRESSURE.column]
         np.testing.assert_array_equal(found.values, fine.at(reference_waves.TIMES, Z))
         exact = Waves(TIMES, Z, fine.values - 0.1 / 16).at(reference_waves.TIMES, Z)
         apart = np.linalg.norm(found.values - exact) / np.linalg.norm(exact)
