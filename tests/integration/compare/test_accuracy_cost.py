@@ -293,7 +293,12 @@ class ReadyStudy(unittest.TestCase):
             kinds.kind(study.kind).check(study)
             self.assertTrue(study.requests)
             if quick:
-                self.assertEqual({request.mesh.name for request in study.requests}, {"coarse"})
+                small = {"coarse", "section-4-1-1-36", "section-4-1-1-96"}
+                self.assertEqual({request.mesh.name for request in study.requests}, small)
+            else:
+                schemes = {"euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2"}
+                self.assertEqual({request.settings["time.scheme"] for request in study.requests}, schemes)
+                self.assertEqual({request.case for request in study.requests}, set(study.cases))
 
     def test_elements_and_dimensions_can_be_run_side_by_side(self):
         from fsi_compare.studies import kinds
