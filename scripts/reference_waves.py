@@ -1,43 +1,55 @@
 """Makes the references that fsi-compare judges waves by, from runs of fsi-monolithic on the artery as an axisymmetric
 scene (meshes/artery/axisymmetric), quadratic elements, a wall pressure that may jump between the layers:
 
-  compare/studies/references/MATERIAL         time step to 0: the error of mesh and step
+  compare/studies/references/MATERIAL         step and mesh to 0: the error of mesh and step
   compare/studies/references/MATERIAL-space   time step 0.125 ms, as the paper's cases: the error of the mesh alone
 
 usage: python3 scripts/reference_waves.py [--jobs N] BIN_DIR WORK_DIR MATERIAL...
 
-WORK_DIR keeps the runs; those that are there are not made again. About three minutes of one idle core a material.
+WORK_DIR keeps the runs; those that are there are not made again. Three to five minutes of one idle core a material,
+the neo-Hookean one first.
 """
 
 import json
-import math
 import subprocess
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any, Dict, NamedTuple, Sequence
 
 import numpy as np
 
 TOP = Path(__file__).resolve().parents[1]
+REFERENCES = TOP / "compare/studies/references"
 sys.path.insert(0, str(TOP / "compare"))
 
 from fsi_compare.studies.accuracy.observed_order import self_convergence  # noqa: E402
 from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
-from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated  # noqa: E402
-from fsi_compare.studies.evidence.waves import norm, read_waves, relative_difference  # noqa: E402
+from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated, norm, read_run  # noqa: E402
+
+
+class Run(NamedTuple):
+    grid: str
+    scheme: str
+    step: float  # ms
+
 
 # Cells through lumen, media, adventitia, and along the axis: each grid halves the cells of the one before.
 GRIDS = {"coarse": (3, 1, 1, 48), "middle": (6, 2, 2, 96), "fine": (12, 4, 4, 192)}
+SIZES = (1, 2, 4)  # of the cells of the grids, the finest first
 GRADINGS = ("--lumen-grading", "3", "--axial-grading", "4")  # one grading: the grids are refinements of each other
-SPACE_STEP = 0.125  # ms: all grids
-STEPS = (1 / 256, 1 / 128, 1 / 64, 1 / 32)  # ms: the middle grid
-BANDS = (0, 4, 8, 12, 16, 20, 25, 30, 40, 60)  # first wave numbers: half waves in the tube's length
-TRUSTED = (0.6, 1.5)  # observed orders in time that are near enough to the scheme's, 1, for an extrapolation
-LOWEST = 0.3  # order by which the error of a band is estimated whose solutions hardly converge
+SCHEME = "midpoint"
+STEPS = (1 / 128, 1 / 64, 1 / 32)  # ms: the middle grid
+SPACE_STEPS = {"neo-hookean": 1 / 64, "mooney-rivlin": 1 / 64, "artery": 1 / 32}  # ms: all grids
+CHECKED = "neo-hookean"  # the material, made first, with which is seen how much grids' differences depend on the step:
+CHECK_STEPS = (1 / 32, 1 / 64)  # ms: middle and fine grid
+CASE = ("euler", 0.125)  # the paper's scheme and step: for the error of the mesh alone
+ORDERS = (1.0, 4.0)  # observed orders that are taken for an extrapolation
+LOWEST = 0.5  # order by which the error is estimated of solutions that hardly converge
 TIMES = [1.5 + 0.5 * i for i in range(16)]  # ms, kept in the files
-SETTINGS = (f"time.end={TIMES[-1]}", "monolithic.newton_tolerance=1e-6", "output.every=0", "output.checkpoint_every=0")
+END = 9.375  # ms: half of the averaged pressure's window after the last of them
+SETTINGS = (f"time.end={END}", "monolithic.newton_tolerance=1e-4", "output.every=0", "output.checkpoint_every=0")
 
 
 def mesh(programs: Path, work: Path, grid: str) -> Path:
@@ -50,11 +62,12 @@ def mesh(programs: Path, work: Path, grid: str) -> Path:
     return file
 
 
-def run(programs: Path, work: Path, material: str, grid: str, step: float) -> Path:
+def run(programs: Path, work: Path, material: str, one: Run) -> Path:
     """The result folder; made if it is not there."""
-    folder = work / f"{material}-{grid}-{step:g}"
+    folder = work / f"{material}-{one.grid}-{one.scheme}-{one.step:g}"
     if not (folder / "done").exists():
-        settings = (*SETTINGS, f"time.step={step}", f"mesh.file={mesh(programs, work, grid)}")
+        scheme = (f'time.scheme="{one.scheme}"', f"time.step={one.step}")
+        settings = (*SETTINGS, *scheme, f"mesh.file={mesh(programs, work, one.grid)}")
         words = [word for setting in settings for word in ("--set", setting)]
         case = TOP / "meshes" / "artery" / "axisymmetric" / f"{material}.toml"
         subprocess.run(
@@ -64,21 +77,35 @@ def run(programs: Path, work: Path, material: str, grid: str, step: float) -> Pa
     return folder
 
 
-def needed():
-    """(grid, step) of all runs, the longest first."""
-    return [*(("middle", step) for step in STEPS), *((grid, SPACE_STEP) for grid in reversed(GRIDS))]
+def in_space(scheme: str, step: float):
+    """The runs on all grids, the finest first."""
+    return [Run(grid, scheme, step) for grid in reversed(GRIDS)]
+
+
+def in_time():
+    """The runs with all steps, the finest first."""
+    return [Run("middle", SCHEME, step) for step in STEPS]
+
+
+def check(material: str):
+    """Fine and middle grid at both steps."""
+    return [Run(grid, SCHEME, step) for grid in ("fine", "middle") for step in CHECK_STEPS if material == CHECKED]
+
+
+def needed(material: str):
+    """All runs, the longest first."""
+    return list(
+        dict.fromkeys([*in_space(SCHEME, SPACE_STEPS[material]), *in_time(), *check(material), *in_space(*CASE)])
+    )
 
 
 def runs(programs: Path, work: Path, material: str, jobs: int):
-    """(grid, step) -> quantity's column -> waves."""
+    """Run -> quantity's column -> waves."""
     for grid in GRIDS:
         mesh(programs, work, grid)
     with ThreadPoolExecutor(jobs) as pool:
-        folders = list(pool.map(lambda one: run(programs, work, material, *one), needed()))
-    return {
-        one: {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
-        for one, folder in zip(needed(), folders)
-    }
+        folders = list(pool.map(lambda one: run(programs, work, material, one), needed(material)))
+    return {one: read_run(folder, TIMES) for one, folder in zip(needed(material), folders)}
 
 
 def apart(one: Waves, other: Waves, unit: Waves) -> float:
@@ -87,87 +114,72 @@ def apart(one: Waves, other: Waves, unit: Waves) -> float:
     return norm(unit.z, values[0] - values[1]) / norm(unit.z, values[2])
 
 
-def converged(finest_first):
-    """Extrapolation of three solutions whose sizes halve, by the order that they show, and the facts behind it."""
-    fine, middle, coarse = finest_first
+def kept_levels(waves: Waves) -> Waves:
+    return Waves(np.array(TIMES), waves.z, waves.at(TIMES, waves.z))
+
+
+def converged(finest_first: Sequence[Waves], sizes: Sequence[float]):
+    """Extrapolation of three solutions by the order that they show, and the facts behind it. What is left is at most
+    about what the extrapolation added."""
+    fine, middle, coarse = (kept_levels(waves) for waves in finest_first)
     distances = [apart(coarse, middle, fine), apart(middle, fine, fine)]
-    found = self_convergence((4, 2, 1), distances)
-    left = distances[1] if found.remaining is None else found.remaining
-    facts: Dict[str, Any] = {"differences": distances, "order": found.order, "left": left}
-    if found.order is None or found.order < LOWEST:  # nothing to go by
+    order = self_convergence(sizes[::-1], distances).order
+    facts: Dict[str, Any] = {"differences": distances, "order": order, "extrapolated": True}
+    if order is None or not ORDERS[0] <= order <= ORDERS[1]:  # nothing to go by
+        facts["extrapolated"] = False
+        facts["left"] = distances[1] / ((sizes[1] / sizes[0]) ** max(order or 0.0, LOWEST) - 1)
         return fine, facts
-    return extrapolated(fine, middle, 1 / (2**found.order - 1)), facts
+    best = extrapolated(fine, middle, 1 / ((sizes[1] / sizes[0]) ** order - 1))
+    facts["left"] = apart(best, fine, best)
+    return best, facts
 
 
-def spectrum(waves: Waves) -> np.ndarray:
-    """(times, wave number) of the waves continued evenly beyond both ends of the tube."""
-    values = waves.at(TIMES, waves.z)
-    return np.fft.rfft(np.concatenate([values, values[:, -2:0:-1]], axis=1), axis=1)
-
-
-def size(spectra: np.ndarray) -> float:
-    return float(np.sqrt(np.sum(np.abs(spectra) ** 2)))
-
-
-def converged_in_time(solutions):
-    """Four solutions, the finest step first, extrapolated band of wavelengths by band, with an estimate of the relative
-    error and the facts behind it. The pulse excites short waves that none of the steps resolves: they keep the order of
-    the whole below the scheme's, while the long ones show it. A band whose order is not near the scheme's is left as it
-    is; what it lacks is estimated by its own order."""
-    length = solutions[0].z[-1] - solutions[0].z[0]
-    fine, middle, coarse, coarsest = (spectrum(waves) for waves in solutions)
-    kept, unit, left = fine.copy(), size(fine), 0.0
-    bands: List[Dict[str, Any]] = []
-    for first, end in zip(BANDS, (*BANDS[1:], fine.shape[1])):
-        f, m, c, cc = (one[:, first:end] for one in (fine, middle, coarse, coarsest))
-        differences = [size(c - m) / unit, size(m - f) / unit]
-        found = self_convergence((4, 2, 1), differences)
-        order = found.order or 0.0
-        trusted = TRUSTED[0] <= order <= TRUSTED[1]
-        if trusted:
-            earlier = self_convergence((4, 2, 1), [size(cc - c), size(c - m)]).order or 0.0
-            before = m + (m - c) / (2 ** (earlier if earlier >= TRUSTED[0] else order) - 1)  # the same, a step coarser
-            kept[:, first:end] = f + (f - m) / (2**order - 1)
-            own = size(kept[:, first:end] - before) / unit
-        else:
-            own = differences[1] / (2 ** max(order, LOWEST) - 1)
-        left += own**2
-        wavelength = [2 * length / k if k else None for k in (first, end)]
-        known = {"wavelengths_mm": wavelength, "differences": differences, "order": found.order, "left": own}
-        bands.append({**known, "extrapolated": trusted})
-    z = solutions[0].z
-    values = np.fft.irfft(kept, n=2 * (len(z) - 1), axis=1)[:, : len(z)]
-    return Waves(np.array(TIMES), z, values), math.sqrt(left), bands
-
-
-def reference(found, column: str):
+def reference(material: str, found, column: str):
     """The waves with step and grid to zero, an estimate of their relative error, and the facts behind it."""
-    in_time, left_in_time, bands = converged_in_time([found["middle", step][column] for step in STEPS])
-    space, space_facts = converged([found[grid, SPACE_STEP][column] for grid in reversed(GRIDS)])
-    # What the middle grid lacks, at a larger step.
-    lacking = found["middle", SPACE_STEP][column]
-    correction = space.at(TIMES, space.z) - lacking.at(TIMES, space.z)
-    kept = Waves(np.array(TIMES), space.z, in_time.at(TIMES, space.z) + correction)
-    # What the extrapolation added to the finest grid, and half of the correction for its having been found at a larger
-    # step, where waves are longer.
-    left_in_space = space_facts["left"] + 0.5 * relative_difference(lacking, space, TIMES)
-    facts = {"time": bands, "space": space_facts, "left_in_time": left_in_time, "left_in_space": left_in_space}
-    return kept, left_in_time + left_in_space, facts
+    time, time_facts = converged([found[one][column] for one in in_time()], STEPS)
+    on_grids = [found[one][column] for one in in_space(SCHEME, SPACE_STEPS[material])]
+    space, space_facts = converged(on_grids, SIZES)
+    middle = on_grids[1]
+    z = space.z
+    kept = Waves(np.array(TIMES), z, time.at(TIMES, z) + space.values - middle.at(TIMES, z))
+    change = change_with_step(material, found, column, kept)
+    # The correction for the grid was found at a step that is not zero. Of second order, its change between two steps
+    # whose squares differ by 3 parts tells what it lacks at either.
+    parts = {max(CHECK_STEPS): 4 / 3, min(CHECK_STEPS): 1 / 3}
+    left = {
+        "left_in_time": time_facts["left"],
+        "left_in_space": space_facts["left"],
+        "left_of_both": parts[SPACE_STEPS[material]] * change,
+    }
+    return kept, sum(left.values()), {"time": time_facts, "space": space_facts, "change_with_step": change, **left}
 
 
-def space_reference(found, column: str):
+def change_with_step(material: str, found, column: str, kept: Waves) -> float:
+    """Of the difference between fine and middle grid, relative to the waves; other materials take the checked one's."""
+    if material != CHECKED:
+        path = REFERENCES / CHECKED / "reference.json"
+        return float(json.loads(path.read_text(encoding="utf-8"))["estimates"][column]["change_with_step"])
+    one, other = (
+        found[Run("fine", SCHEME, step)][column].at(TIMES, kept.z)
+        - found[Run("middle", SCHEME, step)][column].at(TIMES, kept.z)
+        for step in CHECK_STEPS
+    )
+    return norm(kept.z, one - other) / norm(kept.z, kept.values)
+
+
+def space_reference(_: str, found, column: str):
     """The finest grid's waves at the step of the space study, and the error that its order tells."""
-    _, facts = converged([found[grid, SPACE_STEP][column] for grid in reversed(GRIDS)])
-    fine = found["fine", SPACE_STEP][column]
-    return Waves(np.array(TIMES), fine.z, fine.at(TIMES, fine.z)), facts["left"], facts
+    solutions = [found[one][column] for one in in_space(*CASE)]
+    _, facts = converged(solutions, SIZES)
+    return kept_levels(solutions[0]), facts["left"], facts
 
 
 def write(name: str, material: str, found, make, description: str, **more) -> None:
-    folder = TOP / "compare/studies/references" / name
+    folder = REFERENCES / name
     folder.mkdir(parents=True, exist_ok=True)
     own_error, facts = {}, {}
     for quantity in QUANTITIES:
-        waves, own_error[quantity.column], facts[quantity.column] = make(found, quantity.column)
+        waves, own_error[quantity.column], facts[quantity.column] = make(material, found, quantity.column)
         with open(folder / quantity.file, "w", encoding="utf-8") as file:
             file.write(f"time_ms,z_mm,{quantity.column}\n")
             for time, row in zip(waves.times, waves.values):
@@ -183,24 +195,23 @@ def write(name: str, material: str, found, make, description: str, **more) -> No
 def write_both(material: str, found) -> None:
     what = f"the artery as an axisymmetric scene ({material}), p2p1, wall pressure separate in each layer"
     cells = {name: "-".join(map(str, counts)) for name, counts in GRIDS.items()}
-    in_time = ", ".join(f"1/{round(1 / step)}" for step in reversed(STEPS[:3]))
-    in_space = f"cells through lumen, media, adventitia and along the axis {', '.join(cells.values())}"
+    steps = ", ".join(f"1/{round(1 / step)}" for step in reversed(STEPS))
+    grids = f"cells through lumen, media, adventitia and along the axis {', '.join(cells.values())}"
     write(
         material,
         material,
         found,
         reference,
-        f"{what}: time steps of {in_time} ms on {cells['middle']} cells extrapolated to zero by the "
-        f"observed order of each band of wavelengths that shows the scheme's, and "
-        f"what the grid lacks, from {in_space} at {SPACE_STEP} ms",
+        f"{what}: midpoint rule, steps of {steps} ms on {cells['middle']} cells extrapolated to zero by the observed "
+        f"order, and what the grid lacks, extrapolated by the observed order from {grids} at 1/{round(1 / SPACE_STEPS[material])} ms",
     )
     write(
         f"{material}-space",
         material,
         found,
         space_reference,
-        f"{what}: the finest of {in_space}, at {SPACE_STEP} ms",
-        step_ms=SPACE_STEP,
+        f"{what}: the finest of {grids}, at {CASE[1]} ms by backward Euler",
+        step_ms=CASE[1],
     )
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence
 
+import numpy as np
+
 from ..base.errors import InputError
 from ..base.files import make_folder
 from ..reporting.layout import Table, fixed, write_markdown
@@ -15,14 +17,18 @@ from ..runs.columns import read_columns
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_summary
 from .evidence.reference import read_reference
-from .evidence.waves import QUANTITIES, Quantity, Waves, read_waves, relative_difference
+from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, Quantity, Waves, read_run, relative_difference
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
 
-DESCRIPTION = """\
-How far runs are from a reference: relative L2 norm along z of the centre-line pressure and of the radial displacement of
-the inner wall, at each of the times and the worst of them. REFERENCE is a finished run, or a folder of
+HEADS = {"pressure_Pa": "pressure, %", "averaged_pressure_Pa": "averaged pressure, %", "radial_mm": "displacement, %"}
+CSV = {"pressure_Pa": "pressure", "averaged_pressure_Pa": "averaged_pressure", "radial_mm": "radial"}
+
+DESCRIPTION = f"""\
+How far runs are from a reference: relative L2 norm along z of the centre-line pressure, of its mean over {WINDOW} ms
+around each time (where the run covers them) and of the radial displacement of the inner wall, at each of the times,
+their mean and the worst of them. REFERENCE is a finished run, or a folder of
 compare/studies/references. Runs of any element and geometry may be mixed: a tube of tetrahedra and its axisymmetric twin
 write the same files. With the reference's time step in all runs what is left is the error in space. Writes to OUTDIR:
   accuracy.csv   all errors, in full precision
@@ -58,6 +64,9 @@ class Accuracy:
     def worst(self, quantity: Quantity) -> float:
         values = self.errors[quantity.column]
         return math.nan if any(math.isnan(value) for value in values) else max(values)
+
+    def mean(self, quantity: Quantity) -> float:
+        return float(np.mean(self.errors[quantity.column]))
 
 
 def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
@@ -100,7 +109,7 @@ def accuracy(options: argparse.Namespace) -> int:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     times = read_times(options.times)
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
-    reference = read_any_reference(options.reference)
+    reference = read_any_reference(options.reference, times)
     found = [read_accuracy(folder, label, reference, times) for folder, label in zip(options.folders, labels)]
     make_folder(options.output)
     table = accuracy_table(found, reference, times, options.title)
@@ -111,13 +120,13 @@ def accuracy(options: argparse.Namespace) -> int:
     return 0
 
 
-def read_any_reference(folder: Path) -> Reference:
-    """A kept reference or a finished run. Raises InputError."""
+def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
+    """A kept reference, or a finished run with its means around `times`. Raises InputError."""
     if (folder / "reference.json").is_file():
         kept = read_reference(folder)
         return Reference(folder, dict(kept.waves), _kept_step(folder))
     _finished(folder)
-    waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    waves = read_run(folder, times)
     return Reference(folder, waves, _step(waves))
 
 
@@ -139,14 +148,14 @@ def _finished(folder: Path) -> dict:
 
 def _step(waves: Dict[str, Waves]) -> float:
     """The last one, ms."""
-    times = next(iter(waves.values())).times
+    times = waves[PRESSURE.column].times
     return float(times[-1] - times[-2]) if len(times) > 1 else float(times[-1])
 
 
 def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
     """Raises InputError unless the run is finished and run and reference cover the times and the reference's line."""
     summary = _finished(folder)
-    waves = {q.column: read_waves(folder / q.file, q.column) for q in QUANTITIES}
+    waves = read_run(folder, times)
     errors = {}
     for q in QUANTITIES:
         own, exact = waves[q.column], reference.waves[q.column]
@@ -181,7 +190,7 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
 
 
 def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Sequence[float], title: str) -> Table:
-    heads = [*(f"{time:g} ms" for time in times), "worst"]
+    heads = [*(f"{time:g} ms" for time in times), "mean", "worst"]
     table = Table(
         stem="accuracy",
         title=title,
@@ -194,8 +203,7 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             ("", "step"),
             ("", "steps"),
             ("", "seconds"),
-            *(("pressure, %", head) for head in heads),
-            *(("displacement, %", head) for head in heads),
+            *((HEADS[q.column], head) for q in QUANTITIES for head in heads),
         ],
         csv_columns=[
             "run",
@@ -206,10 +214,12 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             "steps",
             "wall_s",
             "time_ms",
-            "pressure_relative_L2",
-            "radial_relative_L2",
+            *(f"{CSV[q.column]}_relative_L2" for q in QUANTITIES),
         ],
-        notes=[f"Relative L2 norm along z of the difference from {reference.folder}."],
+        notes=[
+            f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
+            "time; no number where run or reference do not cover that."
+        ],
     )
     for one in found:
         facts = [one.label, one.element, one.geometry, one.nodes, one.step, one.steps, one.seconds]
@@ -223,7 +233,8 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             f"{one.seconds:.3g}",
         ]
         for q in QUANTITIES:
-            row += [fixed(100 * value, ".3g") for value in (*one.errors[q.column], one.worst(q))]
+            values = (*one.errors[q.column], one.mean(q), one.worst(q))
+            row += [fixed(None if math.isnan(value) else 100 * value, ".3g") for value in values]
         table.rows.append(row)
         by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
         table.csv_rows += [[*facts, time, *values] for time, *values in by_time]

@@ -18,7 +18,15 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
 from fsi_compare.studies.accuracy.trend import trend
-from fsi_compare.studies.evidence.waves import Waves, extrapolated, read_waves, relative_difference
+from fsi_compare.studies.evidence.waves import (
+    QUANTITIES,
+    WINDOW,
+    Waves,
+    averaged,
+    extrapolated,
+    read_waves,
+    relative_difference,
+)
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 
@@ -102,6 +110,19 @@ class Errors(unittest.TestCase):
         with self.assertRaises(ValueError):
             waves.at([2.5], waves.z)
 
+    def test_averages_take_whole_oscillations_away(self):
+        times = np.linspace(0, 3, 1201)
+        slow, fast = 1 + times, np.sin(2 * np.pi * times / (WINDOW / 2))
+        found = averaged(Waves(times, Z, np.outer(slow + 5 * fast, np.ones(len(Z)))), [2.0, 1.0])
+        self.assertEqual(found.times.tolist(), [1.0, 2.0])
+        np.testing.assert_allclose(found.values, [[2.0] * len(Z), [3.0] * len(Z)], atol=1e-3)
+
+    def test_averages_of_uneven_steps_and_where_the_window_leaves_them(self):
+        times = np.array([0.0, 0.1, 0.35, 1.0])
+        found = averaged(Waves(times, Z, np.outer(3 * times, Z)), [0.3, 0.5, 0.7])
+        np.testing.assert_allclose(found.values[1], 1.5 * Z)
+        self.assertTrue(np.isnan(found.values[[0, 2]]).all())
+
     def test_a_file_with_a_missing_point_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "wall_displacement.csv"
@@ -149,7 +170,7 @@ kind = "accuracy-cost"
 [cases]
 tube = "tube.toml"
 [set]
-"time.end" = 3.0
+"time.end" = 3.5
 "time.step" = 0.125
 [report]
 times = [1.5, 3.0]
@@ -189,10 +210,12 @@ class WholeStudy(FolderCase):
         folder = self.base / "reference"
         folder.mkdir()
         (folder / "reference.json").write_text(
-            json.dumps({"description": "a sine", "own_error": {"pressure_Pa": 0.001, "radial_mm": 0.002}})
+            json.dumps({"description": "a sine", "own_error": {q.column: 0.001 for q in QUANTITIES}})
         )
-        for file, column in (("centerline_pressure.csv", "pressure_Pa"), ("wall_displacement.csv", "radial_mm")):
-            rows = [f"{t},{i},{math.sin(1 + i / 3 + t)!r}" for t in TIMES for i in range(19)]
+        mean = math.sin(WINDOW / 2) / (WINDOW / 2)  # of a sine over the window, in units of its middle
+        for q, factor in zip(QUANTITIES, (1, mean, 1)):
+            file, column = q.file, q.column
+            rows = [f"{t},{i},{factor * math.sin(1 + i / 3 + t)!r}" for t in TIMES for i in range(19)]
             (folder / file).write_text("\n".join([f"time_ms,z_mm,{column}", *rows, ""]))
 
     def study(self, text=STUDY):
@@ -217,13 +240,14 @@ class WholeStudy(FolderCase):
         self.assertEqual(len(settings), 9 + 1 + 2 + 2)  # the run that diverged has a table of its own
         fine = [row for row in settings if row["mesh"] == "fine" and row["step_ms"] == "0.0625"][0]
         self.assertAlmostEqual(float(fine["pressure_error"]), 0.01 + 0.05, places=6)
-        self.assertAlmostEqual(float(fine["seconds"]), 64000e-6 * 48 * 1.8)
+        self.assertAlmostEqual(float(fine["averaged_pressure_error"]), 0.01 + 0.05, delta=1e-3)  # linear between steps
+        self.assertAlmostEqual(float(fine["seconds"]), 64000e-6 * 56 * 1.8)
         loose = [row for row in settings if row["solved_by"] == "monolithic, newton tolerance 0.01"][0]
         self.assertAlmostEqual(float(loose["pressure_solver_error"]), 0.1 / (1 + 0.26), places=6)
         self.assertEqual([row["message"] for row in self.csv("failed.csv")], ["diverged"])
 
         orders = self.csv("orders.csv")
-        self.assertEqual(len(orders), 2 * (3 + 3))
+        self.assertEqual(len(orders), 3 * (3 + 3))
         for row in orders:
             # Distances are relative to the finer solution, itself off by some percent: hence the tolerance.
             self.assertAlmostEqual(float(row["order"]), 2 if row["refined"] == "element size" else 1, delta=0.15)
@@ -250,7 +274,7 @@ class WholeStudy(FolderCase):
             ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of this study"),
             ('tube = "reference"', 'tube = "nowhere"', "reference.json: cannot be read"),
             ('tube = "reference"', 'pipe = "reference"', "report.references.pipe: is no case of this study"),
-            ('"time.end" = 3.0', '"time.end" = 2.0', "runs.grid: ends at 2 ms, before report.times"),
+            ('"time.end" = 3.5', '"time.end" = 3.0', "runs.grid: ends at 3 ms, before report.times"),
         ):
             code, err = self.study(STUDY.replace(old, new))
             self.assertEqual((code, err.count("\n")), (1, 1), err)
@@ -269,7 +293,12 @@ class ReadyStudy(unittest.TestCase):
             kinds.kind(study.kind).check(study)
             self.assertTrue(study.requests)
             if quick:
-                self.assertEqual({request.mesh.name for request in study.requests}, {"coarse"})
+                small = {"coarse", "section-4-1-1-36", "section-4-1-1-96"}
+                self.assertEqual({request.mesh.name for request in study.requests}, small)
+            else:
+                schemes = {"euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2"}
+                self.assertEqual({request.settings["time.scheme"] for request in study.requests}, schemes)
+                self.assertEqual({request.case for request in study.requests}, set(study.cases))
 
     def test_elements_and_dimensions_can_be_run_side_by_side(self):
         from fsi_compare.studies import kinds

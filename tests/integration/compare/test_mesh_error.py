@@ -9,7 +9,7 @@ from folder_case import FolderCase
 from fsi_compare.base.names import MATERIALS
 from fsi_compare.studies.command import READY
 from fsi_compare.studies.evidence.mesh_error import error_table, error_words, mesh_error, percent, physical, references
-from fsi_compare.studies.evidence.waves import QUANTITIES
+from fsi_compare.studies.evidence.waves import WRITTEN
 from fsi_compare.studies.running.study_file import Method, Request, StudyMesh
 from fsi_compare.studies.running.study_run import DONE, StudyRun
 
@@ -22,7 +22,7 @@ class MeshErrors(FolderCase):
         """A run with the reference's waves times the factors, until `last`."""
         folder = self.base / f"run-{len(list(self.base.iterdir()))}"
         folder.mkdir()
-        for quantity, factor in zip(QUANTITIES, factors):
+        for quantity, factor in zip(WRITTEN, factors):
             waves = references()["neo-hookean"].of(quantity)
             lines = [f"time_ms,z_mm,{quantity.column}"]
             lines += [

@@ -3,7 +3,7 @@
 from typing import List, Optional, Sequence, Tuple
 
 from ...base.progress import duration
-from ..evidence.waves import QUANTITIES, Quantity
+from ..evidence.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
 from .measured import GAIN, Measured
@@ -21,13 +21,16 @@ def percent(value: float) -> str:
 
 
 def total_advice(measured: Sequence[Measured], plan: Plan, case: str) -> List[str]:
-    """A line per target: the fastest setting whose two errors against the reference stay below it."""
-    own = max(plan.references[case].own_error.values())
+    """A line per target: the fastest setting whose errors of averaged pressure and displacement stay below it, and the
+    fastest whose raw pressure does so too."""
+    own = max(plan.references[case].own_error[q.column] for q in JUDGED)
     lines, missed = [], False
     for target in plan.targets:
         found = cheapest([(m.seconds, m.worst) for m in measured], target)
         if found is not None:
-            line = f"**{percent(target)}**: {_use(measured[found])}." + _other_driver(measured, measured[found], target)
+            chosen = measured[found]
+            line = f"**{percent(target)}**: {_use(chosen)}." + _other_driver(measured, chosen, target)
+            line += _raw_too(measured, chosen, target)
         else:
             best = min(measured, key=lambda m: m.worst)
             line = (
@@ -50,6 +53,17 @@ def total_advice(measured: Sequence[Measured], plan: Plan, case: str) -> List[st
 def _use(m: Measured) -> str:
     errors = " and ".join(f"{percent(m.total[q.column])} in {q.name}" for q in QUANTITIES)
     return f"{m.words}, {duration(m.seconds)} ({errors})"
+
+
+def _raw_too(measured: Sequence[Measured], chosen: Measured, target: float) -> str:
+    """What the raw pressure asks for beyond the averaged one."""
+    if chosen.worst_of_all <= target:
+        return ""
+    found = cheapest([(m.seconds, m.worst_of_all) for m in measured], target)
+    if found is not None:
+        return f" With the raw {PRESSURE.name} below it too: {_use(measured[found])}."
+    best = min(measured, key=lambda m: m.total[PRESSURE.column])
+    return f" No setting brings the raw {PRESSURE.name} below it; the best is {_use(best)}."
 
 
 def _one_alone(measured: Sequence[Measured], target: float) -> str:

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
-from ..evidence.waves import QUANTITIES, Waves, read_waves, relative_difference
+from ..evidence.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
 from ..running.study_file import Request, show
 from ..running.study_run import StudyRun
 from .plan import Plan
 
 SOLVING = ("monolithic.", "partitioned.", "output.")  # settings that leave the discrete equations as they are
 GAIN = 0.02  # a slower setting whose total error is smaller by less than this part is no better
-STEP, STABILISATION = "time.step", "structure.stabilisation"
+STEP, SCHEME, STABILISATION = "time.step", "time.scheme", "structure.stabilisation"
 ELEMENT, GEOMETRY, KIND, LAYER_PRESSURE = "element", "geometry", "stabilisation", "structure.layer_pressure"
 
 
@@ -59,7 +59,12 @@ class Measured:
 
     @property
     def worst(self) -> float:
-        """The larger of the two quantities' total errors."""
+        """The larger of the total errors of averaged pressure and displacement."""
+        return max(self.total[q.column] for q in JUDGED)
+
+    @property
+    def worst_of_all(self) -> float:
+        """The raw pressure's too."""
         return max(self.total.values())
 
     @property
@@ -76,7 +81,7 @@ class Measured:
         settings = self.run.request.settings
         alpha = settings.get(STABILISATION)
         words = [f"{self.mesh_label} mesh", f"step {self.step:g} ms"]
-        words += [str(settings[key]) for key in (ELEMENT, GEOMETRY) if key in settings]
+        words += [str(settings[key]) for key in (SCHEME, ELEMENT, GEOMETRY) if key in settings]
         words += [f"{settings[KIND]} stabilisation"] if KIND in settings else []
         words += [f"{settings[LAYER_PRESSURE]} layer pressure"] if LAYER_PRESSURE in settings else []
         return ", ".join(words + ([f"stabilisation {show(alpha)}"] if alpha is not None else []))
@@ -104,9 +109,7 @@ def measure(runs: Iterable[StudyRun], plan: Plan) -> List[Measured]:
     for run in runs:
         if run.done:
             done.setdefault(str(run.folder), run)
-    waves = {
-        key: {q.column: read_waves(run.folder / q.file, q.column) for q in QUANTITIES} for key, run in done.items()
-    }
+    waves = {key: read_run(run.folder, plan.times(run.request.case)) for key, run in done.items()}
     tight = {
         discretisation(run.request): waves[key] for key, run in done.items() if run.request.method.name == plan.tight
     }

@@ -6,6 +6,7 @@ from typing import Any, Callable, Dict, List, Mapping, Tuple
 from ...base.errors import InputError
 from ...base.suggestions import check_keys, nearest
 from ..evidence.reference import WaveReference, read_reference
+from ..evidence.waves import WINDOW
 from ..running.study_file import Study
 
 Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
@@ -111,10 +112,10 @@ def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
                 "does not say time.step and time.end",
                 "give both in [set] or in the group: errors depend on them",
             )
-        if end < high - 1e-6:
+        if end < high + 0.5 * WINDOW - 1e-6:
             raise InputError(
                 study.path,
                 f"runs.{request.group}",
-                f"ends at {end:g} ms, before report.times",
-                "run longer, or shorten report.times",
+                f"ends at {end:g} ms, before report.times and half of the {WINDOW:g} ms of a mean",
+                f"run to {high + 0.5 * WINDOW:g} ms or longer, or shorten report.times",
             )

@@ -11,7 +11,7 @@ from ...base.names import MATERIALS, MESHES
 from ...reporting.layout import Table, fixed
 from ..running.study_run import StudyRun
 from .reference import WaveReference, read_reference
-from .waves import DISPLACEMENT, PRESSURE, QUANTITIES, read_waves, relative_difference
+from .waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
 
 REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 
@@ -100,7 +100,7 @@ def mesh_error(run: StudyRun) -> MeshError:
     if reference is None:
         return MeshError(None, None, _departure(own, known))
     errors = {}
-    for quantity in QUANTITIES:
+    for quantity in WRITTEN:
         try:
             waves = read_waves(run.folder / quantity.file, quantity.column)
         except InputError:
@@ -163,8 +163,7 @@ def error_table(runs: Sequence[StudyRun], errors: Sequence[MeshError]) -> Table:
         notes=[
             "Relative L2 norm over the line and the reference's time levels, as in the study `accuracy-cost`. The "
             "references are axisymmetric and finer in mesh and step than any run here; how each was made stands in its "
-            "reference.json. Their own error is an estimate; it is of the time step, which leaves out short waves, more "
-            "than of the mesh."
+            "reference.json. Their own error is an estimate."
         ],
     )
     for run, error in zip(runs, errors):

@@ -13,7 +13,7 @@ REMEDY = "make it with scripts/reference_waves.py"
 
 @dataclass(frozen=True)
 class WaveReference:
-    """Folder with `reference.json`, `centerline_pressure.csv` and `wall_displacement.csv`."""
+    """Folder with `reference.json`, `centerline_pressure.csv`, `averaged_pressure.csv` and `wall_displacement.csv`."""
 
     folder: Path
     description: str  # how it was computed

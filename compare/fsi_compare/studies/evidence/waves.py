@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence, Union
+from typing import Dict, Sequence, Union
 
 import numpy as np
 
@@ -18,9 +18,14 @@ class Quantity:
     name: str
 
 
+WINDOW = 0.7  # ms: takes most of the wall's thickness shear, of 0.4 and 0.9 ms, off the pressure (docs/accuracy.md)
+
 PRESSURE = Quantity("centerline_pressure.csv", "pressure_Pa", "centre-line pressure")
+AVERAGED = Quantity("averaged_pressure.csv", "averaged_pressure_Pa", f"centre-line pressure averaged over {WINDOW} ms")
 DISPLACEMENT = Quantity("wall_displacement.csv", "radial_mm", "wall displacement")
-QUANTITIES = (PRESSURE, DISPLACEMENT)
+WRITTEN = (PRESSURE, DISPLACEMENT)  # by the programs
+QUANTITIES = (PRESSURE, AVERAGED, DISPLACEMENT)  # in a reference's folder
+JUDGED = (AVERAGED, DISPLACEMENT)  # by which settings are chosen; the raw pressure is stated beside them
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,33 @@ def read_waves(path: Path, column: str) -> Waves:
     if np.any(np.diff(times[starts]) <= 0) or np.any(np.diff(columns["z_mm"][:points]) <= 0):
         raise InputError(path, "time_ms", "times or points do not increase", "run it again")
     return Waves(times[starts], columns["z_mm"][:points], columns[column].reshape(len(starts), points))
+
+
+def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Waves:
+    """Mean over [t - window/2, t + window/2] of the waves, linear between levels; NaN where they do not cover that."""
+    widths = np.diff(waves.times)[:, None]
+    integral = np.concatenate(
+        [np.zeros((1, len(waves.z))), np.cumsum(0.5 * widths * (waves.values[1:] + waves.values[:-1]), axis=0)]
+    )
+
+    def until(time: float) -> np.ndarray:
+        """Integral from the first level."""
+        before = min(max(int(np.searchsorted(waves.times, time, side="right")) - 1, 0), len(waves.times) - 2)
+        part = time - waves.times[before]
+        return integral[before] + 0.5 * part * (waves.values[before] + waves.at([time], waves.z)[0])
+
+    rows, times = [], sorted(times)
+    for time in times:
+        first, last = time - 0.5 * window, time + 0.5 * window
+        covered = waves.covers(first) and waves.covers(last) and len(waves.times) > 1
+        rows.append((until(last) - until(first)) / window if covered else np.full(len(waves.z), math.nan))
+    return Waves(np.array(times, dtype=float), waves.z, np.array(rows))
+
+
+def read_run(folder: Path, times: Sequence[float]) -> Dict[str, Waves]:
+    """All quantities of a result folder by column, the averaged pressure at `times` (ms). Raises InputError."""
+    waves = {q.column: read_waves(folder / q.file, q.column) for q in WRITTEN}
+    return {**waves, AVERAGED.column: averaged(waves[PRESSURE.column], times)}
 
 
 def norm(z: np.ndarray, values: np.ndarray) -> float:
