@@ -10,7 +10,7 @@ namespace fsi {
 namespace {
 
 constexpr double opposite = -0.7;  // cosine of successive deviations
-constexpr double fair_part = 0.25;
+constexpr double fair_part = 0.25, lasting = 0.75;
 
 double product(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
@@ -57,7 +57,7 @@ std::optional<double> RingingMonitor::look(double time, const std::vector<double
   }
   const double lasted = time - since_;
   if (alternating_ < fewest_steps || lasted < fair_part * scene_time_) return {};
-  if (size < first_ * std::exp2(-lasted / scene_time_)) return {};
+  if (size < lasting * first_) return {};
   double largest = 0;
   for (const double a : deviation_) largest = std::max(largest, 0.5 * std::abs(a));
   return largest;

@@ -9,14 +9,14 @@ namespace fsi {
 /// what its steps cannot resolve. With the deviation of each pressure from the line through its neighbours in time,
 ///   a^n = p^(n-1) - (p^(n-2) + p^n) / 2,
 /// a sawtooth has <a^n, a^(n-1)> close to -|a^n| |a^(n-1)|, where what is smooth has a positive product. It is named when
-/// over six steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away,
-/// and its amplitude |a| / 2 is more than a twentieth of the pressure.
+/// over eight steps at least, and a fair part of the time in which the scene swings, it alternates, does not die away,
+/// and its amplitude |a| / 2 is more than a tenth of the pressure.
 class RingingMonitor {
  public:
-  static constexpr int fewest_steps = 6;
-  static constexpr double least_share = 0.05;  ///< of the pressure
+  static constexpr int fewest_steps = 8;
+  static constexpr double least_share = 0.1;  ///< of the pressure
 
-  /// \param scene_time  ms, in which the scene swings once; what dies faster than by half in it is let pass
+  /// \param scene_time  ms, in which the scene swings
   explicit RingingMonitor(double scene_time) : scene_time_(scene_time) {}
 
   /// \param time       ms, at which the pressures balance

@@ -48,7 +48,7 @@ class StepController {
   double wanted_;
   double error_before_ = 0;  ///< of the last accepted step; 0: none
   double length_before_ = 0;
-  bool held_ = false;        ///< the last step was rejected or failed: the next does not grow
+  bool held_ = false;  ///< the last step was rejected or failed: the next does not grow
 };
 
 }  // namespace fsi

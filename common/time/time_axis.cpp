@@ -123,16 +123,8 @@ double TimeAxis::length_of(int step) const {
   if (time_ == nullptr) return 0;
   if (const Insertion* inserted = insertion(step)) return inserted->length;
   const double length = time_of(step) - time_of(step - 1);
-  const int planned_step = step - inserted_before(step);
-  const Stretch& stretch = stretch_of(planned_step);
   const double asked = length_in(stretches_.back());
-  if (std::abs(length - asked) <= rounding * asked) return asked;
-  int done = stretch.after;
-  for (const Piece& piece : pieces(stretch)) {
-    done += piece.steps;
-    if (planned_step <= done) return std::abs(length - piece.step) <= rounding * piece.step ? piece.step : length;
-  }
-  return length;
+  return std::abs(length - asked) <= rounding * asked ? asked : length;
 }
 
 double TimeAxis::next_stop(double time) const {

@@ -33,7 +33,7 @@ class TimeAxis {
   /// End of a step, 0 for step 0. To twelve digits: 3 * 0.1 is 0.3, as it is for a run that ends there, so that one
   /// that goes on from it has the same times.
   double time_of(int step) const;
-  /// Length of a step, ms; 0 in statics. Equal steps have equal bits.
+  /// Length of a step, ms; 0 in statics. Steps as long as asked, and equal adaptive ones, have the same bits.
   double length_of(int step) const;
 
   /// Numbers and ends of the steps of the plan alone, without inserted ones.

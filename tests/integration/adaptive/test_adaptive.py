@@ -124,7 +124,7 @@ class Ringing(FolderTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        mesh = make_mesh(cls.base / "section.msh", "--axisymmetric", "--for", "p2p1", "--error", "10%")
+        mesh = make_mesh(cls.base / "section.msh", "--axisymmetric", "--for", "p2p1", "--error", "3%")
         cls.settings = (f"mesh.file={mesh}", "time.end=3", "output.every=0")
 
     def test_is_named(self):

@@ -25,9 +25,9 @@ int named_after(double share, double decay, int steps = 60) {
   return 0;
 }
 
-TEST(RingingMonitor, NamesASawtoothAfterSixSteps) {
-  EXPECT_GE(named_after(0.3, 1), 6);
-  EXPECT_LE(named_after(0.3, 1), 10);
+TEST(RingingMonitor, NamesASawtoothAfterEightSteps) {
+  EXPECT_GE(named_after(0.3, 1), 8);
+  EXPECT_LE(named_after(0.3, 1), 12);
   EXPECT_GT(named_after(0.3, 1.05), 0);
 }
 
