@@ -296,7 +296,7 @@ std::vector<EnergyRecord> march(const Case& setup, const SimplexMesh<3, Element:
   const Loads loads(setup);
   NewtonOptions options;
   options.tolerance = full ? 1e-13 : 1e-11;
-  options.keep_jacobian = !full;
+  options.mode = full ? NewtonMode::full : NewtonMode::kept;
   NewtonStepper<3> stepper(*scene, loads, options, number_scene(*scene));
   stepper.keep_balances(true);
   State state = scene->at_rest();
