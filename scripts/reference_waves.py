@@ -41,9 +41,9 @@ SIZES = (1, 2, 4)  # of the cells of the grids, the finest first
 GRADINGS = ("--lumen-grading", "3", "--axial-grading", "4")  # one grading: the grids are refinements of each other
 SCHEME = "midpoint"
 STEPS = (1 / 128, 1 / 64, 1 / 32)  # ms: the middle grid
-SPACE_STEPS = {"neo-hookean": 1 / 64, "mooney-rivlin": 1 / 64, "artery": 1 / 32}  # ms: all grids
+SPACE_STEP = 1 / 64  # ms: all grids
 CHECKED = "neo-hookean"  # the material, made first, with which is seen how much grids' differences depend on the step:
-CHECK_STEPS = (1 / 32, 1 / 64)  # ms: middle and fine grid
+CHECK_STEPS = (1 / 32, SPACE_STEP)  # ms: middle and fine grid
 CASE = ("euler", 0.125)  # the paper's scheme and step: for the error of the mesh alone
 ORDERS = (1.0, 4.0)  # observed orders that are taken for an extrapolation
 LOWEST = 0.5  # order by which the error is estimated of solutions that hardly converge
@@ -94,9 +94,7 @@ def check(material: str):
 
 def needed(material: str):
     """All runs, the longest first."""
-    return list(
-        dict.fromkeys([*in_space(SCHEME, SPACE_STEPS[material]), *in_time(), *check(material), *in_space(*CASE)])
-    )
+    return list(dict.fromkeys([*in_space(SCHEME, SPACE_STEP), *in_time(), *check(material), *in_space(*CASE)]))
 
 
 def runs(programs: Path, work: Path, material: str, jobs: int):
@@ -137,20 +135,15 @@ def converged(finest_first: Sequence[Waves], sizes: Sequence[float]):
 def reference(material: str, found, column: str):
     """The waves with step and grid to zero, an estimate of their relative error, and the facts behind it."""
     time, time_facts = converged([found[one][column] for one in in_time()], STEPS)
-    on_grids = [found[one][column] for one in in_space(SCHEME, SPACE_STEPS[material])]
+    on_grids = [found[one][column] for one in in_space(SCHEME, SPACE_STEP)]
     space, space_facts = converged(on_grids, SIZES)
     middle = on_grids[1]
     z = space.z
     kept = Waves(np.array(TIMES), z, time.at(TIMES, z) + space.values - middle.at(TIMES, z))
     change = change_with_step(material, found, column, kept)
-    # The correction for the grid was found at a step that is not zero. Of second order, its change between two steps
-    # whose squares differ by 3 parts tells what it lacks at either.
-    parts = {max(CHECK_STEPS): 4 / 3, min(CHECK_STEPS): 1 / 3}
-    left = {
-        "left_in_time": time_facts["left"],
-        "left_in_space": space_facts["left"],
-        "left_of_both": parts[SPACE_STEPS[material]] * change,
-    }
+    # The correction for the grid was found at a step that is not zero. Of second order, it lacks a third of its change
+    # from the step twice as long.
+    left = {"left_in_time": time_facts["left"], "left_in_space": space_facts["left"], "left_of_both": change / 3}
     return kept, sum(left.values()), {"time": time_facts, "space": space_facts, "change_with_step": change, **left}
 
 
@@ -203,7 +196,7 @@ def write_both(material: str, found) -> None:
         found,
         reference,
         f"{what}: midpoint rule, steps of {steps} ms on {cells['middle']} cells extrapolated to zero by the observed "
-        f"order, and what the grid lacks, extrapolated by the observed order from {grids} at 1/{round(1 / SPACE_STEPS[material])} ms",
+        f"order, and what the grid lacks, extrapolated by the observed order from {grids} at 1/{round(1 / SPACE_STEP)} ms",
     )
     write(
         f"{material}-space",
