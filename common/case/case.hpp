@@ -63,15 +63,15 @@ struct StructureData {
 
 /// [time]; absent in a static case
 struct TimeData {
-  double step = 0;        ///< ms; 0: adaptive
-  bool adaptive = false;  ///< steps by an estimate of their error
-  double end = 0;         ///< ms
+  double step = 0;  ///< ms; 0: adaptive
+  double end = 0;   ///< ms
   double newmark_beta = 1;
   double newmark_gamma = 1;
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
   TimeScheme scheme = TimeScheme::midpoint;
   std::optional<double> damping{};  ///< 1/ms, of the midpoint rule's shift; empty: from the scene
   double spectral_radius = 0.5;     ///< of generalised-alpha, at infinite frequency
+  bool adaptive = false;            ///< steps by an estimate of their error
   double tolerance = 0.01;          ///< of adaptive steps, relative to the solution
   std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
   int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
