@@ -109,6 +109,8 @@ def times(folder):
 
 def iterations_without_seconds(folder):
     rows = [line.split(",") for line in (Path(folder) / "iterations.csv").read_text().splitlines()]
+    if not rows:  # a run that has just begun
+        return []
     seconds = rows[0].index("wall_s")
     return [row[:seconds] + row[seconds + 1 :] for row in rows]
 
