@@ -42,7 +42,7 @@ ErrorTerms error_terms(const TimeData& time, double damping) {
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene) {
   const double rate = midpoint_damping(setup, scene);
-  return rate > 0 ? 0.25 / rate : setup.time.value().end;
+  return rate > 0 ? midpoint_share / rate : setup.time.value().end;
 }
 
 template <int n>

@@ -15,8 +15,9 @@
 
 namespace fsi {
 
-/// A quarter of the inverse of the midpoint rule's damping (scene/time_scheme.hpp), ms: of fluid and wall the time in
-/// which a wave goes as far as the radius. It does not depend on the end of the run, which may be put off.
+/// The inverse of the scene's frequency that the midpoint rule's damping is a share of (scene/time_scheme.hpp), ms: of
+/// fluid and wall the time in which a wave goes as far as the radius. It does not depend on the end of the run, which may
+/// be put off.
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <vector>
 
 #include "fem/dimensions.hpp"
 #include "scene/wave_speed.hpp"
@@ -18,16 +19,11 @@ namespace fsi {
 
 namespace {
 
-/// Of the scene's frequency: what the artery's wave tolerates best (docs/theory.md, section 8.5), 0.2/ms there.
-constexpr double share = 0.25;
-
-/// Largest distance of the wall's nodes from the axis of its fibres' frame, mm.
-template <int n>
-double radius_of_wall(const Case& setup, const Wall<n>& wall) {
-  const Point &origin = setup.structure->axis_origin, &axis = setup.structure->axis_direction;
+/// Largest distance of nodes from an axis, mm: the same for a tube and a sector of it.
+double largest_radius(const std::vector<Point>& nodes, const Point& origin, const Point& axis) {
   const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
   double largest = 0;
-  for (const Point& x : wall.nodes().nodes) {
+  for (const Point& x : nodes) {
     double along = 0, distance = 0;
     for (int k = 0; k < 3; ++k) along += (x[k] - origin[k]) * axis[k] / square;
     for (int k = 0; k < 3; ++k) distance += std::pow(x[k] - origin[k] - along * axis[k], 2);
@@ -36,19 +32,17 @@ double radius_of_wall(const Case& setup, const Wall<n>& wall) {
   return std::sqrt(largest);
 }
 
-/// Half the smallest extent of the fluid that is not zero, mm; half a plane through an axis counts whole.
-template <int n>
-double radius_of_fluid(const Case& setup, const Fluid<n>& fluid) {
+/// Of a fluid without wall, mm: its largest distance from the z axis, where the axis of such a tube lies; half the smaller
+/// extent of a plane one.
+double radius_of_fluid(const Case& setup, const std::vector<Point>& nodes) {
+  if (setup.geometry != Geometry::plane) return largest_radius(nodes, {0, 0, 0}, {0, 0, 1});
   double smallest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Point& x : fluid.nodes().nodes) {
-      low = std::min(low, x[k]);
-      high = std::max(high, x[k]);
-    }
-    if (high > low) smallest = std::min(smallest, high - low);
+  for (int k = 0; k < 2; ++k) {
+    const auto [low, high] =
+        std::minmax_element(nodes.begin(), nodes.end(), [k](const Point& x, const Point& y) { return x[k] < y[k]; });
+    smallest = std::min(smallest, (*high)[k] - (*low)[k]);
   }
-  return setup.geometry == Geometry::axisymmetric ? smallest : smallest / 2;
+  return smallest / 2;
 }
 
 /// Shortest time between two jumps of the load, the start counted among them, ms; infinite when there is no jump.
@@ -68,7 +62,7 @@ template <int n>
 double midpoint_damping(const Case& setup, const Scene<n>& scene) {
   if (scene.coupled()) {
     const double area = std::accumulate(scene.interface_areas.begin(), scene.interface_areas.end(), 0.0);
-    return share * wave_speed(scene) * area / (2 * scene.fluid->volume());
+    return midpoint_share * wave_speed(scene) * area / (2 * scene.fluid->volume());
   }
   if (scene.wall) {
     double stiffness = 0, volume = 0;
@@ -76,11 +70,13 @@ double midpoint_damping(const Case& setup, const Scene<n>& scene) {
       stiffness += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * layer.volume;
       volume += layer.volume;
     }
-    return share * std::sqrt(stiffness / volume / scene.wall->constants().density) / radius_of_wall(setup, *scene.wall);
+    return midpoint_share * std::sqrt(stiffness / volume / scene.wall->constants().density) /
+           largest_radius(scene.wall->nodes().nodes, setup.structure->axis_origin, setup.structure->axis_direction);
   }
   const AleFluid& form = scene.fluid->form();
-  const double decay = form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, *scene.fluid), 2);
-  return std::max(decay, share / shortest_pulse(setup));
+  const double decay =
+      form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene.fluid->nodes().nodes), 2);
+  return std::max(decay, midpoint_share / shortest_pulse(setup));
 }
 
 template <int n>
