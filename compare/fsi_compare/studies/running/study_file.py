@@ -32,7 +32,7 @@ METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "set")
 MESH_KEYS = ("options", "label")
 GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
-VALUE_KEYS = ("label", "set")
+VALUE_KEYS = ("label", "set", "mesh")
 
 
 @dataclass(frozen=True)
@@ -260,7 +260,8 @@ class _Reader:
             self.known(key, value, VALUE_KEYS)
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
-            return quantity, value["label"], self.settings(value, "set", key), None
+            mesh = meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None
+            return quantity, value["label"], self.settings(value, "set", key), mesh
         if "." not in quantity:
             raise self.wrong(
                 key,

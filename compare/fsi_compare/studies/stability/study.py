@@ -14,6 +14,7 @@ from ..running.study_file import Study, show
 from ..running.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED
 from .beyond_limit_load import beyond_limit_load
 from .messages import distinct, without_folder
+from .ringing import ringing
 from .settings import Settings, settings_of
 
 
@@ -26,6 +27,7 @@ def evaluate(context: Context) -> int:
     found = cells(context.runs, settings.references, settings.one_pass, settings.bound)
     _summary(context, found, settings)
     _maps(context, found, settings)
+    ringing(context.report, found, settings)
     beyond_limit_load(context.report, found, settings)
     _messages(context, found)
     context.report.section("All runs")
