@@ -37,6 +37,8 @@ void check_combination(const ArteryRequest& request) {
     refuse("--adventitia-cells", "the wall has no adventitia", "leave it out, or give --adventitia a thickness");
   if (request.error && request.for_element.empty())
     refuse("--error", "belongs to --for", "say which element the mesh is for: --for p2p1");
+  if (request.waves != wave_kinds().name_of(Waves::damped) && request.for_element.empty())
+    refuse("--waves", "belongs to --for", "say which element the mesh is for: --for p2p1");
 }
 
 bool by_numbers(const ArteryRequest& r) {
@@ -78,7 +80,8 @@ const RecommendedMesh* recommendation(const ArteryRequest& request) {
   const auto asked = request.error.value_or("3%");
   const auto percent = percent_of(asked);
   if (!percent) refuse("--error", fmt::format("'{}' is no percentage", asked), "give one, like 3%");
-  return &recommended_mesh(request.for_element, request.axisymmetric, *percent, {"fsi-mesh", "--for", "--error"});
+  return &recommended_mesh(request.for_element, request.axisymmetric,
+                           wave_kinds().at(request.waves), *percent, {"fsi-mesh", "--for", "--error"});
 }
 
 ArteryMesh make_artery(const ArteryRequest& request) {

@@ -25,6 +25,7 @@ struct ArteryRequest {
 
   std::string for_element;           ///< empty: no recommendation asked for
   std::optional<std::string> error;  ///< percentage, 3% unless given
+  std::string waves = wave_kinds().name_of(Waves::damped);  ///< for which error holds
 };
 
 using ArteryMesh = std::variant<SimplexMesh<2, 1>, SimplexMesh<2, 2>, SimplexMesh<3, 1>, SimplexMesh<3, 2>>;

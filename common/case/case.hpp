@@ -12,6 +12,7 @@
 #include "case/fast_options.hpp"
 #include "case/quasi_newton_options.hpp"
 #include "materials/parameter.hpp"
+#include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "solvers/krylov/krylov.hpp"
 #include "solvers/newton.hpp"
@@ -34,6 +35,7 @@ struct MeshData {
   std::filesystem::path file;  ///< absolute, or relative to the working directory once read
   std::string level;           ///< "coarse", "intermediate", "fine", or empty
   double error = 0;  ///< percent that the artery mesh made on demand may leave in the wave; 0: none is asked for
+  Waves waves = Waves::damped;  ///< for which `error` holds
 };
 
 /// [fluid]

@@ -38,6 +38,8 @@ void check_mesh(const CaseEntry& entry, MeshData& mesh) {
   if (!mesh.file.empty() && !mesh.level.empty()) entry.child("level").refuse("both file and level", "keep one of them");
   if (mesh.error > 0 && !(mesh.file.empty() && mesh.level.empty()))
     entry.child("error").refuse(mesh.file.empty() ? "both level and error" : "both file and error", "keep one of them");
+  if (mesh.error == 0 && entry.has("waves"))
+    entry.child("waves").refuse("belongs to error", "give error = \"3%\" as well, or leave waves out");
 }
 
 void read_mesh_error(const CaseEntry& entry, MeshData& mesh) {
@@ -56,6 +58,9 @@ std::vector<CaseKey<MeshData>> mesh_keys() {
           "artery mesh made on demand: the smallest recommended for the element that leaves no more, like \"3%\"",
           {read_mesh_error,
            [](const MeshData& mesh) { return mesh.error > 0 ? fmt::format("{}%", mesh.error) : std::string(); }}),
+      leaf("waves", optional,
+           "for which error holds: {}; resolved by steps of second order of 1/32 ms or less, default {}",
+           name_from(at(&MeshData::waves), wave_kinds())),
   };
 }
 

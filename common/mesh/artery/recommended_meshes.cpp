@@ -14,6 +14,7 @@ namespace fsi {
 namespace {
 
 constexpr bool axisymmetric = true, three_dimensional = false, measured = true;
+constexpr Waves damped = Waves::damped, resolved = Waves::resolved;
 
 ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, double lumen_grading,
                   double axial_grading) {
@@ -36,27 +37,32 @@ ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, d
 // between the layers. The three-dimensional rows are quarters.
 const std::vector<RecommendedMesh>& recommended_meshes() {
   static const std::vector<RecommendedMesh> table{
-      // element, geometry, error in % of pressure, of displacement, how known,
+      // element, geometry, waves, error in % of pressure, of displacement, how known,
       //   cells: lumen, media, adventitia, around, axial, grading of lumen, of axis
-      {"p2p1", axisymmetric, 1.6, 2.4, measured, cells(4, 1, 1, 12, 24, 2, 8)},
-      {"p2p1", axisymmetric, 1.7, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
-      {"p2p1", axisymmetric, 0.6, 0.7, measured, cells(6, 2, 1, 12, 36, 2, 12)},
-      {"p2p1", axisymmetric, 0.5, 0.3, measured, cells(8, 3, 2, 12, 144, 3, 4)},
-      {"p2p1", axisymmetric, 0.2, 0.1, measured, cells(12, 4, 4, 12, 192, 3, 4)},
-      {"p2p1", three_dimensional, 1.3, 1.8, measured, cells(4, 1, 1, 12, 24, 2, 8)},
-      {"p2p1", three_dimensional, 1.4, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
-      {"p2p1", three_dimensional, 0.6, 0.6, measured, cells(6, 2, 1, 16, 48, 2, 8)},
+      {"p2p1", axisymmetric, damped, 1.6, 2.4, measured, cells(4, 1, 1, 12, 24, 2, 8)},
+      {"p2p1", axisymmetric, damped, 1.7, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
+      {"p2p1", axisymmetric, damped, 0.6, 0.7, measured, cells(6, 2, 1, 12, 36, 2, 12)},
+      {"p2p1", axisymmetric, damped, 0.5, 0.3, measured, cells(8, 3, 2, 12, 144, 3, 4)},
+      {"p2p1", axisymmetric, damped, 0.2, 0.1, measured, cells(12, 4, 4, 12, 192, 3, 4)},
+      {"p2p1", three_dimensional, damped, 1.3, 1.8, measured, cells(4, 1, 1, 12, 24, 2, 8)},
+      {"p2p1", three_dimensional, damped, 1.4, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
+      {"p2p1", three_dimensional, damped, 0.6, 0.6, measured, cells(6, 2, 1, 16, 48, 2, 8)},
   };
   return table;
 }
 
-const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, double percent,
+const NameTable<Waves>& wave_kinds() {
+  static const NameTable<Waves> table{"waves", {{"damped", Waves::damped}, {"resolved", Waves::resolved}}};
+  return table;
+}
+
+const RecommendedMesh& recommended_mesh(const std::string& element, bool axisymmetric, Waves waves, double percent,
                                         const AskedFor& asked) {
   std::set<std::string> elements;
   const RecommendedMesh* best = nullptr;
   for (const auto& mesh : recommended_meshes()) {
     elements.insert(mesh.element);
-    if (mesh.element != element || mesh.axisymmetric != axisymmetric) continue;
+    if (mesh.element != element || mesh.axisymmetric != axisymmetric || mesh.waves != waves) continue;
     if (mesh.error() <= percent) return mesh;
     if (best == nullptr || mesh.error() < best->error()) best = &mesh;
   }
@@ -82,10 +88,9 @@ std::string to_text(const RecommendedMesh& mesh) {
     return ratio == 1 ? std::string() : fmt::format(" (graded {:g} to {})", ratio, where);
   };
   return fmt::format(
-      "{}, {}: cells through lumen {}{}, media {}, adventitia {}, {}along the axis {}{}; error in space of the "
-      "neo-Hookean "
-      "wave {:g} % of pressure, {:g} % of displacement, {}\n",
-      mesh.element, mesh.axisymmetric ? "axisymmetric" : "three-dimensional", c.lumen,
+      "{}, {}, {} waves: cells through lumen {}{}, media {}, adventitia {}, {}along the axis {}{}; error in space of the "
+      "neo-Hookean wave {:g} % of pressure, {:g} % of displacement, {}\n",
+      mesh.element, mesh.axisymmetric ? "axisymmetric" : "three-dimensional", wave_kinds().name_of(mesh.waves), c.lumen,
       graded(c.lumen_grading, "the wall"), c.media, c.adventitia,
       mesh.axisymmetric ? "" : fmt::format("around {}, ", c.around), c.axial, graded(c.axial_grading, "the inlet"),
       mesh.pressure_error, mesh.displacement_error,

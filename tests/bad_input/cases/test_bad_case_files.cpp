@@ -153,6 +153,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:4: mesh.error: \"3\" is no percentage; give one, like \"3%\" (artery mesh made on demand: the "
        "smallest "
        "recommended for the element that leaves no more, like \"3%\")"},
+      {"MeshWavesWithoutError", coupled_case, "level = \"coarse\"", "level = \"coarse\"\nwaves = \"resolved\"",
+       "case.toml:5: mesh.waves: belongs to error; give error = \"3%\" as well, or leave waves out"},
       // Unphysical values
       {"DensityNegative", coupled_case, "density = 1.0", "density = -1.0",
        "case.toml:6: fluid.density: -1 is not positive; give a number > 0 (density in mg/mm^3)"},

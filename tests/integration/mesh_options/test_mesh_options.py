@@ -56,7 +56,7 @@ class MeshOptions(FolderTest):
         _, process = self.made("--for", "p2p1", "--axisymmetric", "--error", "5%")
         said, report = process.stdout.split("\n", 1)
         found = re.fullmatch(
-            r"p2p1, axisymmetric: cells through lumen (\d+).*, media (\d+), adventitia (\d+), along the axis (\d+).*; "
+            r"p2p1, axisymmetric, damped waves: cells through lumen (\d+).*, media (\d+), adventitia (\d+), along the axis (\d+).*; "
             r"error in space of the neo-Hookean wave (.*) % of pressure, (.*) % of displacement, measured",
             said,
         )
@@ -76,6 +76,8 @@ class MeshOptions(FolderTest):
         for words, named in (
             (("--for", "p2p1", "--level", "fine"), "--for"),
             (("--for", "p2p1", "--error", "3"), "--error: '3' is no percentage"),
+            (("--waves", "resolved"), "--waves: belongs to --for"),
+            (("--for", "p2p1", "--waves", "all"), "waves"),
             (("--for", "p7"), "--for: there are no meshes recommended for 'p7'"),
             (("--sector", "50"), "--sector: 50 degrees will not do"),
             (("--sector", "90", "--axisymmetric"), "--sector"),

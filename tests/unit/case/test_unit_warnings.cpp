@@ -223,6 +223,19 @@ TEST(UnitWarnings, AreSilentOnTheSettingsOfEveryStudy) {
   EXPECT_GT(tried, 60);
 }
 
+TEST(MeshWarnings, AMeshForDampedWavesIsNamedWhereTheyLive) {
+  std::string text = good_case;
+  const std::string level = "level = \"coarse\"";
+  text.replace(text.find(level), level.size(), "error = \"1%\"");
+  const auto warnings = [&](const Lines& settings) { return parse_case(text, "case.toml", settings).warnings; };
+  EXPECT_EQ(warnings({"time.scheme=midpoint", "time.step=0.125"}), Lines());
+  EXPECT_EQ(warnings({"time.scheme=euler", "time.step=0.03125"}), Lines());
+  EXPECT_EQ(warnings({"time.scheme=midpoint", "time.step=0.03125", "mesh.waves=resolved"}), Lines());
+  const Lines said = warnings({"time.scheme=midpoint", "time.step=0.03125"});
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("mesh.error: holds for backward Euler"), std::string::npos) << said[0];
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -108,6 +108,7 @@ TEST(ArteryRequest, EveryRecommendedMeshCanBeMade) {
     auto request = short_request();
     request.for_element = mesh.element;
     request.error = std::to_string(mesh.error()) + "%";
+    request.waves = wave_kinds().name_of(mesh.waves);
     request.axisymmetric = mesh.axisymmetric;
     request.sector = mesh.axisymmetric ? 360 : 90;
     request.order = 1;

@@ -15,7 +15,8 @@ TEST(RecommendedMeshes, StandFromFewNodesToManyAndFromLargeErrorToSmall) {
   for (const auto& mesh : recommended_meshes()) {
     SCOPED_TRACE(to_text(mesh));
     EXPECT_EQ(mesh.cells.around % 4, 0);  // so that a quarter can be made
-    if (before && before->element == mesh.element && before->axisymmetric == mesh.axisymmetric) {
+    if (before && before->element == mesh.element && before->axisymmetric == mesh.axisymmetric &&
+        before->waves == mesh.waves) {
       const auto nodes = [](const ArteryCells& c) {
         return (c.lumen + c.media + c.adventitia) * c.around * (c.axial + 1);
       };
@@ -28,8 +29,8 @@ TEST(RecommendedMeshes, StandFromFewNodesToManyAndFromLargeErrorToSmall) {
 
 TEST(RecommendedMeshes, TheCheapestGoodEnoughOneIsTaken) {
   for (const auto& mesh : recommended_meshes()) {
-    EXPECT_EQ(&recommended_mesh(mesh.element, mesh.axisymmetric, mesh.error(), asked), &mesh);
-    const auto& looser = recommended_mesh(mesh.element, mesh.axisymmetric, 100, asked);
+    EXPECT_EQ(&recommended_mesh(mesh.element, mesh.axisymmetric, mesh.waves, mesh.error(), asked), &mesh);
+    const auto& looser = recommended_mesh(mesh.element, mesh.axisymmetric, mesh.waves, 100, asked);
     EXPECT_GE(looser.error(), mesh.error());
   }
 }
@@ -45,9 +46,9 @@ std::string refusal(const std::function<void()>& call) {
 
 TEST(RecommendedMeshes, RefusesWhatTheyCannotDo) {
   EXPECT_EQ(
-      refusal([] { recommended_mesh("p2p1", true, 0.001, asked); }).find("fsi-mesh: --error: 0.001% is less than any"),
+      refusal([] { recommended_mesh("p2p1", true, Waves::damped, 0.001, asked); }).find("fsi-mesh: --error: 0.001% is less than any"),
       0u);
-  EXPECT_EQ(refusal([] { recommended_mesh("p3", true, 3, asked); }),
+  EXPECT_EQ(refusal([] { recommended_mesh("p3", true, Waves::damped, 3, asked); }),
             "fsi-mesh: --for: there are no meshes recommended for 'p3'; there are for p2p1");
 }
 
