@@ -80,8 +80,8 @@ const RecommendedMesh* recommendation(const ArteryRequest& request) {
   const auto asked = request.error.value_or("3%");
   const auto percent = percent_of(asked);
   if (!percent) refuse("--error", fmt::format("'{}' is no percentage", asked), "give one, like 3%");
-  return &recommended_mesh(request.for_element, request.axisymmetric,
-                           wave_kinds().at(request.waves), *percent, {"fsi-mesh", "--for", "--error"});
+  return &recommended_mesh(request.for_element, request.axisymmetric, wave_kinds().at(request.waves), *percent,
+                           {"fsi-mesh", "--for", "--error"});
 }
 
 ArteryMesh make_artery(const ArteryRequest& request) {

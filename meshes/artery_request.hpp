@@ -23,8 +23,8 @@ struct ArteryRequest {
   int sector = 360;       ///< degrees
   bool mirrored = false;  ///< the sector and its images, the whole tube
 
-  std::string for_element;           ///< empty: no recommendation asked for
-  std::optional<std::string> error;  ///< percentage, 3% unless given
+  std::string for_element;                                  ///< empty: no recommendation asked for
+  std::optional<std::string> error;                         ///< percentage, 3% unless given
   std::string waves = wave_kinds().name_of(Waves::damped);  ///< for which error holds
 };
 

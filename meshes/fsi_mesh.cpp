@@ -110,8 +110,9 @@ void add_options(CLI::App& artery, Request& request) {
   in(accuracy, artery.add_option("--error", asked.error,
                                  "Error that it may leave in the neo-Hookean wave, of pressure and of displacement, "
                                  "like 1%; 3% unless given"));
-  in(accuracy, artery.add_option("--waves", asked.waves,
-                                 "damped: of backward Euler with 1/8 ms; resolved: of second order with 1/32 ms or less"))
+  in(accuracy,
+     artery.add_option("--waves", asked.waves,
+                       "damped: of backward Euler with 1/8 ms; resolved: of second order with 1/32 ms or less"))
       ->capture_default_str();
   for (auto* option : {level, size, axial_size}) element->excludes(option);
 

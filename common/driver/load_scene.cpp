@@ -32,7 +32,9 @@ namespace {
 /// What messages and summaries call the mesh: its file, "level coarse", or "recommended for 3%".
 std::string mesh_name(const Case& setup) {
   if (!setup.mesh.file.empty()) return setup.mesh.file.string();
-  return setup.mesh.error > 0 ? fmt::format("recommended for {}% of {} waves", setup.mesh.error, wave_kinds().name_of(setup.mesh.waves)) : "level " + setup.mesh.level;
+  return setup.mesh.error > 0
+             ? fmt::format("recommended for {}% of {} waves", setup.mesh.error, wave_kinds().name_of(setup.mesh.waves))
+             : "level " + setup.mesh.level;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -46,8 +48,8 @@ constexpr TriangleGeometry triangle_geometry =
 /// The cells of the mesh recommended for an element and `mesh.error`.
 template <class Element>
 ArteryCells recommended_cells(const Case& setup) {
-  return recommended_mesh(Element::order == 1 ? "p1" : "p2p1", Element::axisymmetric, setup.mesh.waves, setup.mesh.error,
-                          {setup.path.string(), "element", "mesh.error"})
+  return recommended_mesh(Element::order == 1 ? "p1" : "p2p1", Element::axisymmetric, setup.mesh.waves,
+                          setup.mesh.error, {setup.path.string(), "element", "mesh.error"})
       .cells;
 }
 

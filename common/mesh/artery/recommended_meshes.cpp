@@ -32,9 +32,10 @@ ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, d
 }  // namespace
 
 // Measured with the programs themselves by `fsi-compare accuracy`, see docs/accuracy.md: quadratic elements, pressure
-// separate per layer, against 16-5-5-256 cells graded by 3 and 4. Cells along the axis near the inlet govern the
-// displacement, those across the lumen the pressure; one or two cells a layer are enough when the pressure may jump
-// between the layers. The three-dimensional rows are quarters.
+// separate per layer, against 16-5-5-256 cells graded by 3 and 4. Of damped waves cells along the axis near the inlet
+// govern the displacement, those across the lumen the pressure; one or two cells a layer are enough when the pressure
+// may jump between the layers. Resolved waves need cells along the whole axis and two in the outer layer. The
+// three-dimensional rows are quarters. Resolved: midpoint rule with 1/64 ms.
 const std::vector<RecommendedMesh>& recommended_meshes() {
   static const std::vector<RecommendedMesh> table{
       // element, geometry, waves, error in % of pressure, of displacement, how known,
@@ -47,6 +48,15 @@ const std::vector<RecommendedMesh>& recommended_meshes() {
       {"p2p1", three_dimensional, damped, 1.3, 1.8, measured, cells(4, 1, 1, 12, 24, 2, 8)},
       {"p2p1", three_dimensional, damped, 1.4, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
       {"p2p1", three_dimensional, damped, 0.6, 0.6, measured, cells(6, 2, 1, 16, 48, 2, 8)},
+      {"p2p1", axisymmetric, resolved, 5.7, 9.3, measured, cells(4, 1, 1, 12, 48, 2, 4)},
+      {"p2p1", axisymmetric, resolved, 3.8, 4.4, measured, cells(4, 1, 1, 12, 72, 2, 4)},
+      {"p2p1", axisymmetric, resolved, 1.9, 2.2, measured, cells(6, 2, 2, 12, 96, 3, 4)},
+      {"p2p1", axisymmetric, resolved, 1.5, 1.3, measured, cells(6, 2, 2, 12, 120, 3, 4)},
+      {"p2p1", axisymmetric, resolved, 1.1, 0.8, measured, cells(8, 3, 2, 12, 144, 3, 4)},
+      {"p2p1", axisymmetric, resolved, 0.6, 0.7, measured, cells(9, 3, 3, 12, 144, 3, 4)},
+      {"p2p1", three_dimensional, resolved, 3.8, 4.4, !measured, cells(4, 1, 1, 12, 72, 2, 4)},
+      {"p2p1", three_dimensional, resolved, 1.9, 2.2, !measured, cells(6, 2, 2, 12, 96, 3, 4)},
+      {"p2p1", three_dimensional, resolved, 1.1, 0.8, !measured, cells(8, 3, 2, 16, 144, 3, 4)},
   };
   return table;
 }
@@ -88,7 +98,8 @@ std::string to_text(const RecommendedMesh& mesh) {
     return ratio == 1 ? std::string() : fmt::format(" (graded {:g} to {})", ratio, where);
   };
   return fmt::format(
-      "{}, {}, {} waves: cells through lumen {}{}, media {}, adventitia {}, {}along the axis {}{}; error in space of the "
+      "{}, {}, {} waves: cells through lumen {}{}, media {}, adventitia {}, {}along the axis {}{}; error in space of "
+      "the "
       "neo-Hookean wave {:g} % of pressure, {:g} % of displacement, {}\n",
       mesh.element, mesh.axisymmetric ? "axisymmetric" : "three-dimensional", wave_kinds().name_of(mesh.waves), c.lumen,
       graded(c.lumen_grading, "the wall"), c.media, c.adventitia,

@@ -11,7 +11,7 @@ namespace fsi {
 
 /// Which waves the steps of a run leave in its solution, and so what its mesh has to carry.
 enum class Waves {
-  damped,    ///< backward Euler with the paper's step, 1/8 ms: short waves die
+  damped,  ///< backward Euler with the paper's step, 1/8 ms: short waves die
   resolved,  ///< a scheme of second order with steps of 1/32 ms or less: they live, behind the crest, along the whole tube
 };
 

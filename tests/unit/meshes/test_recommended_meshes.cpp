@@ -45,9 +45,10 @@ std::string refusal(const std::function<void()>& call) {
 }
 
 TEST(RecommendedMeshes, RefusesWhatTheyCannotDo) {
-  EXPECT_EQ(
-      refusal([] { recommended_mesh("p2p1", true, Waves::damped, 0.001, asked); }).find("fsi-mesh: --error: 0.001% is less than any"),
-      0u);
+  EXPECT_EQ(refusal([] {
+              recommended_mesh("p2p1", true, Waves::damped, 0.001, asked);
+            }).find("fsi-mesh: --error: 0.001% is less than any"),
+            0u);
   EXPECT_EQ(refusal([] { recommended_mesh("p3", true, Waves::damped, 3, asked); }),
             "fsi-mesh: --for: there are no meshes recommended for 'p3'; there are for p2p1");
 }
