@@ -4,6 +4,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 
 namespace fsi {
 
@@ -24,15 +25,15 @@ RunLog::~RunLog() = default;
 RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
-// Text goes through "{}": a brace in it is no format directive.
+// One entry, one line. Text goes through "{}": a brace in it is no format directive.
 void RunLog::info(const std::string& line) {
-  logger_->info("{}", line);
+  logger_->info("{}", printable(line));
 }
 void RunLog::warning(const std::string& line) {
-  logger_->warn("{}", line);
+  logger_->warn("{}", printable(line));
 }
 void RunLog::error(const std::string& line) {
-  logger_->error("{}", line);
+  logger_->error("{}", printable(line));
 }
 
 }  // namespace fsi
