@@ -97,16 +97,19 @@ class Run {
   int march() {
     const Interruption interruption;
     const bool restarted = !line_.restart.empty();
-    if (restarted) recall();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
+    if (setup_.output.energy) tables.energy = EnergyBalance<n>::parts_of(*scene_);
+    // All that a restart reads is checked before anything is written.
+    std::optional<EarlierTables> earlier;
+    if (restarted) earlier = recall(tables);
     if (setup_.output.energy) {
       const auto phase = scene_->profile.phase("energy balance");
-      tables.energy = energy_.emplace(*scene_, state_).parts();
+      energy_.emplace(*scene_, state_);
       stepper_->keep_balances(true);
     }
-    ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
-                                    : ResultFolder(line_.output, tables);
+    ResultFolder folder = earlier ? ResultFolder(line_.output, tables, *earlier) : ResultFolder(line_.output, tables);
+    earlier.reset();
     RunLog log(line_.output, restarted && line_.output == line_.restart);
     log_ = &log;
     FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
@@ -284,25 +287,38 @@ class Run {
     Checkpoint checkpoint;
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
+    checkpoint.case_text = readable_dump(setup_);
     checkpoint.mesh_hash = loaded_.mesh.hash;
     store(state_, stepper_->memory(), loads_.axis(), checkpoint);
     for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
-  void recall() {
+  /// Takes over what the run in line_.restart has left, if it can be believed: its checkpoint, and the tables, which are
+  /// only read. \throws InputError
+  EarlierTables recall(const ResultTables& tables) {
     const auto file = checkpoint_file(line_.restart);
     const Checkpoint checkpoint = read_checkpoint(file);
-    require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash);
-    Memory memory = restore(file, checkpoint, state_);
-    const auto stretches = stored_stretches(file, checkpoint);
-    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time, stored_insertions(file, checkpoint));
+    require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash,
+                     difference_of_cases(checkpoint.case_text, readable_dump(setup_)));
+    Memory memory = restore(file, checkpoint, n * scene_->interface.size(), state_);
+    require_not_beyond(file, state_, setup_.time ? setup_.time->end : 1);
+    const EarlierSteps past{checkpoint.step, state_.time, state_.step - (lagging() ? 1 : 0),
+                            observables_.points().centre_z, observables_.points().wall_z};
+    EarlierTables earlier(line_.restart, tables, past);
+    StoredSteps steps = stored_steps(file, checkpoint, state_, earlier.times());
+    if (past.levels > 0) observables_.require_same(lagging() ? level_before() : state_, earlier);
+
+    const Stretch before = steps.stretches.back();
+    memory.step_changed =
+        loads_.axis().go_on(std::move(steps.stretches), state_.step, state_.time, std::move(steps.insertions));
     std::map<std::string, std::vector<double>> of_march;
     for (const auto& [name, numbers] : checkpoint.arrays)
       if (name.rfind(march_prefix, 0) == 0) of_march[name.substr(std::string(march_prefix).size())] = numbers;
     march_.recall(of_march);
-    if (memory.step_changed) step_change_ = text_of_change(stretches.back());
+    if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
+    return earlier;
   }
 
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"

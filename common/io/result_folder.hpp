@@ -6,19 +6,12 @@
 
 #include "diagnostics/energy_record.hpp"
 #include "io/csv_file.hpp"
+#include "io/earlier_tables.hpp"
+#include "io/result_tables.hpp"
 #include "io/step_record.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
-
-/// Which tables a scene has besides iterations.csv.
-struct ResultTables {
-  bool centerline_pressure = false;     ///< scenes with fluid
-  bool wall_displacement = false;       ///< scenes with a wall
-  bool flow = false;                    ///< scenes with fluid
-  bool coupling = false;                ///< partitioned runs
-  std::optional<EnergyParts> energy{};  ///< unless the case does not want it
-};
 
 /// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
 struct FlowRecord {
@@ -41,11 +34,9 @@ class ResultFolder {
   /// \throws InputError when the folder holds anything else, or cannot be created or written
   ResultFolder(std::filesystem::path folder, const ResultTables& tables);
 
-  /// Continues the run in `from` after `time` (ms): rows up to then are kept, or copied when `folder` is another one.
-  /// \param observed  ms, likewise of the tables of waves and flow, which may lag behind the steps
-  /// \throws InputError as above, and when a table of `from` is missing
-  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const std::filesystem::path& from, double time,
-               double observed);
+  /// Continues a run whose tables have been checked: they are copied, or in place cut behind its checkpoint.
+  /// \throws InputError as above
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const EarlierTables& earlier);
 
   const std::filesystem::path& path() const { return folder_; }
 
