@@ -21,6 +21,7 @@ constexpr double most_steps = std::numeric_limits<int>::max();
 
 constexpr const char* memory_prefix = "stepper.";
 constexpr const char* march_prefix = "march.";
+constexpr const char* digest_prefix = "table.";            // bytes and hash of a table's rows
 constexpr const char* insertions_name = "inserted_steps";  // each: step, its end, its length
 constexpr const char* inserted_until = "inserted_until";   // steps 1 to this were all inserted: iterations.csv has them
 constexpr const char* stretches_name = "step_lengths";  // per stretch: step before it, its start, what the case asked
@@ -156,7 +157,8 @@ void require_known(const fs::path& file, const Checkpoint& checkpoint, const Sta
   std::set<std::string> known{level_times, balance_times, since_jump, stretches_name, insertions_name};
   for_each_array(state, [&](const std::string& name, const std::vector<double>&) { known.insert(name); });
   for (const auto& [name, array] : checkpoint.arrays)
-    if (known.count(name) == 0 && !begins_with(name, memory_prefix) && !begins_with(name, march_prefix))
+    if (known.count(name) == 0 && !begins_with(name, memory_prefix) && !begins_with(name, march_prefix) &&
+        !begins_with(name, digest_prefix))
       refuse(file, name, "is unknown", another_version);
 }
 
@@ -291,6 +293,17 @@ StoredSteps stored_steps(const fs::path& file, const Checkpoint& checkpoint, con
              "restart from a folder as its run has left it, or run from the start");
   }
   return {stored_stretches(file, checkpoint, state), stored_insertions(file, checkpoint, state, ends)};
+}
+
+void store(const TableDigests& digests, Checkpoint& checkpoint) {
+  for (const auto& [file, numbers] : digests) checkpoint.arrays[digest_prefix + file] = numbers;
+}
+
+TableDigests stored_digests(const Checkpoint& checkpoint) {
+  TableDigests digests;
+  for (const auto& [name, numbers] : checkpoint.arrays)
+    if (begins_with(name, digest_prefix)) digests[name.substr(std::string(digest_prefix).size())] = numbers;
+  return digests;
 }
 
 void require_not_beyond(const fs::path& file, const State& state, double end) {

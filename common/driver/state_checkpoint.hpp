@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/checkpoint.hpp"
+#include "io/table_digest.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
 #include "time/time_axis.hpp"
@@ -32,6 +33,10 @@ struct StoredSteps {
 /// \throws InputError naming `file` when they do not fit
 StoredSteps stored_steps(const std::filesystem::path& file, const Checkpoint& checkpoint, const State& state,
                          const std::vector<double>& ends);
+
+/// What the tables hold at the checkpoint, and the reverse.
+void store(const TableDigests& digests, Checkpoint& checkpoint);
+TableDigests stored_digests(const Checkpoint& checkpoint);
 
 /// Refuses a checkpoint behind the end of the run (ms; in statics 1). \throws InputError
 void require_not_beyond(const std::filesystem::path& file, const State& state, double end);

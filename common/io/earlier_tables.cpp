@@ -87,7 +87,7 @@ EarlierTables::EarlierTables(const fs::path& folder, const ResultTables& wanted,
     if (wanted.energy && table.file == energy_table(*wanted.energy).file && !fs::exists(folder / table.file, error))
       throw InputError((folder / table.file).string(), "output.energy", "is wanted, but the earlier run wrote none",
                        "continue with --set output.energy=false");
-    parts_.push_back(table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps));
+    parts_.push_back(checked(table, steps));
   }
 }
 
@@ -99,6 +99,19 @@ const std::vector<double>& EarlierTables::last_level(const std::string& file) co
 
 void EarlierTables::copy_to(const fs::path& folder) const {
   for (const Part& part : parts_) copy_beginning(folder_ / part.file, folder / part.file, part.bytes);
+}
+
+EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
+  const Part part = table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps);
+  const auto known = steps.digests.find(table.file);
+  if (known == steps.digests.end()) return part;
+  TableDigest digest(folder_ / table.file);
+  digest.take(part.bytes);
+  if (digest.numbers() != known->second)
+    throw InputError((folder_ / table.file).string(), "",
+                     "its rows are not those that the run wrote up to its checkpoint",
+                     "restart from a folder as its run has left it, or run from the start");
+  return part;
 }
 
 EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const EarlierSteps& steps) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/result_tables.hpp"
+#include "io/table_digest.hpp"
 
 namespace fsi {
 
@@ -16,6 +17,7 @@ struct EarlierSteps {
   std::int64_t levels = 0;       ///< levels that the tables of waves and flow hold: of steps 1 to this
   std::vector<double> centre_z;  ///< mm, of the rows of each level in centerline_pressure.csv
   std::vector<double> wall_z;    ///< mm, likewise in wall_displacement.csv
+  TableDigests digests{};        ///< of the rows that are taken over; tables without are held against the others alone
 };
 
 /// The tables of an earlier run, checked row by row: what a restart takes over from them is what the run wrote up to its
@@ -43,6 +45,7 @@ class EarlierTables {
     std::uint64_t bytes = 0;
     std::vector<double> last_level{};
   };
+  Part checked(const ResultTable& table, const EarlierSteps& steps);
   Part checked_steps(const ResultTable& table, const EarlierSteps& steps);
   Part checked_levels(const ResultTable& table, const EarlierSteps& steps) const;
 

@@ -126,6 +126,19 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.coupling) open(coupling_, coupling_table());
   energy_parts_ = tables.energy;
   if (energy_parts_) open(energy_, energy_table(*energy_parts_));
+  for (const ResultTable& table : tables_of(tables))
+    if (table.file != iterations_table().file && table.file != coupling_table().file)
+      digests_.emplace(table.file, TableDigest(folder_ / table.file));
+}
+
+void ResultFolder::take_digests() {
+  for (auto& [file, digest] : digests_) digest.take();
+}
+
+TableDigests ResultFolder::digests() const {
+  TableDigests numbers;
+  for (const auto& [file, digest] : digests_) numbers[file] = digest.numbers();
+  return numbers;
 }
 
 void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
@@ -50,11 +52,17 @@ class ResultFolder {
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
 
+  /// Takes in what the tables hold now as what a restart goes on from. Tables with times of the clock are left out: no
+  /// two runs write them alike.
+  void take_digests();
+  TableDigests digests() const;
+
  private:
   void open_tables(const ResultTables& tables, bool append);
 
   std::filesystem::path folder_;
   std::optional<EnergyParts> energy_parts_;
+  std::map<std::string, TableDigest> digests_;
   std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_, energy_;
 };
 
