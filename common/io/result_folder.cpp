@@ -126,9 +126,7 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.coupling) open(coupling_, coupling_table());
   energy_parts_ = tables.energy;
   if (energy_parts_) open(energy_, energy_table(*energy_parts_));
-  for (const ResultTable& table : tables_of(tables))
-    if (table.file != iterations_table().file && table.file != coupling_table().file)
-      digests_.emplace(table.file, TableDigest(folder_ / table.file));
+  for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
 }
 
 void ResultFolder::take_digests() {

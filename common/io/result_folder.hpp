@@ -52,8 +52,7 @@ class ResultFolder {
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
 
-  /// Takes in what the tables hold now as what a restart goes on from. Tables with times of the clock are left out: no
-  /// two runs write them alike.
+  /// Takes in what the tables hold now as what a restart goes on from.
   void take_digests();
   TableDigests digests() const;
 

@@ -149,7 +149,9 @@ TEST(StateCheckpoint, WithAnArrayMissingTooLongOrUnknownIsRefused) {
     const bool may_be_missing = name == "stepper.load0" || name == "stepper.load1" || name == "inserted_steps";
     EXPECT_EQ(said_of([&](Checkpoint& c) { c.arrays.erase(name); }).empty(), may_be_missing) << name;
     EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name].push_back(0); }), "") << name;
-    if (!array.empty()) EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name].pop_back(); }), "") << name;
+    if (!array.empty()) {
+      EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name].pop_back(); }), "") << name;
+    }
   }
   EXPECT_NE(said_of([](Checkpoint& c) { c.arrays["more"] = {1}; }).find("more: is unknown"), std::string::npos);
   EXPECT_NE(said_of([](Checkpoint& c) { c.arrays["stepper.more"] = {1}; }), "");
