@@ -117,7 +117,8 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
     } else if (ends_with(name, ".wall")) {
       require(name, array.size(), state.now.wall.size());
     } else if (begins_with(name, std::string(memory_prefix) + "load")) {
-      if (!array.empty()) require(name, array.size(), interface_values);
+      require(name, array.size(), interface_values);
+      for (const char* load : {"load0", "load1", "load2"}) size_of(std::string(memory_prefix) + load);
     } else if (ends_with(name, ".v") || ends_with(name, ".w")) {
       require(name, array.size(), size_of(stem + ".age") * interface_values);
     } else if (ends_with(name, ".age")) {
@@ -227,8 +228,10 @@ void store(const State& state, const Memory& memory, const TimeAxis& axis, Check
                                      static_cast<double>(state.balances_since_jump)};
   }
   auto& numbers = checkpoint.arrays[stretches_name];
+  // An adaptive step that found no solution leaves a plan from its own end on.
   for (const Stretch& stretch : axis.stretches())
-    numbers.insert(numbers.end(), {static_cast<double>(stretch.after), stretch.start, stretch.asked});
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(stretch.after), std::min(stretch.start, state.time), stretch.asked});
   // Of adaptive steps iterations.csv tells the ends: so a checkpoint does not grow with their number. The last one keeps
   // its length to the last bit.
   const auto& insertions = axis.insertions();
@@ -292,7 +295,15 @@ StoredSteps stored_steps(const fs::path& file, const Checkpoint& checkpoint, con
              fmt::format("says that step {} ended at {:.12g}, iterations.csv at {:.12g}", step, state.times[k], end),
              "restart from a folder as its run has left it, or run from the start");
   }
-  return {stored_stretches(file, checkpoint, state), stored_insertions(file, checkpoint, state, ends)};
+  StoredSteps steps{stored_stretches(file, checkpoint, state), stored_insertions(file, checkpoint, state, ends)};
+  // Adaptive steps are all inserted, the last one with its own length.
+  const auto last = static_cast<std::size_t>(state.step);
+  const auto until = checkpoint.integers.find(inserted_until);
+  if (steps.stretches.back().asked == 0 &&
+      (steps.insertions.size() < last || steps.insertions[last - 1].step != state.step ||
+       (until != checkpoint.integers.end() && until->second >= state.step)))
+    refuse(file, insertions_name, fmt::format("lacks one of the {} adaptive steps", state.step));
+  return steps;
 }
 
 void store(const TableDigests& digests, Checkpoint& checkpoint) {

@@ -17,6 +17,7 @@ from same_results import difference
 
 STEPS = 8
 MOST_KILLS = 3  # of one run and those that continue it
+LOCK = "run.lock"  # of a running program; a kill leaves it, and the next run removes it
 
 # Runs that differ in what they write and when.
 KINDS = {
@@ -68,7 +69,14 @@ class Killed:
                 time.sleep(0.0005)
         else:  # while a certain file is new, or is about to be replaced
             name = choose.choice(
-                ["checkpoint.h5.tmp", "checkpoint.h5", "fields.h5", "fields.h5.tmp", "fields.xdmf.tmp", "summary.json.tmp"]
+                [
+                    "checkpoint.h5.tmp",
+                    "checkpoint.h5",
+                    "fields.h5",
+                    "fields.h5.tmp",
+                    "fields.xdmf.tmp",
+                    "summary.json.tmp",
+                ]
                 + ["iterations.csv", "flow.csv", "flow.csv.tmp", "centerline_pressure.csv", "energy.csv"]
             )
             left = choose.randrange(2 * STEPS)
@@ -101,7 +109,9 @@ def judge(kind, choose, folder):
             if folder.exists():
                 options = ["--force"]  # rows without a checkpoint are worth nothing
         command = kind.command(target, *options)
-        before = {} if source in (None, target) else {f.name: f.read_bytes() for f in source.iterdir()}
+        before = (
+            {} if source in (None, target) else {f.name: f.read_bytes() for f in source.iterdir() if f.name != LOCK}
+        )
         if attempt < MOST_KILLS and (attempt == 0 or choose.random() < 0.4):
             if kind.start_and_kill(choose, command, target):
                 kills += 1
@@ -110,7 +120,7 @@ def judge(kind, choose, folder):
             done = execute(*command)
             if done.returncode != 0:
                 return f"exit {done.returncode}", kills, f"{', '.join(story)}: {done.stderr.strip()}"
-        if before and {f.name: f.read_bytes() for f in source.iterdir()} != before:
+        if before and {f.name: f.read_bytes() for f in source.iterdir() if f.name != LOCK} != before:
             return "changes what it continues", kills, ", ".join(story)
         finished = story[-1] != "killed"
         if finished:

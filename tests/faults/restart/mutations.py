@@ -17,6 +17,7 @@ import numpy as np
 BLOCK = 512  # bytes before the HDF5 file, with format and checksum
 REFUSED, SAME, ACCEPTED = "refused", "same bytes", "accepted"
 
+OF_STEPS = ("energy.csv", "iterations.csv", "coupling.csv")  # the others have rows of levels
 TABLES = {  # rows of a level or step
     "centerline_pressure.csv": 181,
     "wall_displacement.csv": 181,
@@ -90,7 +91,9 @@ def raw_checkpoints(data, choose, count):
     yield "longer", "a byte more", write(data + b"\0")
     yield "text", "a text", write(b"fsi-duo\n" * 100)
     for version in (b"1", b"3", b"20"):
-        yield "version", f"format {version.decode()}", write(re.sub(rb"checkpoint \d+", b"checkpoint " + version, data, 1))
+        yield "version", f"format {version.decode()}", write(
+            re.sub(rb"checkpoint \d+", b"checkpoint " + version, data, 1)
+        )
 
 
 def sealed_checkpoints(file, choose):
@@ -113,7 +116,7 @@ def sealed_checkpoints(file, choose):
             yield "shorter array", f"{name} one shorter", lambda h5, n=name, v=values: replaced(h5, n, v[:-1])
             yield "empty array", f"{name} empty", lambda h5, n=name: replaced(h5, n, np.zeros(0))
             yield "text array", f"{name} as text", lambda h5, n=name: replaced(h5, n, "text")
-        if not optional and name != "arrays/inserted_steps":
+        if not optional:
 
             def remove(h5, name=name):
                 del h5[name]
@@ -156,8 +159,13 @@ def sealed_checkpoints(file, choose):
         yield "attribute", f"{name} a number", lambda h5, n=name: h5.attrs.__setitem__(n, 3)
 
 
-def tables(folder, other, step, choose, count):
-    """Changes of tables; `step` is the last one of which all rows are needed."""
+def needed_rows(name, step, level):
+    """Rows that a restart from `step` needs of a table, with levels up to `level`."""
+    return TABLES[name] * (step if name in OF_STEPS else level)
+
+
+def tables(folder, other, step, level, choose, count):
+    """Changes of tables among the rows that are needed."""
 
     def lines_changed(name, change):
         def of(target):
@@ -167,10 +175,10 @@ def tables(folder, other, step, choose, count):
 
         return of
 
-    for name, rows in TABLES.items():
+    for name in TABLES:
         if not (folder / name).exists():
             continue
-        needed = rows * step
+        needed = needed_rows(name, step, level)
         text = (folder / name).read_bytes()
         end = len(b"".join(text.splitlines(keepends=True)[: needed + 1]))
 
@@ -205,7 +213,9 @@ def tables(folder, other, step, choose, count):
                     name, lambda lines, v=value, c=cell: c(lines, v)
                 )
             size = choose.randrange(end)
-            yield "table cut", f"{name} cut to {size} bytes", lambda t, n=name, s=size: (t / n).write_bytes(text_of(t / n)[:s])
+            yield "table cut", f"{name} cut to {size} bytes", lambda t, n=name, s=size: (t / n).write_bytes(
+                text_of(t / n)[:s]
+            )
         yield "header", f"{name} with another header", lines_changed(
             name, lambda lines: lines.__setitem__(0, "step," + lines[0])
         )
@@ -219,13 +229,13 @@ def text_of(file):
     return Path(file).read_bytes()
 
 
-def harmless_tables(folder, step, choose):
+def harmless_tables(folder, step, level, choose):
     """What a kill leaves: rows of later steps, whole or torn."""
-    for name, rows in TABLES.items():
+    for name in TABLES:
         if not (folder / name).exists():
             continue
         lines = (folder / name).read_bytes().splitlines(keepends=True)
-        end = len(b"".join(lines[: rows * step + 1]))
+        end = len(b"".join(lines[: needed_rows(name, step, level) + 1]))
         for size in (end, choose.randrange(end, sum(map(len, lines)) + 1)):
             yield "torn", f"{name} cut behind what is needed, at {size}", lambda t, n=name, s=size: (t / n).write_bytes(
                 text_of(t / n)[:s]
@@ -264,7 +274,9 @@ def field_files(choose):
     for _ in range(5):
         yield "fields damaged", "fields.h5 cut", cut
     yield "fields changed", "an entry less", change(without_flag)
-    yield "fields changed", "times turned round", change(lambda h5: replaced(h5, "steps/time", h5["steps/time"][::-1]))
+    yield "fields changed", "times turned round", change(
+        lambda h5: replaced(h5, "steps/time", h5["steps/time"][()][::-1])
+    )
     yield "fields changed", "a time less", change(lambda h5: replaced(h5, "steps/time", h5["steps/time"][:-1]))
     yield "fields changed", "a dataset missing", change(lambda h5: h5["fluid/pressure"].__delitem__("00000002"))
     yield "fields changed", "another grid", change(lambda h5: replaced(h5, "wall/cells", h5["wall/cells"][:-1]))

@@ -54,7 +54,7 @@ class Base:
         rows = (shorter / "iterations.csv").read_text().splitlines()
         self.step = int(rows[-1].split(",")[0])
         lags = "time.scheme=midpoint" in settings
-        self.needed = self.step - 1 if lags else self.step
+        self.level = self.step - 1 if lags else self.step
         self.other = harness.base / f"{name}-other"
         self.run("-o", self.other, settings=("inlet.pressure=1.4",))
         self.before = {file.name: file.read_bytes() for file in self.folder.iterdir()}
@@ -77,9 +77,9 @@ class Base:
         yield from refused(raw_checkpoints(data, choose, 30 if full else 3))
         for kind, what, change in sealed_checkpoints(self.folder / "checkpoint.h5", choose):
             yield Mutation(kind, what, (REFUSED,), edited(change))
-        yield from refused(tables(self.folder, self.other, self.needed, choose, 4 if full else 1))
+        yield from refused(tables(self.folder, self.other, self.step, self.level, choose, 4 if full else 1))
         yield from refused(field_files(choose))
-        for kind, what, change in harmless_tables(self.folder, self.needed, choose):
+        for kind, what, change in harmless_tables(self.folder, self.step, self.level, choose):
             yield Mutation(kind, what, (SAME,), change)
         if self.name == "adaptive":
             return
@@ -97,7 +97,9 @@ class Base:
         shutil.copytree(self.folder, folder)
         if mutation.change:
             mutation.change(folder)
-        read = lambda: {f.name: f.read_bytes() if f.is_file() else b"" for f in folder.iterdir()}
+        read = lambda: {
+            f.name: f.read_bytes() if f.is_file() else b"" for f in folder.iterdir() if f.name != "run.lock"
+        }
         before = read()
         program = next(p for p in DRIVERS if p != self.program) if mutation.other_program else self.program
         command = self.command("--restart", folder, "-o", target, settings=mutation.settings, program=program)

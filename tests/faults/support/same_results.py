@@ -4,7 +4,14 @@ from pathlib import Path
 
 import h5py
 
-TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "energy.csv", "iterations.csv", "coupling.csv")
+TABLES = (
+    "centerline_pressure.csv",
+    "wall_displacement.csv",
+    "flow.csv",
+    "energy.csv",
+    "iterations.csv",
+    "coupling.csv",
+)
 
 
 def without_seconds(file):
@@ -30,7 +37,12 @@ def arrays(file):
 def different_arrays(file, other):
     """Paths of the datasets that are not in both files bit for bit."""
     a, b = arrays(file), arrays(other)
-    same = lambda name: name in a and name in b and a[name].dtype == b[name].dtype and a[name].tobytes() == b[name].tobytes()
+    same = (
+        lambda name: name in a
+        and name in b
+        and a[name].dtype == b[name].dtype
+        and a[name].tobytes() == b[name].tobytes()
+    )
     return [f"{Path(file).name}:{name}" for name in sorted(a.keys() | b.keys()) if not same(name)]
 
 
