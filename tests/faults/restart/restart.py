@@ -102,8 +102,9 @@ class Base:
         }
         before = read()
         program = next(p for p in DRIVERS if p != self.program) if mutation.other_program else self.program
-        command = self.command("--restart", folder, "-o", target, settings=mutation.settings, program=program)
-        done = execute(*command)
+        in_place = mutation.expected == (REFUSED,) and number % 3 == 0
+        output = () if in_place else ("-o", target)
+        done = execute(*self.command("--restart", folder, *output, settings=mutation.settings, program=program))
         verdict, said = self.verdict(done, program, target, mutation), done.stderr.strip()
         if read() != before:
             verdict = "changes the old folder"
