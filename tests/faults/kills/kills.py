@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import time
 from pathlib import Path
+from typing import Optional
 
 from harness import NEO_HOOKEAN, Harness, execute, tiny_mesh
 from same_results import difference
@@ -94,10 +95,17 @@ class Killed:
         return process.wait() < 0
 
 
+def contents(folder):
+    """Bytes of the files of a folder by name, without a lock."""
+    return {file.name: file.read_bytes() for file in folder.iterdir() if file.name != LOCK}
+
+
 def judge(kind, choose, folder):
     """Kills a run, and those that continue it, until one comes to its end. Returns verdict, kills and what it was."""
-    story, kills = [], 0
-    source, target = None, folder
+    story: list[str] = []
+    kills = 0
+    source: Optional[Path] = None  # what is continued
+    target = folder
     for attempt in range(MOST_KILLS + 1):
         options = []
         if source is not None:
@@ -109,9 +117,7 @@ def judge(kind, choose, folder):
             if folder.exists():
                 options = ["--force"]  # rows without a checkpoint are worth nothing
         command = kind.command(target, *options)
-        before = (
-            {} if source in (None, target) else {f.name: f.read_bytes() for f in source.iterdir() if f.name != LOCK}
-        )
+        before = contents(source) if source is not None and source != target else {}
         if attempt < MOST_KILLS and (attempt == 0 or choose.random() < 0.4):
             if kind.start_and_kill(choose, command, target):
                 kills += 1
@@ -120,7 +126,7 @@ def judge(kind, choose, folder):
             done = execute(*command)
             if done.returncode != 0:
                 return f"exit {done.returncode}", kills, f"{', '.join(story)}: {done.stderr.strip()}"
-        if before and {f.name: f.read_bytes() for f in source.iterdir() if f.name != LOCK} != before:
+        if source is not None and before and contents(source) != before:
             return "changes what it continues", kills, ", ".join(story)
         finished = story[-1] != "killed"
         if finished:
@@ -128,9 +134,7 @@ def judge(kind, choose, folder):
             return ("other bytes" if wrong else "same bytes"), kills, f"{', '.join(story)}: {', '.join(wrong[:5])}"
         if (target / "checkpoint.h5").exists():
             source = target
-        elif source is None:
-            source = None
-        elif target != source:
+        elif source is not None and target != source:
             shutil.rmtree(target, ignore_errors=True)
     raise AssertionError("the last run is not killed")
 

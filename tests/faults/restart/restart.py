@@ -137,7 +137,7 @@ def main():
         mutations = list(base.mutations(choose, harness.full))
         if not harness.full:  # one of each kind, every other kind for each driver
             choose.shuffle(mutations)
-            first = {}
+            first: dict[str, Mutation] = {}
             for mutation in mutations:
                 first.setdefault(mutation.kind, mutation)
             mutations = [m for k, m in enumerate(first.values()) if name == "monolithic" or k % 3 == 0]
