@@ -16,12 +16,14 @@ class EnergyBalance {
  public:
   /// \param state  the one that the next step starts from
   EnergyBalance(const Scene<n>& scene, const State& state) : scene_(scene) {
-    parts_ = {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic()};
     keep(state);
     energy_ = energies(state).energy();
   }
 
-  const EnergyParts& parts() const { return parts_; }
+  /// What of it a scene has.
+  static EnergyParts parts_of(const Scene<n>& scene) {
+    return {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene)};
+  }
 
   /// The balance of energy of the step that led to `state`, the successor of the last one seen.
   /// \param balances  that the step solved, in their order (StepReport::balances)
@@ -35,7 +37,7 @@ class EnergyBalance {
       add(state, balance, rates.weight, rates.step, wall_before, record);
       wall_before = &balance.at.wall;
     }
-    if (quadratic()) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
+    if (quadratic(scene_)) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
     record.remainder = record.supply() - (record.energy() - energy_) - record.viscous - record.numerical();
     energy_ = record.energy();
     keep(state);
@@ -44,9 +46,9 @@ class EnergyBalance {
 
  private:
   /// Whether there are nodes without pressure. Linear elements integrate convection exactly, also where they move.
-  bool quadratic() const {
-    for (int a = 0; scene_.fluid && a < scene_.fluid->node_count(); ++a)
-      if (!scene_.fluid->space().carries_scalar(a)) return true;
+  static bool quadratic(const Scene<n>& scene) {
+    for (int a = 0; scene.fluid && a < scene.fluid->node_count(); ++a)
+      if (!scene.fluid->space().carries_scalar(a)) return true;
     return false;
   }
 
@@ -99,7 +101,7 @@ class EnergyBalance {
     record.fluid_mesh_motion += work.mesh_motion;
     record.fluid_divergence += work.divergence;
     record.fluid_stabilisation += work.stabilisation;
-    if (quadratic()) record.fluid_quadrature += work.convection;
+    if (quadratic(scene_)) record.fluid_quadrature += work.convection;
     const auto& open = scene_.fluid->open_boundaries();
     const auto& pressures = balance.data.opening_pressures;
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -141,7 +143,6 @@ class EnergyBalance {
   }
 
   const Scene<n>& scene_;
-  EnergyParts parts_;
   double energy_ = 0;                  ///< at the last step's end
   std::vector<double> wall_before_;    ///< at the last balance
   std::vector<double> wall_velocity_;  ///< at the last step's end

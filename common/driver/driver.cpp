@@ -31,6 +31,7 @@
 #include "driver/observables.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
+#include "io/earlier_fields.hpp"
 #include "io/folder_lock.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
@@ -40,7 +41,8 @@ namespace fsi {
 
 namespace {
 
-constexpr const char* march_prefix = "march.";  // of its numbers in a checkpoint
+constexpr const char* march_prefix = "march.";               // of its numbers in a checkpoint
+constexpr const char* field_entries_name = "field_entries";  // written up to the last level observed
 
 using Clock = std::chrono::steady_clock;
 
@@ -123,18 +125,21 @@ class Run {
   /// To the last step or a signal; returns the program's exit code.
   int march() {
     const bool restarted = !line_.restart.empty();
-    if (restarted) recall();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
+    if (setup_.output.energy) tables.energy = EnergyBalance<n>::parts_of(*scene_);
+    // All that a restart reads is checked before anything is written.
+    std::optional<EarlierTables> earlier;
+    if (restarted) earlier = recall(tables);
     if (setup_.output.energy) {
       const auto phase = scene_->profile.phase("energy balance");
-      tables.energy = energy_.emplace(*scene_, state_).parts();
+      energy_.emplace(*scene_, state_);
       stepper_->keep_balances(true);
     }
     note_signals();  // until here nothing has been written
-    ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
-                                    : ResultFolder(line_.output, tables);
-    RunLog log(line_.output, restarted && line_.output == line_.restart);
+    ResultFolder folder = earlier ? ResultFolder(line_.output, tables, *earlier) : ResultFolder(line_.output, tables);
+    earlier.reset();
+    RunLog log(line_.output, restarted && in_place());
     log_ = &log;
     FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
                           restarted ? observed_until() : 0);
@@ -146,7 +151,14 @@ class Run {
     write("running");
     announce(console, log);
     watch_console(console, log);
-    if (!restarted) fields.write(state_);
+    if (!restarted && fields.write(state_)) field_entries_ = 1;
+    if (restarted) vouch(folder);
+    if (restarted && wants_fields())
+      field_entries_ = checked_field_entries(line_.output, loaded_.grids, observed_until());
+    else if (restarted && !std::filesystem::exists(line_.output / "fields.h5"))
+      field_entries_ = 0;
+    // A new folder can be gone on from as soon as it holds all that the earlier one has.
+    if (restarted && setup_.output.checkpoint_every > 0 && !in_place()) save();
     if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
       while (state_.step < loads_.steps() && noted_signal() == 0) step(folder, fields, console, log);
@@ -218,7 +230,9 @@ class Run {
       folder.write_iterations(record);
       if (report.coupling) folder.write_coupling(record, *report.coupling);
       if (lagging() && state_.step > 1) observe(level_before(), folder, fields);
+      if (lagging()) vouch(folder);
       if (!lagging() || state_.step == loads_.steps()) observe(state_, folder, fields);
+      if (!lagging()) vouch(folder);
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
@@ -291,7 +305,12 @@ class Run {
   double observed_until() const { return lagging() ? state_.times[1] : state_.time; }
   void observe(const State& level, ResultFolder& folder, FieldOutput<n>& fields) {
     observables_.write(level, folder);
-    fields.write(level);
+    if (fields.write(level) && level.time <= observed_until()) ++field_entries_;
+  }
+  /// The tables hold what a restart from this step goes on from.
+  void vouch(ResultFolder& folder) {
+    folder.take_digests();
+    digests_ = folder.digests();
   }
   /// The last level but one as a state, for those who look at it.
   const State& level_before() {
@@ -327,26 +346,65 @@ class Run {
     Checkpoint checkpoint;
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
+    checkpoint.case_text = readable_dump(setup_);
     checkpoint.mesh_hash = loaded_.mesh.hash;
     store(state_, stepper_->memory(), loads_.axis(), checkpoint);
     for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
+    store(digests_, checkpoint);
+    if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
-  void recall() {
+  /// Takes over what the run in line_.restart has left, if it can be believed: its checkpoint, and the tables, which are
+  /// only read. \throws InputError
+  EarlierTables recall(const ResultTables& tables) {
     const auto file = checkpoint_file(line_.restart);
     const Checkpoint checkpoint = read_checkpoint(file);
-    require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash);
-    Memory memory = restore(file, checkpoint, state_);
-    const auto stretches = stored_stretches(file, checkpoint);
-    memory.step_changed = loads_.axis().go_on(stretches, state_.step, state_.time, stored_insertions(file, checkpoint));
+    require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash,
+                     difference_of_cases(checkpoint.case_text, readable_dump(setup_)));
+    Memory memory = restore(file, checkpoint, n * scene_->interface.size(), state_);
+    require_not_beyond(file, state_, setup_.time ? setup_.time->end : 1);
+    const EarlierSteps past{checkpoint.step,
+                            state_.time,
+                            state_.step - (lagging() ? 1 : 0),
+                            observables_.points().centre_z,
+                            observables_.points().wall_z,
+                            stored_digests(checkpoint)};
+    EarlierTables earlier(line_.restart, tables, past);
+    StoredSteps steps = stored_steps(file, checkpoint, state_, earlier.times());
+    if (past.levels > 0) observables_.require_same(lagging() ? level_before() : state_, earlier);
+    recall_fields(file, checkpoint);
+
+    const Stretch before = steps.stretches.back();
+    memory.step_changed =
+        loads_.axis().go_on(std::move(steps.stretches), state_.step, state_.time, std::move(steps.insertions));
     std::map<std::string, std::vector<double>> of_march;
     for (const auto& [name, numbers] : checkpoint.arrays)
       if (name.rfind(march_prefix, 0) == 0) of_march[name.substr(std::string(march_prefix).size())] = numbers;
     march_.recall(of_march);
-    if (memory.step_changed) step_change_ = text_of_change(stretches.back());
+    if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
+    return earlier;
   }
+
+  /// The fields of the earlier run, as far as this one goes on with them.
+  void recall_fields(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+    const auto stored = checkpoint.integers.find(field_entries_name);
+    field_entries_ = stored == checkpoint.integers.end() ? 0 : stored->second;
+    if (!wants_fields()) return;
+    const auto found = checked_field_entries(line_.restart, loaded_.grids, observed_until());
+    if (found < field_entries_)
+      throw InputError((line_.restart / "fields.h5").string(), "",
+                       fmt::format("{} of {} entries up to {:g} ms are missing, which {} knows of",
+                                   field_entries_ - found, field_entries_, observed_until(), file.string()),
+                       "bring the file back, or continue without fields by --set output.every=0");
+  }
+  /// Whether the run goes on in the folder that it was begun in.
+  bool in_place() const {
+    std::error_code error;
+    return line_.output == line_.restart || std::filesystem::equivalent(line_.output, line_.restart, error);
+  }
+  bool wants_fields() const { return setup_.output.every > 0 && !setup_.output.fields.empty(); }
 
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
   std::string text_of_change(const Stretch& before) const {
@@ -396,6 +454,8 @@ class Run {
   double ringing_amplitude_ = 0;  ///< kPa, the largest so far
   State state_;
   State shown_;  ///< a finished level, for output
+  TableDigests digests_;
+  std::int64_t field_entries_ = 0;  ///< of the levels up to observed_until()
   Observables<n> observables_;
   std::optional<EnergyBalance<n>> energy_;
   StepRecord total_;

@@ -89,10 +89,10 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
 }
 
 template <int n>
-void FieldOutput<n>::write(const State& state) {
-  if (!writer_) return;
+bool FieldOutput<n>::write(const State& state) {
+  if (!writer_) return false;
   const auto entry = writer_->entry_at(state.time);
-  if (!entry) return;
+  if (!entry) return false;
   FieldValues values;
   for (std::size_t g = 0; g < grids_.size(); ++g)
     for (const auto& field : grids_[g].fields)
@@ -110,6 +110,7 @@ void FieldOutput<n>::write(const State& state) {
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
   writer_->write(*entry, values);
+  return true;
 }
 
 template <int n>

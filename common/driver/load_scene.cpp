@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 #include "base/names.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
@@ -17,6 +16,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mesh_hash.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/renumber.hpp"
@@ -106,16 +106,6 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
   if (!setup.mesh.file.empty())
     return read_gmsh<Element::dim, Element::order>(setup.mesh.file, wanted, triangle_geometry<Element>);
   return made;
-}
-
-/// FNV-1a over nodes, cells and regions.
-template <class Mesh>
-std::string hash_of_mesh(const Mesh& mesh) {
-  Fnv1a hash;
-  hash.add(mesh.nodes.data(), mesh.nodes.size() * sizeof(mesh.nodes[0]));
-  hash.add(mesh.cells.data(), mesh.cells.size() * sizeof(mesh.cells[0]));
-  for (int region : mesh.cell_region) hash.add(mesh.regions[region]);
-  return hash.hex();
 }
 
 /// The mesh of a case, checked against what the scene needs and renumbered (reverse Cuthill-McKee). Volumes that the

@@ -1,11 +1,23 @@
 #include "driver/observables.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "mesh/group_names.hpp"
 
 namespace fsi {
+
+namespace {
+
+/// What programs of different compilers may make of one state, relative to its largest value.
+constexpr double same_state = 1e-6;
+
+}  // namespace
 
 template <int n>
 Observables<n>::Observables(ObservationPoints points, const Scene<n>& scene)
@@ -17,39 +29,77 @@ ResultTables Observables<n>::tables() const {
 }
 
 template <int n>
-void Observables<n>::write(const State& state, ResultFolder& folder) const {
+typename Observables<n>::Seen Observables<n>::look(const State& level) const {
   using Mixed = MixedLayout<n>;
-  if (!points_.centre_line.empty()) {
-    std::vector<double> pressure(points_.centre_line.size(), 0.0);
-    for (std::size_t i = 0; i < pressure.size(); ++i) {
-      const NodalSample& sample = points_.centre_line[i];
-      for (std::size_t a = 0; a < sample.nodes.size(); ++a)
-        pressure[i] += sample.weights[a] * state.now.fluid[Mixed::scalar(sample.nodes[a])];
-    }
-    folder.write_centerline(state.time, points_.centre_z, pressure);
+  Seen seen;
+  seen.pressure.resize(points_.centre_line.size(), 0.0);
+  for (std::size_t i = 0; i < seen.pressure.size(); ++i) {
+    const NodalSample& sample = points_.centre_line[i];
+    for (std::size_t a = 0; a < sample.nodes.size(); ++a)
+      seen.pressure[i] += sample.weights[a] * level.now.fluid[Mixed::scalar(sample.nodes[a])];
   }
   if (scene_.fluid) {
     const auto *inlet = scene_.fluid->open_boundary(group::inlet), *outlet = scene_.fluid->open_boundary(group::outlet);
-    const auto& fluid = state.now.fluid;
-    folder.write_flow(state.time,
-                      {inlet ? -inlet->outflow(fluid) : 0.0, outlet ? outlet->outflow(fluid) : 0.0,
-                       inlet ? inlet->mean_pressure(fluid) : 0.0, outlet ? outlet->mean_pressure(fluid) : 0.0});
+    const auto& fluid = level.now.fluid;
+    seen.flow = {inlet ? -inlet->outflow(fluid) : 0.0, outlet ? outlet->outflow(fluid) : 0.0,
+                 inlet ? inlet->mean_pressure(fluid) : 0.0, outlet ? outlet->mean_pressure(fluid) : 0.0};
   }
-  if (!points_.wall_line.empty()) {
-    const AxisFrame frame(points_.axis);
-    const int angles = points_.angles;
-    std::vector<double> radial(points_.wall_z.size(), 0.0), axial(points_.wall_z.size(), 0.0);
-    for (std::size_t i = 0; i < points_.wall_line.size(); ++i) {
-      const InnerWallSample& sample = points_.wall_line[i];
-      for (std::size_t a = 0; a < sample.at.nodes.size(); ++a)
-        for (int k = 0; k < n; ++k) {
-          const double d = sample.at.weights[a] / angles * state.now.wall[Mixed::vector(sample.at.nodes[a], k)];
-          radial[i / angles] += d * sample.direction[scene_.axes[k]];
-          axial[i / angles] += d * frame.along[scene_.axes[k]];
-        }
-    }
-    folder.write_wall(state.time, points_.wall_z, radial, axial);
+  if (points_.wall_line.empty()) return seen;
+  const AxisFrame frame(points_.axis);
+  const int angles = points_.angles;
+  seen.radial.resize(points_.wall_z.size(), 0.0);
+  seen.axial.resize(points_.wall_z.size(), 0.0);
+  for (std::size_t i = 0; i < points_.wall_line.size(); ++i) {
+    const InnerWallSample& sample = points_.wall_line[i];
+    for (std::size_t a = 0; a < sample.at.nodes.size(); ++a)
+      for (int k = 0; k < n; ++k) {
+        const double d = sample.at.weights[a] / angles * level.now.wall[Mixed::vector(sample.at.nodes[a], k)];
+        seen.radial[i / angles] += d * sample.direction[scene_.axes[k]];
+        seen.axial[i / angles] += d * frame.along[scene_.axes[k]];
+      }
   }
+  return seen;
+}
+
+template <int n>
+void Observables<n>::write(const State& state, ResultFolder& folder) const {
+  const Seen seen = look(state);
+  if (!points_.centre_line.empty()) folder.write_centerline(state.time, points_.centre_z, seen.pressure);
+  if (scene_.fluid) folder.write_flow(state.time, seen.flow);
+  if (!points_.wall_line.empty()) folder.write_wall(state.time, points_.wall_z, seen.radial, seen.axial);
+}
+
+template <int n>
+void Observables<n>::require_same(const State& level, const EarlierTables& earlier) const {
+  const Seen seen = look(level);
+  using Columns = std::vector<std::pair<std::size_t, const std::vector<double>&>>;
+  // Columns of one unit are compared by the largest number in any of them: the small ones may be rounding alone.
+  const auto compare = [&](const ResultTable& table, std::size_t width, const Columns& columns) {
+    const auto& rows = earlier.last_level(table.file);
+    if (rows.empty()) return;
+    double size = 0, apart = 0;
+    for (const auto& [column, values] : columns)
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const double row = rows.at(i * width + column);
+        size = std::max({size, std::abs(row), std::abs(values[i])});
+        apart = std::max(apart, std::abs(row - values[i]));
+      }
+    if (!(apart <= same_state * size))
+      throw InputError((earlier.folder() / table.file).string(), "",
+                       fmt::format("its rows of the time {:g} differ from the checkpoint's state by {:.1e} of their "
+                                   "largest value: the two are not of one run",
+                                   level.time, apart / size),
+                       "restart from a folder as its run has left it, or run from the start");
+  };
+  std::vector<double> pressure = seen.pressure;
+  for (double& p : pressure) p *= pascal_per_kilopascal;
+  const std::vector<double> in{seen.flow.inlet_flow}, out{seen.flow.outlet_flow};
+  const std::vector<double> pressure_in{pascal_per_kilopascal * seen.flow.inlet_pressure};
+  const std::vector<double> pressure_out{pascal_per_kilopascal * seen.flow.outlet_pressure};
+  compare(centerline_table(), 3, {{2, pressure}});
+  compare(wall_table(), 4, {{2, seen.radial}, {3, seen.axial}});
+  compare(flow_table(), 5, {{1, in}, {2, out}});
+  compare(flow_table(), 5, {{3, pressure_in}, {4, pressure_out}});
 }
 
 #define FSI_INSTANTIATE(n) template class Observables<n>;

@@ -14,10 +14,22 @@ class Observables {
   Observables(ObservationPoints points, const Scene<n>& scene);
 
   ResultTables tables() const;
+  const ObservationPoints& points() const { return points_; }
   /// Adds the rows of the state's current time level.
   void write(const State& state, ResultFolder& folder) const;
+  /// Compares a level with the last rows of an earlier run's tables, which its checkpoint must reproduce.
+  /// \throws InputError when they show another state
+  void require_same(const State& level, const EarlierTables& earlier) const;
 
  private:
+  /// What is seen of a level; empty where there is nothing to see.
+  struct Seen {
+    std::vector<double> pressure;       ///< kPa, on the centre line
+    std::vector<double> radial, axial;  ///< mm, of the inner wall
+    FlowRecord flow;
+  };
+  Seen look(const State& level) const;
+
   const Scene<n>& scene_;
   ObservationPoints points_;
 };

@@ -3,14 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "base/error.hpp"
 
 namespace fsi {
 
+namespace fs = std::filesystem;
+
 namespace {
 
+constexpr double most_steps = std::numeric_limits<int>::max();
+
 constexpr const char* memory_prefix = "stepper.";
+constexpr const char* march_prefix = "march.";
+constexpr const char* digest_prefix = "table.";            // bytes and hash of a table's rows
 constexpr const char* insertions_name = "inserted_steps";  // each: step, its end, its length
+constexpr const char* inserted_until = "inserted_until";   // steps 1 to this were all inserted: iterations.csv has them
 constexpr const char* stretches_name = "step_lengths";  // per stretch: step before it, its start, what the case asked
+constexpr const char* level_times = "level_times";
+constexpr const char* balance_times = "balance_times";
+constexpr const char* since_jump = "since_jump";
+constexpr const char* another_version = "the checkpoint comes from another version; run from the start";
+constexpr const char* damaged = "the checkpoint is damaged; restart from another folder, or run from the start";
+constexpr double rounding = 1e-9;
 
 /// Calls visit(name, array) for every array of a state that a later step reads.
 template <class StateType, class Visit>
@@ -36,24 +56,195 @@ void for_each_array(StateType& state, Visit visit) {
   visit("rate.loads", state.load_rates);
 }
 
+[[noreturn]] void refuse(const fs::path& file, const std::string& name, const std::string& problem,
+                         const std::string& remedy = damaged) {
+  throw InputError(file.string(), name, problem, remedy);
+}
+
+bool begins_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+bool ends_with(const std::string& text, const std::string& suffix) {
+  return text.size() >= suffix.size() && text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+/// A whole number among doubles.
+int whole(const fs::path& file, const std::string& name, double number, double least, double most) {
+  if (!(number >= least && number <= most) || number != std::floor(number))
+    refuse(file, name, fmt::format("holds {:g}, no whole number from {:g} to {:g}", number, least, most));
+  return static_cast<int>(number);
+}
+
+void require_finite(const fs::path& file, const Checkpoint& checkpoint) {
+  if (!std::isfinite(checkpoint.time)) refuse(file, "time", "is not finite");
+  for (const auto& [name, array] : checkpoint.arrays)
+    if (!std::all_of(array.begin(), array.end(), [](double number) { return std::isfinite(number); }))
+      refuse(file, name, "holds a number that is not finite");
+  for (const auto& [name, number] : checkpoint.reals)
+    if (!std::isfinite(number)) refuse(file, name, "is not finite");
+}
+
+/// What the steppers and the march keep goes by the ends of names: arrays of a linearisation point are as long as the
+/// state's, columns of differences as long as the interface's vectors.
+void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_t interface_values,
+                  const State& state) {
+  const auto require = [&](const std::string& name, std::size_t found, std::size_t size) {
+    if (found != size)
+      refuse(file, name, fmt::format("has {} values, not {}", found, size),
+             "restart with the case and mesh of that run");
+  };
+  const auto size_of = [&](const std::string& name) {
+    const auto found = checkpoint.arrays.find(name);
+    if (found == checkpoint.arrays.end()) refuse(file, name, "missing", another_version);
+    return found->second.size();
+  };
+  for (const auto& [name, array] : checkpoint.arrays) {
+    const auto stem = name.substr(0, name.rfind('.'));
+    if (begins_with(name, march_prefix)) {
+      if (name == "march.controller")
+        require(name, array.size(), 3);
+      else if (name == "march.estimate")
+        require(name, array.size(), 4);
+      else
+        refuse(file, name, "is unknown", another_version);
+    } else if (!begins_with(name, memory_prefix)) {
+      continue;
+    } else if (ends_with(name, ".mesh") || ends_with(name, ".mesh_reference")) {
+      require(name, array.size(), state.now.mesh.size());
+    } else if (ends_with(name, ".flow") || ends_with(name, ".flow_reference")) {
+      require(name, array.size(), state.now.fluid.size());
+    } else if (ends_with(name, ".wall")) {
+      require(name, array.size(), state.now.wall.size());
+    } else if (begins_with(name, std::string(memory_prefix) + "load")) {
+      require(name, array.size(), interface_values);
+      for (const char* load : {"load0", "load1", "load2"}) size_of(std::string(memory_prefix) + load);
+    } else if (ends_with(name, ".v") || ends_with(name, ".w")) {
+      require(name, array.size(), size_of(stem + ".age") * interface_values);
+    } else if (ends_with(name, ".age")) {
+      for (const double age : array) whole(file, name, age, 0, most_steps);
+      size_of(stem + ".v");
+      size_of(stem + ".w");
+    } else if (ends_with(name, ".a") || ends_with(name, ".b")) {
+      require(name, array.size(),
+              static_cast<std::size_t>(
+                  whole(file, stem + ".rank", require_real(file, checkpoint, stem + ".rank"), 0, most_steps)) *
+                  interface_values);
+    } else {
+      refuse(file, name, "is unknown", another_version);
+    }
+    // A linearisation point has all of its parts or none.
+    for (const char* part : {".mesh", ".flow", ".wall", ".mesh_reference", ".flow_reference"})
+      if (ends_with(name, part)) require_real(file, checkpoint, stem + ".step");
+  }
+  for (const auto& [name, number] : checkpoint.reals) {
+    const auto stem = name.substr(0, name.rfind('.'));
+    if (ends_with(name, ".rank")) {
+      size_of(stem + ".a");
+      size_of(stem + ".b");
+    }
+    for (const char* count : {".repeated_solves", ".fewest_solves", ".contraction_unseen", ".alternating_steps",
+                              ".steps_apart", ".before.age"})
+      if (ends_with(name, count)) whole(file, name, number, 0, most_steps);
+    if (!ends_with(name, ".step")) continue;
+    for (const char* part : {".mesh", ".flow", ".wall", ".mesh_reference", ".flow_reference"}) size_of(stem + part);
+    for (const char* part : {".period", ".flow_factor", ".acceleration_factor", ".wall_pressure"})
+      require_real(file, checkpoint, stem + part);
+  }
+}
+
+/// Every array has a reader.
+void require_known(const fs::path& file, const Checkpoint& checkpoint, const State& state) {
+  std::set<std::string> known{level_times, balance_times, since_jump, stretches_name, insertions_name};
+  for_each_array(state, [&](const std::string& name, const std::vector<double>&) { known.insert(name); });
+  for (const auto& [name, array] : checkpoint.arrays)
+    if (known.count(name) == 0 && !begins_with(name, memory_prefix) && !begins_with(name, march_prefix) &&
+        !begins_with(name, digest_prefix))
+      refuse(file, name, "is unknown", another_version);
+}
+
+/// Times of levels, or balances, the latest first: as many as there are steps, descending, and 0 before the first.
+template <std::size_t count>
+void require_descending(const fs::path& file, const char* name, const std::array<double, count>& times, double latest) {
+  double after = latest * (1 + rounding);
+  for (const double time : times) {
+    if (!(time >= 0 && time <= after) || (time == after && time > 0))
+      refuse(file, name, fmt::format("holds {:g} before {:g}: times are out of order", time, after));
+    after = time;
+  }
+}
+
+std::vector<Stretch> stored_stretches(const fs::path& file, const Checkpoint& checkpoint, const State& state) {
+  const auto found = checkpoint.arrays.find(stretches_name);
+  const std::size_t size = found == checkpoint.arrays.end() ? 0 : found->second.size();
+  const auto& numbers = require_size(file, checkpoint, stretches_name, std::max<std::size_t>(3, size / 3 * 3));
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    const Stretch stretch{whole(file, stretches_name, numbers[i], 0, state.step), numbers[i + 1], numbers[i + 2]};
+    const bool first = stretches.empty();
+    if (!(stretch.asked >= 0) || !(stretch.start >= 0 && stretch.start <= state.time * (1 + rounding)) ||
+        (first && stretch.after != 0) ||
+        (!first && (stretch.after <= stretches.back().after || !(stretch.start > stretches.back().start))))
+      refuse(file, stretches_name, fmt::format("stretch {} is out of order", stretches.size() + 1));
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+std::vector<Insertion> stored_insertions(const fs::path& file, const Checkpoint& checkpoint, const State& state,
+                                         const std::vector<double>& ends) {
+  std::vector<Insertion> insertions;
+  if (const auto until = checkpoint.integers.find(inserted_until); until != checkpoint.integers.end()) {
+    const int last = whole(file, inserted_until, static_cast<double>(until->second), 0, state.step);
+    for (int step = 1; step <= last; ++step) {
+      const double start = step == 1 ? 0 : ends[step - 2];
+      insertions.push_back({step, ends[step - 1], ends[step - 1] - start});
+    }
+  }
+  const auto found = checkpoint.arrays.find(insertions_name);
+  if (found == checkpoint.arrays.end()) return insertions;
+  const auto& numbers = require_size(file, checkpoint, insertions_name, found->second.size() / 3 * 3);
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    const Insertion step{whole(file, insertions_name, numbers[i], 1, most_steps), numbers[i + 1], numbers[i + 2]};
+    const bool finished = step.step <= state.step;
+    const double end = finished ? ends[step.step - 1] : state.time;
+    if (!(step.length > 0) || (finished ? std::abs(step.end - end) > rounding * end : step.end <= end) ||
+        (!insertions.empty() && (step.step <= insertions.back().step || step.end <= insertions.back().end)))
+      refuse(file, insertions_name, fmt::format("step {} is out of order", step.step));
+    insertions.push_back(step);
+  }
+  return insertions;
+}
+
 }  // namespace
 
 void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint) {
   checkpoint.step = state.step;
   checkpoint.time = state.time;
-  checkpoint.arrays["level_times"] = {state.times.begin(), state.times.end()};
+  checkpoint.arrays[level_times] = {state.times.begin(), state.times.end()};
   if (state.has_balances()) {
-    checkpoint.arrays["balance_times"] = {state.balance_times.begin(), state.balance_times.end()};
-    checkpoint.arrays["since_jump"] = {static_cast<double>(state.since_jump),
-                                       static_cast<double>(state.balances_since_jump)};
+    checkpoint.arrays[balance_times] = {state.balance_times.begin(), state.balance_times.end()};
+    checkpoint.arrays[since_jump] = {static_cast<double>(state.since_jump),
+                                     static_cast<double>(state.balances_since_jump)};
   }
   auto& numbers = checkpoint.arrays[stretches_name];
+  // An adaptive step that found no solution leaves a plan from its own end on.
   for (const Stretch& stretch : axis.stretches())
-    numbers.insert(numbers.end(), {static_cast<double>(stretch.after), stretch.start, stretch.asked});
-  if (!axis.insertions().empty()) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(stretch.after), std::min(stretch.start, state.time), stretch.asked});
+  // Of adaptive steps iterations.csv tells the ends: so a checkpoint does not grow with their number. The last one keeps
+  // its length to the last bit.
+  const auto& insertions = axis.insertions();
+  std::size_t told = 0;
+  while (told < insertions.size() && insertions[told].step == static_cast<int>(told) + 1 &&
+         insertions[told].step < state.step)
+    ++told;
+  if (told > 0) checkpoint.integers[inserted_until] = static_cast<std::int64_t>(told);
+  if (told < insertions.size()) {
     auto& inserted = checkpoint.arrays[insertions_name];
-    for (const Insertion& step : axis.insertions())
-      inserted.insert(inserted.end(), {static_cast<double>(step.step), step.end, step.length});
+    for (std::size_t i = told; i < insertions.size(); ++i)
+      inserted.insert(inserted.end(),
+                      {static_cast<double>(insertions[i].step), insertions[i].end, insertions[i].length});
   }
   for_each_array(state,
                  [&](const std::string& name, const std::vector<double>& array) { checkpoint.arrays[name] = array; });
@@ -61,49 +252,75 @@ void store(const State& state, const Memory& memory, const TimeAxis& axis, Check
   for (const auto& [name, number] : memory.numbers) checkpoint.reals[memory_prefix + name] = number;
 }
 
-Memory restore(const std::filesystem::path& file, const Checkpoint& checkpoint, State& state) {
+Memory restore(const fs::path& file, const Checkpoint& checkpoint, std::size_t interface_values, State& state) {
+  require_finite(file, checkpoint);
+  if (checkpoint.step < 1 || checkpoint.step > most_steps)
+    refuse(file, "step", fmt::format("is {}, not from 1 to {}", checkpoint.step, most_steps));
+  if (!(checkpoint.time > 0)) refuse(file, "time", fmt::format("is {:g}, not positive", checkpoint.time));
+  require_known(file, checkpoint, state);
+  check_memory(file, checkpoint, interface_values, state);
   for_each_array(state, [&](const std::string& name, std::vector<double>& array) {
     array = require_size(file, checkpoint, name, array.size());
   });
-  const auto& times = require_size(file, checkpoint, "level_times", state.times.size());
-  std::copy(times.begin(), times.end(), state.times.begin());
-  if (state.has_balances()) {
-    const auto& balance_times = require_size(file, checkpoint, "balance_times", state.balance_times.size());
-    std::copy(balance_times.begin(), balance_times.end(), state.balance_times.begin());
-    const auto& counts = require_size(file, checkpoint, "since_jump", 2);
-    state.since_jump = static_cast<int>(counts[0]);
-    state.balances_since_jump = static_cast<int>(counts[1]);
-  }
   state.step = static_cast<int>(checkpoint.step);
   state.time = checkpoint.time;
+  const auto& times = require_size(file, checkpoint, level_times, state.times.size());
+  std::copy(times.begin(), times.end(), state.times.begin());
+  if (state.has_balances()) {
+    const auto& of_balances = require_size(file, checkpoint, balance_times, state.balance_times.size());
+    std::copy(of_balances.begin(), of_balances.end(), state.balance_times.begin());
+    require_descending(file, balance_times, state.balance_times, state.time);
+    const auto& counts = require_size(file, checkpoint, since_jump, 2);
+    state.since_jump = whole(file, since_jump, counts[0], 0, state.step);
+    // One balance a step, or two.
+    state.balances_since_jump = whole(file, since_jump, counts[1], state.since_jump, 2.0 * state.since_jump);
+  }
   state.now = state.before[0];
   Memory memory;
   const std::string prefix = memory_prefix;
   for (const auto& [name, array] : checkpoint.arrays)
-    if (name.rfind(prefix, 0) == 0) memory.arrays[name.substr(prefix.size())] = array;
+    if (begins_with(name, prefix)) memory.arrays[name.substr(prefix.size())] = array;
   for (const auto& [name, number] : checkpoint.reals)
-    if (name.rfind(prefix, 0) == 0) memory.numbers[name.substr(prefix.size())] = number;
+    if (begins_with(name, prefix)) memory.numbers[name.substr(prefix.size())] = number;
   return memory;
 }
 
-std::vector<Stretch> stored_stretches(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  const auto found = checkpoint.arrays.find(stretches_name);
-  const std::size_t size = found == checkpoint.arrays.end() ? 0 : found->second.size();
-  const auto& numbers = require_size(file, checkpoint, stretches_name, std::max<std::size_t>(3, size / 3 * 3));
-  std::vector<Stretch> stretches;
-  for (std::size_t i = 0; i < numbers.size(); i += 3)
-    stretches.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
-  return stretches;
+StoredSteps stored_steps(const fs::path& file, const Checkpoint& checkpoint, const State& state,
+                         const std::vector<double>& ends) {
+  for (std::size_t k = 0; k < state.times.size(); ++k) {
+    const int step = state.step - static_cast<int>(k);
+    const double end = step > 0 ? ends.at(step - 1) : 0;
+    if (std::abs(state.times[k] - end) > rounding * end)
+      refuse(file, level_times,
+             fmt::format("says that step {} ended at {:.12g}, iterations.csv at {:.12g}", step, state.times[k], end),
+             "restart from a folder as its run has left it, or run from the start");
+  }
+  StoredSteps steps{stored_stretches(file, checkpoint, state), stored_insertions(file, checkpoint, state, ends)};
+  // Adaptive steps are all inserted, the last one with its own length.
+  const auto last = static_cast<std::size_t>(state.step);
+  const auto until = checkpoint.integers.find(inserted_until);
+  if (steps.stretches.back().asked == 0 &&
+      (steps.insertions.size() < last || steps.insertions[last - 1].step != state.step ||
+       (until != checkpoint.integers.end() && until->second >= state.step)))
+    refuse(file, insertions_name, fmt::format("lacks one of the {} adaptive steps", state.step));
+  return steps;
 }
 
-std::vector<Insertion> stored_insertions(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  const auto found = checkpoint.arrays.find(insertions_name);
-  if (found == checkpoint.arrays.end()) return {};
-  const auto& numbers = require_size(file, checkpoint, insertions_name, found->second.size() / 3 * 3);
-  std::vector<Insertion> insertions;
-  for (std::size_t i = 0; i < numbers.size(); i += 3)
-    insertions.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
-  return insertions;
+void store(const TableDigests& digests, Checkpoint& checkpoint) {
+  for (const auto& [file, numbers] : digests) checkpoint.arrays[digest_prefix + file] = numbers;
+}
+
+TableDigests stored_digests(const Checkpoint& checkpoint) {
+  TableDigests digests;
+  for (const auto& [name, numbers] : checkpoint.arrays)
+    if (begins_with(name, digest_prefix)) digests[name.substr(std::string(digest_prefix).size())] = numbers;
+  return digests;
+}
+
+void require_not_beyond(const fs::path& file, const State& state, double end) {
+  if (state.time > end * (1 + rounding))
+    refuse(file, "time", fmt::format("{:g} ms, is behind the run's end at {:g} ms", state.time, end),
+           fmt::format("give time.end = {:g} or more", state.time));
 }
 
 }  // namespace fsi

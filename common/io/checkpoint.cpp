@@ -23,7 +23,9 @@ namespace {
 // The file begins with a block that HDF5 skips. It names the format and carries the checksum of all bytes behind it, so
 // that damage of any kind is found before the library looks at the file.
 constexpr std::size_t block_size = 512;
-constexpr const char* signature = "fsi-duo checkpoint 1\nchecksum ";
+constexpr const char* name_of_format = "fsi-duo checkpoint ";
+constexpr const char* signature = "fsi-duo checkpoint 2\nchecksum ";
+constexpr std::size_t longest_text = 60000;  // of an attribute, which HDF5 limits
 using Block = std::array<char, block_size>;
 
 Block block_for(const std::string& checksum) {
@@ -54,6 +56,10 @@ void verify(const fs::path& file) {
   if (!stream) throw InputError(file.string(), "", "cannot be read", "check its permissions");
   Block block{};
   stream.read(block.data(), block.size());
+  if (std::strncmp(block.data(), signature, std::strlen(signature)) != 0 &&
+      std::strncmp(block.data(), name_of_format, std::strlen(name_of_format)) == 0)
+    throw InputError(file.string(), "", "is a checkpoint of another version of this program",
+                     "continue with the version that wrote it, or run from the start");
   if (std::strncmp(block.data(), signature, std::strlen(signature)) != 0)
     throw InputError(file.string(), "", "is no checkpoint of this program",
                      "give --restart the folder of a run that has written checkpoint.h5");
@@ -67,6 +73,15 @@ void verify(const fs::path& file) {
   throw InputError(file.string(), name, "missing", "the checkpoint comes from another version; run from the start");
 }
 
+template <class Value>
+Value single(const fs::path& file, const Hdf5File& hdf5, const std::string& dataset) {
+  const auto values = hdf5.read<Value>(dataset);
+  if (values.size() != 1)
+    throw InputError(file.string(), dataset, "holds " + std::to_string(values.size()) + " values, not one",
+                     "run from the start, or restart from another folder");
+  return values[0];
+}
+
 }  // namespace
 
 fs::path checkpoint_file(const fs::path& folder) {
@@ -78,6 +93,7 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
   auto hdf5 = Hdf5File::create(temporary, block_size);
   hdf5.write_attribute("/", "program", checkpoint.program);
   hdf5.write_attribute("/", "case_hash", checkpoint.case_hash);
+  hdf5.write_attribute("/", "case", checkpoint.case_text.size() <= longest_text ? checkpoint.case_text : "");
   hdf5.write_attribute("/", "mesh_hash", checkpoint.mesh_hash);
   hdf5.write_new<std::int64_t>("/step", {1}, &checkpoint.step);
   hdf5.write_new<double>("/time", {1}, &checkpoint.time);
@@ -105,28 +121,32 @@ Checkpoint read_checkpoint(const fs::path& file) {
   Checkpoint checkpoint;
   checkpoint.program = hdf5.read_attribute("/", "program");
   checkpoint.case_hash = hdf5.read_attribute("/", "case_hash");
+  checkpoint.case_text = hdf5.read_attribute("/", "case");
   checkpoint.mesh_hash = hdf5.read_attribute("/", "mesh_hash");
-  checkpoint.step = hdf5.read<std::int64_t>("/step").at(0);
-  checkpoint.time = hdf5.read<double>("/time").at(0);
+  checkpoint.step = single<std::int64_t>(file, hdf5, "/step");
+  checkpoint.time = single<double>(file, hdf5, "/time");
   if (hdf5.has("/arrays"))
     for (const auto& name : hdf5.members("/arrays")) checkpoint.arrays[name] = hdf5.read<double>("/arrays/" + name);
   if (hdf5.has("/integers"))
     for (const auto& name : hdf5.members("/integers"))
-      checkpoint.integers[name] = hdf5.read<std::int64_t>("/integers/" + name).at(0);
+      checkpoint.integers[name] = single<std::int64_t>(file, hdf5, "/integers/" + name);
   if (hdf5.has("/reals"))
-    for (const auto& name : hdf5.members("/reals")) checkpoint.reals[name] = hdf5.read<double>("/reals/" + name).at(0);
+    for (const auto& name : hdf5.members("/reals"))
+      checkpoint.reals[name] = single<double>(file, hdf5, "/reals/" + name);
   return checkpoint;
 }
 
 void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const std::string& program,
-                      const std::string& case_hash, const std::string& mesh_hash) {
+                      const std::string& case_hash, const std::string& mesh_hash, const std::string& difference) {
   if (checkpoint.program != program)
     throw InputError(file.string(), "program", "was written by " + checkpoint.program + ", not " + program,
                      "continue it with " + checkpoint.program);
   // The case first: its element and geometry decide what is made of a mesh file.
   if (checkpoint.case_hash != case_hash)
     throw InputError(file.string(), "case",
-                     "belongs to another case (hash " + checkpoint.case_hash + ", not " + case_hash + ")",
+                     "belongs to another case (" +
+                         (difference.empty() ? "hash " + checkpoint.case_hash + ", not " + case_hash : difference) +
+                         ")",
                      "restart with the case file of that run; only title, time.step, time.end, time.predictor, "
                      "static.load_steps, [monolithic], [partitioned] and [output] may differ");
   if (checkpoint.mesh_hash != mesh_hash)

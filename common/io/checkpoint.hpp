@@ -13,7 +13,8 @@ namespace fsi {
 struct Checkpoint {
   std::string program;    ///< "fsi-monolithic" or "fsi-partitioned"
   std::string case_hash;  ///< hash_of_case
-  std::string mesh_hash;  ///< hash_of_file
+  std::string case_text;  ///< readable_dump, to say what differs; may be empty
+  std::string mesh_hash;  ///< hash_of_mesh
   std::int64_t step = 0;  ///< the last finished step
   double time = 0;        ///< ms
   std::map<std::string, std::vector<double>> arrays;
@@ -28,12 +29,14 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 /// \throws InputError when the file cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// \throws InputError when the file is missing, no checkpoint, truncated, or its checksum does not match
+/// \throws InputError when the file is missing, no checkpoint, one of another version's format, truncated, or its
+/// checksum does not match
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-/// Refuses a checkpoint of another program, case or mesh; `file` names it in the message. \throws InputError
+/// Refuses a checkpoint of another program, case or mesh; `file` names it in the message.
+/// \param difference  of the cases, as difference_of_cases() tells it, if they differ \throws InputError
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const std::string& program,
-                      const std::string& case_hash, const std::string& mesh_hash);
+                      const std::string& case_hash, const std::string& mesh_hash, const std::string& difference = "");
 
 /// The array `name`, which must have `size` entries. \throws InputError
 const std::vector<double>& require_size(const std::filesystem::path& file, const Checkpoint& checkpoint,

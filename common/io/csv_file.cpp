@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <iterator>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 
 namespace fsi {
 
@@ -26,17 +22,6 @@ std::vector<std::string> split(const std::string& line) {
       cells.back() += c;
   }
   return cells;
-}
-
-/// Whether a row is whole, and its time not later than `time`.
-bool kept(const std::string& row, std::size_t columns, std::size_t time_column, double time) {
-  const auto cells = split(row);
-  if (cells.size() != columns) return false;
-  const std::string& cell = cells[time_column];
-  char* end = nullptr;
-  const double row_time = std::strtod(cell.c_str(), &end);
-  if (cell.empty() || *end != '\0') return false;
-  return row_time <= time + 1e-9 * std::abs(time);  // times are step * dt, rounded differently here and there
 }
 
 }  // namespace
@@ -62,27 +47,6 @@ void CsvFile::write(const std::vector<std::vector<double>>& rows) {
   if (!stream_)
     throw InputError(file_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
                      "free some disk space, then continue with --restart");
-}
-
-void copy_csv_until(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& header,
-                    double time) {
-  std::ifstream stream(from, std::ios::binary);
-  if (!stream)
-    throw InputError(from.string(), "", "cannot be read", "restart from a result folder that holds all its tables");
-  std::string text, line;
-  std::getline(stream, line);
-  if (line != header)
-    throw InputError(from.string(), "", "its first line is '" + line.substr(0, 80) + "'",
-                     "restart from a run whose table begins with '" + header + "'");
-  text = header + "\n";
-  const auto columns = split(header);
-  const auto time_column = std::find(columns.begin(), columns.end(), "time_ms") - columns.begin();
-  assert(static_cast<std::size_t>(time_column) < columns.size());
-  while (std::getline(stream, line)) {
-    if (stream.eof()) break;  // no newline at its end: torn off by a kill
-    if (kept(line, columns.size(), static_cast<std::size_t>(time_column), time)) text += line + "\n";
-  }
-  write_atomically(to, text);
 }
 
 }  // namespace fsi

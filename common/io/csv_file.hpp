@@ -25,10 +25,4 @@ class CsvFile {
   std::ofstream stream_;
 };
 
-/// Copies the header of `from` and its rows with `time_ms` <= time to `to`, by a temporary file and rename; both may be
-/// the same file. A torn last row (killed run) is dropped. `header` names a column `time_ms`.
-/// \throws InputError when `from` cannot be read or has another header than `header`
-void copy_csv_until(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& header,
-                    double time);
-
 }  // namespace fsi

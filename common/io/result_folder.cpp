@@ -1,6 +1,6 @@
 #include "io/result_folder.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cassert>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -21,48 +21,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pascal_per_kilopascal = 1000.0;
-
-struct Table {
-  const char* file;
-  const char* header;
-  bool of_steps = false;  ///< its rows are of steps, not of levels
-};
-constexpr const char* energy_file = "energy.csv";  // its columns depend on the scene
-constexpr Table centerline_table{"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa"};
-constexpr Table wall_table{"wall_displacement.csv", "time_ms,z_mm,radial_mm,axial_mm"};
-constexpr Table flow_table{"flow.csv",
-                           "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
-constexpr Table iterations_table{"iterations.csv",
-                                 "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s,"
-                                 "solver_error",
-                                 true};
-constexpr Table coupling_table{
-    "coupling.csv",
-    "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
-    "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,wall_linear_iterations,"
-    "fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual",
-    true};
-
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
-constexpr std::array<const char*, 11> result_files = {
-    centerline_table.file, wall_table.file, flow_table.file, iterations_table.file,
-    coupling_table.file,   energy_file,     "summary.json",  "fields.h5",
-    "fields.xdmf",         "checkpoint.h5", "run.log"};
-
-bool is_result_file(const fs::path& name) {
-  for (const auto* file : result_files)
-    if (name == file || name == temporary_name(file)) return true;
-  return false;
+const std::vector<std::string>& result_files() {
+  static const std::vector<std::string> files = [] {
+    std::vector<std::string> names{"summary.json", "fields.h5", "fields.xdmf", "checkpoint.h5", "run.log"};
+    for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts()})) names.push_back(table.file);
+    return names;
+  }();
+  return files;
 }
 
-std::vector<Table> tables_of(const ResultTables& wanted) {
-  std::vector<Table> tables{iterations_table};
-  if (wanted.centerline_pressure) tables.push_back(centerline_table);
-  if (wanted.wall_displacement) tables.push_back(wall_table);
-  if (wanted.flow) tables.push_back(flow_table);
-  if (wanted.coupling) tables.push_back(coupling_table);
-  return tables;
+bool is_result_file(const fs::path& name) {
+  const auto& files = result_files();
+  return std::any_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return name == file || name == temporary_name(file); });
 }
 
 /// Creates the folder where needed and checks that files can be created in it, before hours are computed.
@@ -116,11 +88,11 @@ std::string results_without_steps(const fs::path& folder, const std::string& sta
   std::error_code error;
   if (status == "done") return "a finished run";
   if (fs::exists(folder / "checkpoint.h5", error)) return "a checkpoint";
-  std::ifstream steps(folder / iterations_table.file);
+  std::ifstream steps(folder / iterations_table().file);
   std::string header;
-  if (steps && (!std::getline(steps, header) || header == iterations_table.header)) return {};
-  for (const auto* file : result_files)
-    if (file != std::string("run.log") && file != std::string("summary.json") && fs::exists(folder / file, error))
+  if (steps && (!std::getline(steps, header) || header == iterations_table().header)) return {};
+  for (const auto& file : result_files())
+    if (file != "run.log" && file != "summary.json" && fs::exists(folder / file, error))
       return file;
   return {};
 }
@@ -144,7 +116,7 @@ void require_results_only(const fs::path& folder) {
 }
 
 void require_regular_results(const fs::path& folder, bool follow) {
-  for (const auto* file : result_files) {
+  for (const auto& file : result_files()) {
     require_regular_or_absent(folder / file, follow);
     require_regular_or_absent(temporary_name(folder / file), follow);
   }
@@ -152,13 +124,13 @@ void require_regular_results(const fs::path& folder, bool follow) {
 
 void require_no_results(const fs::path& folder, const std::string& go_on) {
   std::error_code error;
-  const auto row = last_row(folder / iterations_table.file);
+  const auto row = last_row(folder / iterations_table().file);
   const std::string status = summary_text(folder, "status"), program = summary_text(folder, "program");
   const bool saved = fs::exists(folder / "checkpoint.h5", error);
   if (row.size() < 2) {
     const auto found = results_without_steps(folder, status);
     if (found.empty()) return;
-    throw InputError(folder.string(), "", "holds " + found + ", but no " + iterations_table.file + " with their steps",
+    throw InputError(folder.string(), "", "holds " + found + ", but no " + iterations_table().file + " with their steps",
                      "give -o another folder, or replace what is there with --force");
   }
   const std::string what = "run" + (program.empty() ? "" : " of " + program), steps = row[0] + " steps";
@@ -177,36 +149,37 @@ ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables) : folder
   open_tables(tables, false);
 }
 
-ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const fs::path& from, double time,
-                           double observed)
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const EarlierTables& earlier)
     : folder_(std::move(folder)) {
-  std::error_code error;
-  if (!fs::is_directory(from, error))
-    throw InputError(from.string(), "", "is no folder", "give --restart the result folder of an earlier run");
   prepare(folder_);
-  if (!fs::equivalent(folder_, from, error)) remove_old_results(folder_);
-  for (const auto& table : tables_of(tables))
-    copy_csv_until(from / table.file, folder_ / table.file, table.header, table.of_steps ? time : observed);
-  if (tables.energy) {
-    if (!fs::exists(from / energy_file, error))
-      throw InputError((from / energy_file).string(), "output.energy", "is wanted, but the earlier run wrote none",
-                       "continue with --set output.energy=false");
-    copy_csv_until(from / energy_file, folder_ / energy_file, energy_header(*tables.energy), time);
-  }
+  std::error_code error;
+  if (!fs::equivalent(folder_, earlier.folder(), error)) remove_old_results(folder_);
+  earlier.copy_to(folder_);
   open_tables(tables, true);
 }
 
 void ResultFolder::open_tables(const ResultTables& tables, bool append) {
-  const auto open = [&](std::optional<CsvFile>& place, const Table& table) {
+  const auto open = [&](std::optional<CsvFile>& place, const ResultTable& table) {
     place.emplace(folder_ / table.file, table.header, append);
   };
-  open(iterations_, iterations_table);
-  if (tables.centerline_pressure) open(centerline_, centerline_table);
-  if (tables.wall_displacement) open(wall_, wall_table);
-  if (tables.flow) open(flow_, flow_table);
-  if (tables.coupling) open(coupling_, coupling_table);
+  open(iterations_, iterations_table());
+  if (tables.centerline_pressure) open(centerline_, centerline_table());
+  if (tables.wall_displacement) open(wall_, wall_table());
+  if (tables.flow) open(flow_, flow_table());
+  if (tables.coupling) open(coupling_, coupling_table());
   energy_parts_ = tables.energy;
-  if (energy_parts_) energy_.emplace(folder_ / energy_file, energy_header(*energy_parts_), append);
+  if (energy_parts_) open(energy_, energy_table(*energy_parts_));
+  for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
+}
+
+void ResultFolder::take_digests() {
+  for (auto& [file, digest] : digests_) digest.take();
+}
+
+TableDigests ResultFolder::digests() const {
+  TableDigests numbers;
+  for (const auto& [file, digest] : digests_) numbers[file] = digest.numbers();
+  return numbers;
 }
 
 void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {

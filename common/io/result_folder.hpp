@@ -1,24 +1,19 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
 #include "io/csv_file.hpp"
+#include "io/earlier_tables.hpp"
+#include "io/result_tables.hpp"
 #include "io/step_record.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
-
-/// Which tables a scene has besides iterations.csv.
-struct ResultTables {
-  bool centerline_pressure = false;     ///< scenes with fluid
-  bool wall_displacement = false;       ///< scenes with a wall
-  bool flow = false;                    ///< scenes with fluid
-  bool coupling = false;                ///< partitioned runs
-  std::optional<EnergyParts> energy{};  ///< unless the case does not want it
-};
 
 /// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
 struct FlowRecord {
@@ -51,11 +46,9 @@ class ResultFolder {
   /// \throws InputError when the folder holds anything else, or cannot be created or written
   ResultFolder(std::filesystem::path folder, const ResultTables& tables);
 
-  /// Continues the run in `from` after `time` (ms): rows up to then are kept, or copied when `folder` is another one.
-  /// \param observed  ms, likewise of the tables of waves and flow, which may lag behind the steps
-  /// \throws InputError as above, and when a table of `from` is missing
-  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const std::filesystem::path& from, double time,
-               double observed);
+  /// Continues a run whose tables have been checked: they are copied, or in place cut behind its checkpoint.
+  /// \throws InputError as above
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const EarlierTables& earlier);
 
   const std::filesystem::path& path() const { return folder_; }
 
@@ -69,11 +62,16 @@ class ResultFolder {
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
 
+  /// Takes in what the tables hold now as what a restart goes on from.
+  void take_digests();
+  TableDigests digests() const;
+
  private:
   void open_tables(const ResultTables& tables, bool append);
 
   std::filesystem::path folder_;
   std::optional<EnergyParts> energy_parts_;
+  std::map<std::string, TableDigest> digests_;
   std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_, energy_;
 };
 

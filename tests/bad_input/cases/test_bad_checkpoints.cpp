@@ -124,6 +124,26 @@ TEST_F(BadCheckpoint, OfAnotherCase) {
                  "[partitioned] and [output] may differ");
 }
 
+TEST_F(BadCheckpoint, OfAnotherCaseWhoseDifferenceIsKnown) {
+  expect_refusal(
+      [&] {
+        require_same_run(file_, example(), "fsi-monolithic", "00000000000000ab", "00000000000000bb",
+                         "fluid.density was 1 and is 2");
+      },
+      "case: belongs to another case (fluid.density was 1 and is 2); restart with the case file of that run; only "
+      "title, "
+      "time.step, time.end, time.predictor, static.load_steps, [monolithic], [partitioned] and [output] may differ");
+}
+
+TEST_F(BadCheckpoint, OfAnotherVersion) {
+  for (const std::string number : {"1", "3", "20"}) {
+    overwrite("fsi-duo checkpoint " + number + "\nchecksum 0123456789abcdef\n" + bytes_of(file_).substr(60));
+    expect_unreadable(
+        "is a checkpoint of another version of this program; continue with the version that wrote it, or run from the "
+        "start");
+  }
+}
+
 TEST_F(BadCheckpoint, ArrayOfAnotherSize) {
   expect_refusal([&] { require_size(file_, example(), "d_s", 4); },
                  "d_s: has 3 values, not 4; restart with the case and mesh of that run");

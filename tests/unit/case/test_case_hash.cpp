@@ -71,6 +71,36 @@ TEST(CaseHash, KeepsTheStepsApart) {
   EXPECT_EQ(stepping_of_case(wall), (std::map<std::string, std::string>{{"static.load_steps", "7"}}));
 }
 
+TEST(CaseHash, LeavesOutWhatTheRunDoesNotRead) {
+  auto scene = example();
+  scene.element = ElementPair::p2p1;
+  const auto hash = hash_of_case(scene);
+  scene.fluid->grad_div = true;
+  scene.structure->stabilisation = 0.25;
+  scene.stabilisation = Stabilisation::paper;
+  EXPECT_EQ(hash_of_case(scene), hash) << "Taylor-Hood elements have no stabilisation";
+  scene.element = ElementPair::p1;
+  EXPECT_NE(hash_of_case(scene), hash);
+}
+
+TEST(CaseHash, TellsHowCasesDiffer) {
+  auto scene = example();
+  const auto before = readable_dump(scene);
+  EXPECT_EQ(difference_of_cases(before, before), "");
+  scene.fluid->density = 2;
+  EXPECT_EQ(difference_of_cases(before, readable_dump(scene)), "fluid.density was 1 and is 2");
+  scene.structure.reset();
+  const auto said = difference_of_cases(before, readable_dump(scene));
+  EXPECT_EQ(said.rfind("fluid.density was 1 and is 2, and so on for ", 0), 0u) << said;
+  scene = example();
+  for (int i = 0; i < 100; ++i) scene.inlet->points.emplace_back(i, 1.0 / 3);
+  const auto dump = readable_dump(scene);
+  EXPECT_LT(dump.size(), 2000u);
+  scene.inlet->points.back().second = 1;
+  EXPECT_NE(difference_of_cases(dump, readable_dump(scene)), "") << "long values differ by their hash";
+  EXPECT_EQ(difference_of_cases("", before).rfind("element was not there and is p1", 0), 0u);
+}
+
 TEST(CaseHash, DoesNotDependOnHowACaseIsWritten) {
   const std::string start =
       "mesh.level = 'coarse'\nload.pressure = 2\nstructure.density = 1\nstructure.bulk_modulus = 10\n"

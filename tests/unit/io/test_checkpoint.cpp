@@ -20,6 +20,7 @@ Checkpoint example(int step) {
   Checkpoint checkpoint;
   checkpoint.program = "fsi-partitioned";
   checkpoint.case_hash = "0123456789abcdef";
+  checkpoint.case_text = "fluid.density = 1\ninlet.pressure = [[0, 2]]\n";
   checkpoint.mesh_hash = "fedcba9876543210";
   checkpoint.step = step;
   checkpoint.time = 0.1 * step;
@@ -38,6 +39,7 @@ TEST_F(CheckpointFile, ComesBackBitByBit) {
   const auto read = read_checkpoint(file);
   EXPECT_EQ(read.program, written.program);
   EXPECT_EQ(read.case_hash, written.case_hash);
+  EXPECT_EQ(read.case_text, written.case_text);
   EXPECT_EQ(read.mesh_hash, written.mesh_hash);
   EXPECT_EQ(read.step, 3);
   EXPECT_EQ(read.time, written.time);

@@ -26,6 +26,11 @@ void write_step(ResultFolder& results, int step) {
   results.write_energy({step, time, 4, 9, 0, 0.75, 0.002}, energy);
 }
 
+/// What the checkpoint of a step says of these tables.
+EarlierSteps earlier(int step) {
+  return {step, 0.1 * step, step, {0, 0.1}, {0.5}};
+}
+
 class Results : public FolderTest {
  protected:
   fs::path run_ = "";
@@ -183,10 +188,10 @@ TEST_F(Results, TellOfTheEnergyThatASceneHas) {
 TEST_F(Results, ContinueWithoutAnEarlierEnergyBalanceOnlyWhenNoneIsWanted) {
   ResultTables tables;
   { ResultFolder results(run_, tables); }
-  EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, run_, 0.2, 0.2));
+  EXPECT_NO_THROW(ResultFolder(folder_ / "other", tables, EarlierTables(run_, tables, {})));
   tables.energy = coupled;
   try {
-    ResultFolder results(folder_ / "other", tables, run_, 0.2, 0.2);
+    EarlierTables(run_, tables, {});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("--set output.energy=false"), std::string::npos) << error.what();
@@ -244,7 +249,7 @@ TEST_F(Results, ContinueAfterTheCheckpointInPlace) {
   // As a kill leaves it: rows of a step beyond the checkpoint, the last one torn.
   write_text(run_ / "flow.csv", contents_of(run_ / "flow.csv") + "0.5,1,2,3");
   {
-    ResultFolder results(run_, all_tables, run_, 0.1 * 3, 0.1 * 3);
+    ResultFolder results(run_, all_tables, EarlierTables(run_, all_tables, earlier(3)));
     for (int step = 4; step <= 5; ++step) write_step(results, step);
   }
   ResultFolder whole(folder_ / "whole", all_tables);
@@ -261,17 +266,11 @@ TEST_F(Results, ContinueInAnotherFolderAndLeaveTheFirst) {
   }
   const auto before = contents_of(run_ / "flow.csv");
   {
-    ResultFolder results(folder_ / "other", all_tables, run_, 0.2, 0.2);
+    ResultFolder results(folder_ / "other", all_tables, EarlierTables(run_, all_tables, earlier(2)));
     write_step(results, 3);
   }
   EXPECT_EQ(contents_of(run_ / "flow.csv"), before);
   EXPECT_EQ(contents_of(folder_ / "other" / "flow.csv"), before);
-}
-
-TEST_F(Results, ContinueOnlyWhatIsComplete) {
-  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, folder_ / "missing", 0.2, 0.2), InputError);
-  { ResultFolder results(run_, {false, true, false}); }
-  EXPECT_THROW(ResultFolder(folder_ / "other", all_tables, run_, 0.2, 0.2), InputError);
 }
 
 TEST_F(Results, SummaryTellsTimesAndCounts) {

@@ -1,0 +1,171 @@
+#include "io/earlier_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/table_reader.hpp"
+
+namespace fsi {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Found = TableReader::Found;
+
+constexpr double rounding = 1e-9;
+
+bool same(double a, double b, double scale) {
+  return std::abs(a - b) <= rounding * scale;
+}
+
+/// The table's next row, which must be there. \param last  the step whose row it is
+void read_row(TableReader& table, std::int64_t step, std::int64_t last) {
+  switch (table.next()) {
+    case Found::end:
+      table.refuse(fmt::format("ends before the rows of step {}, and the checkpoint is of step {}", step, last));
+    case Found::no_row:
+      table.refuse_line("is no row of this table");
+    case Found::row:
+      break;
+  }
+  for (const double number : table.row())
+    if (!std::isfinite(number)) table.refuse_line("holds a number that is not finite");
+}
+
+/// What stands behind the rows that are taken over must be of later steps, whole or not.
+void check_rest(TableReader& table, std::size_t time_column, double time) {
+  for (Found found = table.next(); found != Found::end; found = table.next())
+    if (found == Found::row && !(table.row()[time_column] > time + rounding * std::abs(time)))
+      table.refuse_line(fmt::format("is of the time {:g}, behind the rows up to {:g}: rows are doubled or out of order",
+                                    table.row()[time_column], time));
+}
+
+/// Copies the beginning of a file by a temporary file and rename.
+void copy_beginning(const fs::path& from, const fs::path& to, std::uint64_t bytes) {
+  const auto temporary = temporary_name(to);
+  const auto fail = [&](const std::string& what) {
+    const std::string reason = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+    std::error_code error;
+    fs::remove(temporary, error);
+    throw InputError(to.string(), "", what + reason, "check the permissions and the free space of the folder");
+  };
+  errno = 0;
+  std::ifstream reader(from, std::ios::binary);
+  std::ofstream writer(temporary, std::ios::binary | std::ios::trunc);
+  if (!writer) fail("cannot be written");
+  std::vector<char> piece(1 << 16);
+  while (bytes > 0) {
+    reader.read(piece.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(piece.size(), bytes)));
+    const auto read = reader.gcount();
+    if (read <= 0) fail("cannot be copied from " + from.string());
+    writer.write(piece.data(), read);
+    bytes -= static_cast<std::uint64_t>(read);
+  }
+  writer.close();
+  if (!writer) fail("cannot be written");
+  replace_by_temporary(to);
+}
+
+}  // namespace
+
+EarlierTables::EarlierTables(const fs::path& folder, const ResultTables& wanted, const EarlierSteps& steps)
+    : folder_(folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder.string(), "", "is no folder", "give --restart the result folder of an earlier run");
+  for (const ResultTable& table : tables_of(wanted)) {
+    // With the energy balance switched off a run writes no such table, and may be continued alike.
+    if (wanted.energy && table.file == energy_table(*wanted.energy).file && !fs::exists(folder / table.file, error))
+      throw InputError((folder / table.file).string(), "output.energy", "is wanted, but the earlier run wrote none",
+                       "continue with --set output.energy=false");
+    parts_.push_back(checked(table, steps));
+  }
+}
+
+const std::vector<double>& EarlierTables::last_level(const std::string& file) const {
+  static const std::vector<double> none;
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.file == file; });
+  return part == parts_.end() ? none : part->last_level;
+}
+
+void EarlierTables::copy_to(const fs::path& folder) const {
+  for (const Part& part : parts_) copy_beginning(folder_ / part.file, folder / part.file, part.bytes);
+}
+
+EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
+  const Part part = table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps);
+  const auto known = steps.digests.find(table.file);
+  if (known == steps.digests.end()) return part;
+  TableDigest digest(folder_ / table.file);
+  digest.take(part.bytes);
+  if (digest.numbers() != known->second)
+    throw InputError((folder_ / table.file).string(), "",
+                     "its rows are not those that the run wrote up to its checkpoint",
+                     "restart from a folder as its run has left it, or run from the start");
+  return part;
+}
+
+EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const EarlierSteps& steps) {
+  TableReader reader(folder_ / table.file, table.header);
+  const bool first = times_.empty();  // iterations.csv comes first; the others must say the same
+  double before = 0;
+  for (std::int64_t step = 1; step <= steps.step; ++step) {
+    read_row(reader, step, steps.step);
+    const double number = reader.row()[0], time = reader.row()[1];
+    if (number != static_cast<double>(step))
+      reader.refuse_line(
+          fmt::format("is of step {:g}, not {}: rows are missing, doubled or out of order", number, step));
+    if (!(time > before)) reader.refuse_line(fmt::format("ends at {:g}, the step before it at {:g}", time, before));
+    before = time;
+    if (first)
+      times_.push_back(time);
+    else if (!same(time, times_[static_cast<std::size_t>(step - 1)], time))
+      reader.refuse_line(fmt::format("ends step {} at {:g}, iterations.csv at {:g}", step, time,
+                                     times_[static_cast<std::size_t>(step - 1)]));
+  }
+  if (!same(before, steps.time, steps.time))
+    reader.refuse(
+        fmt::format("step {} ends at {:.12g} here and at {:.12g} in the checkpoint", steps.step, before, steps.time));
+  const Part part{table.file, reader.bytes()};
+  check_rest(reader, 1, steps.time);
+  return part;
+}
+
+EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, const EarlierSteps& steps) const {
+  TableReader reader(folder_ / table.file, table.header);
+  const std::vector<double>* z = table.file == centerline_table().file ? &steps.centre_z
+                                 : table.file == wall_table().file     ? &steps.wall_z
+                                                                       : nullptr;
+  const std::size_t rows = z == nullptr ? 1 : z->size();
+  const double length = z == nullptr || z->empty() ? 0 : std::max(std::abs(z->front()), std::abs(z->back()));
+  Part part{table.file};
+  double time = 0;
+  for (std::int64_t step = 1; step <= steps.levels; ++step) {
+    time = times_[static_cast<std::size_t>(step - 1)];
+    if (step == steps.levels) part.last_level.reserve(rows * 4);
+    for (std::size_t i = 0; i < rows; ++i) {
+      read_row(reader, step, steps.step);
+      if (!same(reader.row()[0], time, time))
+        reader.refuse_line(fmt::format("is of the time {:g}, not {:g}: rows are missing, doubled or out of order",
+                                       reader.row()[0], time));
+      if (z != nullptr && !same(reader.row()[1], (*z)[i], length))
+        reader.refuse_line(fmt::format("is of z = {:g} mm, not {:g}: rows are missing, doubled or out of order",
+                                       reader.row()[1], (*z)[i]));
+      if (step == steps.levels) part.last_level.insert(part.last_level.end(), reader.row().begin(), reader.row().end());
+    }
+  }
+  part.bytes = reader.bytes();
+  check_rest(reader, 0, time);
+  return part;
+}
+
+}  // namespace fsi

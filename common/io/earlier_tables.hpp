@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/result_tables.hpp"
+#include "io/table_digest.hpp"
+
+namespace fsi {
+
+/// What a checkpoint and the scene say that the tables of its run hold.
+struct EarlierSteps {
+  std::int64_t step = 0;         ///< the last finished one
+  double time = 0;               ///< its end, ms; in statics the fraction of the load
+  std::int64_t levels = 0;       ///< levels that the tables of waves and flow hold: of steps 1 to this
+  std::vector<double> centre_z;  ///< mm, of the rows of each level in centerline_pressure.csv
+  std::vector<double> wall_z;    ///< mm, likewise in wall_displacement.csv
+  TableDigests digests{};        ///< of the rows that are taken over; tables without are held against the others alone
+};
+
+/// The tables of an earlier run, checked row by row: what a restart takes over from them is what the run wrote up to its
+/// checkpoint, nothing missing, doubled or out of order, and every number finite. What stands behind these rows, of
+/// steps after the checkpoint, is left out, and so is a torn last line. Memory: a time per step.
+class EarlierTables {
+ public:
+  /// Reads the tables `wanted` in `folder`. \throws InputError naming file and line
+  EarlierTables(const std::filesystem::path& folder, const ResultTables& wanted, const EarlierSteps& steps);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  /// Ends of the steps 1 to the last one, as EarlierSteps::time.
+  const std::vector<double>& times() const { return times_; }
+  /// Rows of the last level in a table of waves or flow, one after the other; empty where there is none.
+  const std::vector<double>& last_level(const std::string& file) const;
+
+  /// Copies the checked rows into a folder, which may be the same: each table by a temporary file and rename, so that a
+  /// kill leaves every one of them with the rows that a restart needs. \throws InputError when one cannot be written
+  void copy_to(const std::filesystem::path& folder) const;
+
+ private:
+  /// A table and how much of it is taken over.
+  struct Part {
+    std::string file;
+    std::uint64_t bytes = 0;
+    std::vector<double> last_level{};
+  };
+  Part checked(const ResultTable& table, const EarlierSteps& steps);
+  Part checked_steps(const ResultTable& table, const EarlierSteps& steps);
+  Part checked_levels(const ResultTable& table, const EarlierSteps& steps) const;
+
+  std::filesystem::path folder_;
+  std::vector<double> times_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace fsi

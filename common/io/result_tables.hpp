@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnostics/energy_record.hpp"
+
+namespace fsi {
+
+constexpr double pascal_per_kilopascal = 1000.0;  ///< tables show pressures in Pa
+
+/// Which tables a scene has besides iterations.csv.
+struct ResultTables {
+  bool centerline_pressure = false;     ///< scenes with fluid
+  bool wall_displacement = false;       ///< scenes with a wall
+  bool flow = false;                    ///< scenes with fluid
+  bool coupling = false;                ///< partitioned runs
+  std::optional<EnergyParts> energy{};  ///< unless the case does not want it
+};
+
+/// A table of a result folder.
+struct ResultTable {
+  std::string file;
+  std::string header;
+  bool of_steps = false;  ///< a row for each step, `step,time_ms,...`; else rows for each level, `time_ms,...`
+};
+
+/// By name: what each table is. energy.csv has the columns of the parts that a scene has.
+ResultTable iterations_table();
+ResultTable centerline_table();
+ResultTable wall_table();
+ResultTable flow_table();
+ResultTable coupling_table();
+ResultTable energy_table(const EnergyParts& parts);
+
+/// Those of a run, iterations.csv first.
+std::vector<ResultTable> tables_of(const ResultTables& wanted);
+
+}  // namespace fsi

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/hash.hpp"
+
+namespace fsi {
+
+/// What a growing table holds, as a count of bytes and their hash (FNV-1a 64): a checkpoint keeps it, so that a restart
+/// knows the rows that were written up to it from all others. Columns that end with `_s`, times of the clock, do not
+/// count: no two runs write them alike.
+class TableDigest {
+ public:
+  explicit TableDigest(std::filesystem::path file) : file_(std::move(file)) {}
+
+  /// Takes in what the file has got since the last time, or no more than the first `most` bytes of the whole.
+  /// \throws InputError when it cannot be read, or is shorter than it was
+  void take(std::uint64_t most = UINT64_MAX);
+
+  /// Counted bytes, and upper and lower half of the hash, for the arrays of a checkpoint.
+  std::vector<double> numbers() const;
+
+ private:
+  void add(const char* bytes, std::size_t size);
+
+  std::filesystem::path file_;
+  std::uint64_t read_ = 0, counted_ = 0;  ///< bytes
+  Fnv1a hash_;
+  std::string name_;            ///< of the header's column in progress
+  std::vector<bool> left_out_;  ///< by column, once the header is read
+  bool in_header_ = true;
+  std::size_t column_ = 0;
+};
+
+/// numbers() of tables by file name.
+using TableDigests = std::map<std::string, std::vector<double>>;
+
+}  // namespace fsi

@@ -1,0 +1,58 @@
+#include "io/earlier_fields.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "sample_fields.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+class EarlierFields : public FolderTest {
+ protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    FieldsWriter fields(folder_, sample_grids(), planned_field_steps(8, 2, steps_of(0.5)));
+    for (const std::int64_t step : {0, 2, 4})
+      fields.write(step, sample_values(sample_grids(), 0.5 * static_cast<double>(step)));
+  }
+  std::int64_t entries(double until) const { return checked_field_entries(folder_, sample_grids(), until); }
+};
+
+TEST_F(EarlierFields, AreCountedUpToATime) {
+  EXPECT_EQ(entries(0), 1);
+  EXPECT_EQ(entries(1), 2);
+  EXPECT_EQ(entries(100), 3) << "planned ones do not count";
+  EXPECT_EQ(checked_field_entries(folder_ / "missing", sample_grids(), 1), 0);
+}
+
+TEST_F(EarlierFields, OfAnotherMeshAreRefused) {
+  auto grids = sample_grids();
+  grids[0].points[2][1] *= 1 + 1e-15;
+  EXPECT_THROW(checked_field_entries(folder_, grids, 1), InputError);
+  grids = sample_grids();
+  grids[1].cells.resize(8);
+  EXPECT_THROW(checked_field_entries(folder_, grids, 1), InputError);
+}
+
+TEST_F(EarlierFields, ThatAreDamagedAreRefused) {
+  const auto whole = contents_of(folder_ / "fields.h5");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    write_text(folder_ / "fields.h5", whole.substr(0, size));
+    EXPECT_THROW(entries(1), InputError) << size;
+  }
+  write_text(folder_ / "fields.h5", whole);
+  EXPECT_NO_THROW(entries(1));
+  const double times[] = {0, 1, 1, 3, 4};
+  auto file = Hdf5File::open(folder_ / "fields.h5", true);
+  file.write("/steps/time", times);
+  file.close();
+  EXPECT_THROW(entries(1), InputError) << "a time twice";
+}
+
+}  // namespace
+
+}  // namespace fsi::test
