@@ -77,11 +77,14 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
   }
   if (grids_.empty()) return;
   for (auto& grid : grids_) middles_.push_back(separate_middles(grid));
-  std::vector<FieldStep> planned;
-  for (double time : output_times(setup)) planned.push_back({static_cast<std::int64_t>(planned.size()), time});
-  if (planned.empty())
+  FieldPlan planned;
+  if (auto times = output_times(setup); !times.empty())
+    planned = {static_cast<std::int64_t>(times.size()), [times = std::move(times)](std::int64_t entry) {
+                 return FieldStep{entry, times.at(static_cast<std::size_t>(entry))};
+               }};
+  else
     planned = planned_field_steps(axis.planned_steps(), setup.output.every,
-                                  [&](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
+                                  [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
   else
@@ -89,10 +92,10 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
 }
 
 template <int n>
-void FieldOutput<n>::write(const State& state) {
-  if (!writer_) return;
+bool FieldOutput<n>::write(const State& state) {
+  if (!writer_) return false;
   const auto entry = writer_->entry_at(state.time);
-  if (!entry) return;
+  if (!entry) return false;
   FieldValues values;
   for (std::size_t g = 0; g < grids_.size(); ++g)
     for (const auto& field : grids_[g].fields)
@@ -110,6 +113,7 @@ void FieldOutput<n>::write(const State& state) {
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
   writer_->write(*entry, values);
+  return true;
 }
 
 template <int n>

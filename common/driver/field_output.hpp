@@ -19,13 +19,14 @@ class FieldOutput {
  public:
   /// Nothing is written when the case wants no fields.
   /// \param grids           of the media, without fields
+  /// \param axis            must outlive this
   /// \param restarted_from  result folder that the run continues; empty: a new run
   /// \param until           ms, of the last level that the run there has written, or 0
   FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids, const TimeAxis& axis,
               const std::filesystem::path& folder, const std::filesystem::path& restarted_from, double until);
 
-  /// Writes the state's fields if an entry is planned for its time.
-  void write(const State& state);
+  /// Writes the state's fields if an entry is planned for its time; returns whether it is.
+  bool write(const State& state);
 
  private:
   /// A point in the middle of an edge.

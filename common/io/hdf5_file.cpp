@@ -126,6 +126,13 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
   return {extent.begin(), extent.end()};
 }
 
+std::uint64_t Hdf5File::place_of(const std::string& dataset) const {
+  const Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const haddr_t place = data.valid() ? H5Dget_offset(data.id()) : HADDR_UNDEF;
+  if (place == HADDR_UNDEF) refuse_reading(dataset);
+  return place;
+}
+
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
   const Hdf5Handle opened(H5Gopen2(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info;

@@ -53,6 +53,8 @@ class Hdf5File {
 
   bool has(const std::string& path) const;
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
+  /// Where the values of a dataset begin, in bytes from the file's start.
+  std::uint64_t place_of(const std::string& dataset) const;
   std::vector<std::string> members(const std::string& group) const;  ///< by name
 
   /// Creates groups on the way; the values are undefined until they are written.

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/energy_table.hpp"
+#include "io/fields_part.hpp"
 
 namespace fsi {
 
@@ -51,7 +52,7 @@ constexpr std::array<const char*, 11> result_files = {
 bool is_result_file(const fs::path& name) {
   for (const auto* file : result_files)
     if (name == file || name == temporary_name(file)) return true;
-  return false;
+  return FieldsPart::number_of(name.extension() == ".tmp" ? name.stem() : name).has_value();
 }
 
 std::vector<Table> tables_of(const ResultTables& wanted) {
