@@ -25,7 +25,7 @@ class FieldOutput {
   FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids, const TimeAxis& axis,
               const std::filesystem::path& folder, const std::filesystem::path& restarted_from, double until);
 
-  /// Writes the state's fields if an entry is planned for its time; returns whether it is.
+  /// Writes the state's fields if an entry is planned for its time. Returns whether there is one.
   bool write(const State& state);
 
  private:
