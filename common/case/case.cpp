@@ -25,7 +25,12 @@ double PressureTable::mean(double from, double to) const {
   if (points.empty() || to <= from) return 0.0;
   double integral = points.front().second * std::max(0.0, std::min(to, points.front().first) - from) +
                     points.back().second * std::max(0.0, to - std::max(from, points.back().first));
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  // A step needs the segments that it lies in, of however many. The others would add zeros.
+  const auto behind = std::upper_bound(points.begin(), points.end(), from,
+                                       [](double time, const auto& point) { return time < point.first; });
+  integral += 0.0;
+  for (std::size_t i = behind == points.begin() ? 0 : static_cast<std::size_t>(behind - points.begin()) - 1;
+       i + 1 < points.size() && points[i].first < to; ++i)
     if (points[i + 1].first > points[i].first)
       integral +=
           integral_of_segment(points[i].first, points[i].second, points[i + 1].first, points[i + 1].second, from, to);

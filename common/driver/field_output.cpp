@@ -77,11 +77,14 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, std::vecto
   }
   if (grids_.empty()) return;
   for (auto& grid : grids_) middles_.push_back(separate_middles(grid));
-  std::vector<FieldStep> planned;
-  for (double time : output_times(setup)) planned.push_back({static_cast<std::int64_t>(planned.size()), time});
-  if (planned.empty())
+  FieldPlan planned;
+  if (auto times = output_times(setup); !times.empty())
+    planned = {static_cast<std::int64_t>(times.size()), [times = std::move(times)](std::int64_t entry) {
+                 return FieldStep{entry, times.at(static_cast<std::size_t>(entry))};
+               }};
+  else
     planned = planned_field_steps(axis.planned_steps(), setup.output.every,
-                                  [&](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
+                                  [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
   else

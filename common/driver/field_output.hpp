@@ -19,6 +19,7 @@ class FieldOutput {
  public:
   /// Nothing is written when the case wants no fields.
   /// \param grids           of the media, without fields
+  /// \param axis            must outlive this
   /// \param restarted_from  result folder that the run continues; empty: a new run
   /// \param until           ms, of the last level that the run there has written, or 0
   FieldOutput(const Case& setup, const Scene<n>& scene, std::vector<FieldGrid> grids, const TimeAxis& axis,

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checked_file.hpp"
 #include "io/table_reader.hpp"
 
 namespace fsi {
@@ -51,28 +52,24 @@ void check_rest(TableReader& table, std::size_t time_column, double time) {
 
 /// Copies the beginning of a file by a temporary file and rename.
 void copy_beginning(const fs::path& from, const fs::path& to, std::uint64_t bytes) {
-  const auto temporary = temporary_name(to);
-  const auto fail = [&](const std::string& what) {
-    const std::string reason = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
-    std::error_code error;
-    fs::remove(temporary, error);
-    throw InputError(to.string(), "", what + reason, "check the permissions and the free space of the folder");
-  };
-  errno = 0;
   std::ifstream reader(from, std::ios::binary);
-  std::ofstream writer(temporary, std::ios::binary | std::ios::trunc);
-  if (!writer) fail("cannot be written");
-  std::vector<char> piece(1 << 16);
-  while (bytes > 0) {
-    reader.read(piece.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(piece.size(), bytes)));
-    const auto read = reader.gcount();
-    if (read <= 0) fail("cannot be copied from " + from.string());
-    writer.write(piece.data(), read);
-    bytes -= static_cast<std::uint64_t>(read);
+  std::string piece(1 << 16, '\0');
+  try {
+    auto writer = CheckedFile::create_new(temporary_name(to), to);
+    while (bytes > 0) {
+      reader.read(piece.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(piece.size(), bytes)));
+      const auto read = static_cast<std::size_t>(reader.gcount());
+      if (read == 0)
+        throw InputError(from.string(), "", "cannot be read to its end", "check that no other run changes the folder");
+      writer.write(std::string_view(piece).substr(0, read));
+      bytes -= read;
+    }
+    writer.close();
+    replace_by_temporary(to);
+  } catch (...) {
+    remove_temporary(to);
+    throw;
   }
-  writer.close();
-  if (!writer) fail("cannot be written");
-  replace_by_temporary(to);
 }
 
 }  // namespace

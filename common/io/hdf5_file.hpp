@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fsi {
@@ -24,7 +25,8 @@ class Hdf5Handle {
 
   hid_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  bool reset();  ///< false when closing failed, e.g. because the disk is full
+  bool reset();                 ///< false when closing failed, e.g. because the disk is full; never closes again
+  void abandon() { id_ = -1; }  ///< never to be closed
 
  private:
   hid_t id_ = -1;
@@ -32,16 +34,27 @@ class Hdf5Handle {
 };
 
 /// An HDF5 file of contiguous datasets of double, int32, int64 or uint8. All storage is reserved when a dataset is
-/// created, so that writing its values later changes nothing but raw data. Library messages are silenced; failures
-/// throw InputError with file and dataset.
+/// created, so that writing its values later changes nothing but raw data. Library messages are silenced; failures of
+/// reading throw InputError with file and dataset, those of writing WriteError.
+///
+/// The library does not survive that a disk is full: it keeps what it could not write, tries again whenever it closes or
+/// ends, and crashes. So a file that could not be written is left as it is, for the end of the process to close, and the
+/// library does nothing at exit. What must be right to the last byte is made in memory.
 class Hdf5File {
  public:
-  /// \param user_block  bytes left free at the beginning: 0, or a power of two from 512
-  static Hdf5File create(const std::filesystem::path& file, std::uint64_t user_block = 0);
+  /// A new file in place of an old one. It is removed again if it is not closed by close(), because of an error.
+  static Hdf5File create(const std::filesystem::path& file);
+  /// A file that is only ever in memory; see append_image().
+  /// \param shown_as    name in messages
+  /// \param user_block  bytes that will stand before the image in a file: 0, or a power of two from 512
+  /// \param size        bytes expected in it; more are possible
+  static Hdf5File create_in_memory(const std::filesystem::path& shown_as, std::uint64_t user_block, std::uint64_t size);
   static Hdf5File open(const std::filesystem::path& file, bool for_writing);
 
   bool has(const std::string& path) const;
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
+  /// Where the values of a dataset begin, in bytes from the file's start.
+  std::uint64_t place_of(const std::string& dataset) const;
   std::vector<std::string> members(const std::string& group) const;  ///< by name
 
   /// Creates groups on the way; the values are undefined until they are written.
@@ -61,18 +74,41 @@ class Hdf5File {
   void write_attribute(const std::string& object, const std::string& name, const std::string& text);
   std::string read_attribute(const std::string& object, const std::string& name) const;
 
+  /// Appends the bytes of the file, without its user block, to `bytes`.
+  void append_image(std::string& bytes);
+
   /// Hands everything to the operating system.
   void flush();
-  /// Flushes and closes; errors that a destructor would swallow are thrown.
+  /// Flushes and closes. A file that was written must be closed by this: its destructor could not tell of an error.
   void close();
 
  private:
   Hdf5File(std::filesystem::path path, Hdf5Handle handle) : path_(std::move(path)), file_(std::move(handle)) {}
 
+  /// A file that is removed with this object, unless it has been forgotten.
+  class Unfinished {
+   public:
+    Unfinished() = default;
+    explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
+    ~Unfinished();
+    Unfinished(Unfinished&& other) noexcept { file_.swap(other.file_); }
+    Unfinished& operator=(Unfinished&& other) noexcept {
+      file_.swap(other.file_);
+      return *this;
+    }
+    void forget() { file_.clear(); }
+
+   private:
+    std::filesystem::path file_;
+  };
+
   [[noreturn]] void refuse_reading(const std::string& object) const;
-  [[noreturn]] void refuse_writing(const std::string& object) const;
+  [[noreturn]] void refuse_writing(const std::string& object);
+  /// Closes part of a file that is written.
+  void finish(Hdf5Handle& handle, const std::string& object);
 
   std::filesystem::path path_;
+  Unfinished unfinished_;  // before the handle, which is closed first
   Hdf5Handle file_;
 };
 

@@ -13,6 +13,7 @@
 #include "base/output_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/energy_table.hpp"
+#include "io/fields_part.hpp"
 #include "io/folder_lock.hpp"
 
 namespace fsi {
@@ -34,7 +35,8 @@ const std::vector<std::string>& result_files() {
 bool is_result_file(const fs::path& name) {
   const auto& files = result_files();
   return std::any_of(files.begin(), files.end(),
-                     [&](const std::string& file) { return name == file || name == temporary_name(file); });
+                     [&](const std::string& file) { return name == file || name == temporary_name(file); }) ||
+         FieldsPart::number_of(name.extension() == ".tmp" ? name.stem() : name).has_value();
 }
 
 /// Creates the folder where needed and checks that files can be created in it, before hours are computed.
@@ -220,6 +222,11 @@ void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport
 
 void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {
   energy_.value().write(energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy));
+}
+
+void ResultFolder::close() {
+  for (auto* table : {&centerline_, &wall_, &flow_, &iterations_, &coupling_, &energy_})
+    if (*table) (*table)->close();
 }
 
 }  // namespace fsi

@@ -65,6 +65,8 @@ class ResultFolder {
   /// Takes in what the tables hold now as what a restart goes on from.
   void take_digests();
   TableDigests digests() const;
+  /// Puts all tables onto the disk and closes them; nothing may be written after that. \throws WriteError
+  void close();
 
  private:
   void open_tables(const ResultTables& tables, bool append);

@@ -1,24 +1,64 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "io/fields_writer.hpp"
+#include "io/fields_part.hpp"
+#include "io/file_in_place.hpp"
 
 namespace fsi {
 
-/// Path of a step's values of a field within fields.h5.
-std::string field_dataset(const std::string& grid, const std::string& field, std::int64_t step);
-
-/// A finished step in fields.h5 and the (grid, field) pairs that it has.
-struct FinishedStep {
-  FieldStep step;
-  std::vector<std::pair<std::string, std::string>> fields;
+/// A finished entry: its step, the fields that it has, and the HDF5 file beside the document that holds them.
+struct ListedEntry {
+  WrittenEntry entry;
+  std::string file;
 };
 
-/// XDMF 2 text that presents fields.h5 as a spatial collection of temporal ones, one per medium. The other way round,
-/// time outside, ParaView would number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked in
-/// one step would be lost in the next.
-std::string xdmf_text(const std::vector<FieldGrid>& grids, const std::vector<FinishedStep>& finished);
+/// fields.xdmf, XDMF 2: presents the HDF5 files as a spatial collection of temporal ones, one per medium. The other way
+/// round, time outside, ParaView would number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked
+/// in one step would be lost in the next.
+///
+/// It lists finished entries only and is a whole document at any moment. The list of each medium has free slots of one
+/// length, and a slot begins with a processing instruction, which readers skip. While a slot is free, that instruction
+/// goes on to the slot's end:
+///     <?slot  >                                      ?>      free
+///     <?slot  > <Grid> ... </Grid>             <?slot?>      free: the text is still a part of the instruction
+///     <?slot ?> <Grid> ... </Grid>             <?slot?>      in use
+/// So an entry is added by two writes into reserved space, the second of a single byte. When no slot is free, the document
+/// is written anew with twice as many and replaces the old one by rename: over a run, an entry is written less than three
+/// times.
+/// All functions throw WriteError.
+class XdmfDocument {
+ public:
+  static constexpr std::int64_t first_slots = 256;
+
+  XdmfDocument(std::filesystem::path file, std::vector<FieldGrid> grids);
+
+  /// Makes the document, or replaces it, with `count` entries.
+  /// \param total  entries that it will have in the end
+  void replace(std::int64_t count, const std::function<ListedEntry(std::int64_t)>& entry, std::int64_t total);
+
+  /// Lists one more entry.
+  void add(const ListedEntry& entry);
+
+ private:
+  using Slot = std::function<std::string(std::size_t grid, std::int64_t place)>;
+  void rewrite(std::int64_t count, const Slot& slot);
+  std::string slot_text(std::size_t grid, const ListedEntry& entry, bool in_use) const;
+  std::uint64_t place_of(std::size_t grid, std::int64_t slot) const;
+
+  std::filesystem::path path_;
+  std::vector<FieldGrid> grids_;  ///< without cells and layers
+  std::vector<std::size_t> cells_;
+  std::vector<bool> layered_;
+  std::vector<std::string> head_;    ///< before the slots of each grid
+  std::vector<std::size_t> length_;  ///< of a grid's slots, bytes
+  std::int64_t count_ = 0, slots_ = 0, total_ = 0;
+  std::optional<FileInPlace> file_;
+};
 
 }  // namespace fsi

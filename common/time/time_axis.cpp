@@ -29,6 +29,7 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
   const double same = rounding * (time_ != nullptr ? time_->end : 1);
   stops_.erase(std::unique(stops_.begin(), stops_.end(), [&](double a, double b) { return b - a <= same; }),
                stops_.end());
+  rows_ = rows_of(stops_);
   stretches_ = {
       {0, 0,
        time_ != nullptr ? time_->step : static_cast<double>(setup.static_load.value_or(StaticData{}).load_steps)}};
@@ -39,50 +40,103 @@ double TimeAxis::length_in(const Stretch& stretch) const {
   return insertions_.empty() ? time_->end : insertions_.back().length;
 }
 
-std::vector<TimeAxis::Piece> TimeAxis::pieces(const Stretch& stretch) const {
-  std::vector<Piece> pieces;
-  double start = stretch.start;
-  const double asked = length_in(stretch);
-  for (double stop : stops_) {
-    if (stop <= start + rounding * asked) continue;
-    const double steps = (stop - start) / asked;
-    const int count = static_cast<int>(std::ceil(steps - rounding));
-    const bool whole = std::abs(steps - count) <= rounding;
-    pieces.push_back({start, stop, count, whole ? asked : (stop - start) / count});
-    start = stop;
-  }
-  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - rounding));
-  pieces.push_back({start, time_->end, std::max(0, count), asked});
-  return pieces;
+void TimeAxis::set_stretches(std::vector<Stretch> stretches) {
+  stretches_ = std::move(stretches);
+  plans_.clear();
 }
 
-int TimeAxis::planned(const Stretch& stretch) const {
-  if (time_ != nullptr) {
-    int steps = 0;
-    for (const Piece& piece : pieces(stretch)) steps += piece.steps;
-    return steps;
+template <class Visit>
+void TimeAxis::for_each_piece(const Stretch& stretch, Visit visit) const {
+  double start = stretch.start;
+  const double asked = length_in(stretch);
+  for (auto stop = std::upper_bound(stops_.begin(), stops_.end(), start + rounding * asked); stop != stops_.end();
+       ++stop) {
+    if (*stop <= start + rounding * asked) continue;
+    const double steps = (*stop - start) / asked;
+    const int count = static_cast<int>(std::ceil(steps - rounding));
+    const bool whole = std::abs(steps - count) <= rounding;
+    if (!visit(Piece{start, *stop, count, whole ? asked : (*stop - start) / count})) return;
+    start = *stop;
   }
+  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - rounding));
+  visit(Piece{start, time_->end, std::max(0, count), asked});
+}
+
+const TimeAxis::Plan& TimeAxis::plan(std::size_t stretch) const {
+  plans_.resize(stretches_.size());
+  if (plans_[stretch]) return *plans_[stretch];
+  Plan& made = plans_[stretch].emplace();
+  int steps = 0;
+  for_each_piece(stretches_[stretch], [&](const Piece& piece) {
+    made.pieces.push_back(piece);
+    made.until.push_back(steps += piece.steps);
+    return true;
+  });
+  return made;
+}
+
+int TimeAxis::planned(std::size_t stretch) const {
+  const double asked = stretches_[stretch].asked;
   // The rest of the load in equal steps, none larger than one of a whole run would be.
-  return static_cast<int>(std::ceil((1 - stretch.start) * stretch.asked - rounding));
+  if (time_ == nullptr) return static_cast<int>(std::ceil((1 - stretches_[stretch].start) * asked - rounding));
+  return asked > 0 ? plan(stretch).until.back() : estimated(stretches_[stretch]);
+}
+
+int TimeAxis::estimated(const Stretch& stretch) const {
+  const double asked = length_in(stretch);
+  const auto steps = [&](double length) { return std::max(0, static_cast<int>(std::ceil(length / asked - rounding))); };
+  double start = stretch.start;
+  int sum = 0;
+  for (const Row& row : rows_) {
+    if (row.last <= start + rounding * asked) continue;
+    double first = row.first;  // the next stop
+    if (first <= start + rounding * asked) {
+      const double passed = std::floor((start + rounding * asked - row.first) / row.distance);
+      first = std::min(row.last, row.first + (passed + 1) * row.distance);
+    }
+    sum += steps(first - start);
+    if (row.last > first) sum += static_cast<int>(std::lround((row.last - first) / row.distance)) * steps(row.distance);
+    start = row.last;
+  }
+  return sum + steps(time_->end - start);
+}
+
+std::vector<TimeAxis::Row> TimeAxis::rows_of(const std::vector<double>& times) {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double distance = i == 0 ? 0 : times[i] - times[i - 1];
+    const auto fits = [&](const Row& row) {
+      return row.last == row.first || std::abs(distance - row.distance) <= 1e-6 * row.distance;
+    };
+    if (rows.empty() || !fits(rows.back())) {
+      rows.push_back({times[i], times[i], 0});
+      continue;
+    }
+    Row& row = rows.back();
+    row.distance = row.last == row.first ? distance : row.distance;
+    row.last = times[i];
+  }
+  return rows;
 }
 
 bool TimeAxis::jumps_at(double time) const {
   const double same = time_ == nullptr ? 0 : std::max(rounding * stretches_.back().asked, 1e-12 * time_->end);
-  return std::any_of(jumps_.begin(), jumps_.end(), [&](double jump) { return std::abs(time - jump) <= same; });
+  const auto next = std::lower_bound(jumps_.begin(), jumps_.end(), time);
+  return (next != jumps_.end() && *next - time <= same) || (next != jumps_.begin() && time - *(next - 1) <= same);
 }
 
 int TimeAxis::planned_steps() const {
-  return stretches_.back().after + planned(stretches_.back());
+  return stretches_.back().after + planned(stretches_.size() - 1);
 }
 
 int TimeAxis::steps() const {
   return planned_steps() + static_cast<int>(insertions_.size());
 }
 
-const Stretch& TimeAxis::stretch_of(int step) const {
+std::size_t TimeAxis::stretch_of(int step) const {
   std::size_t i = stretches_.size() - 1;
   while (i > 0 && step <= stretches_[i].after) --i;
-  return stretches_[i];
+  return i;
 }
 
 int TimeAxis::inserted_before(int step) const {
@@ -103,20 +157,32 @@ double TimeAxis::time_of(int step) const {
 }
 
 double TimeAxis::planned_time_of(int step) const {
-  const Stretch& stretch = stretch_of(step);
+  const std::size_t place = stretch_of(step);
+  const Stretch& stretch = stretches_[place];
   if (step == planned_steps()) return time_ != nullptr ? time_->end : 1;
-  if (time_ == nullptr) return stretch.start + (step - stretch.after) * (1 - stretch.start) / planned(stretch);
+  if (time_ == nullptr) return stretch.start + (step - stretch.after) * (1 - stretch.start) / planned(place);
   for (const Stretch& next : stretches_)  // where one stretch ends and the next begins, its last step cut short
     if (next.after > 0 && step == next.after) return next.start;
-  int done = stretch.after;  // steps before the piece
-  for (const Piece& piece : pieces(stretch)) {
-    const int in_piece = step - done;
-    done += piece.steps;
-    if (step > done) continue;
-    if (step == done) return piece.end;
+  const int in_stretch = step - stretch.after;
+  const auto time_in = [](const Piece& piece, int until, int asked_for) {
+    if (asked_for == until) return piece.end;
+    const int in_piece = asked_for - (until - piece.steps);
     return std::strtod(fmt::format("{:.12g}", piece.start + in_piece * piece.step).c_str(), nullptr);
+  };
+  double time = time_->end;
+  if (stretch.asked > 0) {
+    const auto& [pieces, until] = plan(place);
+    const auto found = std::lower_bound(until.begin(), until.end(), in_stretch) - until.begin();
+    if (found < static_cast<std::ptrdiff_t>(until.size())) time = time_in(pieces[found], until[found], in_stretch);
+  } else {  // adaptive: the plan changes with each step, and little of it is asked for
+    int until = 0;
+    for_each_piece(stretch, [&](const Piece& piece) {
+      until += piece.steps;
+      if (in_stretch <= until) time = time_in(piece, until, in_stretch);
+      return in_stretch > until;
+    });
   }
-  return time_->end;
+  return time;
 }
 
 double TimeAxis::length_of(int step) const {
@@ -128,9 +194,8 @@ double TimeAxis::length_of(int step) const {
 }
 
 double TimeAxis::next_stop(double time) const {
-  for (double stop : stops_)
-    if (stop > time + rounding * time_->end) return stop;
-  return time_->end;
+  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time + rounding * time_->end);
+  return next == stops_.end() ? time_->end : *next;
 }
 
 double TimeAxis::choose(int step, double time, double longest) {
@@ -143,7 +208,7 @@ double TimeAxis::choose(int step, double time, double longest) {
     length = last->length;
   const double end = count == 1 ? stop : std::strtod(fmt::format("{:.12g}", time + length).c_str(), nullptr);
   insertions_.push_back({step, end, length});
-  stretches_ = {{0, end, 0}};
+  set_stretches({{0, end, 0}});
   return length;
 }
 
@@ -163,7 +228,7 @@ void TimeAxis::drop_insertions_after(int last) {
 
 bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted) {
   const double asked = stretches_.back().asked;
-  stretches_ = std::move(past);
+  set_stretches(std::move(past));
   insertions_ = std::move(inserted);
   const bool changed = asked != stretches_.back().asked;
   if (asked == 0 && time_ != nullptr) {  // adaptive
@@ -171,18 +236,19 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vect
       drop_insertions_after(last);
     } else {
       const std::vector<double> stops = std::exchange(stops_, jumps_);  // equal steps need no times of output
+      plans_.clear();
       std::vector<Insertion> all;
       for (int step = 1; step <= last; ++step) all.push_back({step, time_of(step), length_of(step)});
       stops_ = stops;
       if (!all.empty()) all.back().end = time;
       insertions_ = std::move(all);
     }
-    stretches_ = {{0, time, 0}};
+    set_stretches({{0, time, 0}});
     return changed;
   }
   if (changed && stretches_.back().asked == 0) {  // adaptive until here
     drop_insertions_after(last);
-    stretches_ = {{0, time, asked}};
+    set_stretches({{0, time, asked}});
     return true;
   }
   // A run that ended between two steps of its stretch, its last one cut short, goes on from that end.
@@ -193,6 +259,7 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vect
     const int after = last - static_cast<int>(insertions_.size());
     if (stretches_.back().after == after) stretches_.pop_back();
     stretches_.push_back({after, time, asked});
+    plans_.clear();
   }
   return changed;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "case/case.hpp"
@@ -69,9 +71,26 @@ class TimeAxis {
     int steps;
     double step;  ///< ms
   };
-  const Stretch& stretch_of(int step) const;
-  std::vector<Piece> pieces(const Stretch& stretch) const;
-  int planned(const Stretch& stretch) const;  ///< steps from its start to the end of the run
+  /// The pieces of a stretch up to the end of the run, kept because asking for a step must not cost the more the more
+  /// times of output there are.
+  struct Plan {
+    std::vector<Piece> pieces;
+    std::vector<int> until;  ///< per piece: steps of the stretch up to its end
+  };
+  /// Times that follow each other at one distance.
+  struct Row {
+    double first, last, distance;
+  };
+  static std::vector<Row> rows_of(const std::vector<double>& times);
+
+  std::size_t stretch_of(int step) const;
+  /// Calls visit(piece) for one piece of a stretch after the other, as long as it returns true.
+  template <class Visit>
+  void for_each_piece(const Stretch& stretch, Visit visit) const;
+  const Plan& plan(std::size_t stretch) const;
+  void set_stretches(std::vector<Stretch> stretches);
+  int planned(std::size_t stretch) const;  ///< steps from its start to the end of the run
+  int estimated(const Stretch& stretch) const;
   double length_in(const Stretch& stretch) const;
   int inserted_before(int step) const;
   const Insertion* insertion(int step) const;
@@ -79,8 +98,10 @@ class TimeAxis {
   const TimeData* time_;       ///< null in statics
   std::vector<double> jumps_;  ///< ms, ascending, between start and end of the run
   std::vector<double> stops_;  ///< likewise: jumps and times of output
+  std::vector<Row> rows_;      ///< the same, shorter
   std::vector<Stretch> stretches_;
-  std::vector<Insertion> insertions_;  ///< ascending in step
+  mutable std::vector<std::optional<Plan>> plans_;  ///< per stretch, those that were asked for
+  std::vector<Insertion> insertions_;               ///< ascending in step
 };
 
 }  // namespace fsi

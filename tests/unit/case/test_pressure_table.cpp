@@ -35,6 +35,21 @@ TEST(PressureTable, JumpsInTheMiddleOfAStep) {
   EXPECT_DOUBLE_EQ(jump.mean(0.75, 1.75), (0.25 * 1 + 0.75 * 5));
 }
 
+// A step looks at the points around it only; those far away change no bit.
+TEST(PressureTable, FarPointsChangeNothing) {
+  PressureTable all;
+  for (int i = 0; i < 1000; ++i) all.points.push_back({0.1 * i, -1.3 * (i % 7) + 0.01 * i});
+  all.points.insert(all.points.begin() + 501, {50.0, 3});  // a jump
+  for (const auto& [from, to] : {std::pair{49.93, 50.41}, {50.0, 50.1}, {50.02, 50.03}, {49.9, 50.0}, {49.0, 51.0}}) {
+    PressureTable near;
+    near.points.assign(all.points.begin() + 480, all.points.begin() + 520);
+    EXPECT_EQ(all.mean(from, to), near.mean(from, to)) << from;
+  }
+  EXPECT_EQ(all.mean(200, 300), all.at_end());
+  EXPECT_EQ(all.mean(-2, -1), all.points.front().second);
+  EXPECT_GT(all.mean(-1, 200), 0);
+}
+
 TEST(PressureTable, SinglePointIsAConstant) {
   const PressureTable constant{{{0.5, 2}}};
   EXPECT_DOUBLE_EQ(constant.mean(0, 1), 2);

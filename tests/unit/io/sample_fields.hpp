@@ -29,6 +29,12 @@ inline auto steps_of(double length) {
   return [length](std::int64_t step) { return static_cast<double>(step) * length; };
 }
 
+/// These entries and no others.
+inline FieldPlan plan_of(std::vector<FieldStep> entries) {
+  const auto count = static_cast<std::int64_t>(entries.size());
+  return {count, [entries](std::int64_t i) { return entries.at(static_cast<std::size_t>(i)); }};
+}
+
 /// Component c of a vector: x_c + 10 t; a scalar: x + 100 y + 10000 z + t, plus 0.5 in the wall.
 inline FieldValues sample_values(const std::vector<FieldGrid>& grids, double time) {
   FieldValues values;

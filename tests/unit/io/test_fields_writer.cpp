@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 class Fields : public FolderTest {
  protected:
   const std::vector<FieldGrid> grids_ = sample_grids();
-  const std::vector<FieldStep> planned_ = planned_field_steps(20, 8, steps_of(0.125));
+  const FieldPlan planned_ = planned_field_steps(20, 8, steps_of(0.125));
 
   void write(FieldsWriter& writer, std::int64_t step) const {
     writer.write(step, sample_values(grids_, 0.125 * static_cast<double>(step)));
@@ -28,12 +28,12 @@ class Fields : public FolderTest {
 
 TEST(PlannedFieldSteps, HaveTheFirstAndTheLastStep) {
   const auto steps = planned_field_steps(20, 8, steps_of(0.5));
-  ASSERT_EQ(steps.size(), 4u);
-  EXPECT_EQ(steps[1].step, 8);
-  EXPECT_EQ(steps[1].time, 4.0);
-  EXPECT_EQ(steps[3].step, 20);
-  EXPECT_EQ(planned_field_steps(16, 8, steps_of(0.5)).size(), 3u);
-  EXPECT_TRUE(planned_field_steps(16, 0, steps_of(0.5)).empty());
+  ASSERT_EQ(steps.entries, 4);
+  EXPECT_EQ(steps.at(1).step, 8);
+  EXPECT_EQ(steps.at(1).time, 4.0);
+  EXPECT_EQ(steps.at(3).step, 20);
+  EXPECT_EQ(planned_field_steps(16, 8, steps_of(0.5)).entries, 3);
+  EXPECT_EQ(planned_field_steps(16, 0, steps_of(0.5)).entries, 0);
 }
 
 TEST_F(Fields, ListOnlyFinishedSteps) {
@@ -138,7 +138,7 @@ TEST_F(Fields, RestartNumbersEntriesBehindThoseThatAreKept) {
     for (const auto step : {0, 8, 16}) write(writer, step);
   }
   // Planned by time from here on, the numbers count entries.
-  FieldsWriter writer(folder_, grids_, {{0, 0.0}, {1, 1.5}, {2, 2.25}, {3, 3.0}}, folder_, 2.0);
+  FieldsWriter writer(folder_, grids_, plan_of({{0, 0.0}, {1, 1.5}, {2, 2.25}, {3, 3.0}}), folder_, 2.0);
   EXPECT_TRUE(listed(0) && listed(8) && listed(16));
   EXPECT_FALSE(writer.entry_at(1.5));
   EXPECT_EQ(writer.entry_at(2.0), 16);

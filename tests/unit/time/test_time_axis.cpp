@@ -1,6 +1,10 @@
 #include "time/time_axis.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
 namespace fsi::test {
 
 namespace {
@@ -172,6 +176,49 @@ TEST(TimeAxis, AdaptiveStepsAreEqualUpToTheNextStop) {
   EXPECT_EQ(axis.choose(5, axis.time_of(4), 0.5), 0.4375);
   EXPECT_EQ(axis.time_of(5), 1);
   EXPECT_EQ(axis.steps(), 5);
+}
+
+/// Steps of a plan as they follow from one stop to the next.
+int steps_between(const std::vector<double>& stops, double start, double longest) {
+  int steps = 0;
+  for (const double stop : stops)
+    if (stop > start) {
+      steps += static_cast<int>(std::ceil((stop - start) / longest - 1e-9));
+      start = stop;
+    }
+  return steps;
+}
+
+TEST(TimeAxis, EstimatesAdaptiveStepsToTheTimesOfOutputAndJumpsThatAreLeft) {
+  Case setup = adaptive(3);
+  setup.output.interval = 0.25;
+  std::vector<double> stops{0.125};  // the jump
+  for (int k = 1; k <= 12; ++k) stops.push_back(0.25 * k);
+  TimeAxis axis(setup);
+  double time = 0;
+  int step = 0;
+  for (const double longest : {0.1, 0.04, 0.3, 0.2, 0.06, 0.06, 0.5, 0.11, 0.02, 0.02}) {
+    const double length = axis.choose(++step, time, longest);
+    time = axis.time_of(step);
+    EXPECT_EQ(axis.steps(), step + steps_between(stops, time, length)) << step;
+  }
+}
+
+TEST(TimeAxis, TimesOfManyStopsAreThoseOfTheirIntervals) {
+  Case setup = in_time(0.3, 1000);
+  setup.output.interval = 0.5;
+  setup.inlet = PressureTable{{{0, 1}, {100.2, 1}, {100.2, 0}}};
+  const TimeAxis axis(setup);
+  EXPECT_EQ(axis.steps(), 4000);  // two in an interval; the jump cuts one in two of one step each
+  EXPECT_EQ(axis.time_of(400), 100);
+  EXPECT_EQ(axis.time_of(401), 100.2);
+  EXPECT_EQ(axis.time_of(402), 100.5);
+  EXPECT_EQ(axis.time_of(3997), 999.25);
+  EXPECT_EQ(axis.time_of(3999), 999.8);  // up to the end as long as asked
+  EXPECT_TRUE(axis.jumps_at(100.2));
+  EXPECT_FALSE(axis.jumps_at(100.5));
+  EXPECT_EQ(axis.next_stop(100), 100.2);
+  EXPECT_EQ(axis.next_stop(999.5), 1000);
 }
 
 TEST(TimeAxis, GoesOnFromEqualStepsToAdaptiveOnesAndBack) {
