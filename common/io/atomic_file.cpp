@@ -4,57 +4,103 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <system_error>
+#include <string>
+#include <vector>
 
-#include "base/error.hpp"
+#include "io/checked_file.hpp"
+#include "io/write_error.hpp"
 
 namespace fsi {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
-  throw InputError(file.string(), "", "cannot be written (" + reason + ")",
-                   "check the permissions and the free space of the folder");
+/// As many bytes as there are up to `size`.
+std::size_t read(int descriptor, char* bytes, std::size_t size, const fs::path& shown_as) {
+  std::size_t got = 0;
+  while (got < size) {
+    const ssize_t n = ::read(descriptor, bytes + got, size - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      throw WriteError(shown_as, "", std::string("reading it back: ") + std::strerror(errno), "check the disk");
+    if (n == 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  return got;
 }
 
-/// Forces what has been written to a file or folder onto the disk.
-void synchronise(const std::filesystem::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags);
-  if (descriptor < 0) refuse(path, std::strerror(errno));
-  const bool failed = ::fsync(descriptor) != 0 && errno != EINVAL;  // some file systems cannot synchronise folders
-  const int reason = errno;
-  ::close(descriptor);
-  if (failed) refuse(path, std::strerror(reason));
+void require_contents(const fs::path& temporary, std::string_view contents, const fs::path& shown_as) {
+  struct Descriptor {
+    int number;
+    ~Descriptor() {
+      if (number >= 0) ::close(number);
+    }
+  };
+  const Descriptor descriptor{::open(temporary.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (descriptor.number < 0) throw WriteError(shown_as, errno);
+  // The system may drop pages that it has synchronised, so that what is compared comes from the disk.
+  ::posix_fadvise(descriptor.number, 0, 0, POSIX_FADV_DONTNEED);
+  std::vector<char> piece(1 << 20);
+  std::size_t got = piece.size();
+  while (got == piece.size()) {
+    got = read(descriptor.number, piece.data(), piece.size(), shown_as);
+    if (got > contents.size() || std::memcmp(piece.data(), contents.data(), got) != 0) break;
+    contents.remove_prefix(got);
+    if (got < piece.size() && contents.empty()) return;
+  }
+  throw WriteError(shown_as, "", "reading it back gives other bytes than were written", "check the disk");
+}
+
+/// The last steps for a temporary file that is synchronised already.
+void rename_temporary(const fs::path& file) {
+  require_regular_or_absent(file);
+  if (std::rename(temporary_name(file).c_str(), file.c_str()) != 0) throw WriteError(file, errno);
 }
 
 }  // namespace
 
-std::filesystem::path temporary_name(const std::filesystem::path& file) {
-  std::filesystem::path name = file;
+fs::path temporary_name(const fs::path& file) {
+  fs::path name = file;
   name += ".tmp";
   return name;
 }
 
-void replace_by_temporary(const std::filesystem::path& file) {
-  const auto temporary = temporary_name(file);
-  synchronise(temporary, O_RDONLY);
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) refuse(file, error.message());
-  const auto folder = file.parent_path();
-  synchronise(folder.empty() ? std::filesystem::path(".") : folder, O_RDONLY | O_DIRECTORY);
+void remove_temporary(const fs::path& file) noexcept {
+  try {
+    ::unlink(temporary_name(file).c_str());
+  } catch (...) {  // no memory for the name: there is nothing that could be done
+  }
 }
 
-void write_atomically(const std::filesystem::path& file, const std::string& contents) {
-  const auto temporary = temporary_name(file);
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-  if (!stream) refuse(temporary, std::strerror(errno));
-  stream << contents;
-  stream.close();
-  if (!stream) refuse(temporary, std::strerror(errno));
-  replace_by_temporary(file);
+void replace_by_temporary(const fs::path& file) {
+  try {
+    auto temporary = CheckedFile::existing(temporary_name(file), file);
+    temporary.synchronise();
+    temporary.close();
+    rename_temporary(file);
+  } catch (...) {
+    remove_temporary(file);
+    throw;
+  }
+  synchronise_folder(file.parent_path());
+}
+
+void write_atomically(const fs::path& file, std::string_view contents, ReadBack check) {
+  try {
+    auto temporary = CheckedFile::create_new(temporary_name(file), file);
+    temporary.write(contents);
+    temporary.synchronise();
+    temporary.close();
+    if (check == ReadBack::yes) require_contents(temporary_name(file), contents, file);
+    rename_temporary(file);
+  } catch (...) {
+    remove_temporary(file);
+    throw;
+  }
+  synchronise_folder(file.parent_path());
 }
 
 }  // namespace fsi

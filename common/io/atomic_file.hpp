@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 namespace fsi {
 
@@ -9,10 +9,19 @@ namespace fsi {
 std::filesystem::path temporary_name(const std::filesystem::path& file);
 
 /// Puts a finished temporary_name(file) on disk (fsync) and renames it to `file`: after a kill at any moment `file` is
-/// either the old or the new one, complete. \throws InputError when the file system refuses
+/// either the old or the new one, complete. If that fails, the temporary file is removed and the old one stays.
+/// \throws WriteError when the file system refuses, or when `file` is something else than a regular file
 void replace_by_temporary(const std::filesystem::path& file);
 
+/// Removes temporary_name(file) if it is there: after an error while it was made. Never throws.
+void remove_temporary(const std::filesystem::path& file) noexcept;
+
+enum class ReadBack { no, yes };
+
 /// Replaces a file's contents in that way.
-void write_atomically(const std::filesystem::path& file, const std::string& contents);
+/// \param check  yes: the file is read again, from the disk where the system lets it, and compared with `contents`
+///               before it replaces the old one
+/// \throws WriteError as replace_by_temporary, and when other bytes are read
+void write_atomically(const std::filesystem::path& file, std::string_view contents, ReadBack check = ReadBack::no);
 
 }  // namespace fsi

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -74,8 +75,9 @@ fs::path checkpoint_file(const fs::path& folder) {
 }
 
 void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
-  const auto temporary = temporary_name(file);
-  auto hdf5 = Hdf5File::create(temporary, block_size);
+  std::uint64_t size = 1 << 16;
+  for (const auto& entry : checkpoint.arrays) size += sizeof(double) * entry.second.size() + 1024;
+  auto hdf5 = Hdf5File::create_in_memory(file, block_size, size);
   hdf5.write_attribute("/", "program", checkpoint.program);
   hdf5.write_attribute("/", "case_hash", checkpoint.case_hash);
   hdf5.write_attribute("/", "mesh_hash", checkpoint.mesh_hash);
@@ -87,16 +89,16 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
   }
   for (const auto& [name, value] : checkpoint.integers) hdf5.write_new<std::int64_t>("/integers/" + name, {1}, &value);
   for (const auto& [name, value] : checkpoint.reals) hdf5.write_new<double>("/reals/" + name, {1}, &value);
-  hdf5.close();
 
-  std::ifstream reader(temporary, std::ios::binary);
-  const auto block = block_for(checksum_behind_block(reader));
-  std::fstream writer(temporary, std::ios::binary | std::ios::in | std::ios::out);
-  writer.write(block.data(), block.size());
-  writer.close();
-  if (!writer)
-    throw InputError(temporary.string(), "", "cannot be written", "check permissions and free space of the folder");
-  replace_by_temporary(file);
+  std::string bytes(block_size, '\0');
+  bytes.reserve(block_size + size);
+  hdf5.append_image(bytes);
+  hdf5.close();
+  Fnv1a hash;
+  hash.add(bytes.data() + block_size, bytes.size() - block_size);
+  const auto block = block_for(hash.hex());
+  std::copy(block.begin(), block.end(), bytes.begin());
+  write_atomically(file, bytes, ReadBack::yes);
 }
 
 Checkpoint read_checkpoint(const fs::path& file) {

@@ -24,8 +24,9 @@ struct Checkpoint {
 /// DIR/checkpoint.h5
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 
-/// Writes to a temporary file, flushes it to disk and renames it: a kill leaves the previous checkpoint.
-/// \throws InputError when the file cannot be written
+/// Makes the file in memory, where its checksum is taken, writes it under a temporary name, puts it on disk, reads it
+/// back, and renames it only if it holds the same bytes: a kill or a full disk leaves the previous checkpoint.
+/// \throws WriteError when the file cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// \throws InputError when the file is missing, no checkpoint, truncated, or its checksum does not match

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <iterator>
 
 #include "base/error.hpp"
@@ -42,12 +41,8 @@ bool kept(const std::string& row, std::size_t columns, std::size_t time_column, 
 }  // namespace
 
 CsvFile::CsvFile(std::filesystem::path file, const std::string& header, bool append)
-    : file_(std::move(file)), columns_(split(header).size()), stream_(file_, append ? std::ios::app : std::ios::trunc) {
-  if (!append) stream_ << header << '\n';
-  stream_.flush();
-  if (!stream_)
-    throw InputError(file_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
-                     "check the permissions and the free space of the folder");
+    : columns_(split(header).size()), file_(append ? CheckedFile::append(file) : CheckedFile::create(file)) {
+  if (!append) file_.write(header + '\n');
 }
 
 void CsvFile::write(const std::vector<std::vector<double>>& rows) {
@@ -57,11 +52,20 @@ void CsvFile::write(const std::vector<std::vector<double>>& rows) {
     for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(std::back_inserter(text), i > 0 ? ",{}" : "{}", row[i]);
     text.push_back('\n');
   }
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream_.flush();
-  if (!stream_)
-    throw InputError(file_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
-                     "free some disk space, then continue with --restart");
+  file_.require_undisturbed();
+  const auto whole_rows = file_.size();
+  try {
+    file_.write({text.data(), text.size()});
+  } catch (...) {
+    file_.cut_to(whole_rows);
+    throw;
+  }
+}
+
+void CsvFile::close() {
+  file_.require_undisturbed();
+  file_.synchronise();
+  file_.close();
 }
 
 void copy_csv_until(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& header,

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "io/checked_file.hpp"
 
 namespace fsi {
 
@@ -11,18 +12,21 @@ namespace fsi {
 class CsvFile {
  public:
   /// Creates the file with its header, or, with `append`, continues one that has it already.
-  /// \throws InputError when the file cannot be written
+  /// \throws WriteError when the file cannot be written
   CsvFile(std::filesystem::path file, const std::string& header, bool append = false);
 
-  /// One row per entry, as long as the header; handed to the operating system before it returns. \throws InputError
-  /// when the disk is full
+  /// One row per entry, as long as the header; handed to the operating system before it returns. \throws WriteError
+  /// when the disk is full, or when the file has been deleted or changed by somebody else; no part of a row stays then,
+  /// if the file can be cut
   void write(const std::vector<std::vector<double>>& rows);
   void write(const std::vector<double>& row) { write(std::vector<std::vector<double>>{row}); }
 
+  /// Onto the disk, and closes. \throws WriteError
+  void close();
+
  private:
-  std::filesystem::path file_;
   std::size_t columns_;
-  std::ofstream stream_;
+  CheckedFile file_;
 };
 
 /// Copies the header of `from` and its rows with `time_ms` <= time to `to`, by a temporary file and rename; both may be

@@ -1,9 +1,11 @@
 #include "io/hdf5_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <utility>
 
 #include "base/error.hpp"
+#include "io/write_error.hpp"
 
 namespace fsi {
 
@@ -28,8 +30,12 @@ hid_t native_type<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
-/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library.
+/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library; no
+/// work of the library when the program ends, where it would write to files that could not be written before. This is
+/// called before anything else of the library.
 Hdf5Handle access_properties() {
+  static const herr_t no_work_at_exit = H5dont_atexit();
+  static_cast<void>(no_work_at_exit);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(properties.id(), false, true);
@@ -61,18 +67,34 @@ bool Hdf5Handle::reset() {
   return id < 0 || close_(id) >= 0;
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file, std::uint64_t user_block) {
+Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+  const auto access = access_properties();
+  errno = 0;
+  Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose});
+  if (!created.file_.valid()) created.refuse_writing("");
+  return created;
+}
+
+Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& shown_as, std::uint64_t user_block,
+                                    std::uint64_t size) {
   const auto access = access_properties();
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  if (user_block > 0) H5Pset_userblock(creation.id(), user_block);
-  Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
+  constexpr bool backing_store = false;
+  errno = 0;
+  // Memory grows by whole multiples of the second argument.
+  if (H5Pset_fapl_core(access.id(), std::max<std::uint64_t>(size, 1 << 16), backing_store) < 0 ||
+      (user_block > 0 && H5Pset_userblock(creation.id(), user_block) < 0))
+    throw WriteError(shown_as, errno);
+  Hdf5File created(shown_as, {H5Fcreate(shown_as.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
   if (!created.file_.valid()) created.refuse_writing("");
   return created;
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file, bool for_writing) {
   const auto access = access_properties();
+  errno = 0;
   Hdf5File opened(file, {H5Fopen(file.c_str(), for_writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()), H5Fclose});
+  if (!opened.file_.valid() && for_writing && errno != 0) opened.refuse_writing("");
   if (!opened.file_.valid()) opened.refuse_reading("");
   return opened;
 }
@@ -124,18 +146,21 @@ void Hdf5File::create_dataset(const std::string& dataset, const std::vector<std:
   H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
   H5Pset_obj_track_times(creation.id(), false);
-  const Hdf5Handle data(
+  errno = 0;
+  Hdf5Handle data(
       H5Dcreate2(file_.id(), dataset.c_str(), native_type<Value>(), space.id(), links.id(), creation.id(), H5P_DEFAULT),
       H5Dclose);
-  if (!data.valid()) refuse_writing(dataset);
+  finish(data, dataset);
 }
 
 template <class Value>
 void Hdf5File::write(const std::string& dataset, const Value* values) {
   if (product(shape(dataset)) == 0) return;
-  const Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Handle data(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  errno = 0;
   if (!data.valid() || H5Dwrite(data.id(), native_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     refuse_writing(dataset);
+  finish(data, dataset);
 }
 
 template <class Value>
@@ -162,12 +187,14 @@ template std::vector<std::int64_t> Hdf5File::read<std::int64_t>(const std::strin
 template std::vector<std::uint8_t> Hdf5File::read<std::uint8_t>(const std::string&) const;
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, const std::string& text) {
-  const Hdf5Handle owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  Hdf5Handle owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const auto type = text_type(text.size());
-  const Hdf5Handle attribute(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
+  errno = 0;
+  Hdf5Handle attribute(H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid() || H5Awrite(attribute.id(), type.id(), text.c_str()) < 0) refuse_writing(object);
+  finish(attribute, object);
+  finish(owner, object);
 }
 
 std::string Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
@@ -182,21 +209,38 @@ std::string Hdf5File::read_attribute(const std::string& object, const std::strin
   return text;
 }
 
+void Hdf5File::append_image(std::string& bytes) {
+  flush();
+  const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+  if (size <= 0) refuse_writing("");
+  const auto before = bytes.size();
+  bytes.resize(before + static_cast<std::size_t>(size));
+  if (H5Fget_file_image(file_.id(), &bytes[before], static_cast<std::size_t>(size)) != size) refuse_writing("");
+}
+
 void Hdf5File::flush() {
+  errno = 0;
   if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) refuse_writing("");
 }
 
 void Hdf5File::close() {
   flush();
+  errno = 0;
   if (!file_.reset()) refuse_writing("");
+}
+
+void Hdf5File::finish(Hdf5Handle& handle, const std::string& object) {
+  if (!handle.valid() || !handle.reset()) refuse_writing(object);
 }
 
 void Hdf5File::refuse_reading(const std::string& object) const {
   throw InputError(path_.string(), object, "cannot be read as HDF5", "give an undamaged result of this program");
 }
 
-void Hdf5File::refuse_writing(const std::string& object) const {
-  throw InputError(path_.string(), object, "cannot be written", "check permissions and free space of the folder");
+void Hdf5File::refuse_writing(const std::string& object) {
+  const int number = errno;
+  file_.abandon();
+  throw WriteError(path_, number, object);
 }
 
 }  // namespace fsi

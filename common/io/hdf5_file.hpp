@@ -24,7 +24,8 @@ class Hdf5Handle {
 
   hid_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  bool reset();  ///< false when closing failed, e.g. because the disk is full
+  bool reset();                 ///< false when closing failed, e.g. because the disk is full; never closes again
+  void abandon() { id_ = -1; }  ///< never to be closed
 
  private:
   hid_t id_ = -1;
@@ -32,12 +33,20 @@ class Hdf5Handle {
 };
 
 /// An HDF5 file of contiguous datasets of double, int32, int64 or uint8. All storage is reserved when a dataset is
-/// created, so that writing its values later changes nothing but raw data. Library messages are silenced; failures
-/// throw InputError with file and dataset.
+/// created, so that writing its values later changes nothing but raw data. Library messages are silenced; failures of
+/// reading throw InputError with file and dataset, those of writing WriteError.
+///
+/// The library does not survive that a disk is full: it keeps what it could not write, tries again whenever it closes or
+/// ends, and crashes. So a file that could not be written is left as it is, for the end of the process to close, and the
+/// library does nothing at exit. What must be right to the last byte is made in memory.
 class Hdf5File {
  public:
-  /// \param user_block  bytes left free at the beginning: 0, or a power of two from 512
-  static Hdf5File create(const std::filesystem::path& file, std::uint64_t user_block = 0);
+  static Hdf5File create(const std::filesystem::path& file);
+  /// A file that is only ever in memory; see append_image().
+  /// \param shown_as    name in messages
+  /// \param user_block  bytes that will stand before the image in a file: 0, or a power of two from 512
+  /// \param size        bytes expected in it; more are possible
+  static Hdf5File create_in_memory(const std::filesystem::path& shown_as, std::uint64_t user_block, std::uint64_t size);
   static Hdf5File open(const std::filesystem::path& file, bool for_writing);
 
   bool has(const std::string& path) const;
@@ -61,16 +70,21 @@ class Hdf5File {
   void write_attribute(const std::string& object, const std::string& name, const std::string& text);
   std::string read_attribute(const std::string& object, const std::string& name) const;
 
+  /// Appends the bytes of the file, without its user block, to `bytes`.
+  void append_image(std::string& bytes);
+
   /// Hands everything to the operating system.
   void flush();
-  /// Flushes and closes; errors that a destructor would swallow are thrown.
+  /// Flushes and closes. A file that was written must be closed by this: its destructor could not tell of an error.
   void close();
 
  private:
   Hdf5File(std::filesystem::path path, Hdf5Handle handle) : path_(std::move(path)), file_(std::move(handle)) {}
 
   [[noreturn]] void refuse_reading(const std::string& object) const;
-  [[noreturn]] void refuse_writing(const std::string& object) const;
+  [[noreturn]] void refuse_writing(const std::string& object);
+  /// Closes part of a file that is written.
+  void finish(Hdf5Handle& handle, const std::string& object);
 
   std::filesystem::path path_;
   Hdf5Handle file_;

@@ -1,23 +1,44 @@
 #include "io/run_log.hpp"
 
+#include <spdlog/details/null_mutex.h>
 #include <spdlog/logger.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 
-#include "base/error.hpp"
+#include <utility>
+
+#include "io/checked_file.hpp"
 
 namespace fsi {
 
+namespace {
+
+/// Where the logger's lines go. The library's own file sink loses the errors of flush and close.
+class CheckedSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+ public:
+  explicit CheckedSink(std::shared_ptr<CheckedFile> file) : file_(std::move(file)) {}
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    file_->require_in_place();
+    file_->write({line.data(), line.size()});
+  }
+  void flush_() override {}  // nothing is kept back
+
+ private:
+  std::shared_ptr<CheckedFile> file_;
+};
+
+}  // namespace
+
 RunLog::RunLog(const std::filesystem::path& folder, bool append) {
   const auto file = folder / "run.log";
-  try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), !append);
-    logger_ = std::make_shared<spdlog::logger>("run", std::move(sink));
-  } catch (const spdlog::spdlog_ex& error) {
-    throw InputError(file.string(), "", std::string("cannot be written (") + error.what() + ")",
-                     "check the permissions and the free space of the folder");
-  }
+  file_ = std::make_shared<CheckedFile>(append ? CheckedFile::append(file) : CheckedFile::create(file));
+  logger_ = std::make_shared<spdlog::logger>("run", std::make_shared<CheckedSink>(file_));
   logger_->set_pattern("%Y-%m-%d %H:%M:%S.%e %-7l %v");
-  logger_->flush_on(spdlog::level::trace);
+  // The logger catches what a sink throws and calls this from the handler: the error goes on to who has logged.
+  logger_->set_error_handler([](const std::string&) { throw; });
 }
 
 RunLog::~RunLog() = default;
@@ -33,6 +54,12 @@ void RunLog::warning(const std::string& line) {
 }
 void RunLog::error(const std::string& line) {
   logger_->error("{}", line);
+}
+
+void RunLog::close() {
+  file_->require_in_place();
+  file_->synchronise();
+  file_->close();
 }
 
 }  // namespace fsi

@@ -10,11 +10,13 @@ class logger;
 
 namespace fsi {
 
-/// DIR/run.log: time-stamped lines, on disk as soon as they are written. Receives the convergence history.
+class CheckedFile;
+
+/// DIR/run.log: time-stamped lines, in the system's hands as soon as they are written. Receives the convergence history.
+/// All functions throw WriteError when the file cannot be written, or has been deleted.
 class RunLog {
  public:
   /// \param append  continue an existing log (restart) instead of starting it afresh
-  /// \throws InputError when the file cannot be written
   explicit RunLog(const std::filesystem::path& folder, bool append = false);
   ~RunLog();
   RunLog(RunLog&&) noexcept;
@@ -24,7 +26,11 @@ class RunLog {
   void warning(const std::string& line);
   void error(const std::string& line);
 
+  /// Onto the disk, and closes; no line may follow.
+  void close();
+
  private:
+  std::shared_ptr<CheckedFile> file_;
   std::shared_ptr<spdlog::logger> logger_;
 };
 

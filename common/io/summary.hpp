@@ -11,7 +11,7 @@ namespace fsi {
 nlohmann::json profile_json(const Profile& profile);
 
 /// DIR/summary.json, replaced atomically. The drivers write it at the start with "status": "running", at the end with
-/// "done", "not converged" or "interrupted". \throws InputError when the file cannot be written
+/// "done", "not converged" or "interrupted". \throws WriteError when the file cannot be written
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary);
 
 }  // namespace fsi
