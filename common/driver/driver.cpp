@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -31,6 +32,7 @@
 #include "driver/state_checkpoint.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
+#include "io/write_error.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {
@@ -70,6 +72,17 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   json["unknowns"] = {
       {"coupled", fluid + wall + mesh_motion}, {"fluid", fluid}, {"wall", wall}, {"mesh_motion", mesh_motion}};
   return json;
+}
+
+/// What a WriteError said that an action ended with; empty when it came to its end.
+template <class Action>
+std::string write_error_of(Action action) {
+  try {
+    action();
+  } catch (const WriteError& failure) {
+    return failure.what();
+  }
+  return {};
 }
 
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
@@ -122,22 +135,36 @@ class Run {
     try {
       while (state_.step < loads_.steps() && !interruption) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
-      for (const auto& entry : stepper_->report().history) log.info("  " + entry);
       const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
-      const std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
-      log.error(said);
-      if (state_.step > 0) save();
+      std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
       summary_["failure"] = said;
-      write("not converged");
-      if (state_.step == 0) throw ConvergenceError(said, "");
-      throw ConvergenceError(fmt::format("{} [the state after step {} is saved; with other solver settings, or another "
-                                         "step, continue by: {}]",
-                                         said, state_.step, restart_command(line_)),
-                             "");
+      // What cannot be written now must not hide why the run ends.
+      const std::string not_logged = write_error_of([&] {
+        for (const auto& entry : stepper_->report().history) log.info("  " + entry);
+        log.error(said);
+      });
+      const std::string not_closed = write_error_of([&] { folder.close(); });
+      const std::string not_saved = write_error_of([&] {
+        if (state_.step > 0) save();
+      });
+      const std::string not_summed_up = write_error_of([&] { write("not converged"); });
+      if (state_.step > 0 && not_saved.empty())
+        said += fmt::format(
+            " [the state after step {} is saved; with other solver settings, or another step, continue "
+            "by: {}]",
+            state_.step, restart_command(line_));
+      for (const auto& besides : {not_logged, not_closed, not_saved, not_summed_up})
+        if (!besides.empty()) said += fmt::format(" [besides, {}]", besides);
+      throw ConvergenceError(said, "");
+    } catch (const WriteError& failure) {
+      static_cast<void>(write_error_of([&] { log.error(failure.what()); }));  // perhaps it is the log that failed
+      throw;
     }
+    folder.close();
     if (state_.step < loads_.steps()) return interrupted(interruption.signal(), log);
-    write("done");
     log.info("done");
+    log.close();
+    write("done");  // last: whoever reads it finds everything on the disk
     return exit_done;
   }
 
@@ -366,11 +393,19 @@ void require_folder(const CommandLine& line) {
   if (!line.force && !in_place) require_no_results(line.output, restart_command(line));
 }
 
+/// What to do once a file can be written again.
+std::string way_on(const CommandLine& line) {
+  std::error_code error;
+  if (std::filesystem::exists(checkpoint_file(line.output), error)) return "continue by: " + restart_command(line);
+  return line.force ? "run it again" : "run it again with --force";
+}
+
 }  // namespace
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
                const StepperMaker& make_stepper, const OtherTask& other) {
   wait_briefly(argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit on the size of files a write fails, and says so
   return run_program(program, [&] {
     const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
@@ -381,8 +416,12 @@ int run_driver(const std::string& program, const std::string& description, int a
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
     require_folder(*line);
-    return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch).march()
-                                     : Run<3>(program, *line, setup, make_stepper, watch).march();
+    try {
+      return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch).march()
+                                       : Run<3>(program, *line, setup, make_stepper, watch).march();
+    } catch (const WriteError& failure) {
+      throw failure.then(way_on(*line));
+    }
   });
 }
 

@@ -85,7 +85,9 @@ Hdf5File Hdf5File::create_in_memory(const std::filesystem::path& shown_as, std::
   if (H5Pset_fapl_core(access.id(), std::max<std::uint64_t>(size, 1 << 16), backing_store) < 0 ||
       (user_block > 0 && H5Pset_userblock(creation.id(), user_block) < 0))
     throw WriteError(shown_as, errno);
-  Hdf5File created(shown_as, {H5Fcreate(shown_as.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
+  // The library looks whether the file exists and would read it: a name beneath a file never does.
+  const auto name = shown_as / "in memory";
+  Hdf5File created(shown_as, {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
   if (!created.file_.valid()) created.refuse_writing("");
   return created;
 }

@@ -214,4 +214,9 @@ void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& en
   energy_.value().write(energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy));
 }
 
+void ResultFolder::close() {
+  for (auto* table : {&centerline_, &wall_, &flow_, &iterations_, &coupling_, &energy_})
+    if (*table) (*table)->close();
+}
+
 }  // namespace fsi

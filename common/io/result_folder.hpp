@@ -59,6 +59,9 @@ class ResultFolder {
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
 
+  /// Puts all tables onto the disk and closes them; nothing may be written after that. \throws WriteError
+  void close();
+
  private:
   void open_tables(const ResultTables& tables, bool append);
 
