@@ -70,15 +70,16 @@ class Scenario:
         for line in log.read_text(encoding="utf-8").splitlines():
             number, kind, size, name = line.split(" ", 3)
             found.append(Call(int(number), kind, int(size), Path(name).name if name != str(folder) else "folder"))
-        self.require_all_seen(folder, found)
+        if not self.prepare:
+            self.require_all_seen(folder, found)
         shutil.rmtree(folder)
         return found
 
     def require_all_seen(self, folder, calls):
-        """Nothing is written past the library: bytes of every file have come by."""
+        """Nothing is written past the library: the bytes of every file have come by, of fields.h5 most, as it has gaps."""
         for file in folder.iterdir():
             seen = sum(c.size for c in calls if c.name in (file.name, file.name + TEMPORARY) and "write" in c.kind)
-            if seen < file.stat().st_size:
+            if seen < file.stat().st_size * (0.5 if file.suffix == ".h5" else 1):
                 raise SystemExit(f"{self.name}: the library has seen {seen} bytes of {file}")
 
     def judge(self, what, disturbance=None, before=None, after=None, **options):
@@ -94,27 +95,28 @@ class Scenario:
             verdict = "hangs"
         if after:
             after(folder, gone=True)
-        self.harness.count(verdict, f"{self.name}: {what}")
+        word, _, detail = verdict.partition(": ")
+        self.harness.count(word, f"{self.name}: {what}{': ' if detail else ''}{detail}")
         if not self.harness.options.keep:
             shutil.rmtree(folder, ignore_errors=True)
 
     def verdict(self, run, folder, after):
-        """The verdict on a disturbed run."""
+        """The verdict on a disturbed run, with details behind ": "."""
         if run.returncode < 0:
             return f"ended by signal {-run.returncode}"
         if run.returncode == 0:
             wrong = difference(folder, self.reference)
-            return f"exit 0, but wrong: {wrong}" if wrong else "unharmed"
+            return f"wrong with exit 0: {wrong}" if wrong else "unharmed"
         if not is_one_message(run.stderr, self.program):
             return f"no single message: {run.stderr[:300]!r}"
         if run.returncode == self.undisturbed.returncode == 2:
             told = self.undisturbed.stderr.split(" [")[0]
             return "unharmed" if run.stderr.startswith(told) else f"hides the failure: {run.stderr}"
         if run.returncode != 1:
-            return f"exit {run.returncode}"
+            return f"exit {run.returncode}: {run.stderr}"
         left = [file.name for file in folder.glob("*" + TEMPORARY)]
         if left:
-            return f"leaves {left[0]}"
+            return f"leaves a temporary file: {left[0]}"
         if self.undisturbed.returncode != 0 or self.only_message:
             return "refused"
         if after:

@@ -61,7 +61,8 @@ class Writes:
         if self.harness.full or len(items) <= count:
             return list(items)
         width = len(items) / count
-        return [items[int((k + self.random.random()) * width)] for k in range(count)]
+        chosen = {int((k + self.random.random()) * width) for k in range(count)}
+        return [items[k] for k in sorted(chosen)]
 
     def fail_every_call(self, scenario, count, lasting=True):
         """Each call fails once; from each call on all fail; each write takes half of its bytes."""
