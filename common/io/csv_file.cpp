@@ -40,7 +40,7 @@ bool kept(const std::string& row, std::size_t columns, std::size_t time_column, 
 
 }  // namespace
 
-CsvFile::CsvFile(std::filesystem::path file, const std::string& header, bool append)
+CsvFile::CsvFile(const std::filesystem::path& file, const std::string& header, bool append)
     : columns_(split(header).size()), file_(append ? CheckedFile::append(file) : CheckedFile::create(file)) {
   if (!append) file_.write(header + '\n');
 }

@@ -13,7 +13,7 @@ class CsvFile {
  public:
   /// Creates the file with its header, or, with `append`, continues one that has it already.
   /// \throws WriteError when the file cannot be written
-  CsvFile(std::filesystem::path file, const std::string& header, bool append = false);
+  CsvFile(const std::filesystem::path& file, const std::string& header, bool append = false);
 
   /// One row per entry, as long as the header; handed to the operating system before it returns. \throws WriteError
   /// when the disk is full, or when the file has been deleted or changed by somebody else; no part of a row stays then,

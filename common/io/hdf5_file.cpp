@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -67,11 +68,17 @@ bool Hdf5Handle::reset() {
   return id < 0 || close_(id) >= 0;
 }
 
+Hdf5File::Unfinished::~Unfinished() {
+  std::error_code error;
+  if (!file_.empty()) std::filesystem::remove(file_, error);
+}
+
 Hdf5File Hdf5File::create(const std::filesystem::path& file) {
   const auto access = access_properties();
   errno = 0;
   Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose});
   if (!created.file_.valid()) created.refuse_writing("");
+  created.unfinished_ = Unfinished(file);
   return created;
 }
 
@@ -229,6 +236,7 @@ void Hdf5File::close() {
   flush();
   errno = 0;
   if (!file_.reset()) refuse_writing("");
+  unfinished_.forget();
 }
 
 void Hdf5File::finish(Hdf5Handle& handle, const std::string& object) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fsi {
@@ -41,6 +42,7 @@ class Hdf5Handle {
 /// library does nothing at exit. What must be right to the last byte is made in memory.
 class Hdf5File {
  public:
+  /// A new file in place of an old one. It is removed again if it is not closed by close(), because of an error.
   static Hdf5File create(const std::filesystem::path& file);
   /// A file that is only ever in memory; see append_image().
   /// \param shown_as    name in messages
@@ -81,12 +83,30 @@ class Hdf5File {
  private:
   Hdf5File(std::filesystem::path path, Hdf5Handle handle) : path_(std::move(path)), file_(std::move(handle)) {}
 
+  /// A file that is removed with this object, unless it has been forgotten.
+  class Unfinished {
+   public:
+    Unfinished() = default;
+    explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
+    ~Unfinished();
+    Unfinished(Unfinished&& other) noexcept { file_.swap(other.file_); }
+    Unfinished& operator=(Unfinished&& other) noexcept {
+      file_.swap(other.file_);
+      return *this;
+    }
+    void forget() { file_.clear(); }
+
+   private:
+    std::filesystem::path file_;
+  };
+
   [[noreturn]] void refuse_reading(const std::string& object) const;
   [[noreturn]] void refuse_writing(const std::string& object);
   /// Closes part of a file that is written.
   void finish(Hdf5Handle& handle, const std::string& object);
 
   std::filesystem::path path_;
+  Unfinished unfinished_;  // before the handle, which is closed first
   Hdf5Handle file_;
 };
 
