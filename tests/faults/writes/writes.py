@@ -152,7 +152,7 @@ def can_mount(folder):
     """Whether this user may mount a disk in memory."""
     if os.geteuid() != 0:
         return False
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", folder], capture_output=True, check=False)
     if mount.returncode == 0:
         subprocess.run(["umount", folder], check=True)

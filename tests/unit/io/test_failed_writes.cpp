@@ -136,6 +136,19 @@ TEST_F(FailedWrites, OfHdf5NameFileDatasetAndReason) {
       file.string() + ": /large: cannot be written (File too large); raise the limit on the size of files (ulimit -f)");
 }
 
+TEST_F(FailedWrites, LeaveNoUnfinishedHdf5) {
+  const auto file = folder_ / "f.h5";
+  {
+    auto hdf5 = Hdf5File::create(file);
+    EXPECT_TRUE(fs::exists(file));
+    const auto moved = std::move(hdf5);
+    EXPECT_TRUE(fs::exists(file));
+  }
+  EXPECT_FALSE(fs::exists(file));
+  Hdf5File::create(file).close();
+  EXPECT_TRUE(fs::exists(file));
+}
+
 TEST_F(FailedWrites, OfHdf5ThatIsGoneSayThat) {
   EXPECT_EQ(message_of<WriteError>([&] { Hdf5File::open(folder_ / "f.h5", true); }),
             (folder_ / "f.h5").string() +
