@@ -1,8 +1,9 @@
 #include "io/hdf5_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -69,16 +70,15 @@ bool Hdf5Handle::reset() {
 }
 
 Hdf5File::Unfinished::~Unfinished() {
-  std::error_code error;
-  if (!file_.empty()) std::filesystem::remove(file_, error);
+  if (!file_.empty()) ::unlink(file_.c_str());
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& file) {
   const auto access = access_properties();
   errno = 0;
   Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose});
+  created.unfinished_ = Unfinished(file);  // whether or not it is valid: the library makes the file, then writes to it
   if (!created.file_.valid()) created.refuse_writing("");
-  created.unfinished_ = Unfinished(file);
   return created;
 }
 
