@@ -3,22 +3,29 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
+#include "driver/interruption.hpp"
+#include "driver/program.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/gmsh_writer.hpp"
 #include "mesh/quality.hpp"
 #include "meshes/artery_request.hpp"
 
 namespace {
+
+constexpr const char* program = "fsi-mesh";
 
 struct Request {
   std::string level = "coarse", file;
@@ -38,25 +45,34 @@ void require_known_extension(const std::string& file) {
                         "the one that is known is .msh, gmsh 4.1 or 2.2 (--format), text or --binary");
 }
 
-/// Prints the quality of the mesh as the solvers will see it.
+/// The quality of the mesh as the solvers will see it.
 template <int Dim, int Order>
-fsi::MeshQuality report(const fsi::SimplexMesh<Dim, Order>& made, const std::string& file) {
-  auto quality = fsi::measure_quality(fsi::read_gmsh<Dim, Order>(file, made.regions));
-  fmt::print("{}: {}", file, fsi::to_text(quality));
-  std::fflush(stdout);
-  return quality;
+fsi::MeshQuality quality_of(const fsi::SimplexMesh<Dim, Order>& made, const std::string& file) {
+  return fsi::measure_quality(fsi::read_gmsh<Dim, Order>(file, made.regions));
+}
+
+/// Nobody needs to read to the end; but a report that is to be kept and cannot be is an error.
+void print_report(const std::string& text, const std::string& file) {
+  if (const int error = fsi::try_to_print(text); error != 0 && !fsi::nobody_reads(error))
+    throw fsi::InputError(
+        "standard output", "",
+        fmt::format("the report cannot be written ({}), the mesh {} is complete", std::strerror(error), file),
+        "give -q, or let it go to a disk with space");
 }
 
 /// Writes the mesh and reports on it; warnings of bad elements go to stderr.
 void make_artery(const Request& request) {
+  fsi::regular_output_file(request.file);  // before anything is computed
   const auto made = fsi::make_artery(request.artery);
   std::visit([&](const auto& mesh) { fsi::write_gmsh(mesh, request.file, request.format); }, made);
   if (request.quiet) return;
   const auto* recommended = fsi::recommendation(request.artery);
-  if (recommended) fmt::print("{}", fsi::to_text(*recommended));
-  const auto quality = std::visit([&](const auto& mesh) { return report(mesh, request.file); }, made);
+  const auto quality = std::visit([&](const auto& mesh) { return quality_of(mesh, request.file); }, made);
+  print_report((recommended ? fsi::to_text(*recommended) : "") +
+                   fmt::format("{}: {}", fsi::printable(request.file), fsi::to_text(quality)),
+               request.file);
   if (recommended) return;  // whose stretched elements are meant, and measured
-  for (const auto& warning : fsi::warnings_of(quality)) fmt::print(stderr, "fsi-mesh: warning: {}\n", warning);
+  for (const auto& warning : fsi::warnings_of(quality)) fsi::warn(program, warning);
 }
 
 /// The options of `fsi-mesh artery`.
@@ -132,28 +148,33 @@ void set_sizes(Request& request) {
   if (request.axial_size) sizes.axial_size = request.axial_size;
 }
 
+/// Does what the command line asks for; help and version are printed.
+int run(int argc, const char* const* argv) {
+  Request request;
+  CLI::App app("Makes meshes for the FSI programs. Lengths in mm.", program);
+  app.set_version_flag("--version", fmt::format("{} {}", program, fsi::version));
+  app.require_subcommand(1);
+  add_options(*app.add_subcommand("artery", "A straight two-layer artery along the z axis from (0,0,0)"), request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    std::ostringstream text;
+    app.exit(asked, text, text);
+    fsi::print(text.str());
+    return fsi::exit_done;
+  } catch (const CLI::ParseError& mistake) {
+    throw fsi::InputError("", "", mistake.what(), "see fsi-mesh artery --help");
+  }
+  set_sizes(request);
+  require_known_extension(request.file);
+  fsi::set_threads(request.threads);
+  make_artery(request);
+  return fsi::exit_done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  Request request;
-  CLI::App app("Makes meshes for the FSI programs. Lengths in mm.", "fsi-mesh");
-  app.set_version_flag("--version", fmt::format("fsi-mesh {}", fsi::version));
-  app.require_subcommand(1);
-  add_options(*app.add_subcommand("artery", "A straight two-layer artery along the z axis from (0,0,0)"), request);
-
-  try {
-    app.parse(argc, argv);
-    set_sizes(request);
-    require_known_extension(request.file);
-    fsi::set_threads(request.threads);
-    make_artery(request);
-    return fsi::exit_done;
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& mistake) {
-    fmt::print(stderr, "fsi-mesh: {}; see fsi-mesh artery --help\n", mistake.what());
-  } catch (const std::exception& mistake) {
-    fmt::print(stderr, "{}\n", mistake.what());
-  }
-  return fsi::exit_bad_input;
+  fsi::end_at_signals(program, "");
+  return fsi::run_program(program, [&] { return run(argc, argv); });
 }

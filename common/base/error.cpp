@@ -1,16 +1,23 @@
 #include "base/error.hpp"
 
+#include "base/printable.hpp"
+
 namespace fsi {
 
 namespace {
 
+// Characters of a message that each part may take. What a user handed over is in the first three; a remedy is the
+// program's own words, in which a command is meant to be pasted.
+constexpr std::size_t file_limit = 200, key_limit = 200, problem_limit = 600, remedy_limit = 2000;
+constexpr std::size_t failure_limit = 10000;  // a solver's, which ends with the command that goes on
+
 std::string joined(const std::string& file, const std::string& key, const std::string& problem,
                    const std::string& remedy) {
   std::string text;
-  if (!file.empty()) text += file + ": ";
-  if (!key.empty()) text += key + ": ";
-  text += problem;
-  if (!remedy.empty()) text += "; " + remedy;
+  if (!file.empty()) text += shortened_path(file, file_limit) + ": ";
+  if (!key.empty()) text += shortened(key, key_limit) + ": ";
+  text += shortened(problem, problem_limit);
+  if (!remedy.empty()) text += "; " + shortened(remedy, remedy_limit);
   return text;
 }
 
@@ -21,6 +28,6 @@ InputError::InputError(const std::string& file, const std::string& key, const st
     : std::runtime_error(joined(file, key, problem, remedy)) {}
 
 ConvergenceError::ConvergenceError(const std::string& problem, const std::string& remedy)
-    : std::runtime_error(remedy.empty() ? problem : problem + "; try " + remedy) {}
+    : std::runtime_error(shortened(remedy.empty() ? problem : problem + "; try " + remedy, failure_limit)) {}
 
 }  // namespace fsi

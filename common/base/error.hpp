@@ -6,7 +6,7 @@
 namespace fsi {
 
 /// A mistake in what the user handed over (case file, mesh, checkpoint, command line). Programs print what() and exit
-/// with code 1. The message reads `FILE: KEY: PROBLEM; REMEDY`; empty parts are left out.
+/// with code 1. what() is one printable line `FILE: KEY: PROBLEM; REMEDY`, long parts shortened, empty ones left out.
 class InputError : public std::runtime_error {
  public:
   /// \param file     file at fault, or the program's name for the command line
@@ -17,7 +17,7 @@ class InputError : public std::runtime_error {
 };
 
 /// A solver that gave up. Programs save the last good state, print what() and exit with code 2.
-/// The message reads `PROBLEM; try REMEDY`.
+/// what() is one printable line `PROBLEM; try REMEDY`.
 class ConvergenceError : public std::runtime_error {
  public:
   ConvergenceError(const std::string& problem, const std::string& remedy);

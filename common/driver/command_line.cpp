@@ -1,14 +1,17 @@
 #include "driver/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
 #include "base/version.hpp"
 #include "case/case_reader.hpp"
 
@@ -34,10 +37,7 @@ int thread_count(const std::string& text) {
 
 /// CLI11's complaint as one of ours.
 [[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error) {
-  std::string problem = error.what();
-  for (char& c : problem)
-    if (c == '\n') c = ' ';
-  throw InputError("", "", problem, "see " + app.get_name() + " --help");
+  throw InputError("", "", error.what(), "see " + app.get_name() + " --help");
 }
 
 void refuse_extras(const CLI::App& app) {
@@ -50,8 +50,24 @@ void refuse_extras(const CLI::App& app) {
   }
 }
 
+/// A word with characters that cannot be shown, byte by byte where need be, as bash, zsh and ksh read it back.
+std::string quoted_with_escapes(const std::string& word) {
+  std::string text = "$'";
+  for (const char c : word) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\'' || c == '\\')
+      text += std::string("\\") + c;
+    else if (byte < 0x20 || byte >= 0x7f)
+      text += fmt::format("\\{:03o}", byte);
+    else
+      text += c;
+  }
+  return text + "'";
+}
+
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word) {
+  if (printable(word) != word) return quoted_with_escapes(word);
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_-+./,:=@%", c) != nullptr; };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
   std::string text = "'";
@@ -115,15 +131,15 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
     refuse(app, error);
   }
   if (help) {
-    std::fputs(app.help().c_str(), stdout);
+    print(app.help());
     return {};
   }
   if (help_keys) {
-    std::fputs(case_keys_help().c_str(), stdout);
+    print(case_keys_help());
     return {};
   }
   if (show_version) {
-    std::printf("%s %s\n", program.c_str(), version);
+    print(program + " " + version + "\n");
     return {};
   }
   refuse_extras(app);

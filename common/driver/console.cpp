@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+
+#include "base/printable.hpp"
 
 namespace fsi {
 
@@ -55,8 +58,7 @@ Console::Style Console::style_for(bool quiet, std::FILE* stream) {
 void Console::line(const std::string& text) {
   if (style_ == Style::quiet) return;
   end_rewritten_line();
-  std::fprintf(stream_, "%s\n", text.c_str());
-  std::fflush(stream_);
+  write(printable(text) + "\n");
 }
 
 void Console::working(std::int64_t step, double time, const std::string& what) {
@@ -77,16 +79,23 @@ void Console::step_done(const StepRecord& record) {
 }
 
 void Console::rewrite(const std::string& text) {
-  const auto shown = text.substr(0, terminal_width(stream_) - 1);
-  std::fprintf(stream_, "\r\033[K%s", shown.c_str());
-  std::fflush(stream_);
+  write("\r\033[K" + printable(text).substr(0, terminal_width(stream_) - 1));
   line_open_ = true;
 }
 
 void Console::end_rewritten_line() {
-  if (line_open_) std::fprintf(stream_, "\n");
-  std::fflush(stream_);
+  if (line_open_) write("\n");
   line_open_ = false;
+}
+
+void Console::write(const std::string& text) {
+  if (error_ != 0) return;
+  errno = 0;
+  const bool taken = std::fwrite(text.data(), 1, text.size(), stream_) == text.size();
+  if (std::fflush(stream_) != 0 || !taken) {
+    error_ = errno != 0 ? errno : EIO;
+    style_ = Style::quiet;
+  }
 }
 
 }  // namespace fsi

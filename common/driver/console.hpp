@@ -9,6 +9,7 @@
 namespace fsi {
 
 /// Progress of a run: one line that is rewritten on a terminal, a plain line per step when piped, nothing when quiet.
+/// Nobody needs it: where a line cannot be written, nothing more is, and the run goes on.
 class Console {
  public:
   enum class Style { terminal, plain, quiet };
@@ -25,6 +26,9 @@ class Console {
   /// quiet when asked for, terminal when the stream is one, else plain.
   static Style style_for(bool quiet, std::FILE* stream = stdout);
 
+  /// errno of the write that ended the output; 0: none failed.
+  int error() const { return error_; }
+
   /// Another number of the run's last step.
   void expect(std::int64_t last_step) { last_step_ = last_step; }
   /// A line of its own, e.g. the scene's size; not in quiet mode.
@@ -37,10 +41,13 @@ class Console {
  private:
   void rewrite(const std::string& text);
   void end_rewritten_line();
+  /// To the stream, on its way at once.
+  void write(const std::string& text);
 
   std::int64_t last_step_;
   Style style_;
   std::FILE* stream_;
+  int error_ = 0;
   bool line_open_ = false;
   std::int64_t steps_done_ = 0;
   double seconds_done_ = 0;

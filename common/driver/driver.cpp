@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,6 +14,8 @@
 #include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
 #include "base/idle_cores.hpp"
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
@@ -30,6 +32,7 @@
 #include "driver/observables.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
+#include "io/folder_lock.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
 #include "io/write_error.hpp"
@@ -85,15 +88,39 @@ std::string write_error_of(Action action) {
   return {};
 }
 
+/// Whether a run goes on in the folder that it began in.
+bool in_place(const CommandLine& line) {
+  std::error_code error;
+  return !line.restart.empty() &&
+         (line.output == line.restart || std::filesystem::equivalent(line.output, line.restart, error));
+}
+
+/// A run that is going on is no run to continue: its files are of different steps at different moments.
+void require_no_run_in_source(const CommandLine& line) {
+  if (!line.restart.empty() && !in_place(line))
+    require_no_run_in(line.restart, "wait for its end, or stop it (Ctrl-C), before it is continued");
+}
+
+/// Nothing is replaced that the user has not named, whether to be replaced or to be continued. Changes nothing.
+void require_folder(const CommandLine& line) {
+  if (!line.restart.empty()) require_regular_results(line.restart, true);
+  require_regular_results(line.output, false);
+  if (in_place(line)) return;
+  if (!line.force) require_no_results(line.output, restart_command(line));
+  require_results_only(line.output);
+}
+
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 template <int n>
 class Run {
  public:
   /// \param watch  of the cores, from the program's start on
+  /// \param lock   of the result folder
   Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
-      const CoreWatch& watch)
+      const CoreWatch& watch, const FolderLock& lock)
       : program_(program),
         line_(line),
+        lock_(lock),
         setup_(setup),
         loaded_(load_scene<n>(
             setup, [&](std::size_t cells) { threads_ = set_as_chosen(choose_threads(line.threads, cells, watch)); })),
@@ -108,7 +135,6 @@ class Run {
 
   /// To the last step or a signal; returns the program's exit code.
   int march() {
-    const Interruption interruption;
     const bool restarted = !line_.restart.empty();
     if (restarted) recall();
     ResultTables tables = observables_.tables();
@@ -118,6 +144,7 @@ class Run {
       tables.energy = energy_.emplace(*scene_, state_).parts();
       stepper_->keep_balances(true);
     }
+    note_signals();  // until here nothing has been written
     ResultFolder folder = restarted ? ResultFolder(line_.output, tables, line_.restart, state_.time, observed_until())
                                     : ResultFolder(line_.output, tables);
     RunLog log(line_.output, restarted && line_.output == line_.restart);
@@ -126,14 +153,16 @@ class Run {
                           restarted ? observed_until() : 0);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
+    if (restarted) require_no_run_in_source(line_);  // while it was read
     summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
     if (restarted) summary_["restarted_from_step"] = state_.step;
     write("running");
     announce(console, log);
+    watch_console(console, log);
     if (!restarted) fields.write(state_);
     if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
-      while (state_.step < loads_.steps() && !interruption) step(folder, fields, console, log);
+      while (state_.step < loads_.steps() && noted_signal() == 0) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
       const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
       std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
@@ -161,7 +190,7 @@ class Run {
       throw;
     }
     folder.close();
-    if (state_.step < loads_.steps()) return interrupted(interruption.signal(), log);
+    if (state_.step < loads_.steps()) return interrupted(noted_signal(), log);
     log.info("done");
     log.close();
     write("done");  // last: whoever reads it finds everything on the disk
@@ -184,8 +213,7 @@ class Run {
     }
     log.warning("interrupted " + said);
     write("interrupted");
-    std::fflush(stdout);
-    std::fprintf(stderr, "%s: interrupted %s\n", program_.c_str(), said.c_str());
+    print_error((program_ + ": interrupted " + printable(said) + "\n").c_str());
     return interrupted_exit_code(signal);
   }
 
@@ -195,6 +223,7 @@ class Run {
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
     const StepReport report = march_.step(state_);
     watch_ringing(console, log);
+    lock_.require_held();
     StepRecord record;
     record.step = state_.step;
     record.time = state_.time;
@@ -226,6 +255,18 @@ class Run {
     console.expect(loads_.steps());
     for (const auto& entry : report.history) log.info("  " + entry);
     console.step_done(record);
+    watch_console(console, log);
+  }
+
+  /// Says once that progress cannot be shown any more. A reader who went away has seen what he wanted.
+  void watch_console(const Console& console, RunLog& log) {
+    if (console.error() == 0 || console_failed_) return;
+    console_failed_ = true;
+    const auto said =
+        fmt::format("the standard output cannot be written ({}); the run goes on without showing progress",
+                    std::strerror(console.error()));
+    log.warning(said);
+    if (!nobody_reads(console.error())) warn(program_, said);
   }
 
   /// Into the log, of a step in progress.
@@ -289,16 +330,18 @@ class Run {
   }
 
   void announce(Console& console, RunLog& log) {
-    const auto text = fmt::format(
-        "{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {}", program_, version, setup_.title, loaded_.mesh.nodes,
-        loaded_.mesh.cells, loaded_.mesh.cell, summary_["unknowns"]["coupled"].get<long>(), threads(),
-        loads_.axis().is_adaptive() ? fmt::format("adaptive steps, tolerance {:g}", setup_.time->tolerance)
-                                    : fmt::format("{} steps", loads_.steps()));
+    const auto text =
+        fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {}", program_, version,
+                    shortened(setup_.title, 200), loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell,
+                    summary_["unknowns"]["coupled"].get<long>(), threads(),
+                    loads_.axis().is_adaptive() ? fmt::format("adaptive steps, tolerance {:g}", setup_.time->tolerance)
+                                                : fmt::format("{} steps", loads_.steps()));
     console.line(text);
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
     if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
     for (const auto& warning : setup_.warnings) log.warning(warning);
+    if (!lock_.said().empty()) log.warning(lock_.said());
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
     if (!step_change_.empty()) {
@@ -366,6 +409,7 @@ class Run {
   Clock::time_point start_ = Clock::now();
   std::string program_;
   const CommandLine& line_;
+  const FolderLock& lock_;
   const Case& setup_;
   ThreadChoice threads_;
   LoadedScene<n> loaded_;
@@ -374,6 +418,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   March<n> march_;
   RunLog* log_ = nullptr;  ///< once there is one
+  bool console_failed_ = false;
   std::optional<RingingMonitor> ringing_;
   double ringing_amplitude_ = 0;  ///< kPa, the largest so far
   State state_;
@@ -384,14 +429,6 @@ class Run {
   std::string step_change_;  ///< said when the run goes on with another step
   nlohmann::json summary_;
 };
-
-/// Nothing is replaced that the user has not named, whether to be replaced or to be continued.
-void require_folder(const CommandLine& line) {
-  std::error_code error;
-  const bool in_place = !line.restart.empty() &&
-                        (line.output == line.restart || std::filesystem::equivalent(line.output, line.restart, error));
-  if (!line.force && !in_place) require_no_results(line.output, restart_command(line));
-}
 
 /// What to do once a file can be written again.
 std::string way_on(const CommandLine& line) {
@@ -404,8 +441,10 @@ std::string way_on(const CommandLine& line) {
 
 int run_driver(const std::string& program, const std::string& description, int argc, const char* const* argv,
                const StepperMaker& make_stepper, const OtherTask& other) {
+  guard_standard_streams();
   wait_briefly(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit on the size of files a write fails, and says so
+  end_at_signals(program, "before the first step; nothing is lost by starting again");
   return run_program(program, [&] {
     const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
@@ -415,10 +454,15 @@ int run_driver(const std::string& program, const std::string& description, int a
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
+    require_no_run_in_source(*line);
+    require_no_run_in(line->output, "wait for its end, or give -o another folder");
     require_folder(*line);
+    const FolderLock lock(line->output, program);
+    if (!lock.said().empty()) warn(program, lock.said());
+    require_folder(*line);  // again: a run may have ended in it meanwhile
     try {
-      return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch).march()
-                                       : Run<3>(program, *line, setup, make_stepper, watch).march();
+      return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch, lock).march()
+                                       : Run<3>(program, *line, setup, make_stepper, watch, lock).march();
     } catch (const WriteError& failure) {
       throw failure.then(way_on(*line));
     }

@@ -1,23 +1,25 @@
 #pragma once
 
+#include <string>
+
 namespace fsi {
 
-/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM is only noted, so that a run can end after the step in
-/// progress. A second one ends the program at once, as if nothing watched. A signal that was ignored stays ignored.
-class Interruption {
- public:
-  Interruption();
-  ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
+// What a program does at SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is gone). One that was ignored when the
+// program began, as by nohup, stays ignored.
 
-  /// The signal that came, 0: none.
-  static int signal();
-  /// Whether one came.
-  explicit operator bool() const { return signal() != 0; }
-};
+/// From now on the first of them ends the program at once: what is kept for removal (base/removed_on_signal.hpp) is
+/// removed, stderr gets the line `PROGRAM: interrupted SAID`, the exit code is interrupted_exit_code. For times when
+/// there is nothing to finish.
+void end_at_signals(const std::string& program, const std::string& said);
 
-/// Exit code of a program that a signal ended, as shells have it: 130 after SIGINT, 143 after SIGTERM.
+/// From now on the first of them is only noted, so that a run can end after the step in progress. A second one ends the
+/// program at once, as if nothing watched. To the end of the program: a run that is done says so.
+void note_signals();
+
+/// The signal that has been noted, 0: none.
+int noted_signal();
+
+/// Exit code of a program that a signal ended, as shells have it: 130 after SIGINT, 143 SIGTERM, 129 SIGHUP.
 inline int interrupted_exit_code(int signal) {
   return 128 + signal;
 }

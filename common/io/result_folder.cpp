@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/output_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/energy_table.hpp"
+#include "io/folder_lock.hpp"
 
 namespace fsi {
 
@@ -65,13 +67,8 @@ std::vector<Table> tables_of(const ResultTables& wanted) {
 
 /// Creates the folder where needed and checks that files can be created in it, before hours are computed.
 void prepare(const fs::path& folder) {
+  make_folder(folder);
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw InputError(folder.string(), "", "is a file", "give a folder to -o");
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(folder.string(), "", "cannot be created (" + error.message() + ")",
-                     "give -o a folder that you may write");
   const auto probe = temporary_name(folder / "summary.json");
   if (!std::ofstream(probe))
     throw InputError(folder.string(), "", "cannot be written", "give -o a folder that you may write");
@@ -80,16 +77,11 @@ void prepare(const fs::path& folder) {
 
 /// The results of an earlier run make way; anything else in the folder is not ours to delete.
 void remove_old_results(const fs::path& folder) {
+  require_results_only(folder);
   std::error_code error;
   std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (!is_result_file(entry.path().filename()) || entry.is_directory(error))
-      throw InputError(folder.string(), "", "holds '" + entry.path().filename().string() + "', which is no result file",
-                       "give -o a new folder, or one with nothing but the results of an earlier run");
-    old.push_back(entry.path());
-  }
-  if (error)
-    throw InputError(folder.string(), "", "cannot be read (" + error.message() + ")", "give -o another folder");
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_result_file(entry.path().filename())) old.push_back(entry.path());
   for (const auto& file : old) {
     fs::remove(file, error);
     if (error)
@@ -118,18 +110,61 @@ std::string summary_text(const fs::path& folder, const char* key) {
   return json[key].get<std::string>();
 }
 
+/// What speaks of finished steps in a folder whose table of steps has no row; empty: nothing does. A run that was ended
+/// in its first step leaves tables with their headers, and fields of the start.
+std::string results_without_steps(const fs::path& folder, const std::string& status) {
+  std::error_code error;
+  if (status == "done") return "a finished run";
+  if (fs::exists(folder / "checkpoint.h5", error)) return "a checkpoint";
+  std::ifstream steps(folder / iterations_table.file);
+  std::string header;
+  if (steps && (!std::getline(steps, header) || header == iterations_table.header)) return {};
+  for (const auto* file : result_files)
+    if (file != std::string("run.log") && file != std::string("summary.json") && fs::exists(folder / file, error))
+      return file;
+  return {};
+}
+
 }  // namespace
 
+void require_results_only(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  if (!fs::is_directory(folder, error)) throw InputError(folder.string(), "", "is a file", "give a folder to -o");
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto name = entry.path().filename();
+    if (name == lock_name) continue;
+    if (!is_result_file(name))
+      throw InputError(folder.string(), "", "holds '" + name.string() + "', which is no result file",
+                       "give -o a new folder, or one with nothing but the results of an earlier run");
+    require_regular_or_absent(entry.path(), false);
+  }
+  if (error)
+    throw InputError(folder.string(), "", "cannot be read (" + error.message() + ")", "give -o another folder");
+}
+
+void require_regular_results(const fs::path& folder, bool follow) {
+  for (const auto* file : result_files) {
+    require_regular_or_absent(folder / file, follow);
+    require_regular_or_absent(temporary_name(folder / file), follow);
+  }
+}
+
 void require_no_results(const fs::path& folder, const std::string& go_on) {
+  std::error_code error;
   const auto row = last_row(folder / iterations_table.file);
-  if (row.size() < 2) return;
   const std::string status = summary_text(folder, "status"), program = summary_text(folder, "program");
+  const bool saved = fs::exists(folder / "checkpoint.h5", error);
+  if (row.size() < 2) {
+    const auto found = results_without_steps(folder, status);
+    if (found.empty()) return;
+    throw InputError(folder.string(), "", "holds " + found + ", but no " + iterations_table.file + " with their steps",
+                     "give -o another folder, or replace what is there with --force");
+  }
   const std::string what = "run" + (program.empty() ? "" : " of " + program), steps = row[0] + " steps";
   if (status == "done")
     throw InputError(folder.string(), "", "holds a finished " + what + " (" + steps + ")",
                      "give -o another folder, or replace it with --force");
-  std::error_code error;
-  const bool saved = fs::exists(folder / "checkpoint.h5", error);
   throw InputError(
       folder.string(), "",
       "holds an unfinished " + what + " (status \"" + (status.empty() ? "unknown" : status) + "\", " + steps + ")",

@@ -28,11 +28,21 @@ struct FlowRecord {
   double outlet_pressure = 0;  ///< kPa; written in Pa
 };
 
-/// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, they are
-/// worth the time they took. A folder whose run has not come to the end of a step may be used again.
+/// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, whether its
+/// summary can be read or not, they are worth the time they took. A folder whose run has not come to the end of a step
+/// may be used again.
 /// \param go_on  the command that continues a run in this folder
 /// \throws InputError that says what the folder holds and how to go on
 void require_no_results(const std::filesystem::path& folder, const std::string& go_on);
+
+/// Refuses a new run in a folder that holds anything but the regular files of a run: those make way, others are not
+/// ours to delete. \throws InputError
+void require_results_only(const std::filesystem::path& folder);
+
+/// Refuses a folder in which the name of a result file is that of something else, such as a folder, a pipe or a device.
+/// \param follow  whether a symbolic link counts as what it leads to: for reading, not for writing
+/// \throws InputError
+void require_regular_results(const std::filesystem::path& folder, bool follow);
 
 /// The folder of one run and its CSV tables, each row on disk when its step is done.
 class ResultFolder {

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "base/printable.hpp"
 #include "io/checked_file.hpp"
 
 namespace fsi {
@@ -45,15 +46,15 @@ RunLog::~RunLog() = default;
 RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
-// Text goes through "{}": a brace in it is no format directive.
+// One entry, one line. Text goes through "{}": a brace in it is no format directive.
 void RunLog::info(const std::string& line) {
-  logger_->info("{}", line);
+  logger_->info("{}", printable(line));
 }
 void RunLog::warning(const std::string& line) {
-  logger_->warn("{}", line);
+  logger_->warn("{}", printable(line));
 }
 void RunLog::error(const std::string& line) {
-  logger_->error("{}", line);
+  logger_->error("{}", printable(line));
 }
 
 void RunLog::close() {

@@ -1,16 +1,21 @@
 #include "mesh/gmsh_writer.hpp"
 
+#include <fcntl.h>
 #include <gmsh.h>
 #include <unistd.h>
 
 #include <array>
 #include <cassert>
+#include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/removed_on_signal.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/gmsh_file.hpp"
 
@@ -35,8 +40,8 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& final_name)
       : final_name_(final_name),
-        path_(final_name.parent_path() / ("." + final_name.stem().string() + "." + std::to_string(getpid()) + ".msh")) {
-  }  // the suffix picks gmsh's writer
+        path_(final_name.parent_path() / (".fsi-mesh-" + std::to_string(getpid()) + ".msh")),  // picks gmsh's writer
+        on_signal_(path_) {}
   ~TemporaryFile() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
@@ -45,15 +50,22 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// On disk first: whatever happens, the name stands for the old file or for the whole new one.
   void move_into_place() const {
+    const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 || ::fsync(descriptor) != 0 || ::close(descriptor) != 0)
+      throw InputError(final_name_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
+                       "check the space on the disk");
     std::error_code failure;
     std::filesystem::rename(path_, final_name_, failure);
     if (failure)
-      throw InputError(final_name_.string(), "", "cannot be written: " + failure.message(), "choose another file");
+      throw InputError(final_name_.string(), "", "cannot be written (" + failure.message() + ")",
+                       "choose another file");
   }
 
  private:
   std::filesystem::path final_name_, path_;
+  RemovedOnSignal on_signal_;
 };
 
 /// gmsh's number of the simplex with that many dimensions and that order.
@@ -130,15 +142,7 @@ void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path
   if (format.version != "4.1" && format.version != "2.2")
     throw InputError(file.string(), "format", "there is no writer for version '" + format.version + "'",
                      "use 4.1 or 2.2");
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (!file.has_filename() || std::filesystem::is_directory(file))
-    throw InputError(file.string(), "", "is a folder", "give the name of a file");
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(file.string(), "", "there is no folder " + folder.string(), "make it first");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw InputError(file.string(), "", "folder " + folder.string() + " is not writable", "choose another place");
-
-  const TemporaryFile temporary(file);
+  const TemporaryFile temporary(regular_output_file(file));
   std::string failure;
   {
     const GmshSession session;

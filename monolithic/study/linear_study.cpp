@@ -6,7 +6,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -15,11 +14,16 @@
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/output_file.hpp"
+#include "base/removed_on_signal.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
+#include "driver/console.hpp"
+#include "driver/interruption.hpp"
 #include "driver/load_scene.hpp"
 #include "io/atomic_file.hpp"
+#include "io/folder_lock.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
@@ -109,7 +113,7 @@ class LinearStudy {
         solvers_(std::move(solvers)),
         tolerance_(tolerance),
         with_sub_problems_(sub_problems),
-        quiet_(quiet),
+        console_(0, Console::style_for(quiet)),
         loaded_(load_scene<n>(setup)),
         scene_(loaded_.scene.get()),
         loads_(setup) {
@@ -334,16 +338,14 @@ class LinearStudy {
     }
   }
 
-  void say(const std::string& text) const {
-    if (!quiet_) std::printf("%s\n", text.c_str());
-    if (!quiet_) std::fflush(stdout);
-  }
+  void say(const std::string& text) { console_.line(text); }
 
   const Case& setup_;
   std::vector<NamedSystem> systems_;
   std::vector<std::string> solvers_;
   double tolerance_;
-  bool with_sub_problems_, quiet_;
+  bool with_sub_problems_;
+  Console console_;
   Json sub_problems_ = Json::array();
   LoadedScene<n> loaded_;
   Scene<n>* scene_;
@@ -395,14 +397,22 @@ std::optional<int> LinearStudyRequest::run(const CommandLine& line, const Case& 
   }
   if (!line.restart.empty())
     throw InputError("", "--restart", "cannot go with --linear-systems", "leave one of them out");
+  end_at_signals("fsi-monolithic", "before the end; nothing has been written");
+  const auto file = line.output / "linear_solvers.json";
+  require_regular_or_absent(file, false);  // before anything is computed
   LinearStudy study(setup, parse_systems(systems_), parse_solvers(solvers_.empty() ? "fast,direct" : solvers_),
                     tolerance_.empty() ? 1e-9 : parse_tolerance(tolerance_), sub_problems_, line.quiet);
-  std::error_code error;
-  std::filesystem::create_directories(line.output, error);
-  if (error) throw InputError(line.output.string(), "--output", "cannot be made: " + error.message(), "");
+  std::vector<RemovedOnSignal> on_signal;
+  {
+    const SignalsWait until_kept;
+    const auto made = make_folder(line.output);
+    for (auto above = made.rbegin(); above != made.rend(); ++above) on_signal.emplace_back(*above);
+    on_signal.emplace_back(temporary_name(file));
+  }
+  regular_output_file(file);
   bool complete = true;
   const Json answer = study.run(complete);
-  write_atomically(line.output / "linear_solvers.json", answer.dump(2) + "\n");
+  write_atomically(file, answer.dump(2) + "\n");
   return complete ? exit_done : exit_not_converged;
 }
 

@@ -135,13 +135,31 @@ class Console(FolderTest):
         ):
             process = execute(MESH, *words, cwd=self.base)
             with self.subTest(words=words):
-                self.assertEqual((process.returncode, process.stdout), (1, ""))
-                self.assertNotEqual(process.stderr, "")
+                self.assertRefused(process, "")
+                self.assertNotIn("fsi-mesh: error: fsi-mesh: ", process.stderr)
                 self.assertFalse([name for name in ("x.msh", "x.vtk", "x") if (self.base / name).exists()])
         self.assertIn(
             "the extension .vtk is unknown; the one that is known is .msh",
             execute(MESH, "artery", "-o", "x.vtk", cwd=self.base).stderr,
         )
+
+    def test_messages_are_one_printable_line(self):
+        """Whatever was handed over stands in them escaped and shortened, its end and its beginning to be seen."""
+        name = "case\n\x1b[31m" + "x" * 5000 + ".toml"
+        for program in DRIVERS:
+            process = execute(program, self.base / name, "-o", self.base / "hostile")
+            self.assertRefused(process, "x.toml: ")
+            process = execute(program, NEO_HOOKEAN, "-o", self.base / "hostile", "--set", "fluid.\x1b\n=" + "7" * 5000)
+            self.assertRefused(process, "unknown key")
+            process = execute(program, NEO_HOOKEAN, "-o", self.base / "hostile", "--\x1b" + "y" * 5000)
+            self.assertRefused(process, "\\x1b")
+        for words in (
+            ("art\nery",),
+            ("artery", "-o", name),
+            ("artery", "--siz\ne", "1"),
+            ("artery", "--size", "\x1b", "-o", "x.msh"),
+        ):
+            self.assertRefused(execute(MESH, *words, cwd=self.base), "")
 
     def test_bad_mesh_gets_a_warning(self):
         good = execute(MESH, "artery", "--length", 4, "-o", self.base / "good.msh")
@@ -158,6 +176,7 @@ class Console(FolderTest):
         """One line of complaint that says what is meant, and nothing else."""
         self.assertEqual((process.returncode, process.stdout), (1, ""))
         self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
+        self.assertTrue(process.stderr[:-1].isprintable() and len(process.stderr) < 3000, process.stderr)
         self.assertTrue(process.stderr.startswith(f"{self.name(process.args[0])}: error: "), process.stderr)
         self.assertIn(shown, process.stderr)
 

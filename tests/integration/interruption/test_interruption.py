@@ -1,4 +1,4 @@
-"""Ctrl-C and a polite kill end a run after the step in progress, with all that a restart needs."""
+"""Ctrl-C, a polite kill and a terminal that is closed end a run after the step in progress, with all that a restart needs."""
 
 import shlex
 import signal
@@ -46,7 +46,7 @@ class Interruption(FolderTest):
 
     def test_ends_after_the_step_and_says_how_to_go_on(self):
         for program in DRIVERS:
-            for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
                 folder = self.base / f"run {code} {program[-8:]}"
                 with self.subTest(program=program, signal=number), self.start(program, folder, "-q") as process:
                     self.wait_for_steps(process, folder, 2)
@@ -103,6 +103,7 @@ class Interruption(FolderTest):
             process.communicate(timeout=100)
             self.assertIn(process.returncode, (-signal.SIGINT, -signal.SIGTERM))
         self.assertEqual(summary(folder)["status"], "running")
+        self.assertTrue((folder / "run.lock").exists(), "nothing is cleared up")
         command = [*driver_command(MONOLITHIC, NEO_HOOKEAN, folder=folder, settings=self.settings)]
         refused = execute(*command)
         self.assertEqual((refused.returncode, refused.stdout), (1, ""))

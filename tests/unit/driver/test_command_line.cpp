@@ -49,6 +49,11 @@ TEST(CommandLine, ContinuesByACommandThatAShellReadsBack) {
   EXPECT_EQ(restart_command(*line),
             "fsi-partitioned 'my case.toml' --restart 'it'\\''s' -o 'it'\\''s' --set 'title=\"a $b\"' --set "
             "time.end=6 --threads 2 -q");
+  const auto hidden = parse({"case.toml", "-o", "a\nb'\xff\\"});
+  ASSERT_TRUE(hidden);
+  EXPECT_EQ(restart_command(*hidden),
+            "fsi-partitioned case.toml --restart $'a\\012b\\'\\377\\\\' -o "
+            "$'a\\012b\\'\\377\\\\'");
   const auto elsewhere = parse({"case.toml", "--restart", "old", "-o", "new"});
   ASSERT_TRUE(elsewhere);
   EXPECT_EQ(restart_command(*elsewhere), "fsi-partitioned case.toml --restart new -o new");

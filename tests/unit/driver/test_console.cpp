@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+
 #include "io/run_log.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -53,6 +55,26 @@ TEST_F(ConsoleOutput, StyleDependsOnTheStream) {
   std::fclose(stream);
 }
 
+TEST_F(ConsoleOutput, EndsAtTheFirstLineThatCannotBeWritten) {
+  std::FILE* stream = std::fopen("/dev/full", "w");
+  {
+    Console console(4, Console::Style::plain, stream);
+    EXPECT_EQ(console.error(), 0);
+    console.line("8 nodes");
+    EXPECT_EQ(console.error(), ENOSPC);
+    console.step_done({1, 0.125, 1, 3, 0, 2.0});
+    EXPECT_EQ(console.error(), ENOSPC);
+  }
+  std::fclose(stream);
+}
+
+TEST_F(ConsoleOutput, ShowsPrintableCharactersOnly) {
+  std::FILE* stream = std::fopen((folder_ / "out").c_str(), "w");
+  Console(1, Console::Style::plain, stream).line("a title\x1b[2J\nof two lines");
+  std::fclose(stream);
+  EXPECT_EQ(contents_of(folder_ / "out"), "a title\\x1b[2J\\nof two lines\n");
+}
+
 TEST(ReadableDuration, HasTwoUnitsAtMost) {
   EXPECT_EQ(readable_duration(0), "0 s");
   EXPECT_EQ(readable_duration(12.3), "13 s");
@@ -70,11 +92,11 @@ TEST_F(RunLogFile, IsOnDiskAtOnceAndContinuedOnRestart) {
   }
   {
     RunLog log(folder_, true);
-    log.warning("step 2");
+    log.warning("step 2\nin one line");
   }
   const auto both = contents_of(folder_ / "run.log");
   EXPECT_NE(both.find("step 1"), std::string::npos);
-  EXPECT_NE(both.find("warning step 2"), std::string::npos);
+  EXPECT_NE(both.find("warning step 2\\nin one line\n"), std::string::npos);
   RunLog fresh(folder_);
   EXPECT_EQ(contents_of(folder_ / "run.log"), "");
 }

@@ -45,6 +45,12 @@ TEST(Program, TurnsExceptionsIntoOneLineAndACode) {
   EXPECT_EQ(bug.code, 1);
   EXPECT_EQ(bug.errors, "fsi-x: error: unexpected: index\n");
 
+  const auto of_the_command_line = outcome_of([]() -> int { throw InputError("fsi-x", "--size", "is wrong", "2"); });
+  EXPECT_EQ(of_the_command_line.errors, "fsi-x: error: --size: is wrong; 2\n") << "the name stands there once";
+
+  const auto lines = outcome_of([]() -> int { throw std::runtime_error("one\ntwo\x1b"); });
+  EXPECT_EQ(lines.errors, "fsi-x: error: unexpected: one\\ntwo\\x1b\n");
+
   const auto unknown = outcome_of([]() -> int { throw 3; });
   EXPECT_EQ(unknown.code, 1);
 }

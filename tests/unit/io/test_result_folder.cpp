@@ -65,6 +65,46 @@ TEST_F(Results, OfFinishedStepsAreNotToBeReplaced) {
   EXPECT_NE(refusal(run_).find("holds an unfinished run (status \"unknown\", 2 steps)"), std::string::npos);
 }
 
+TEST_F(Results, WithoutTheirTableOfStepsAreNotToBeReplaced) {
+  {
+    ResultFolder results(run_, all_tables);
+    write_step(results, 1);
+  }
+  write_text(run_ / "checkpoint.h5", "");
+  for (const auto* table : {"", "step,time", "step,time_ms\n", "\xff\n"}) {
+    write_text(run_ / "iterations.csv", table);
+    EXPECT_NE(refusal(run_).find(": holds a checkpoint, but no iterations.csv with their steps; give -o another"),
+              std::string::npos)
+        << table;
+  }
+  fs::remove(run_ / "checkpoint.h5");
+  EXPECT_NE(refusal(run_).find(": holds "), std::string::npos) << "a table that is not this program's";
+  fs::remove(run_ / "iterations.csv");
+  EXPECT_NE(refusal(run_).find(".csv, but no iterations.csv"), std::string::npos);
+  for (const auto& file : fs::directory_iterator(run_)) fs::remove(file);
+  EXPECT_EQ(refusal(run_), "");
+  write_summary(run_, {{"status", "done"}});
+  EXPECT_NE(refusal(run_).find(": holds a finished run, but no iterations.csv"), std::string::npos);
+}
+
+TEST_F(Results, AreRegularFilesOnly) {
+  EXPECT_NO_THROW(require_results_only(run_));
+  EXPECT_NO_THROW(require_regular_results(run_, false));
+  { ResultFolder results(run_, all_tables); }
+  write_text(run_ / "run.lock", "");
+  EXPECT_NO_THROW(require_results_only(run_));
+  fs::rename(run_ / "flow.csv", folder_ / "elsewhere.csv");
+  fs::create_symlink(folder_ / "elsewhere.csv", run_ / "flow.csv");
+  EXPECT_THROW(require_results_only(run_), InputError);
+  EXPECT_THROW(require_regular_results(run_, false), InputError);
+  EXPECT_NO_THROW(require_regular_results(run_, true)) << "can be read";
+  fs::remove(run_ / "flow.csv");
+  fs::create_directory(run_ / "flow.csv");
+  EXPECT_THROW(require_regular_results(run_, true), InputError);
+  EXPECT_THROW(ResultFolder(run_, all_tables), InputError);
+  EXPECT_TRUE(fs::is_directory(run_ / "flow.csv"));
+}
+
 TEST_F(Results, TablesHaveTheColumnsThatScriptsRelyOn) {
   ResultFolder results(run_, all_tables);
   write_step(results, 1);

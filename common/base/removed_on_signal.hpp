@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+
+namespace fsi {
+
+/// A file, or a folder if it is empty, that is removed when a signal ends the program at once (driver/interruption.hpp)
+/// while this object lives. The owner removes it in every other case.
+class RemovedOnSignal {
+ public:
+  /// Only a few can be kept; what does not fit stays behind after a signal, which does no harm.
+  explicit RemovedOnSignal(const std::filesystem::path& path) noexcept;
+  ~RemovedOnSignal();
+  RemovedOnSignal(RemovedOnSignal&& other) noexcept;
+  RemovedOnSignal& operator=(RemovedOnSignal&&) = delete;
+  RemovedOnSignal(const RemovedOnSignal&) = delete;
+  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+
+ private:
+  int place_ = -1;
+};
+
+/// While one lives, a signal that is to end the program at once waits: until what is being made is kept for removal, or
+/// what is no longer kept has been removed.
+class SignalsWait {
+ public:
+  SignalsWait() noexcept;
+  /// The last one lets the signal that has come take effect.
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+};
+
+/// Asked by a signal handler: whether the signal has to wait. It is raised again when it may take effect.
+bool has_to_wait(int signal) noexcept;
+
+/// Removes them all, the youngest first. May be called by a signal handler.
+void remove_what_a_signal_leaves() noexcept;
+
+}  // namespace fsi
