@@ -79,6 +79,17 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   return json;
 }
 
+/// What a WriteError said that an action ended with; empty when it came to its end.
+template <class Action>
+std::string write_error_of(Action action) {
+  try {
+    action();
+  } catch (const WriteError& failure) {
+    return failure.what();
+  }
+  return {};
+}
+
 /// Whether a run goes on in the folder that it began in.
 bool in_place(const CommandLine& line) {
   std::error_code error;
@@ -503,6 +514,7 @@ int run_driver(const std::string& program, const std::string& description, int a
                const StepperMaker& make_stepper, const OtherTask& other) {
   guard_standard_streams();
   wait_briefly(argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit on the size of files a write fails, and says so
   end_at_signals(program, "before the first step; nothing is lost by starting again");
   return run_program(program, [&] {
     const CoreWatch watch;

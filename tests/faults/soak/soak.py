@@ -21,9 +21,8 @@ from pathlib import Path
 
 import h5py
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "writes"))
-from harness import DRIVERS, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh  # noqa: E402
-from results import difference  # noqa: E402
+from finished_results import difference
+from harness import DRIVERS, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh
 
 STEP = 0.125
 STEPS = 12

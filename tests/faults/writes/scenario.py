@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness import NEO_HOOKEAN, execute, is_one_message
-from results import difference
+from finished_results import difference
 
 CONTINUE = "then continue by: "
 TEMPORARY = ".tmp"
@@ -30,10 +30,10 @@ class Call:
 class Scenario:
     """`settings` go to the case; `prepare(folder)` may put something into the result folder before each run."""
 
-    def __init__(self, harness, program, name, settings, options=(), prepare=None, only_message=False):
+    def __init__(self, harness, program, name, settings, prepare=None, only_message=False):
         """`only_message`: a refused run has lost a file that it needs, so that it cannot be continued."""
         self.harness, self.program, self.name = harness, program, f"{program} {name}"
-        self.options, self.prepare, self.only_message = options, prepare, only_message
+        self.prepare, self.only_message = prepare, only_message
         self.command = [harness.program(program), NEO_HOOKEAN, "-q", "--threads", "1"]
         for setting in settings:
             self.command += ["--set", setting]
@@ -52,6 +52,10 @@ class Scenario:
             self.prepare(folder)
         return folder
 
+    def options(self, folder):
+        """Further words of the command for a run into this folder."""
+        return ("-o", folder)
+
     def start(self, folder, disturbance=None, **options):
         """Runs the program into a folder. `disturbance`: settings of the preloaded library, without their prefix."""
         environment = dict(os.environ)
@@ -60,7 +64,7 @@ class Scenario:
             environment["FSI_FAULT_FOLDER"] = str(folder)
             for key, value in disturbance.items():
                 environment[f"FSI_FAULT_{key}"] = str(value)
-        return execute(*self.command, *self.options, "-o", folder, env=environment, **options)
+        return execute(*self.command, *self.options(folder), env=environment, **options)
 
     def calls(self):
         """The calls of a run that nothing disturbs."""
@@ -129,7 +133,7 @@ class Scenario:
             words = shlex.split(message[message.index(CONTINUE) + len(CONTINUE) :])
             again = execute(self.harness.program(words[0]), *words[1:])
         else:
-            again = execute(*self.command, *self.options, "-o", folder, "--force")
+            again = execute(*self.command, *self.options(folder), "--force")
         if again.returncode != 0:
             return f"not restartable: {again.stderr.strip()!r} after {message.strip()!r}"
         wrong = difference(folder, self.reference)

@@ -143,9 +143,8 @@ class Restarted(Scenario):
         self.source = source
         super().__init__(harness, program, name, settings, prepare=prepare)
 
-    def start(self, folder, disturbance=None, **options_):
-        self.options = ("--restart", self.source or folder)
-        return super().start(folder, disturbance, **options_)
+    def options(self, folder):
+        return ("--restart", self.source or folder, "-o", folder)
 
 
 def can_mount(folder):
