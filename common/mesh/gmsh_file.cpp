@@ -253,7 +253,7 @@ const GmshType* gmsh_type(int number) {
 GmshFile parse_gmsh(const std::filesystem::path& path) {
   GmshScanner in(path);
   if (!in.begins_with("$MeshFormat"))
-    throw InputError(path.string(), "",
+    throw InputError(path.string(), "$MeshFormat",
                      "is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat",
                      "write it with gmsh, Mesh.MshFileVersion = 4.1");
   if (in.begin_section() != "MeshFormat") in.fail("the first section has to be $MeshFormat");
