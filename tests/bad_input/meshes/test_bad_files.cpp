@@ -62,24 +62,21 @@ TEST(BadFile, TextBetweenSections) {
 }
 
 TEST(BadFile, Empty) {
-  EXPECT_EQ(
-      verdict(""),
-      "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict(""),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, SomethingElse) {
-  EXPECT_EQ(
-      verdict("solid tube\nfacet normal 0 0 1\n"),
-      "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict("solid tube\nfacet normal 0 0 1\n"),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, VersionOne) {
-  EXPECT_EQ(
-      verdict("$NOD\n0\n$ENDNOD\n"),
-      "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict("$NOD\n0\n$ENDNOD\n"),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, UnsupportedVersion) {

@@ -36,6 +36,10 @@ end = 0.5
 }
 
 
+#: Names of what is no file to read; "pipe" is made where the run is.
+ODD_PATHS = (".", "/dev/null", "/dev/zero", "/proc/self/mem", "pipe", "x" * 5000, "\x1b[31m")
+
+
 def emitted(value):
     """A value as TOML."""
     if isinstance(value, bool):
@@ -58,7 +62,7 @@ def flat(table, prefix=()):
 
 def written(keys):
     """A case file from {path: TOML text}: each section once, in the order in which it comes first."""
-    sections = {}
+    sections: dict[tuple, list[str]] = {}
     for path, text in keys.items():
         sections.setdefault(path[:-1], []).append(f"{path[-1]} = {text}")
     order = sorted(sections, key=lambda section: section != ())
@@ -131,7 +135,10 @@ def structural(cases, known, meshes, drivers):
                 more = {other: text for other, text in keys.items() if other[: len(path)] != path}
                 more[path] = value
                 # A value that is no TOML has a line, not a key.
-                yield trial(f"{name}: {key} = {value[:40]}", written(more), keys, meshes, driver, parses(value))
+                given = trial(f"{name}: {key} = {value[:40]}", written(more), keys, meshes, driver, parses(value))
+                if path == ("mesh", "file"):
+                    given.culprits = ()  # whatever file that is
+                yield given
             value = VALUES[(len(key) + number) % len(VALUES)].replace("\0", "")
             yield trial(
                 f"{name}: --set {key}={value[:40]}",
@@ -217,33 +224,12 @@ def whole_files(cases, meshes, drivers):
     for kind, content in deep.items():
         for driver in drivers:
             yield trial(f"{name}: {kind}", content, keys, meshes, driver)
-    for path in (
-        ".",
-        "/dev/null",
-        "/dev/zero",
-        "/proc/self/mem",
-        "pipe",
-        "case.toml/",
-        "case.toml/x",
-        "x" * 5000,
-        "\x1b[31m",
-        "",
-    ):
+    for path in (*ODD_PATHS, "case.toml/", "case.toml/x", ""):
         given = Trial(f"case file {path[:20]!r}", drivers[0], [path, "-o", "out"], {"case.toml": text.encode()})
         given.pipe = "pipe" if path == "pipe" else ""
         given.culprits = (path[:40],) if path.isprintable() and path != "" else ()
         yield given
-    for path in (
-        ".",
-        "/dev/null",
-        "/dev/zero",
-        "/proc/self/mem",
-        "pipe",
-        "case.toml",
-        "tiny.msh/x",
-        "x" * 5000,
-        "\x1b[31m",
-    ):
+    for path in (*ODD_PATHS, "case.toml", "tiny.msh/x"):
         options = ["--set", f"mesh.file={path}"]
         given = trial(f"mesh file {path[:20]!r}", text, keys, meshes, drivers[0], False, options)
         given.pipe = "pipe" if path == "pipe" else ""
