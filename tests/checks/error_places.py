@@ -1,7 +1,7 @@
 """error_places.py ROOT: every InputError of the programs names a file.
 
-A message without one, "inner wall at 2 mm: there is no surface", leaves its reader to guess which of his files is meant.
-Looks at each `InputError(FILE, KEY, ...)` and refuses an empty FILE, unless the mistake is one of the command line.
+A message without one, "inner wall at 2 mm: there is no surface", leaves its reader to guess which file is meant. Looks
+at each `InputError(FILE, KEY, ...)` and refuses an empty FILE, unless the mistake is one of the command line.
 """
 
 import re
