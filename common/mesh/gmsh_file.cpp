@@ -96,6 +96,9 @@ void read_names(GmshScanner& in, GmshFile& file) {
     name.dimension = in.text_integer("dimension");
     name.tag = in.text_integer("physical tag");
     name.name = in.quoted("physical name");
+    constexpr std::size_t longest = 127;  // gmsh's own limit
+    if (name.name.size() > longest)
+      in.fail(fmt::format("a physical name of {} bytes", name.name.size()), fmt::format("give at most {}", longest));
     file.names.push_back(name);
   }
 }

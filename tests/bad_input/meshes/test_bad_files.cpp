@@ -55,6 +55,11 @@ TEST(BadFile, Device) {
             "/dev/zero: is a pipe, socket or device, not a file; give the path of a gmsh .msh file");
 }
 
+TEST(BadFile, LongName) {
+  EXPECT_EQ(verdict(replaced(tiny_tube().text_22(), "\"fluid\"", "\"" + std::string(128, 'x') + "\"")),
+            "tube.msh: $PhysicalNames: a physical name of 128 bytes; give at most 127");
+}
+
 TEST(BadFile, TextBetweenSections) {
   EXPECT_EQ(verdict("$MeshFormat\n4.1 0 8\n$EndMeshFormat\nNodes\n"),
             "tube.msh: $MeshFormat: expected the begin of a section at line 4, found 'Nodes'; the file is truncated or "
