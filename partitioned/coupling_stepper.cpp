@@ -23,12 +23,12 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       velocity_gap_(options_.velocity_gap) {
   if (scheme_.one_pass && first_order() == 0)
     throw InputError(
-        "", "time.predictor",
+        setup.path.string(), "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
   if (const auto time_scheme = setup.time ? setup.time->scheme : TimeScheme::euler;
       scheme_.one_pass && (time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2))
-    throw InputError("", "time.scheme",
+    throw InputError(setup.path.string(), "time.scheme",
                      fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
                                  "comes back with every step, and the pressure is wrong",
                                  time_schemes().name_of(time_scheme), scheme_.name),

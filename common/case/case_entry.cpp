@@ -114,6 +114,9 @@ double CaseEntry::number() const {
   else
     refuse_type("a number");
   if (!std::isfinite(value)) refuse_value("is not finite", "give a finite number");
+  if (value != 0 && !(std::abs(value) >= smallest_size && std::abs(value) <= largest_size))
+    refuse_value(std::abs(value) > 1 ? "is out of range: too large" : "is out of range: too close to 0",
+                 fmt::format("give 0 or a number of a size from {:g} to {:g}", smallest_size, largest_size));
   return value;
 }
 
@@ -136,11 +139,11 @@ bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
   return true;
 }
 
-int CaseEntry::whole_number() const {
+int CaseEntry::whole_number(int low, int high) const {
   const auto* whole = node_->as_integer();
-  if (whole == nullptr) refuse_type("a whole number");
-  if (whole->get() > std::numeric_limits<int>::max() || whole->get() < std::numeric_limits<int>::min())
-    refuse_value("is too large", fmt::format("give at most {}", std::numeric_limits<int>::max()));
+  if (whole == nullptr) refuse_type(fmt::format("a whole number from {} to {}", low, high));
+  if (whole->get() < low || whole->get() > high)
+    refuse_value("is out of range", fmt::format("give a whole number from {} to {}", low, high));
   return static_cast<int>(whole->get());
 }
 
@@ -154,6 +157,15 @@ std::string CaseEntry::text() const {
   const auto* text = node_->as_string();
   if (text == nullptr) refuse_type("a string in quotes");
   return text->get();
+}
+
+std::string CaseEntry::line() const {
+  constexpr std::size_t longest = 1000;
+  const auto given = text();
+  if (printable(given) != given) refuse_value("holds control characters", "give one line of printable text");
+  if (given.size() > longest)
+    refuse_value(fmt::format("is {} bytes long", given.size()), fmt::format("give at most {}", longest));
+  return given;
 }
 
 std::vector<CaseEntry> CaseEntry::elements() const {

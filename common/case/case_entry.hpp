@@ -15,6 +15,9 @@ namespace fsi {
 /// Text from the user as part of a one-line message: without line breaks and other control characters.
 std::string printable(std::string text);
 
+/// Sizes of numbers in any unit that anyone measures in. Beyond them squares and quotients are not numbers any more.
+constexpr double smallest_size = 1e-30, largest_size = 1e30;
+
 /// Where the entries of a case come from, for messages.
 struct CaseSource {
   std::string file;                  ///< as the user wrote it
@@ -52,11 +55,13 @@ class CaseEntry {
   bool warn_of_unit(const Quantity& quantity, double value) const;
 
   // Conversions; each throws InputError when the entry is of another type.
-  double number() const;                          ///< finite
+  double number() const;                          ///< 0, or of a size from smallest_size to largest_size
   double number(const Quantity& quantity) const;  ///< as number(), with a warning when it seems to be in a wrong unit
-  int whole_number() const;
+  int whole_number(int low, int high) const;      ///< both ends included
   bool boolean() const;
   std::string text() const;
+  /// Text that is shown to people and stands in tables: one line of printable characters, at most 1,000 bytes.
+  std::string line() const;
   std::vector<CaseEntry> elements() const;
   bool is_array() const { return node_->is_array(); }
   bool is_text() const { return node_->is_string(); }

@@ -1,8 +1,11 @@
 #include "case/case_overrides.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "base/error.hpp"
+#include "case/key_depth.hpp"
 
 namespace fsi {
 
@@ -35,11 +38,15 @@ std::vector<std::string> parts_of(const std::string& key, const std::string& ove
   for (const auto& part : parts)
     if (part.empty())
       throw InputError("--set", printable(override_text), "has no key", "write --set key=value, e.g. time.end=6.0");
+  if (parts.size() > deepest_key)
+    throw InputError("--set", printable(override_text.substr(0, 60)),
+                     fmt::format("has a key of {} parts", parts.size()), "see --help-keys for valid keys");
   return parts;
 }
 
 /// The value as TOML, or else as it stands: `--set mesh.file=a.msh` needs no quotes.
 toml::table parsed_value(const std::string& text) {
+  if (line_of_deep_key(text)) return toml::table{{"value", text}};
   try {
     auto table = toml::parse("value = " + text);
     if (table.size() == 1) return table;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
-#include <system_error>
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "case/case_entry.hpp"
 #include "case/case_keys.hpp"
 #include "case/case_overrides.hpp"
+#include "case/key_depth.hpp"
 
 namespace fsi {
 
@@ -60,6 +60,18 @@ void check_axis(const CaseEntry& whole_case, const Case& scene) {
     structure.child("axis_origin").refuse("the axis of an axisymmetric scene is the z axis", "leave this key out");
 }
 
+/// Each time of output ends a step, so that there can be no more of them than steps.
+void check_output_times(const CaseEntry& whole_case, const Case& scene) {
+  constexpr double most = 1e6;
+  if (!scene.time || !scene.output.interval) return;
+  const double times = scene.time->end / *scene.output.interval;
+  if (times > most)
+    whole_case.child("output")
+        .child("interval")
+        .refuse(fmt::format("{} would end {:.3g} steps for the sake of output", *scene.output.interval, times),
+                fmt::format("give at least {:.12g}", scene.time->end / most));
+}
+
 /// Elements that are stable by themselves have nothing to stabilise.
 void warn_of_stabilisation(const CaseEntry& whole_case, const Case& scene) {
   if (scene.element != ElementPair::p2p1) return;
@@ -90,18 +102,22 @@ void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
 }
 
 std::string contents_of(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(file.string(), "", "no such file", "give the path of a case file");
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(file.string(), "", "is a folder", "give the path of a case file");
+  constexpr std::uint64_t largest = 16 << 20;
+  constexpr const char* remedy = "give the path of a case file";
+  require_regular_file(file, {"no such file", remedy, remedy, largest});
   std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) throw InputError(file.string(), "", "cannot be read", "check its permissions");
+  // By read(), which reports what a device says by its state; iterators would let the library's exceptions through.
+  std::string text, block(1 << 16, '\0');
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) && text.size() <= largest) text += block;
+  text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad() || !stream.eof()) throw InputError(file.string(), "", "cannot be read", "check its permissions");
   return text;
 }
 
 toml::table parsed_document(const std::string& text, const CaseSource& source) {
+  if (const auto line = line_of_deep_key(text))
+    throw InputError(fmt::format("{}:{}", source.file, *line), "",
+                     fmt::format("a key of more than {} parts", deepest_key), "see --help-keys for valid keys");
   try {
     return toml::parse(text, source.file);
   } catch (const toml::parse_error& error) {
@@ -130,6 +146,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_sections(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
+  check_output_times(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);
   warn_of_damped_mesh(whole_case, scene);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -64,17 +63,12 @@ KeyValue<Target> number(Place<Target, Number> place, const Bounds& bounds,
   return value;
 }
 
+/// A whole number with its limits, both included. The upper one is far above what is of use, and far below where sums
+/// and products of such numbers overflow.
 template <class Target, class Whole>  // an integer, or an optional one
-KeyValue<Target> whole(Place<Target, Whole> place, int low, int high = std::numeric_limits<int>::max()) {
+KeyValue<Target> whole(Place<Target, Whole> place, int low, int high) {
   KeyValue<Target> value;
-  value.read = [=](const CaseEntry& entry, Target& target) {
-    const int given = entry.whole_number();
-    if (given < low || given > high)
-      entry.refuse_value("is out of range", high == std::numeric_limits<int>::max()
-                                                ? fmt::format("give a whole number >= {}", low)
-                                                : fmt::format("give a whole number from {} to {}", low, high));
-    place(target) = given;
-  };
+  value.read = [=](const CaseEntry& entry, Target& target) { place(target) = entry.whole_number(low, high); };
   if constexpr (std::is_integral_v<Whole>) {
     value.write = [place](const Target& target) { return std::to_string(place(target)); };
     value.standard = value.write(Target());
@@ -97,7 +91,7 @@ KeyValue<Target> flag(Place<Target, bool> place) {
 
 template <class Target>
 KeyValue<Target> any_text(Place<Target, std::string> place) {
-  return {[place](const CaseEntry& entry, Target& target) { place(target) = entry.text(); },
+  return {[place](const CaseEntry& entry, Target& target) { place(target) = entry.line(); },
           [place](const Target& target) { return place(target); }};
 }
 

@@ -17,14 +17,19 @@ namespace fsi {
 namespace {
 
 constexpr int most_steps = 1'000'000;
+constexpr std::size_t most_rows = 100'000;     // of a table of pressures
+constexpr double smallest_part_of_end = 1e-9;  // of an adaptive step; times are told apart to 12 digits
 constexpr bool required = true, optional = false;
 
 // [mesh].
 
 /// Relative to the case file; given by --set, relative to the working directory if the file is there.
 void read_mesh_file(const CaseEntry& entry, MeshData& mesh) {
-  const std::filesystem::path file = entry.text();
-  if (file.empty()) entry.refuse_value("is empty", "give the path of a gmsh file");
+  const std::string name = entry.text();
+  if (name.empty()) entry.refuse_value("is empty", "give the path of a gmsh file");
+  if (name.find('\0') != std::string::npos)
+    entry.refuse_value("holds a zero byte, which no path can", "give the path of a gmsh file");
+  const std::filesystem::path file = name;
   std::error_code error;
   if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(file, error))
     mesh.file = file;
@@ -200,7 +205,10 @@ void read_pressure(const CaseEntry& entry, PressureInput& input) {
   }
   bool warned_of_time = false, warned_of_pressure = false;  // once is enough
   auto& points = input.table.points;
-  for (const auto& row : entry.elements()) {
+  const auto rows = entry.elements();
+  if (rows.size() > most_rows)
+    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_rows));
+  for (const auto& row : rows) {
     const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
     if (pair.size() != 2) row.refuse_value("is no pair", "give [time, pressure]");
     points.emplace_back(pair[0].number(), pair[1].number());
@@ -281,13 +289,21 @@ void read_step(const CaseEntry& entry, TimeData& time) {
   number(at(&TimeData::step), positive, quantity::time_step()).read(entry, time);
 }
 
-/// Adaptive steps: smallest <= first <= largest <= end.
+/// Adaptive steps: smallest <= first <= largest <= end, and none that vanishes beside the end.
 void check_adaptive(const CaseEntry& entry, const TimeData& time) {
   const auto require = [&](const char* key, const std::optional<double>& value, const char* than, double bound) {
     if (value && *value > bound)
       entry.child(key).refuse(fmt::format("{} is more than the {} of {}", *value, than, bound),
                               fmt::format("give at most {}", bound));
   };
+  const auto require_progress = [&](const char* key, const std::optional<double>& value, double part) {
+    if (value && *value < part * time.end)
+      entry.child(key).refuse(fmt::format("{} is less than {:g} of the end, {}", *value, part, time.end),
+                              fmt::format("give at least {:.12g}", part * time.end));
+  };
+  require_progress("largest_step", time.largest_step, 1.0 / most_steps);
+  require_progress("first_step", time.first_step, smallest_part_of_end);
+  require_progress("smallest_step", time.smallest_step, smallest_part_of_end);
   require("largest_step", time.largest_step, "end", time.end);
   require("first_step", time.first_step, time.largest_step ? "largest step" : "end",
           time.largest_step.value_or(time.end));

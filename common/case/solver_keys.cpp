@@ -8,6 +8,8 @@ namespace fsi {
 namespace {
 
 constexpr bool optional = false;
+constexpr int most_iterations = 1'000'000, most_smoothing = 1'000, most_directions = 10'000, most_levels = 100;
+constexpr int most_steps_between = 1'000'000'000, most_unknowns = 2'000'000'000;
 constexpr Bounds tolerance{0, 1, false, false}, tolerance_or_none{0, 1, true, false};
 
 std::string direct_below_standards() {
@@ -24,14 +26,15 @@ std::vector<CaseKey<MultigridData>> multigrid_keys() {
       leaf("cycle", optional, "of the coupled amg: {}",
            name_from(at(&M::cycle, &CoupledCycleOptions::kind), coupled_cycle_kinds())),
       leaf("pre_smoothing", optional, "steps of the coupled smoother before the coarse correction, default {}",
-           whole(at(&M::smoothing, &Smoothing::pre_smoothing), 0)),
+           whole(at(&M::smoothing, &Smoothing::pre_smoothing), 0, most_smoothing)),
       leaf("post_smoothing", optional, "steps of the coupled smoother after the coarse correction, default {}",
-           whole(at(&M::smoothing, &Smoothing::post_smoothing), 0)),
+           whole(at(&M::smoothing, &Smoothing::post_smoothing), 0, most_smoothing)),
       leaf("damping", optional, "damping factor of the coupled smoother, default {}: estimated on each level",
            number(at(&M::smoothing, &Smoothing::damping), {0, 1, true, true})),
-      leaf("levels", optional, "levels at most, default {}", whole(at(&M::coarsening, &Coarsening::max_levels), 1)),
+      leaf("levels", optional, "levels at most, default {}",
+           whole(at(&M::coarsening, &Coarsening::max_levels), 1, most_levels)),
       leaf("coarsest_nodes", optional, "fluid and wall nodes of the level that is solved directly, at most, default {}",
-           whole(at(&M::coarsening, &Coarsening::coarsest_nodes), 1)),
+           whole(at(&M::coarsening, &Coarsening::coarsest_nodes), 1, most_unknowns)),
       leaf("coarsening", optional, "choice of coarse nodes: {}",
            name_from(at(&M::coarsening, &Coarsening::kind), coarsening_kinds())),
       leaf("fluid_smoother", optional, "smoother of the flow: {}",
@@ -41,7 +44,7 @@ std::vector<CaseKey<MultigridData>> multigrid_keys() {
       leaf("sub_cycle", optional, "cycle of the sub-problems: {}",
            name_from(at(&M::sub_problems, &Sub::kind), linear_cycle_kinds())),
       leaf("sub_smoothing", optional, "smoothing steps of the sub-problems before and after, default {}",
-           whole(at(&M::sub_problems, &Sub::smoothing), 1)),
+           whole(at(&M::sub_problems, &Sub::smoothing), 1, most_smoothing)),
   };
 }
 
@@ -62,11 +65,11 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
            "residual of each linear solve relative to its right-hand side, default {}: what Newton's convergence needs",
            number(at(&M::newton, &NewtonOptions::linear_tolerance), tolerance_or_none)),
       leaf("max_linear_iterations", optional, "iterations of each linear solve, default {}",
-           whole(at(&M::krylov, &KrylovOptions::max_iterations), 1)),
+           whole(at(&M::krylov, &KrylovOptions::max_iterations), 1, most_iterations)),
       leaf("direct_below", optional, "unknowns below which fast factorises the matrix, " + direct_below_standards(),
-           whole(at(&M::fast, &FastOptions::direct_below), 0)),
+           whole(at(&M::fast, &FastOptions::direct_below), 0, most_unknowns)),
       leaf("krylov_restart", optional, "directions that GMRES and FGMRES keep, default {}",
-           whole(at(&M::krylov, &KrylovOptions::restart), 1)),
+           whole(at(&M::krylov, &KrylovOptions::restart), 1, most_directions)),
       section<MultigridData, M>(
           "multigrid", optional, "multigrid of the sub-problems and of the coupled system", multigrid_keys(),
           [](M& monolithic) -> MultigridData& { return monolithic.multigrid; },
@@ -84,7 +87,7 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
       leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
            number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),
       leaf("max_iterations", optional, "Newton iterations per step, default {}",
-           whole(at(&M::newton, &NewtonOptions::max_iterations), 1)),
+           whole(at(&M::newton, &NewtonOptions::max_iterations), 1, most_iterations)),
   };
 }
 
@@ -111,18 +114,19 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            number(at(&P::velocity_gap), positive)),
       leaf("relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
            number(at(&P::relaxation), {0, 2, false, false})),
-      leaf("max_iterations", optional, "coupling iterations per step, default {}", whole(at(&P::max_iterations), 1)),
+      leaf("max_iterations", optional, "coupling iterations per step, default {}",
+           whole(at(&P::max_iterations), 1, most_iterations)),
       leaf("reused_steps", optional, "earlier time steps whose differences iqn-ils keeps, default {}",
-           whole(at(&P::quasi_newton, &QuasiNewton::reused_steps), 0)),
+           whole(at(&P::quasi_newton, &QuasiNewton::reused_steps), 0, most_directions)),
       leaf("columns", optional, "differences that a quasi-Newton scheme keeps at most, default {}",
-           whole(at(&P::quasi_newton, &QuasiNewton::columns), 1)),
+           whole(at(&P::quasi_newton, &QuasiNewton::columns), 1, most_directions)),
       leaf("filter", optional, "part of a difference that must be new for a quasi-Newton scheme to keep it, default {}",
            number(at(&P::quasi_newton, &QuasiNewton::filter), tolerance_or_none)),
       leaf("linear_solver", optional, "of the sub-problems: {}",
            name_from(at(&P::linear_solver), general_solver_names())),
       leaf("direct_below", optional,
            "unknowns of a sub-problem below which fast factorises the matrix, " + direct_below_standards(),
-           whole(at(&P::fast, &FastOptions::direct_below), 0)),
+           whole(at(&P::fast, &FastOptions::direct_below), 0, most_unknowns)),
   };
 }
 
@@ -143,13 +147,13 @@ std::vector<CaseKey<OutputData>> output_keys() {
       leaf<OutputData>("fields", optional, "fields in fields.h5: any of {}; default all",
                        {read_fields, listed, listed(OutputData())}),
       leaf("every", optional, "steps between entries of fields.h5, default {}; 0: no fields",
-           whole(at(&OutputData::every), 0)),
+           whole(at(&OutputData::every), 0, most_steps_between)),
       leaf("interval", optional,
            "time in {unit} between entries of fields.h5, in place of every: steps end there; with adaptive steps a "
            "twelfth of the run unless given",
            number(at(&OutputData::interval), positive, quantity::time())),
       leaf("checkpoint_every", optional, "steps between checkpoints, default {}; 0: none",
-           whole(at(&OutputData::checkpoint_every), 0)),
+           whole(at(&OutputData::checkpoint_every), 0, most_steps_between)),
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
   };
 }

@@ -30,8 +30,10 @@ std::vector<std::string> option_names(const CLI::App& app) {
 int thread_count(const std::string& text) {
   int count = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 0)
-    throw InputError("", "--threads", "\"" + text + "\" is no number of threads", "give 0 for as many as are of use");
+  constexpr int most = 1024;
+  if (error != std::errc() || end != text.data() + text.size() || count < 0 || count > most)
+    throw InputError("", "--threads", "\"" + text + "\" is no number of threads",
+                     "give at most " + std::to_string(most) + ", or 0 for as many as are of use");
   return count;
 }
 

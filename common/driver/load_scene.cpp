@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -35,6 +37,11 @@ std::string mesh_name(const Case& setup) {
   return setup.mesh.error > 0
              ? fmt::format("recommended for {}% of {} waves", setup.mesh.error, wave_kinds().name_of(setup.mesh.waves))
              : "level " + setup.mesh.level;
+}
+
+/// The file that a message about the mesh names: its own, or the case that it is made for.
+std::string mesh_source(const Case& setup) {
+  return setup.mesh.file.empty() ? setup.path.string() : setup.mesh.file.string();
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -86,13 +93,17 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
     made = make_artery<Element>(setup);
     available = made.regions;
   } else {
+    if (std::error_code error; !std::filesystem::exists(setup.mesh.file, error))
+      throw InputError(setup.path.string(), "mesh.file", "there is no file " + setup.mesh.file.string(),
+                       "check the path, or make one: fsi-mesh artery --level coarse -o FILE.msh");
     available = gmsh_regions(setup.mesh.file, Element::dim);
     const int dimension = gmsh_dimension(setup.mesh.file);
     if (dimension > Element::dim || available.empty())
-      throw InputError(setup.mesh.file.string(), "",
-                       fmt::format("is a mesh of {} dimensions, the case's scene one of {}", dimension, Element::dim),
-                       dimension == 2 ? "set geometry = \"axisymmetric\" or \"plane\" in the case file"
-                                      : "give a mesh of triangles, or leave geometry out of the case file");
+      throw InputError(
+          setup.mesh.file.string(), "geometry",
+          fmt::format("this is a mesh of {} dimensions, the case's scene one of {}", dimension, Element::dim),
+          dimension == 2 ? "set geometry = \"axisymmetric\" or \"plane\" in the case file"
+                         : "give a mesh of triangles, or leave geometry out of the case file");
   }
   for (const auto& layer : layers)
     if (!contains(available, layer))
@@ -119,7 +130,7 @@ MeshOf<Element> load_mesh(const Case& setup) {
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
-  check_scene_mesh(mesh, needs, mesh_name(setup));
+  check_scene_mesh(mesh, needs, mesh_source(setup));
   // Made meshes come in a good order already.
   auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
   return bandwidth(ordered) < bandwidth(mesh) ? ordered : mesh;
@@ -166,12 +177,12 @@ NodalSample in_part(std::vector<int> nodes, std::vector<double> weights, const P
 /// fluid: annuli and bent channels have none. A tube without one has a wrong axis in its case, and is refused.
 template <class Element>
 void add_centre_line(const MeshOf<Element>& mesh, const FacetsOf<Element>& inlet, const FacetsOf<Element>& outlet,
-                     const PartNodes& fluid, ObservationPoints& points) {
+                     const PartNodes& fluid, const SamplingPlace& place, ObservationPoints& points) {
   const auto z = evenly_spaced(axial_position(mesh.nodes, inlet, points.axis),
                                axial_position(mesh.nodes, outlet, points.axis), line_points);
   std::vector<PointSample> found;
   try {
-    found = sample_in_cells(mesh, mesh.region_index(group::fluid), points_on_axis(points.axis, z));
+    found = sample_in_cells(mesh, mesh.region_index(group::fluid), points_on_axis(points.axis, z), place);
   } catch (const InputError&) {
     if constexpr (Element::dim == 2) return;
     throw;
@@ -189,7 +200,7 @@ ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& m
   const int fluid_region = mesh.region_index(group::fluid);
   const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
   if (scene.fluid && inlet && outlet && norm(points.axis.direction) > 0)
-    add_centre_line<Element>(mesh, *inlet, *outlet, scene.fluid->nodes(), points);
+    add_centre_line<Element>(mesh, *inlet, *outlet, scene.fluid->nodes(), {mesh_source(setup), group::fluid}, points);
   constexpr bool tube = Element::dim == 3 || Element::axisymmetric;
   if (scene.wall && tube) {
     std::vector<int> wall_regions;
@@ -206,7 +217,8 @@ ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& m
       }
     points.angles = Element::axisymmetric ? 1 : 16;
     points.wall_z = evenly_spaced(first, last, line_points);
-    for (auto& found : wall_samples<Element::dim>(mesh.nodes, surface, points.axis, points.wall_z, points.angles))
+    for (auto& found : wall_samples<Element::dim>(mesh.nodes, surface, points.axis, points.wall_z, points.angles,
+                                                  {mesh_source(setup), fluid_region >= 0 ? "interface" : group::inner}))
       points.wall_line.push_back(
           {in_part(std::move(found.nodes), std::move(found.weights), scene.wall->nodes()), found.direction});
   }

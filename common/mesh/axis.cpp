@@ -13,7 +13,7 @@ AxisFrame::AxisFrame(const Axis& axis) : origin(axis.origin) {
   const double length = norm(axis.direction);
   if (!std::isfinite(length) || length == 0)
     throw InputError(
-        "", "axis_direction",
+        "", "structure.axis_direction",
         fmt::format("({}, {}, {}) has no direction", axis.direction[0], axis.direction[1], axis.direction[2]),
         "give a vector along the tube, e.g. [0, 0, 1]");
   along = (1 / length) * axis.direction;

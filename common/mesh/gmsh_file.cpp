@@ -96,6 +96,9 @@ void read_names(GmshScanner& in, GmshFile& file) {
     name.dimension = in.text_integer("dimension");
     name.tag = in.text_integer("physical tag");
     name.name = in.quoted("physical name");
+    constexpr std::size_t longest = 127;  // gmsh's own limit
+    if (name.name.size() > longest)
+      in.fail(fmt::format("a physical name of {} bytes", name.name.size()), fmt::format("give at most {}", longest));
     file.names.push_back(name);
   }
 }
@@ -253,7 +256,7 @@ const GmshType* gmsh_type(int number) {
 GmshFile parse_gmsh(const std::filesystem::path& path) {
   GmshScanner in(path);
   if (!in.begins_with("$MeshFormat"))
-    throw InputError(path.string(), "",
+    throw InputError(path.string(), "$MeshFormat",
                      "is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat",
                      "write it with gmsh, Mesh.MshFileVersion = 4.1");
   if (in.begin_section() != "MeshFormat") in.fail("the first section has to be $MeshFormat");

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <system_error>
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 
 namespace fsi {
 
@@ -30,12 +30,9 @@ std::string printable(std::string text) {
 }
 
 std::string load(const std::filesystem::path& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure))
-    throw InputError(path.string(), "", "there is no such mesh file",
-                     "check the path, or make one: fsi-mesh artery --level coarse -o FILE.msh");
-  if (std::filesystem::is_directory(path, failure))
-    throw InputError(path.string(), "", "is a folder, not a mesh file", "give the path of a gmsh .msh file");
+  require_regular_file(
+      path, {"there is no such mesh file", "check the path, or make one: fsi-mesh artery --level coarse -o FILE.msh",
+             "give the path of a gmsh .msh file"});
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const auto size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size < 0) throw InputError(path.string(), "", "cannot be read", "check its permissions");
@@ -52,7 +49,6 @@ GmshScanner::GmshScanner(const std::filesystem::path& path) : file_(path.string(
 
 std::string GmshScanner::begin_section() {
   skip_space();
-  section_.clear();
   if (position_ == data_.size()) return {};
   const std::size_t begin = position_;
   const std::string name = word();
@@ -109,7 +105,10 @@ std::int64_t GmshScanner::text_count(const char* what, std::size_t bytes_each) {
 
 double GmshScanner::real(const char* what) {
   const double value = binary_ ? raw<double>(what) : text<double>(what);
-  if (!std::isfinite(value)) fail(fmt::format("{} is {} at {}", what, value, place()), "give finite coordinates");
+  // Volumes are cubes of lengths, and their squares have to be numbers, too.
+  constexpr double largest = 1e30;
+  if (!(std::abs(value) <= largest))
+    fail(fmt::format("{} is {} at {}", what, value, place()), fmt::format("give coordinates up to {:g} mm", largest));
   return value;
 }
 

@@ -106,6 +106,9 @@ class CellGrid {
   std::vector<int> start_, cells_;
 };
 
+constexpr const char* axis_remedy =
+    "check structure.axis_origin and structure.axis_direction, and that the mesh is in mm";
+
 /// Negative weights become zero, the rest is scaled to the sum 1.
 template <std::size_t N>
 std::array<double, N> clamped(std::array<double, N> weights) {
@@ -124,7 +127,8 @@ PointSample sample_of(const SimplexMesh<Dim, Order>& mesh, int cell, const std::
 
 /// The nearest cell by the distance to the point's clamped image in it.
 template <int Dim, int Order>
-PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells, const Point& x) {
+PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells, const Point& x,
+                           const SamplingPlace& from) {
   int best = -1;
   std::array<double, Dim + 1> best_place{};
   double least = std::numeric_limits<double>::infinity();
@@ -145,9 +149,9 @@ PointSample nearest_sample(const SimplexMesh<Dim, Order>& mesh, const std::vecto
       for (int b = 0; b <= Dim; ++b)
         longest = std::max(longest, distance(mesh.nodes[mesh.cells[best][a]], mesh.nodes[mesh.cells[best][b]]));
   if (!(least <= furthest_edges * longest))
-    throw InputError("", fmt::format("point ({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]),
-                     fmt::format("lies {:.3g} mm outside the mesh", least),
-                     "check the axis and the unit of the mesh (mm)");
+    throw InputError(from.file, from.key,
+                     fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies {:.3g} mm outside", x[0], x[1], x[2], least),
+                     axis_remedy);
   return sample_of(mesh, best, best_place);
 }
 
@@ -237,15 +241,17 @@ std::vector<double> sampled_angles(const AngularRange& range, int count) {
   return angles;
 }
 
-[[noreturn]] void no_surface(double z, double angle) {
-  throw InputError("", fmt::format("inner wall at {:.6g} mm along the axis, {:.4g} deg", z, angle * 180 / pi),
-                   "there is no surface", "check the axis and the unit of the mesh (mm)");
+[[noreturn]] void no_surface(double z, double angle, const SamplingPlace& from) {
+  throw InputError(
+      from.file, from.key,
+      fmt::format("there is no inner wall {:.6g} mm along the axis, at {:.4g} degrees around it", z, angle * 180 / pi),
+      axis_remedy);
 }
 
 /// Interpolation at one position and angle on the facets listed.
 template <std::size_t Nodes>
 WallSample wall_sample(const std::vector<Unrolled<Nodes>>& facets, const std::vector<std::size_t>& near,
-                       const AxisFrame& frame, double z, double angle) {
+                       const AxisFrame& frame, double z, double angle, const SamplingPlace& from) {
   constexpr int order = Nodes == 3 ? 1 : 2;
   double least = std::numeric_limits<double>::infinity(), allowed = 0;
   std::size_t nearest = 0;
@@ -282,7 +288,7 @@ WallSample wall_sample(const std::vector<Unrolled<Nodes>>& facets, const std::ve
     best = kept;
     if (holds) break;
   }
-  if (!(least <= allowed)) no_surface(z, angle);
+  if (!(least <= allowed)) no_surface(z, angle, from);
   const auto& nodes = facets[nearest].nodes;
   const auto weights = CellMap<2, order>::shape(best);
   return {frame.radial(angle), {nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}};
@@ -307,7 +313,7 @@ double place_along(const std::array<double, Nodes>& axial, double z) {
 /// Interpolation at one position on the edges that an axisymmetric surface is drawn as.
 template <std::size_t Nodes>
 WallSample meridian_sample(const std::vector<Point>& nodes, const std::vector<std::array<int, Nodes>>& surface,
-                           const AxisFrame& frame, double z) {
+                           const AxisFrame& frame, double z, const SamplingPlace& from) {
   double least = std::numeric_limits<double>::infinity(), allowed = 0;
   WallSample best{};
   for (const auto& edge : surface) {
@@ -330,7 +336,7 @@ WallSample meridian_sample(const std::vector<Point>& nodes, const std::vector<st
     best = {{1, 0, 0}, {edge.begin(), edge.end()}, {weights.begin(), weights.end()}};
     if (away <= -inside * length) break;
   }
-  if (!(least <= allowed)) no_surface(z, 0);
+  if (!(least <= allowed)) no_surface(z, 0, from);
   return best;
 }
 
@@ -338,7 +344,7 @@ WallSample meridian_sample(const std::vector<Point>& nodes, const std::vector<st
 
 template <int Dim, int Order>
 std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, int region,
-                                         const std::vector<Point>& points) {
+                                         const std::vector<Point>& points, const SamplingPlace& from) {
   assert(mesh.cell_region.size() == mesh.cells.size());
   assert(region < static_cast<int>(mesh.regions.size()));
   std::vector<int> cells;
@@ -346,7 +352,7 @@ std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, in
     if (region < 0 || mesh.cell_region[c] == region) cells.push_back(static_cast<int>(c));
   std::vector<PointSample> samples;
   if (points.empty()) return samples;
-  if (cells.empty()) throw InputError("", "sampling", "there are no cells to sample in", "choose another volume");
+  if (cells.empty()) throw InputError(from.file, from.key, "has no cells", "give it some");
 
   const CellGrid grid(mesh, cells);
   samples.reserve(points.size());
@@ -364,7 +370,7 @@ std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, in
       holder = c;
       place = candidate;
     }
-    samples.push_back(holder != nullptr ? sample_of(mesh, *holder, place) : nearest_sample(mesh, cells, x));
+    samples.push_back(holder != nullptr ? sample_of(mesh, *holder, place) : nearest_sample(mesh, cells, x, from));
   }
   return samples;
 }
@@ -372,13 +378,13 @@ std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, in
 template <int Dim, std::size_t Nodes>
 std::vector<WallSample> wall_samples(const std::vector<Point>& nodes,
                                      const std::vector<std::array<int, Nodes>>& surface, const Axis& axis,
-                                     const std::vector<double>& positions, int angles) {
+                                     const std::vector<double>& positions, int angles, const SamplingPlace& from) {
   static_assert(Nodes == nodes_of_simplex(Dim - 1, 1) || Nodes == nodes_of_simplex(Dim - 1, 2));
   assert(angles > 0);
   const AxisFrame frame(axis);
   std::vector<WallSample> samples;
   if constexpr (Dim == 2) {
-    for (const double z : positions) samples.push_back(meridian_sample(nodes, surface, frame, z));
+    for (const double z : positions) samples.push_back(meridian_sample(nodes, surface, frame, z, from));
   } else {
     const auto facets = unroll(nodes, surface, frame);
     const auto wanted = sampled_angles(covered_angles(facets), angles);
@@ -391,7 +397,7 @@ std::vector<WallSample> wall_samples(const std::vector<Point>& nodes,
         if (z >= *low - furthest_edges * facets[f].longest && z <= *high + furthest_edges * facets[f].longest)
           near.push_back(f);
       }
-      for (const double angle : wanted) samples.push_back(wall_sample(facets, near, frame, z, angle));
+      for (const double angle : wanted) samples.push_back(wall_sample(facets, near, frame, z, angle, from));
     }
   }
   return samples;
@@ -424,10 +430,11 @@ std::vector<Point> points_on_axis(const Axis& axis, const std::vector<double>& p
 // Numbers as template arguments: parentheses would only hide them.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define INSTANTIATE(Dim, Order)                                                                                      \
-  template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&); \
+  template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&,  \
+                                                    const SamplingPlace&);                                           \
   template std::vector<WallSample> wall_samples<Dim>(                                                                \
       const std::vector<Point>&, const std::vector<std::array<int, nodes_of_simplex(Dim - 1, Order)>>&, const Axis&, \
-      const std::vector<double>&, int);
+      const std::vector<double>&, int, const SamplingPlace&);
 FSI_FOR_EACH_MESH(INSTANTIATE)
 #undef INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "mesh/axis.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
+
+/// Where the points come from, for messages about one that is not there: a file, and a key or group in it.
+struct SamplingPlace {
+  std::string file, key;
+};
 
 /// Interpolation of nodal fields at one point: sums of weights times values at nodes, by the shape functions of the cell
 /// that holds the point. Weights add up to 1.
@@ -23,7 +29,7 @@ struct PointSample {
 /// \param points  mm; in the plane of a triangle mesh
 template <int Dim, int Order>
 std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, int region,
-                                         const std::vector<Point>& points);
+                                         const std::vector<Point>& points, const SamplingPlace& from = {});
 
 /// Interpolation at a point of the inner wall.
 struct WallSample {
@@ -45,7 +51,8 @@ struct WallSample {
 template <int Dim = 3, std::size_t Nodes>
 std::vector<WallSample> wall_samples(const std::vector<Point>& nodes,
                                      const std::vector<std::array<int, Nodes>>& surface, const Axis& axis,
-                                     const std::vector<double>& positions, int angles = 16);
+                                     const std::vector<double>& positions, int angles = 16,
+                                     const SamplingPlace& from = {});
 
 /// Mean axial position of the nodes of a surface, mm from the axis' origin.
 template <std::size_t Nodes>

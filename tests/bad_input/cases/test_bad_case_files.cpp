@@ -104,10 +104,12 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:26: time.end: inf is not finite; give a finite number (end of the run in ms, a multiple of an "
        "equal step)"},
       {"WholeNumberIsDecimal", coupled_case, "every = 8", "every = 8.5",
-       "case.toml:35: output.every: 8.5 is a decimal number; give a whole number (steps between entries of fields.h5, "
+       "case.toml:35: output.every: 8.5 is a decimal number; give a whole number from 0 to 1000000000 (steps between "
+       "entries of fields.h5, "
        "default 8; 0: no fields)"},
       {"WholeNumberTooLarge", coupled_case, "every = 8", "every = 99999999999",
-       "case.toml:35: output.every: 99999999999 is too large; give at most 2147483647 (steps between entries of "
+       "case.toml:35: output.every: 99999999999 is out of range; give a whole number from 0 to 1000000000 (steps "
+       "between entries of "
        "fields.h5, default 8; 0: no fields)"},
       {"BooleanIsNumber", fluid_case, "density = 1.0", "density = 1.0\ngrad_div = 1",
        "case.toml:6: fluid.grad_div: 1 is a whole number; give true or false (grad-div stabilisation, default false)"},
@@ -286,10 +288,12 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:29: monolithic.linear_tolerance: 1 is out of range; give a number >= 0 and < 1 (residual of each "
        "linear solve relative to its right-hand side, default 0: what Newton's convergence needs)"},
       {"LinearIterationsZero", coupled_case, "newton_tolerance = 1e-8", "max_linear_iterations = 0",
-       "case.toml:29: monolithic.max_linear_iterations: 0 is out of range; give a whole number >= 1 (iterations of "
+       "case.toml:29: monolithic.max_linear_iterations: 0 is out of range; give a whole number from 1 to 1000000 "
+       "(iterations of "
        "each linear solve, default 500)"},
       {"RestartZero", coupled_case, "newton_tolerance = 1e-8", "krylov_restart = 0",
-       "case.toml:29: monolithic.krylov_restart: 0 is out of range; give a whole number >= 1 (directions that GMRES "
+       "case.toml:29: monolithic.krylov_restart: 0 is out of range; give a whole number from 1 to 10000 (directions "
+       "that GMRES "
        "and FGMRES keep, default 250)"},
       {"MultigridIsNoSection", coupled_case, "newton_tolerance = 1e-8", "multigrid = 3",
        "case.toml:29: monolithic.multigrid: 3 is a whole number; make it a section [monolithic.multigrid]"},
@@ -303,13 +307,15 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:29: monolithic.multigrid.damping: 1.5 is out of range; give a number >= 0 and <= 1 (damping factor "
        "of the coupled smoother, default 0: estimated on each level)"},
       {"PreSmoothingNegative", coupled_case, "newton_tolerance = 1e-8", "multigrid.pre_smoothing = -1",
-       "case.toml:29: monolithic.multigrid.pre_smoothing: -1 is out of range; give a whole number >= 0 (steps of the "
+       "case.toml:29: monolithic.multigrid.pre_smoothing: -1 is out of range; give a whole number from 0 to 1000 "
+       "(steps of the "
        "coupled smoother before the coarse correction, default 5)"},
       {"NoSmoothing", coupled_case, "newton_tolerance = 1e-8",
        "multigrid.pre_smoothing = 0\nmultigrid.post_smoothing = 0",
        "case.toml:29: monolithic.multigrid: neither pre_smoothing nor post_smoothing; give at least one step"},
       {"LevelsZero", coupled_case, "newton_tolerance = 1e-8", "multigrid.levels = 0",
-       "case.toml:29: monolithic.multigrid.levels: 0 is out of range; give a whole number >= 1 (levels at most, "
+       "case.toml:29: monolithic.multigrid.levels: 0 is out of range; give a whole number from 1 to 100 (levels at "
+       "most, "
        "default 10)"},
       {"CoarseningUnknown", coupled_case, "newton_tolerance = 1e-8", "multigrid.coarsening = \"coloring\"",
        "case.toml:29: monolithic.multigrid.coarsening: \"coloring\" is unknown; did you mean colouring? There are "
@@ -332,10 +338,11 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:32: partitioned.force_tolerance: 1 is out of range; give a number >= 0 and < 1 (what the interface's "
        "momentum balance may lack relative to the force, default 0: not demanded)"},
       {"ColumnsZero", coupled_case, "tolerance = 1e-6", "columns = 0",
-       "case.toml:32: partitioned.columns: 0 is out of range; give a whole number >= 1 (differences that a "
+       "case.toml:32: partitioned.columns: 0 is out of range; give a whole number from 1 to 10000 (differences that a "
        "quasi-Newton scheme keeps at most, default 200)"},
       {"ReusedStepsNegative", coupled_case, "tolerance = 1e-6", "reused_steps = -1",
-       "case.toml:32: partitioned.reused_steps: -1 is out of range; give a whole number >= 0 (earlier time steps whose "
+       "case.toml:32: partitioned.reused_steps: -1 is out of range; give a whole number from 0 to 10000 (earlier time "
+       "steps whose "
        "differences iqn-ils keeps, default 10)"},
       {"FilterOne", coupled_case, "tolerance = 1e-6", "filter = 1",
        "case.toml:32: partitioned.filter: 1 is out of range; give a number >= 0 and < 1 (part of a difference that "
@@ -348,7 +355,8 @@ const std::vector<BadCase>& bad_cases() {
       {"FieldTwice", coupled_case, "\"velocity\"", "\"pressure\"",
        "case.toml:34: output.fields[2]: \"pressure\" is named twice; name each field once"},
       {"EveryNegative", coupled_case, "every = 8", "every = -1",
-       "case.toml:35: output.every: -1 is out of range; give a whole number >= 0 (steps between entries of fields.h5, "
+       "case.toml:35: output.every: -1 is out of range; give a whole number from 0 to 1000000000 (steps between "
+       "entries of fields.h5, "
        "default 8; 0: no fields)"},
       {"NewtonToleranceZero", coupled_case, "newton_tolerance = 1e-8", "newton_tolerance = 0",
        "case.toml:29: monolithic.newton_tolerance: 0 is out of range; give a number > 0 and < 1 (last increment "
@@ -361,7 +369,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:29: monolithic.residual_tolerance: -1 is out of range; give a number >= 0 and < 1 (residual relative "
        "to the first of the step, default 0: not demanded)"},
       {"MaxIterationsZero", coupled_case, "tolerance = 1e-6", "max_iterations = 0",
-       "case.toml:32: partitioned.max_iterations: 0 is out of range; give a whole number >= 1 (coupling iterations per "
+       "case.toml:32: partitioned.max_iterations: 0 is out of range; give a whole number from 1 to 1000000 (coupling "
+       "iterations per "
        "step, default 200)"},
       {"RelaxationTwo", coupled_case, "tolerance = 1e-6", "relaxation = 2.0",
        "case.toml:32: partitioned.relaxation: 2 is out of range; give a number > 0 and < 2 (constant factor or the "

@@ -47,28 +47,41 @@ TEST(BadFile, Missing) {
 TEST(BadFile, Folder) {
   const ScratchFile file("");
   EXPECT_EQ(message_of_path(file.path().parent_path()),
-            file.path().parent_path().string() + ": is a folder, not a mesh file; give the path of a gmsh .msh file");
+            file.path().parent_path().string() + ": is a folder; give the path of a gmsh .msh file");
+}
+
+TEST(BadFile, Device) {
+  EXPECT_EQ(message_of_path("/dev/zero"),
+            "/dev/zero: is a pipe, socket or device, not a file; give the path of a gmsh .msh file");
+}
+
+TEST(BadFile, LongName) {
+  EXPECT_EQ(verdict(replaced(tiny_tube().text_22(), "\"fluid\"", "\"" + std::string(128, 'x') + "\"")),
+            "tube.msh: $PhysicalNames: a physical name of 128 bytes; give at most 127");
+}
+
+TEST(BadFile, TextBetweenSections) {
+  EXPECT_EQ(verdict("$MeshFormat\n4.1 0 8\n$EndMeshFormat\nNodes\n"),
+            "tube.msh: $MeshFormat: expected the begin of a section at line 4, found 'Nodes'; the file is truncated or "
+            "damaged; write it again with gmsh");
 }
 
 TEST(BadFile, Empty) {
-  EXPECT_EQ(
-      verdict(""),
-      "tube.msh: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict(""),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, SomethingElse) {
-  EXPECT_EQ(
-      verdict("solid tube\nfacet normal 0 0 1\n"),
-      "tube.msh: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict("solid tube\nfacet normal 0 0 1\n"),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, VersionOne) {
-  EXPECT_EQ(
-      verdict("$NOD\n0\n$ENDNOD\n"),
-      "tube.msh: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; write it with "
-      "gmsh, Mesh.MshFileVersion = 4.1");
+  EXPECT_EQ(verdict("$NOD\n0\n$ENDNOD\n"),
+            "tube.msh: $MeshFormat: is not a gmsh .msh file of version 4.1 or 2.2: it does not begin with $MeshFormat; "
+            "write it with gmsh, Mesh.MshFileVersion = 4.1");
 }
 
 TEST(BadFile, UnsupportedVersion) {
@@ -137,9 +150,11 @@ TEST(BadFile, WordForANumber) {
 
 TEST(BadFile, CoordinateNotANumber) {
   EXPECT_EQ(verdict(replaced(tiny_tube().text_22(), "\n1 0 0 0\n", "\n1 0 nan 0\n")),
-            "tube.msh: $Nodes: coordinate is nan at line 15; give finite coordinates");
+            "tube.msh: $Nodes: coordinate is nan at line 15; give coordinates up to 1e+30 mm");
   EXPECT_EQ(verdict(replaced(tiny_tube().text_22(), "\n1 0 0 0\n", "\n1 0 1e999 0\n")),
-            "tube.msh: $Nodes: coordinate is inf at line 15; give finite coordinates");
+            "tube.msh: $Nodes: coordinate is inf at line 15; give coordinates up to 1e+30 mm");
+  EXPECT_EQ(verdict(replaced(tiny_tube().text_22(), "\n1 0 0 0\n", "\n1 0 1e31 0\n")),
+            "tube.msh: $Nodes: coordinate is 1e+31 at line 15; give coordinates up to 1e+30 mm");
 }
 
 TEST(BadFile, UnknownNode) {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace fsi {
+
+/// What a program expects of a file that a user names.
+struct InputFileKind {
+  const char* missing;                 ///< said where there is nothing: "no such file"
+  const char* missing_remedy;          ///< "give the path of a case file"
+  const char* remedy;                  ///< where there is something else than a file
+  std::uint64_t largest = UINT64_MAX;  ///< bytes; no file of the kind has more
+};
+
+/// Refuses what cannot be read as a file, before anything opens it: a pipe that nobody writes to would hang, a device
+/// may never end, and a file far larger than any of its kind would fill the memory.
+/// \throws InputError that names the file
+void require_regular_file(const std::filesystem::path& file, const InputFileKind& kind);
+
+}  // namespace fsi
