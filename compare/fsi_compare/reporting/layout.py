@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, List, Sequence, Tuple
 
+from ..base.errors import printable
 from ..base.files import replacing
 
 
@@ -75,6 +76,11 @@ def write_markdown(path: Path, heading: str, tables: Sequence[Table]) -> Path:
     with replacing(path) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
     return path
+
+
+def say_written(folder: Path, files: Sequence[Path]) -> None:
+    """Names the files, which by now are in `folder`."""
+    print("Written: " + ", ".join(printable(str(folder / file.name)) for file in files))
 
 
 def _markdown_row(cells: Sequence[str]) -> str:

@@ -374,7 +374,7 @@ class Restart(StudyTest):
         behave(self.program, sleep=60)
         code = (
             "import sys; sys.path[:0] = sys.argv.pop(1),; "
-            "from fsi_compare.cli import main; sys.exit(main(sys.argv[1:]))"
+            "from fsi_compare.start import main; sys.exit(main(sys.argv[1:]))"
         )
         words = [
             sys.executable,

@@ -123,7 +123,7 @@ class Restart(StudyCase):
                     "-E",
                     "-c",
                     "import sys; sys.path.insert(0, sys.argv[1]); "
-                    "from fsi_compare.cli import main; sys.exit(main(sys.argv[2:]))",
+                    "from fsi_compare.start import main; sys.exit(main(sys.argv[2:]))",
                     str(Path(__file__).resolve().parents[3] / "compare"),
                     *self.words(),
                 ],
