@@ -19,16 +19,8 @@ def program(version: str = "unknown") -> NoReturn:
 
 def main(arguments: Sequence[str], version: str = "unknown", to_the_end: bool = False) -> int:
     """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n."""
-    code = 1
-    with interruption.watched(to_the_end):
-        try:
-            with guarded():
-                code = _guarded_main(arguments, version)
-        except ReaderLeft:
-            code = 0  # the reader, e.g. `head`, has seen enough
-        except InputError as error:
-            say_error(str(error))
-    return code
+    with interruption.watched(to_the_end), guarded():
+        return _guarded_main(arguments, version)
 
 
 def _guarded_main(arguments: Sequence[str], version: str) -> int:
@@ -38,7 +30,9 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
         from .cli import run  # takes a while to load: signals are watched by now
 
         interruption.check()
-        return run(arguments, version)
+        code = run(arguments, version)
+        sys.stdout.flush()
+        return code
     except InputError as error:
         say_error(str(error))
         return 1
@@ -49,7 +43,7 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
         say_error("out of memory; compare fewer or smaller runs, or take a larger machine")
         return 1
     except ReaderLeft:
-        return 0
+        return 0  # the reader, e.g. `head`, has seen enough
     except ImportError as error:
         say_error(str(InputError(error.name or "Python", "", f"cannot be loaded: {error}", "install it again")))
         return 1

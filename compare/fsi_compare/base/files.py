@@ -18,6 +18,14 @@ TEMPORARY = ".part"  # ends the names of files that are being written
 ELSEWHERE = "name another folder with -o"
 
 
+def folder(text: str) -> Path:
+    """For options that name an output folder: an empty name, of a variable that is not set, is not the folder where
+    the program was started."""
+    if not text.strip():
+        raise ValueError(text)
+    return Path(text)
+
+
 def exists(path: Path) -> bool:
     """Like Path.exists, but a name that is too long or a folder that may not be looked into is no exception."""
     return os.path.exists(path)

@@ -75,12 +75,11 @@ class _Output(io.TextIOBase):
 
 @contextmanager
 def guarded() -> Iterator[None]:
-    """While the block runs sys.stdout and sys.stderr are guarded; the output is flushed at its end."""
+    """While the block runs sys.stdout and sys.stderr are guarded."""
     take_descriptors()
     before = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = _Output(sys.stdout, False), _Output(sys.stderr, True)  # type: ignore[assignment]
     try:
         yield
-        sys.stdout.flush()
     finally:
         sys.stdout, sys.stderr = before

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 from ..base.errors import InputError
-from ..base.files import is_file, is_folder, make_folder, output_folder, replacing, together
+from ..base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
 from ..base.folder_lock import locked
 from ..base.names import MATERIALS, MESHES, METHODS, pick
 from ..reporting.layout import Table, say_written, write_markdown
@@ -55,7 +55,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str,
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path(default_output),
         help="folder for the files written (default: %(default)s)",
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Dict, Optional, Sequence
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, together
+from ..base.files import exists, folder, together
 from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
@@ -74,7 +74,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/cost"),
         help="folder for the files written (default: %(default)s)",
     )

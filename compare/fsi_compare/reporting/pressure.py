@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, List, Sequence
 
 from ..base.errors import InputError, printable, say_warning
-from ..base.files import together
+from ..base.files import folder, together
 from ..runs.labels import default_labels, read_labels
 from ..runs.run_folder import Run, read_run
 from .layout import say_written
@@ -41,7 +41,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/compare"),
         help="folder for the files written (default: %(default)s)",
     )

@@ -12,6 +12,7 @@ from .summary import FINISHED
 
 
 ITERATIONS = "iterations.csv"
+LARGEST = 1e100  # whose square, and sums of them, are still numbers
 
 
 class Columns(Dict[str, np.ndarray]):
@@ -69,6 +70,8 @@ def read_columns(path: Path, needed: Sequence[str] = ()) -> Columns:
                     ) from None
             if name in needed and not math.isfinite(values[row, column]):
                 raise InputError(path, f"line {row + 2}", f"{name} is {field.strip() or 'empty'}", "run it again")
+            if abs(values[row, column]) > LARGEST:
+                raise InputError(path, f"line {row + 2}", f"{name} {field} is too large", "run it again")
     return Columns(path, {name: values[:, column] for column, name in enumerate(names)})
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, is_folder, read_text
-from .columns import number
+from .columns import LARGEST, number
 from .pressure_waves import PressureWaves
 from .summary import FILE, FINISHED, PROGRAMS, read_summary
 
@@ -94,6 +94,10 @@ def read_pressure(path: Path) -> PressureWaves:
                 raise InputError(
                     path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number", "run it again"
                 ) from None
+            if abs(values[row, i]) > LARGEST and math.isfinite(values[row, i]):
+                raise InputError(
+                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} {fields[column]} is too large", "run it again"
+                )
             if not math.isfinite(values[row, i]):
                 raise InputError(
                     path,

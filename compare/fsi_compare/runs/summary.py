@@ -22,9 +22,9 @@ def _text(value: Any) -> Optional[str]:
 def _number(value: Any) -> Optional[str]:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return "is not a number"
-    return (
-        None if math.isfinite(value) and 0 <= value < 1e300 else f"is {value:.6g}" if value < MOST else "is too large"
-    )
+    if isinstance(value, float) and not math.isfinite(value):
+        return f"is {value}"
+    return None if 0 <= value < 1e100 else "is negative" if value < 0 else "is too large"
 
 
 def _count(value: Any) -> Optional[str]:

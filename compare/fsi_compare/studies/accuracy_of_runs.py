@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, together
+from ..base.files import exists, folder, together
 from ..reporting.layout import Table, fixed, say_written, write_markdown
 from ..reporting.pressure import read_times
 from ..runs.columns import read_iterations
@@ -83,7 +83,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/accuracy"),
         help="folder for the files written (default: %(default)s)",
     )
@@ -221,7 +221,9 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             row += [fixed(None if math.isnan(value) else 100 * value, ".3g") for value in values]
         table.rows.append(row)
         by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
-        table.csv_rows += [[*facts, time, *values] for time, *values in by_time]
+        table.csv_rows += [
+            [*facts, time, *(None if math.isnan(value) else value for value in values)] for time, *values in by_time
+        ]
     steps = {reference.step, *(one.step for one in found)}
     if None in steps or max(steps) - min(steps) > SAME_STEP * max(steps):  # type: ignore[type-var,operator]
         table.notes.append("Time steps differ: the errors are of space and time together.")

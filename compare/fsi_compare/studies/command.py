@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
 from ..base.errors import InputError, ProgramError, printable, say_warning
-from ..base.files import absolute, is_file, output_folder, together
+from ..base.files import absolute, folder, is_file, output_folder, together
 from ..base.folder_lock import locked
 from ..base.progress import duration
 from ..base.suggestions import nearest
@@ -56,7 +56,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     study.add_argument(
         "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
     )
-    study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
+    study.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
     study.add_argument(
         "--list",

@@ -400,7 +400,10 @@ class Restart(StudyTest):
             time.sleep(0.05)
         study.terminate()
         _, err = study.communicate(timeout=30)
-        self.assertEqual((study.returncode, err), (130, "fsi-compare: interrupted\n"))
+        self.assertEqual(
+            (study.returncode, err),
+            (143, "fsi-compare: interrupted by SIGTERM; finished runs are kept, the same command goes on\n"),
+        )
         with self.assertRaises(ProcessLookupError):
             os.kill(int(pid.read_text()), 0)
         behave(self.program)
