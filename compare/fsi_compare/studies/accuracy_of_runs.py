@@ -221,9 +221,7 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             row += [fixed(None if math.isnan(value) else 100 * value, ".3g") for value in values]
         table.rows.append(row)
         by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
-        table.csv_rows += [
-            [*facts, time, *(None if math.isnan(value) else value for value in values)] for time, *values in by_time
-        ]
+        table.csv_rows += [[*facts, time, *values] for time, *values in by_time]
     steps = {reference.step, *(one.step for one in found)}
     if None in steps or max(steps) - min(steps) > SAME_STEP * max(steps):  # type: ignore[type-var,operator]
         table.notes.append("Time steps differ: the errors are of space and time together.")

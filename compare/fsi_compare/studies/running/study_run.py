@@ -46,7 +46,7 @@ class StudyRun:
         try:
             return checked(path, read_object(path, "", ""))
         except InputError:
-            if self.done:
+            if self.done and is_file(path):
                 raise
             return {}
 
