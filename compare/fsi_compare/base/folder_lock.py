@@ -49,7 +49,7 @@ def _taken(folder: Path, path: Path) -> int:
             raise
         os.close(handle)
         time.sleep(PAUSE)
-    raise InputError(folder, "", f"is locked, and {path} does not say by whom", f"remove {path} if nothing works there")
+    raise _nameless(folder, path)
 
 
 def _take(handle: int, folder: Path, path: Path) -> bool:
@@ -63,13 +63,16 @@ def _take(handle: int, folder: Path, path: Path) -> bool:
                 folder, "", f"cannot be locked ({error.strerror})", "name another folder with -o"
             ) from None
         blocked = True
-    holder = _parsed(os.pread(handle, 4096, 0).decode("utf-8", "replace"))
+    said = os.pread(handle, 4096, 0).decode("utf-8", "replace")
+    holder = _parsed(said)
     if blocked:
         if not holder:
             return False
         raise InputError(folder, "", f"a run works in it ({_name(holder)})", WAIT)
     if not _is_at(handle, path):
         return False  # removed by its owner after it was opened here
+    if said and not holder:
+        raise _nameless(folder, path)
     if holder:
         if holder["host"] != socket.gethostname():
             raise InputError(
@@ -89,6 +92,12 @@ def _take(handle: int, folder: Path, path: Path) -> bool:
         os.unlink(path)
         raise _not_written(folder, error) from None
     return True
+
+
+def _nameless(folder: Path, path: Path) -> InputError:
+    return InputError(
+        folder, "", f"is locked, and {path} does not say by whom", "if no run works in the folder, remove that file"
+    )
 
 
 def _not_written(folder: Path, error: OSError) -> InputError:

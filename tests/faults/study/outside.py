@@ -48,7 +48,7 @@ class Place:
             "pressure": ("pressure", self.one, self.two, *times),
             "cost": ("cost", self.one, self.two, "-o", self.out),
             "accuracy": ("accuracy", self.one, self.two, *times),
-            "study": self.study_words(),
+            "study": self.study_words("-q"),
         }
 
     def study_words(self, *more):
@@ -277,7 +277,7 @@ def signals(harness):
             process.send_signal(number)
         _judge_interrupted(harness, place, process, number, f"{command}, {number.name}{' twice' * twice}", twice)
     # A driver that does not heed the signal is killed with the second one.
-    fake_drivers.behave(place.drivers, sleep=60)
+    fake_drivers.behave(place.drivers, sleep=60, deaf=True)
     process = place.start(place.study_words("--jobs", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     _wait_for(lambda: (place.drivers / "pid").exists())
     for _ in range(2):
@@ -336,7 +336,7 @@ def locks(harness):
         ("of before a reboot", f"program x\nhost {host}\nprocess 1\nstart 1\nboot 0\n", (0,)),
         ("of another host", "program x\nhost elsewhere\nprocess 1\nstart 1\nboot 0\n", ()),
         ("that is empty", "", (0,)),
-        ("that is nonsense", "\0\xff x y\n\n", (0,)),
+        ("that is nonsense", "\0\xff x y\n\n", ()),
     ):
         place.out.mkdir()
         (place.out / "run.lock").write_text(text)
