@@ -20,7 +20,7 @@ from stand import PLAIN, READY, Stand, write_run
 REFUSED, UNHARMED, INTERRUPTED, ENDED = "refused with one message", "unharmed", "interrupted with one message", "ended"
 GOOD = (REFUSED, UNHARMED, INTERRUPTED, ENDED)
 PROGRAM = "fsi-compare"
-SECONDS = ("seconds", "wall_s", "_s")  # of CSV columns whose values differ from call to call
+RESULTS = ("skip", "coupling", "stability", "accuracy-cost", "paper")  # kinds of ready studies
 
 
 def verdict(harness, stand, what, result, arguments):
@@ -58,10 +58,11 @@ def not_finite(folder):
     return ""
 
 
-def chosen(harness, items, short):
-    """All of them in the full form, else a few at random."""
+def chosen(harness, items, short, full=None):
+    """Some at random; `full`: how many in the full form, None: all."""
     items = list(items)
-    return items if harness.full else random.Random(harness.options.seed).sample(items, min(short, len(items)))
+    count = min(len(items), short if not harness.full else len(items) if full is None else full)
+    return items if count == len(items) else random.Random(harness.options.seed).sample(items, count)
 
 
 def contents(harness, stand):
@@ -101,7 +102,7 @@ def contents(harness, stand):
             )
             cases += [(name, path, what, data) for what, data in damages]
             cases += [(name, path, what, None) for what, _ in mutations.file_damages(path)]
-    for name, path, what, data in chosen(harness, cases, 60):
+    for name, path, what, data in chosen(harness, cases, 40):
         kept = path.read_bytes()
         if data is None:
             dict(mutations.file_damages(path))[what]()
@@ -124,7 +125,7 @@ def studies(harness, stand):
         cases = list(mutations.toml_damages(tree))
         file.write_text(mutations.toml_text(tree))
         cases += [(what, None) for what, _ in mutations.file_damages(file)]
-        for what, text in chosen(harness, cases, 60 if name == "plain" else 25):
+        for what, text in chosen(harness, cases, 40 if name == "plain" else 10, 500):
             file.write_text(mutations.toml_text(tree) if text is None else text, encoding="utf-8")
             if text is None:
                 dict(mutations.file_damages(file))[what]()
@@ -148,9 +149,9 @@ def _absolute(tree, folder):
 def results(harness, stand):
     """Ready studies in their quick form, and one run of theirs that leaves a damaged file."""
     stand.size = (96, 0.125)
-    for kind in ("paper", "accuracy-cost", "stability", "skip", "coupling"):
+    for kind in RESULTS if harness.full else RESULTS[:1]:
         chance = random.Random(harness.options.seed)
-        for attempt in range(40 if harness.full else 1):
+        for attempt in range(10 if harness.full else 1):
             state = {"left": chance.randrange(12), "what": "nothing"}
 
             def spoil(folder):

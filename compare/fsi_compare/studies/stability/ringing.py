@@ -75,5 +75,7 @@ def ringing_table(named: Sequence[Cell], settings: Settings) -> Table:
 
 
 def _range(values: Sequence[float]) -> str:
+    if not values:
+        return "-"
     low, high = f"{min(values):.2g}", f"{max(values):.2g}"
     return low if low == high else f"{low} to {high}"
