@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, ProgramError
-from ..base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing
+from ..base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing, sweep
 from ..base.names import MESH_NODES
 from ..base.progress import Progress
 from ..runs.case_digest import case_digest
@@ -141,6 +141,7 @@ def _require(results: LinearSolvers, request: Request) -> None:
 
 def _run(program: Program, place: Path, request: Request, progress: Progress) -> Outcome:
     make_folder(place)
+    sweep(place)
     for name in (FILE, REQUEST):  # an old result must not pass for that of a run that fails
         remove_tree(place / name)
     start = time.monotonic()

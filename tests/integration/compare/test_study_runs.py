@@ -236,6 +236,18 @@ class Failures(StudyCase):
             self.assertEqual(self.outcomes()["part"], expected)
             self.assertEqual(self.outcomes()["mono"][0], DONE)
 
+    def test_a_run_that_somebody_ended_is_made_anew(self):
+        for what in (
+            {"end": {"fsi-partitioned": [143, "interrupted by SIGTERM"]}},
+            {"signal": {"fsi-partitioned": 15}},
+        ):
+            behave(self.programs, **what)
+            self.call("-q", "--fresh")
+            self.assertEqual(self.outcomes()["part"][0], CRASHED)
+            behave(self.programs)
+            self.call("-q")
+            self.assertEqual(self.outcomes()["part"][0], DONE)
+
     def test_nothing_but_refusals_is_the_users_mistake(self):
         behave(self.programs, end={"fsi-": [1, "mesh.level: 'corse' is unknown"]})
         code, out, err = self.call("-q")

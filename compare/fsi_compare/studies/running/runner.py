@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
+from ...base import interruption
 from ...base.errors import InputError, ProgramError
 from ...base.files import (
     TEMPORARY,
@@ -251,9 +252,8 @@ class Runner:
         folder = self._place(key, request)
         try:
             record = read_object(folder / RECORD, AGAIN, AGAIN)
-            if record["fingerprint"] != key or (
-                record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit
-            ):
+            stopped_early = record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit
+            if record["fingerprint"] != key or stopped_early or record.get("interrupted"):
                 return None
             if record["status"] == DONE:
                 read_summary(folder / FILE)
@@ -287,9 +287,15 @@ class Runner:
                 "run": request.label,
                 "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
                 "executable": self._program(request).digest,
+                "interrupted": is_interrupted(end.code) and not end.out_of_time,
             },
         )
         return StudyRun(request, folder, status, message, end.seconds, command)
+
+
+def is_interrupted(code: int) -> bool:
+    """Whether somebody ended the run: that says nothing about it, so that the next call makes it anew."""
+    return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
 def write_record(folder: Path, record: Dict[str, Any]) -> None:
