@@ -9,6 +9,7 @@ import itertools
 import json
 import random
 import shutil
+import time
 import tomllib
 
 from harness import Harness, is_one_message
@@ -62,7 +63,12 @@ def chosen(harness, items, short, full=None):
     """Some at random; `full`: how many in the full form, None: all."""
     items = list(items)
     count = min(len(items), short if not harness.full else len(items) if full is None else full)
-    return items if count == len(items) else random.Random(harness.options.seed).sample(items, count)
+    latest = time.monotonic() + 60 * harness.options.minutes
+    for done, item in enumerate(random.Random(harness.options.seed).sample(items, count)):
+        if time.monotonic() > latest:
+            print(f"time is over: {done} of {count} made", flush=True)
+            return
+        yield item
 
 
 def contents(harness, stand):
@@ -151,7 +157,7 @@ def results(harness, stand):
     stand.size = (96, 0.125)
     for kind in RESULTS if harness.full else RESULTS[:1]:
         chance = random.Random(harness.options.seed)
-        for attempt in range(10 if harness.full else 1):
+        for _ in chosen(harness, range(10), 1):
             state = {"left": chance.randrange(12), "what": "nothing"}
 
             def spoil(folder):
@@ -188,6 +194,7 @@ def main():
 
     def prepare(parser):
         parser.add_argument("--parts", help=f"some of {', '.join((*PARTS, *outer))}, separated by commas")
+        parser.add_argument("--minutes", type=float, default=1e9, help="of each corpus; what is left is left out")
 
     harness = Harness("study", __doc__.split("\n\n")[0], GOOD, prepare)
     parts = harness.options.parts.split(",") if harness.options.parts else [*PARTS, *outer]
