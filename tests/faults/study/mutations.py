@@ -6,6 +6,7 @@ import json
 import math
 import os
 import shutil
+from functools import partial
 
 LONG = "a" * 5000
 DEEP = 100_000  # levels
@@ -80,13 +81,17 @@ NAMES = ("", " ", "A" + LONG, "a/b", "..", "x\ny", "\x1b[2J", "ä", "TUBE", "__p
 
 
 def json_damages(tree):
-    """(what, text) of a JSON file with one entry replaced, missing or renamed."""
+    """(what, function that gives the text) of a JSON file with one entry replaced, missing or renamed."""
     for path in places(tree):
         where = ".".join(map(str, path))
-        yield f"{where} missing", json.dumps(replaced(tree, path, None))
-        yield f"{where} null", json.dumps(_with_null(tree, path))
+        yield f"{where} missing", partial(_json, replaced, tree, path, None)
+        yield f"{where} null", partial(_json, _with_null, tree, path)
         for value in (*VALUES[1:], *ONLY_JSON):
-            yield f"{where} = {_shown(value)}", json.dumps(replaced(tree, path, value))
+            yield f"{where} = {_shown(value)}", partial(_json, replaced, tree, path, value)
+
+
+def _json(change, *arguments):
+    return json.dumps(change(*arguments))
 
 
 def _with_null(tree, path):
@@ -102,12 +107,16 @@ def toml_damages(tree):
     """The same of a TOML file."""
     for path in places(tree):
         where = ".".join(map(str, path))
-        yield f"{where} missing", toml_text(replaced(tree, path, None))
+        yield f"{where} missing", partial(_changed_toml, replaced, tree, path, None)
         for value in (*VALUES[1:], *ONLY_TOML):
-            yield f"{where} = {_shown(value)}", toml_text(replaced(tree, path, value))
+            yield f"{where} = {_shown(value)}", partial(_changed_toml, replaced, tree, path, value)
         if isinstance(path[-1], str):
             for name in NAMES:
-                yield f"{where} named {_shown(name)}", toml_text(renamed(tree, path, name))
+                yield f"{where} named {_shown(name)}", partial(_changed_toml, renamed, tree, path, name)
+
+
+def _changed_toml(change, *arguments):
+    return toml_text(change(*arguments))
 
 
 def _shown(value):

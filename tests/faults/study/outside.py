@@ -168,7 +168,7 @@ def environments(harness):
     numpy = place.base / "numpy.py"
     numpy.write_text("raise SystemError\n")
     commands = [name for name in place.commands if harness.full or name in ("pressure", "study")]
-    for change in changes if harness.full else changes[::4]:
+    for change in changes if harness.full else changes[:7:3]:
         for command in commands if harness.full else ("pressure",):
             judge(
                 harness,
@@ -185,7 +185,8 @@ def environments(harness):
     done = execute("sh", "-c", script, "sh", gone, place.program, *words, env=place.environment())
     done.stderr = "".join(line for line in done.stderr.splitlines(True) if "getcwd() failed" not in line)  # the shell's
     judge(harness, place, "a working folder that is gone", done)
-    for name in ("x" * 5000, "a\nb", "\x1b[1mred", b"\xff\xfe".decode("utf-8", "surrogateescape"), "-", " ", "a" * 256):
+    names = ("x" * 5000, "a\nb", "\x1b[1mred", b"\xff\xfe".decode("utf-8", "surrogateescape"), "-", " ", "a" * 256)
+    for name in names if harness.full else names[:2]:
         for words in (
             ("pressure", place.one, "--times", "1", "-q", "-o", place.base / "named" / name),
             ("cost", place.base / name, "-o", place.out),
@@ -213,14 +214,14 @@ def streams(harness):
         "one line read": "| head -n 1",
     }
     for name, redirection in ends.items():
-        for command in place.commands if harness.full else ("version", "cost"):
+        for command in place.commands if harness.full else ("cost",):
             words = [str(word) for word in place.commands[command]]
             script = f'set -o pipefail; "$@" {redirection}'
             done = execute("bash", "-c", script, "bash", place.program, *words, env=place.environment())
             seen = "errors" not in name and "both" not in name and "all" not in name
             judge(harness, place, f"{command}, {name}", done, said=seen)
     # A command that fails must say so even where its output is closed.
-    for redirection in (">&-", ">/dev/full", "<&-"):
+    for redirection in (">&-", ">/dev/full", "<&-")[: 3 if harness.full else 1]:
         words = ("cost", str(place.base / "nothing"))
         done = execute("bash", "-c", f'"$@" {redirection}', "bash", place.program, *words, env=place.environment())
         judge(harness, place, f"a refusal, {redirection}", done, codes=())
@@ -230,8 +231,9 @@ def disks(harness):
     place = Place(harness, "disks")
     (place.base / "file").write_text("x")
     (place.base / "loop").symlink_to("loop")
-    for output in ("/dev/null", "/dev/full", "/proc/x", "/proc/self/x", place.base / "file", place.base / "file/x", "/sys",
-                   place.base / "loop", "", "a" * 300, place.base / ("b/" * 2500)):  # fmt: skip
+    outputs = ("/dev/null", "/dev/full", "/proc/x", "/proc/self/x", place.base / "file", place.base / "file/x", "/sys")
+    outputs += (place.base / "loop", "", "a" * 300, place.base / ("b/" * 2500))
+    for output in outputs if harness.full else outputs[::3]:
         for command in ("pressure", "cost", "accuracy", "study") if harness.full else ("cost",):
             words = list(place.commands[command])
             words[words.index("-o") + 1] = output
@@ -239,7 +241,7 @@ def disks(harness):
             for made in (place.base / "cost.csv", place.base / "cost.md"):
                 made.unlink(missing_ok=True)
             judge(harness, place, f"{command} -o {str(output)[:40]}", done, codes=())
-    sizes = (0, 1, 100, 1000, 4000, 10_000, 30_000, 100_000, 300_000) if harness.full else (0, 1000)
+    sizes = (0, 1, 100, 1000, 4000, 10_000, 30_000, 100_000, 300_000) if harness.full else (4000,)
     for size in sizes:
         for command in ("pressure", "cost", "accuracy", "study") if harness.full else ("pressure",):
             script = f'ulimit -f {size // 1000 if size >= 1000 else 0}; exec "$@"'
@@ -263,7 +265,7 @@ def disks(harness):
 def signals(harness):
     place = Place(harness, "signals")
     chance = random.Random(harness.options.seed)
-    for attempt in range(150 if harness.full else 8):
+    for attempt in range(150 if harness.full else 4):
         command = ("pressure", "study", "cost", "accuracy")[attempt % 4]
         number = SIGNALS[attempt % 3]
         if command == "study":
@@ -326,7 +328,7 @@ def locks(harness):
     judge(harness, place, "the same again", place.call("study"))
     host = os.uname().nodename
     boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
-    for what, text, codes in (
+    left = (
         ("of a process that has ended", f"program x\nhost {host}\nprocess 4194000\nstart 1\nboot {boot}\n", (0,)),
         (
             "of a process number given anew",
@@ -337,7 +339,8 @@ def locks(harness):
         ("of another host", "program x\nhost elsewhere\nprocess 1\nstart 1\nboot 0\n", ()),
         ("that is empty", "", (0,)),
         ("that is nonsense", "\0\xff x y\n\n", ()),
-    ):
+    )
+    for what, text, codes in left if harness.full else left[::3]:
         place.out.mkdir()
         (place.out / "run.lock").write_text(text)
         done = place.call(place.study_words("-q"))
@@ -347,7 +350,7 @@ def locks(harness):
         judge(harness, place, f"a lock {what}", done, codes)
     for name in ("run.lock", ".summary.json-x.tmp"):  # beside finished results
         (place.one / name).write_text("program x\nhost elsewhere\nprocess 1\nstart 1\n")
-    for command in ("pressure", "cost", "accuracy"):
+    for command in ("pressure", "cost", "accuracy") if harness.full else ("cost",):
         judge(harness, place, f"{command} of a run with a lock", place.call(command))
 
 

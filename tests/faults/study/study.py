@@ -113,6 +113,7 @@ def contents(harness, stand):
         if data is None:
             dict(mutations.file_damages(path))[what]()
         else:
+            data = data() if callable(data) else data
             path.write_text(data, encoding="utf-8", errors="surrogatepass", newline="")
         result = stand.call(*commands[name])
         mutations.remove(path)
@@ -131,8 +132,8 @@ def studies(harness, stand):
         cases = list(mutations.toml_damages(tree))
         file.write_text(mutations.toml_text(tree))
         cases += [(what, None) for what, _ in mutations.file_damages(file)]
-        for what, text in chosen(harness, cases, 40 if name == "plain" else 10, 500):
-            file.write_text(mutations.toml_text(tree) if text is None else text, encoding="utf-8")
+        for what, text in chosen(harness, cases, 10 if name == "plain" else 5, 500):
+            file.write_text(mutations.toml_text(tree) if text is None else text(), encoding="utf-8")
             if text is None:
                 dict(mutations.file_damages(file))[what]()
             words = ("study", file, "-o", stand.out, "-q", *(() if name == "plain" else ("--list",)))
@@ -177,7 +178,8 @@ def results(harness, stand):
                 if what in damages:
                     damages[what]()
                 else:
-                    path.write_text(contents[what], encoding="utf-8", errors="surrogatepass", newline="")
+                    data = contents[what]() if callable(contents[what]) else contents[what]
+                    path.write_text(data, encoding="utf-8", errors="surrogatepass", newline="")
 
             stand.spoil = spoil
             words = ("study", kind, "--quick", "-q", "-o", stand.out)
