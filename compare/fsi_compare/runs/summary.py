@@ -52,7 +52,6 @@ SHAPE: Mapping[str, Shape] = {
     "phases": _Each(entry={"calls": _count, "seconds": _number}),
     "totals": _Each(entry=_number),
     "counters": _Each(entry=_number),
-    "ringing": {"amplitude_Pa": _number, "time_ms": _number, "said": _text},
 }
 
 

@@ -30,7 +30,7 @@ def _amplitude(cell: Cell) -> Optional[float]:
     """Pa, as the program found it."""
     said = cell.run.summary.get("ringing")
     amplitude = said.get("amplitude_Pa") if isinstance(said, dict) else None
-    return float(amplitude) if isinstance(amplitude, (int, float)) else None
+    return float(amplitude) if isinstance(amplitude, (int, float)) and abs(amplitude) < 1e100 else None
 
 
 def _largest(cell: Cell) -> Optional[float]:
