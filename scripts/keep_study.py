@@ -4,10 +4,12 @@ docs/pictures/NAME-*.png. The section "All runs" stays behind, as do pictures th
 usage: python3 scripts/keep_study.py FOLDER...    (results/studies/NAME, as fsi-compare study NAME leaves it)
 """
 
+import os
 import re
 import shutil
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 TOP = Path(__file__).resolve().parents[1]
 LEFT_OUT = "All runs"
@@ -15,7 +17,10 @@ LEFT_OUT = "All runs"
 
 def keep(folder: Path, docs: Path) -> Path:
     name = folder.resolve().name
-    text = (folder / "report.md").read_text(encoding="utf-8")
+    try:
+        text = (folder / "report.md").read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"{folder}/report.md cannot be read: {error}; run fsi-compare study first")
     sections = re.split(r"(?m)^(?=## )", text)
     text = "".join(section for section in sections if not section.startswith(f"## {LEFT_OUT}\n"))
     for old in (docs / "pictures").glob(f"{name}-*.png"):
@@ -33,11 +38,19 @@ def main(words) -> int:
         print(__doc__, file=sys.stderr)
         return 1
     for word in words:
-        if not (Path(word) / "report.md").is_file():
-            print(f"keep_study: error: {word} holds no report.md; run fsi-compare study first", file=sys.stderr)
-            return 1
-        print(keep(Path(word), TOP / "docs"))
+        if not os.path.isfile(Path(word) / "report.md"):
+            fail(f"{word} holds no report.md; run fsi-compare study first")
+        try:
+            print(keep(Path(word), TOP / "docs"))
+        except OSError as error:
+            fail(f"{error.filename}: {error.strerror}; run fsi-compare study anew, or mend the permissions of docs/")
     return 0
+
+
+def fail(text: str) -> NoReturn:
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+    print(f"keep_study: error: {line[:1000]}", file=sys.stderr)
+    sys.exit(1)
 
 
 if __name__ == "__main__":

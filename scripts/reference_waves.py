@@ -11,6 +11,7 @@ the neo-Hookean one first.
 """
 
 import json
+import os
 import subprocess
 import sys
 import tomllib
@@ -24,6 +25,8 @@ TOP = Path(__file__).resolve().parents[1]
 REFERENCES = TOP / "compare/studies/references"
 sys.path.insert(0, str(TOP / "compare"))
 
+from fsi_compare.base.errors import InputError, printable  # noqa: E402
+from fsi_compare.base.names import MATERIALS  # noqa: E402
 from fsi_compare.studies.accuracy.observed_order import self_convergence  # noqa: E402
 from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
 from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated, norm, read_run  # noqa: E402
@@ -211,15 +214,38 @@ def write_both(material: str, found) -> None:
 def main(words) -> int:
     jobs = 1
     if words[:1] == ["--jobs"] and len(words) > 1:
+        if not words[1].isdecimal() or not 0 < int(words[1]) < 1000:
+            return fail(f"--jobs: {words[1]} is no number of runs at once; give 1 or more")
         jobs, words = int(words[1]), words[2:]
     if len(words) < 3:
         print(__doc__, file=sys.stderr)
         return 1
-    programs, work = Path(words[0]), Path(words[1]).resolve()
-    work.mkdir(parents=True, exist_ok=True)
+    programs, work = Path(words[0]), Path(os.path.realpath(words[1]))
+    for name in ("fsi-mesh", "fsi-monolithic"):
+        if not os.access(programs / name, os.X_OK):
+            return fail(f"{programs}: there is no {name} in it; give the folder of the programs")
     for material in words[2:]:
-        write_both(material, runs(programs, work, material, jobs))
+        if material not in MATERIALS:
+            return fail(f"MATERIAL: '{material}' is unknown; give some of {', '.join(MATERIALS)}")
+    try:
+        work.mkdir(parents=True, exist_ok=True)
+        for material in words[2:]:
+            write_both(material, runs(programs, work, material, jobs))
+    except InputError as error:
+        return fail(str(error))
+    except OSError as error:
+        return fail(f"{error.filename}: {error.strerror}; name another folder, or mend its permissions")
+    except subprocess.CalledProcessError as error:
+        return fail(f"{error.cmd[0]}: ended with code {error.returncode}; see its message")
+    except KeyboardInterrupt:
+        print("reference_waves: interrupted; finished runs are kept", file=sys.stderr)
+        return 130
     return 0
+
+
+def fail(text: str) -> int:
+    print(f"reference_waves: error: {printable(text)}", file=sys.stderr)
+    return 1
 
 
 if __name__ == "__main__":

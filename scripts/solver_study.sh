@@ -6,7 +6,16 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+fail() {
+  echo "solver_study.sh: error: $*" >&2
+  exit 1
+}
+
+[ $# -le 1 ] || fail "$# arguments; give the folder with the programs, or nothing"
 programs=${1:-build/release/bin}
+for program in fsi-monolithic fsi-partitioned fsi-compare; do
+  [ -x "$programs/$program" ] || fail "$programs: there is no $program in it; build first, or give another folder"
+done
 results=results/solvers
 mkdir -p "$results"
 

@@ -1,5 +1,3 @@
-import sys
+from .start import program
 
-from .cli import main
-
-sys.exit(main(sys.argv[1:]))
+program()

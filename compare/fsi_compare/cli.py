@@ -1,8 +1,6 @@
 """The command line of fsi-compare."""
 
 import argparse
-import os
-import sys
 from typing import NoReturn, Sequence
 
 from .base.errors import InputError
@@ -36,24 +34,14 @@ def parser(version: str) -> argparse.ArgumentParser:
     return top
 
 
-def main(arguments: Sequence[str], version: str = "unknown") -> int:
-    """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge."""
-    code = 0
+def run(arguments: Sequence[str], version: str) -> int:
+    """The exit code. Raises InputError for wrong use and bad input."""
+    top = parser(version)
     try:
-        top = parser(version)
         options = top.parse_args(list(arguments))
-        if options.command is None:
-            top.error("no command")
-        run = {"pressure": pressure, "cost": cost, "accuracy": accuracy, "solvers": solvers, "study": study}
-        code = run[options.command](options)
-        sys.stdout.flush()
-    except InputError as error:
-        print(f"fsi-compare: error: {error}", file=sys.stderr)
-        return 1
-    except BrokenPipeError:
-        # The reader, e.g. `head`, has seen enough; nothing may be flushed into the closed pipe at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except KeyboardInterrupt:
-        print("fsi-compare: interrupted", file=sys.stderr)
-        return 130
-    return code
+    except SystemExit as end:  # of --help and --version
+        return int(end.code or 0)
+    if options.command is None:
+        top.error("no command")
+    command = {"pressure": pressure, "cost": cost, "accuracy": accuracy, "solvers": solvers, "study": study}
+    return command[options.command](options)

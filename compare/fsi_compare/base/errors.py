@@ -1,15 +1,84 @@
-"""Mistakes in what the user handed over."""
+"""Mistakes in what the user handed over, and messages that any terminal can show."""
 
+import sys
 from pathlib import Path
 from typing import Union
+
+PROGRAM = "fsi-compare"
+# Characters that each part may take, as in the C++ programs (common/base/error.cpp). What a user handed over is in the
+# first three; a remedy is our own words, in which a command is meant to be pasted.
+FILE_LIMIT, KEY_LIMIT, PROBLEM_LIMIT, REMEDY_LIMIT = 200, 200, 600, 2000
+GAP = "..."
 
 
 class InputError(Exception):
     """A mistake in a result folder or on the command line; the program prints it in one line and exits with 1.
 
-    The message reads `FILE: KEY: PROBLEM; REMEDY`; empty parts are left out.
+    The message reads `FILE: KEY: PROBLEM; REMEDY`; empty parts are left out, long ones shortened.
     """
 
     def __init__(self, file: Union[str, Path], key: str, problem: str, remedy: str = "") -> None:
-        text = ": ".join(part for part in (str(file), key, problem) if part)
-        super().__init__(" ".join((f"{text}; {remedy}" if remedy else text).split()))
+        parts = (
+            shortened_path(str(file), FILE_LIMIT),
+            shortened(key, KEY_LIMIT),
+            shortened(" ".join(problem.split()), PROBLEM_LIMIT),
+        )
+        text = ": ".join(part for part in parts if part)
+        super().__init__(f"{text}; {shortened(' '.join(remedy.split()), REMEDY_LIMIT)}" if remedy else text)
+
+
+class ProgramError(InputError):
+    """What one of the programs answered: its message, which has parts of its own, in the place of the problem."""
+
+    def __init__(self, file: Union[str, Path], key: str, message: str, remedy: str = "") -> None:
+        parts = (
+            shortened_path(str(file), FILE_LIMIT),
+            shortened(key, KEY_LIMIT),
+            shortened(message, FILE_LIMIT + KEY_LIMIT + PROBLEM_LIMIT + REMEDY_LIMIT),
+        )
+        text = ": ".join(part for part in parts if part)
+        Exception.__init__(self, f"{text}; {remedy}" if remedy else text)
+
+
+def printable(text: str) -> str:
+    """In one line that any terminal can show: control characters and others that show nothing become their escapes
+    (\\n, \\x1b), and so do bytes of a file's name that are no UTF-8."""
+    return text if text.isprintable() else "".join(c if c.isprintable() else _escape(c) for c in text)
+
+
+def _escape(character: str) -> str:
+    code = ord(character)
+    if 0xDC80 <= code < 0xDD00:  # a byte, as Python keeps it (PEP 383)
+        return f"\\x{code - 0xDC00:02x}"
+    return character.encode("unicode_escape").decode("ascii")
+
+
+def shortened(text: str, limit: int) -> str:
+    """Printable text of at most `limit` characters: the middle of a longer one is replaced by "..."."""
+    line = printable(text)
+    left = limit - len(GAP)
+    return line if len(line) <= limit else line[: left - left // 2] + GAP + line[-(left // 2) :]
+
+
+def shortened_path(path: str, limit: int) -> str:
+    """The same for a path, whose end tells more than its beginning: the beginning is replaced."""
+    line = printable(path)
+    return line if len(line) <= limit else GAP + line[len(GAP) - limit :]
+
+
+def say_error(text: str) -> None:
+    """The one line of a program that could not do its work. There is nobody left to tell when that fails too."""
+    _tell(f"{PROGRAM}: error: {text}")
+
+
+def say_note(text: str) -> None:
+    """What is worth knowing, and no reason to stop."""
+    _tell(f"{PROGRAM}: note: {printable(text)}")
+
+
+def say_warning(text: str) -> None:
+    _tell(f"{PROGRAM}: warning: {printable(text)}")
+
+
+def _tell(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

@@ -1,22 +1,184 @@
-"""Output files that are either complete or absent."""
+"""Files that are read whole or refused, and output files that are either complete or absent."""
 
+import json
 import os
+import socket
+import stat
 import tempfile
+import tomllib
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Iterator
+from typing import Any, Dict, Iterator, List
 
 from .errors import InputError
 
+DEEPEST = 50  # levels of lists and sections; ours have five
+LARGEST = 64 << 20  # bytes of a JSON or TOML file; ours have a few thousand
+TEMPORARY = ".part"  # ends the names of files that are being written
+ELSEWHERE = "name another folder with -o"
 
-def make_folder(folder: Path) -> None:
-    """Creates the output folder and its parents. Raises InputError when that is not possible."""
+
+def folder(text: str) -> Path:
+    """For options that name an output folder: an empty name, of a variable that is not set, is not the folder where
+    the program was started."""
+    if not text.strip():
+        raise ValueError(text)
+    return Path(text)
+
+
+def exists(path: Path) -> bool:
+    """Like Path.exists, but a name that is too long or a folder that may not be looked into is no exception."""
+    return os.path.exists(path)
+
+
+def is_file(path: Path) -> bool:
+    return os.path.isfile(path)
+
+
+def is_folder(path: Path) -> bool:
+    return os.path.isdir(path)
+
+
+def absolute(path: Path) -> Path:
+    """Without links, where that is possible: a circle of links is left as it stands."""
+    return Path(os.path.realpath(path))
+
+
+def read_bytes(path: Path, missing: str, broken: str, largest: float = float("inf")) -> bytes:
+    """Raises InputError, with `missing` or `broken` as its remedy. Only regular files: others may never end."""
     try:
+        # Opening a pipe would wait for its other end.
+        with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
+                raise InputError(path, "", "is not a regular file", broken)
+            if status.st_size > largest:
+                raise InputError(path, "", f"has more than {LARGEST >> 20} MiB", broken)
+            return file.read()
+    except FileNotFoundError:
+        raise InputError(path, "", "is missing", missing) from None
+    except OSError as error:
+        raise InputError(path, "", f"cannot be read: {error.strerror}", broken) from None
+    except ValueError:
+        raise InputError(path, "", "is no name of a file", missing) from None
+    except MemoryError:
+        raise InputError(path, "", "does not fit into memory", broken) from None
+
+
+def read_text(path: Path, missing: str, broken: str, largest: float = float("inf")) -> str:
+    """The same as text in UTF-8."""
+    try:
+        return read_bytes(path, missing, broken, largest).decode("utf-8").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise InputError(path, "", "is not a text file", broken) from None
+
+
+def read_json(path: Path, missing: str, broken: str) -> Any:
+    text = read_text(path, missing, broken, LARGEST)
+    try:
+        value = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(path, f"line {error.lineno}", f"is not JSON: {error.msg}", broken) from None
+    except ValueError as error:  # a number of more digits than Python converts
+        raise InputError(path, "", f"is not JSON: {error}", broken) from None
+    except RecursionError:
+        raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
+    _require_plain(path, value, broken)
+    return value
+
+
+def read_object(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+    """Of a JSON file that holds an object."""
+    value = read_json(path, missing, broken)
+    if not isinstance(value, dict):
+        raise InputError(path, "", "is not a JSON object", broken)
+    return value
+
+
+def read_toml(path: Path, missing: str, broken: str) -> Dict[str, Any]:
+    """Raises InputError."""
+    text = read_text(path, missing, broken, LARGEST)
+    try:
+        value = tomllib.loads(text)
+    except ValueError as error:
+        raise InputError(path, "", f"is not TOML: {error}", "mend that line") from None
+    except RecursionError:
+        raise InputError(path, "", f"has more than {DEEPEST} levels", broken) from None
+    _require_plain(path, value, broken)
+    return value
+
+
+def _require_plain(path: Path, value: Any, broken: str) -> None:
+    """Not so deep that a walk through it would fail, and texts that can be written again."""
+    waiting = [(value, 0)]
+    while waiting:
+        entry, depth = waiting.pop()
+        if depth > DEEPEST:
+            raise InputError(path, "", f"has more than {DEEPEST} levels", broken)
+        if isinstance(entry, dict):
+            waiting += [(part, depth + 1) for pair in entry.items() for part in pair]
+        elif isinstance(entry, list):
+            waiting += [(part, depth + 1) for part in entry]
+        elif isinstance(entry, str) and any(0xD800 <= ord(c) < 0xE000 for c in entry):
+            raise InputError(path, "", f"holds a text with half a character: {entry}", broken)
+
+
+def make_folder(folder: Path) -> List[Path]:
+    """Creates the output folder and its parents; those that were not there, the outermost first. Raises InputError when
+    that is not possible."""
+    made: List[Path] = []
+    try:
+        place = folder
+        while not exists(place) and place != place.parent:
+            made.insert(0, place)
+            place = place.parent
         folder.mkdir(parents=True, exist_ok=True)
+        return made
     except (FileExistsError, NotADirectoryError):
         raise InputError(folder, "--output", "is a file, not a folder", "name another folder") from None
     except OSError as error:
+        remove_empty(made)
         raise InputError(folder, "--output", f"cannot be made: {error.strerror}", "name another folder") from None
+
+
+def remove_empty(folders: List[Path]) -> None:
+    """Those of `folders`, the innermost last, that hold nothing."""
+    for folder in reversed(folders):
+        try:
+            folder.rmdir()
+        except OSError:
+            return
+
+
+@contextmanager
+def output_folder(folder: Path) -> Iterator[Path]:
+    """Makes the folder; folders that were made for nothing, since the block ended without a file, are removed."""
+    made = make_folder(folder)
+    try:
+        yield folder
+    finally:
+        remove_empty(made)
+
+
+@contextmanager
+def together(folder: Path) -> Iterator[Path]:
+    """Makes `folder` and yields a place within it for output files, which are moved into `folder` when the block has
+    ended without error: all files of a report are of the same call, or none is new. Raises InputError."""
+    with output_folder(folder):
+        sweep(folder)
+        try:
+            place = Path(tempfile.mkdtemp(dir=folder, prefix=_prefix(), suffix=TEMPORARY))
+        except OSError as error:
+            raise InputError(folder, "--output", f"cannot be written to: {error.strerror}", ELSEWHERE) from None
+        try:
+            yield place
+            for file in sorted(place.iterdir()):
+                try:
+                    os.replace(file, folder / file.name)
+                except OSError as error:
+                    raise _not_written(folder / file.name, error) from None
+        finally:
+            remove_tree(place)
 
 
 @contextmanager
@@ -25,15 +187,65 @@ def replacing(path: Path) -> Iterator[Path]:
     so that a reader never meets half a file."""
     temporary = None
     try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=_prefix(), suffix=TEMPORARY)
         os.close(handle)
         yield Path(temporary)
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(temporary, 0o666 & ~umask)  # mkstemp's files are private; these are ordinary results
+        _synchronise(temporary)
         os.replace(temporary, path)
     except OSError as error:
-        raise InputError(path, "", f"cannot be written: {error.strerror}", "name another folder with -o") from None
+        raise _not_written(path, error) from None
     finally:
-        if temporary and os.path.exists(temporary):
+        if temporary and os.path.lexists(temporary):
             os.unlink(temporary)
+
+
+def _not_written(path: Path, error: OSError) -> InputError:
+    return InputError(path, "", f"cannot be written: {error.strerror or error}", ELSEWHERE)
+
+
+def _synchronise(path: str) -> None:
+    """Onto the disk: some systems tell only then that it is full."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def listed(folder: Path) -> List[str]:
+    """Names in a folder; none where it cannot be read."""
+    try:
+        return sorted(os.listdir(folder))
+    except OSError:
+        return []
+
+
+def _prefix() -> str:
+    """Tells whose temporary file it is."""
+    return f".{socket.gethostname()}-{os.getpid()}-"
+
+
+def sweep(folder: Path) -> None:
+    """Removes what calls on this machine that were killed left in `folder`: files that nobody goes on writing."""
+    mine = f".{socket.gethostname()}-"
+    for name in listed(folder):
+        if name.startswith(mine) and name.endswith(TEMPORARY):
+            process = name[len(mine) :].partition("-")[0]
+            if not os.path.exists(f"/proc/{process}"):
+                remove_tree(folder / name)
+
+
+def remove_tree(path: Path) -> None:
+    """A file, a link or a folder with all it holds, as far as that is possible."""
+    try:
+        if path.is_dir() and not path.is_symlink():
+            for entry in os.listdir(path):
+                remove_tree(path / entry)
+            path.rmdir()
+        else:
+            path.unlink(missing_ok=True)
+    except OSError:
+        pass  # what cannot be removed will be seen by whoever writes there

@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 from ..base.errors import InputError
-from ..base.files import make_folder, replacing
+from ..base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
+from ..base.folder_lock import locked
 from ..base.names import MATERIALS, MESHES, METHODS, pick
-from ..reporting.layout import Table, write_markdown
+from ..reporting.layout import Table, say_written, write_markdown
+from ..reporting.matplotlib_loader import load_matplotlib
 from ..runs.programs import Program, find_monolithic
 from . import stress as stress_study
 from .results import System
@@ -53,7 +55,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str,
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path(default_output),
         help="folder for the files written (default: %(default)s)",
     )
@@ -133,9 +135,22 @@ def solvers(options: argparse.Namespace) -> int:
     for material in materials:
         check_case(options.case_dir, material)
     program = find_monolithic(options.program)
-    make_folder(options.output)
-    check_writable(options.output)
+    with output_folder(options.output), locked(options.output):
+        check_writable(options.output)
+        return solve(options, program, methods, materials, meshes, systems, without, settings)
 
+
+def solve(
+    options: argparse.Namespace,
+    program: Program,
+    methods: Sequence[str],
+    materials: Sequence[str],
+    meshes: Sequence[str],
+    systems: Sequence[System],
+    without: Set[Tuple[str, str]],
+    settings: Tuple[str, ...],
+) -> int:
+    """Makes the runs that are missing and the tables from all."""
     base = Request(
         name="",
         case=options.case_dir,
@@ -173,12 +188,14 @@ def solvers(options: argparse.Namespace) -> int:
             )
     outcomes = run_study(program, options.output / "runs", requests, options.quiet)
 
+    load_matplotlib()
     from . import solver_pictures, solver_tables  # matplotlib takes a second to load
 
     grid = solver_tables.Grid(outcomes)
     tables = solver_tables.solver_tables(grid)
-    written = write(options, tables, "solvers.md", "Linear solvers")
-    written += solver_pictures.write_solver_pictures(options.output, grid)
+    with together(options.output) as place:
+        written = write(place, tables, "solvers.md", "Linear solvers")
+        written += solver_pictures.write_solver_pictures(place, grid)
     report(options, tables, written)
     return exit_code(outcomes)
 
@@ -191,7 +208,9 @@ def stress(
     runs = iter(run_study(program, options.output / "runs", requests, options.quiet))
     outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
     table = stress_study.stress_table(planned, outcomes, base.solvers)
-    report(options, [table], write(options, [table], "stress.md", "Linear solvers under stress"))
+    with together(options.output) as place:
+        written = write(place, [table], "stress.md", "Linear solvers under stress")
+    report(options, [table], written)
     return exit_code(outcomes)
 
 
@@ -199,25 +218,24 @@ def exit_code(outcomes: List[Outcome]) -> int:
     return 0 if all(outcome.converged for outcome in outcomes) else 2
 
 
-def write(options: argparse.Namespace, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
-    return [
-        *(table.write_csv(options.output) for table in tables),
-        write_markdown(options.output / markdown, heading, tables),
-    ]
+def write(place: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+    return [*(table.write_csv(place) for table in tables), write_markdown(place / markdown, heading, tables)]
 
 
 def report(options: argparse.Namespace, tables: Sequence[Table], written: Sequence[Path]) -> None:
     if not options.quiet:
         for table in tables:
             print(table.text())
-        print("Written: " + ", ".join(str(path) for path in written))
+        say_written(options.output, written)
 
 
 def read_systems(text: str) -> List[System]:
     systems = []
     for part in text.split(","):
         words = part.strip().split(":")
-        if len(words) != 2 or not all(word.isascii() and word.isdigit() and int(word) > 0 for word in words):
+        if len(words) != 2 or not all(
+            word.isascii() and word.isdigit() and len(word) < 10 and int(word) > 0 for word in words
+        ):
             raise InputError(
                 "",
                 "--systems",
@@ -269,10 +287,10 @@ def check_stress(options: argparse.Namespace, systems: List[System]) -> None:
 
 
 def check_case(folder: Path, material: str) -> None:
-    if not folder.is_dir():
+    if not is_folder(folder):
         raise InputError(folder, "--case-dir", "no such folder", "give the folder with the case files")
     case = folder / f"{material}.toml"
-    if not case.is_file():
+    if not is_file(case):
         raise InputError(case, "--case-dir", "no such case file", "give a folder with a case file per material")
 
 

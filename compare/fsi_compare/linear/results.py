@@ -1,12 +1,12 @@
 """`linear_solvers.json`: what fsi-monolithic found when it solved single Newton systems by several methods."""
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Union
 
 from ..base.errors import InputError
+from ..base.files import read_json
 
 FILE = "linear_solvers.json"
 System = Tuple[int, int]  # time step, Newton iteration; both from 1
@@ -90,14 +90,7 @@ class LinearSolvers:
 
 def read_linear_solvers(path: Path) -> LinearSolvers:
     """Raises InputError naming file and key unless the file is complete."""
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(path, "", "is missing") from None
-    except (UnicodeDecodeError, json.JSONDecodeError):
-        raise InputError(path, "", "is not JSON") from None
-    except OSError as error:
-        raise InputError(path, "", f"cannot be read: {error.strerror}") from None
+    data = read_json(path, "", "")
     top = _Object(path, "", data)
     if top.text("program") != "fsi-monolithic":
         raise InputError(path, "program", f"'{top.text('program')}' is not fsi-monolithic")
@@ -108,7 +101,7 @@ def read_linear_solvers(path: Path) -> LinearSolvers:
         title=top.text("title"),
         case_hash=top.text("case_hash"),
         threads=top.count("threads"),
-        mesh=top.object("mesh").values,
+        mesh=_mesh(top.object("mesh")),
         tolerance=tolerance,
         newton=[
             NewtonStep(
@@ -117,7 +110,9 @@ def read_linear_solvers(path: Path) -> LinearSolvers:
             for entry in top.objects("newton")
         ],
         systems={system.key: system for system in systems},
-        sub_problems=[_sub_problem(entry) for entry in top.objects("sub_problems")] if "sub_problems" in data else [],
+        sub_problems=[_sub_problem(entry) for entry in top.objects("sub_problems")]
+        if "sub_problems" in top.values
+        else [],
     )
 
 
@@ -147,10 +142,16 @@ class _Object:
         return self._value(key, bool, "true or false")
 
     def count(self, key: str) -> int:
-        return self._value(key, int, "a whole number")
+        value = self._value(key, int, "a whole number")
+        if not 0 <= value < 1 << 53:
+            self.refuse(key, "is negative" if value < 0 else "is too large")
+        return value
 
     def number(self, key: str) -> float:
-        value = float(self._value(key, (int, float), "a number"))
+        try:
+            value = float(self._value(key, (int, float), "a number"))
+        except OverflowError:
+            self.refuse(key, "is too large")
         if not math.isfinite(value):
             self.refuse(key, f"is {value}")
         return value
@@ -165,7 +166,7 @@ class _Object:
     def numbers(self, key: str) -> List[float]:
         values = self._value(key, list, "a list")
         for value in values:
-            if isinstance(value, bool) or not isinstance(value, (int, float)):
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < 1e300:
                 self.refuse(key, "is not a list of numbers")
         return [float(value) for value in values]
 
@@ -177,6 +178,12 @@ class _Object:
             _Object(self.path, f"{self.key}.{key}[{i}]".lstrip("."), entry)
             for i, entry in enumerate(self._value(key, list, "a list"))
         ]
+
+
+def _mesh(entry: _Object) -> dict:
+    if "nodes" in entry.values:
+        entry.count("nodes")
+    return entry.values
 
 
 def _system(entry: _Object, tolerance: float) -> NewtonSystem:
@@ -203,7 +210,7 @@ def _solve(entry: _Object, tolerance: float) -> Solve:
             converged = False
             shown = "not finite" if residual is None else f"{residual:.1e}, above {tolerance:g}"
             message = f"true residual is {shown}" + (f"; {message}" if message else "")
-    cycles = entry.values.get("cycles") or {}
+    cycles = entry.object("cycles").values if entry.values.get("cycles") else {}
     return Solve(
         name=entry.text("name"),
         converged=converged,

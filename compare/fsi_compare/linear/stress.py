@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
-from ..base.files import make_folder
+from ..base.files import TEMPORARY, absolute, exists, make_folder
 from ..base.names import MATERIALS
 from ..reporting.layout import Table, fixed
 from ..runs.processes import execute
@@ -83,7 +83,7 @@ def plan(
                 if row.axial_stretch is not None:
                     file = folder / "runs" / "meshes" / f"{mesh}-{row.axial_stretch:g}.msh"
                     failure = make_stretched_mesh(program, file, mesh, row.axial_stretch)
-                    settings, files = (f"mesh.file={file.resolve()}",), () if failure else (file,)
+                    settings, files = (f"mesh.file={absolute(file)}",), () if failure else (file,)
                 planned.append(
                     Planned(
                         row,
@@ -111,11 +111,11 @@ def make_stretched_mesh(program: Program, file: Path, mesh: str, stretch: float)
     maker = find_mesh_maker(program)
     if maker is None:
         return "fsi-mesh is neither beside fsi-monolithic nor on the path"
-    if file.exists():
+    if exists(file):
         return ""
     make_folder(file.parent)
     axial = stretch * CROSS_SIZE[mesh]
-    unfinished = file.with_suffix(".part.msh")
+    unfinished = file.with_name(f".{file.stem}{TEMPORARY}.msh")
     ended = execute(
         (
             maker,

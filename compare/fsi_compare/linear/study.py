@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Optional, Sequence, Tuple
 
-from ..base.errors import InputError
-from ..base.files import make_folder, replacing
+from ..base.errors import InputError, ProgramError
+from ..base.files import exists, make_folder, read_bytes, read_object, remove_tree, replacing, sweep
 from ..base.names import MESH_NODES
 from ..base.progress import Progress
 from ..runs.case_digest import case_digest
@@ -66,7 +66,7 @@ class Request:
         """What decides the result, and is not in it."""
         digest = hashlib.sha256(case_digest(self.case, "fsi-monolithic").encode())
         for file in self.files:
-            digest.update(file.read_bytes())
+            digest.update(read_bytes(file, "", ""))
         return {"inputs": digest.hexdigest(), "settings": list(self.settings), "threads": self.threads}
 
 
@@ -105,7 +105,7 @@ def run_study(program: Program, folder: Path, requests: Sequence[Request], quiet
         else:
             outcomes.append(_run(program, place, request, progress))
     if outcomes and all(outcome.refused for outcome in outcomes):
-        raise InputError("", "", outcomes[0].failure)
+        raise ProgramError("", "", outcomes[0].failure)
     return outcomes
 
 
@@ -114,13 +114,13 @@ def finished(place: Path, request: Request, version: str) -> Optional[Tuple[Line
     now."""
     try:
         results = read_linear_solvers(place / FILE)
-        memory = json.loads((place / REQUEST).read_text(encoding="utf-8"))
+        memory = read_object(place / REQUEST, "", "")
         wanted = {**request.fingerprint(), "case_hash": results.case_hash}
         if results.version != version or any(memory.get(key) != value for key, value in wanted.items()):
             return None
         _require(results, request)
-        return results, float(memory["seconds"]), memory.get("executable", "")
-    except (InputError, OSError, ValueError, KeyError, TypeError, AttributeError):
+        return results, float(memory["seconds"]), str(memory.get("executable", ""))
+    except (InputError, OSError, ValueError, OverflowError, KeyError, TypeError):
         return None
 
 
@@ -141,8 +141,9 @@ def _require(results: LinearSolvers, request: Request) -> None:
 
 def _run(program: Program, place: Path, request: Request, progress: Progress) -> Outcome:
     make_folder(place)
+    sweep(place)
     for name in (FILE, REQUEST):  # an old result must not pass for that of a run that fails
-        (place / name).unlink(missing_ok=True)
+        remove_tree(place / name)
     start = time.monotonic()
     progress.begin()
     ended = execute(request.command(program, place), progress.tick)
@@ -163,7 +164,7 @@ def _run(program: Program, place: Path, request: Request, progress: Progress) ->
 
 def _outcome(place: Path, request: Request, ended: End, version: str) -> Outcome:
     # Code 2 says that something did not converge; what did is in the file all the same.
-    if ended.code not in (0, 2) or (ended.code == 2 and not (place / FILE).exists()):
+    if ended.code not in (0, 2) or (ended.code == 2 and not exists(place / FILE)):
         return Outcome(request, None, ended.message, refused=ended.code == 1)
     try:
         results = read_linear_solvers(place / FILE)

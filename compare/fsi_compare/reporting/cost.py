@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Optional, Sequence
 
-from ..base.errors import InputError
-from ..base.files import make_folder
-from ..runs.columns import read_columns
+from ..base.errors import InputError, printable
+from ..base.files import exists, folder, together
+from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
-from ..runs.run_folder import PROGRAMS, read_summary
-from .layout import Table, fixed, write_markdown
+from ..runs.run_folder import read_finished
+from ..runs.summary import PROGRAMS
+from .layout import Table, fixed, say_written, write_markdown
 
 DESCRIPTION = """\
 Tabulates what finished runs took: wall time, coupling iterations, solves of the whole system and of the
@@ -27,7 +28,6 @@ examples:
   fsi-compare cost results/runs/* --labels fast,aitken,iqn-ils,robin-neumann
 """
 
-ITERATIONS = "iterations.csv"
 COUPLING = "coupling.csv"
 COUPLED, FLUID, WALL, MESH = "coupled", "fluid", "wall", "mesh motion"
 PREPARATIONS = ("factorisation", "set-up")
@@ -74,7 +74,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/cost"),
         help="folder for the files written (default: %(default)s)",
     )
@@ -93,38 +93,31 @@ def cost(options: argparse.Namespace) -> int:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
-    make_folder(options.output)
-    table = cost_table(costs, options.title)
-    written = [table.write_csv(options.output), write_markdown(options.output / "cost.md", options.title, [table])]
+    title = printable(options.title)
+    table = cost_table(costs, title)
+    with together(options.output) as place:
+        written = [table.write_csv(place), write_markdown(place / "cost.md", title, [table])]
     if not options.quiet:
         print(table.text())
-        print("Written: " + ", ".join(str(path) for path in written))
+        say_written(options.output, written)
     return 0
 
 
 def read_cost(folder: Path, label: str) -> Cost:
     """Raises InputError unless the run is finished and its tables are complete."""
-    if not folder.is_dir():
-        raise InputError(
-            folder,
-            "",
-            "is not a folder" if folder.exists() else "no such folder",
-            "give the folder that a run wrote with -o",
-        )
-    summary = read_summary(folder / "summary.json")
+    summary = read_finished(folder)
     program = PROGRAMS[summary["program"]]
-    iterations = read_columns(
-        folder / ITERATIONS, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s")
-    )
-    coupled = program == "partitioned" and (folder / COUPLING).exists()
-    coupling = read_columns(folder / COUPLING, ("displacement_residual", "force_residual")) if coupled else {}
+    iterations = read_iterations(folder, ("outer_iterations", "newton_iterations", "linear_iterations", "wall_s"))
+    coupled = program == "partitioned" and exists(folder / COUPLING)
+    residuals = ("displacement_residual", "force_residual")
+    coupling = read_columns(folder / COUPLING, residuals) if coupled else None
     outer = iterations["outer_iterations"].tolist()
     phases = summary.get("phases", {})
     mesh = summary.get("mesh", {})
     return Cost(
         label=label,
         program=program,
-        mesh=f"{mesh['nodes']} nodes" if "nodes" in mesh else str(mesh.get("name", "")),
+        mesh=f"{mesh['nodes']} nodes" if "nodes" in mesh else printable(mesh.get("name", "")),
         unknowns=summary.get("unknowns", {}).get("coupled"),
         threads=summary.get("threads"),
         steps=len(outer),
@@ -135,8 +128,8 @@ def read_cost(folder: Path, label: str) -> Cost:
         linear=int(iterations["linear_iterations"].sum()),
         solves=calls(phases, ("solve",)),
         preparations=calls(phases, PREPARATIONS),
-        displacement_residual=float(coupling["displacement_residual"].max()) if coupled else None,
-        force_residual=float(coupling["force_residual"].max()) if coupled else None,
+        displacement_residual=float(coupling["displacement_residual"].max()) if coupling else None,
+        force_residual=float(coupling["force_residual"].max()) if coupling else None,
         memory_mib=summary.get("peak_memory_MiB"),
         restarted_from=summary.get("restarted_from_step"),
     )
@@ -148,7 +141,7 @@ def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
     for name, phase in phases.items():
         kind, colon, system = name.partition(": ")
         if colon and kind in kinds:
-            found[system] = found.get(system, 0) + int(phase["calls"])
+            found[system] = found.get(system, 0) + int(phase.get("calls", 0))
     return found
 
 

@@ -1,10 +1,12 @@
 """A table in the forms that people and scripts read."""
 
 import csv
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, List, Sequence, Tuple
 
+from ..base.errors import printable
 from ..base.files import replacing
 
 
@@ -67,7 +69,7 @@ class Table:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(self.csv_columns)
             for row in self.csv_rows:
-                writer.writerow([repr(cell) if isinstance(cell, float) else cell for cell in row])
+                writer.writerow([_field(cell) for cell in row])
         return path
 
 
@@ -75,6 +77,18 @@ def write_markdown(path: Path, heading: str, tables: Sequence[Table]) -> Path:
     with replacing(path) as temporary:
         temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
     return path
+
+
+def _field(cell: Any) -> Any:
+    """Of a CSV: what is no number is an empty field."""
+    if not isinstance(cell, float):
+        return cell
+    return repr(float(cell)) if math.isfinite(cell) else None
+
+
+def say_written(folder: Path, files: Sequence[Path]) -> None:
+    """Names the files, which by now are in `folder`."""
+    print("Written: " + ", ".join(printable(str(folder / file.name)) for file in files))
 
 
 def _markdown_row(cells: Sequence[str]) -> str:

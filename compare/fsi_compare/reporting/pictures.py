@@ -12,10 +12,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from ..base import interruption
+from ..base.errors import shortened
 from ..base.files import replacing
 from ..runs.pressure_waves import PressureWaves
 
 DPI = 200
+LONGEST_TEXT = 500  # characters of a heading or a label: what is longer would make a picture of its own
 PANEL_INCHES = (3.7, 2.15)
 
 # Told apart without colour: by dash pattern and by lightness. The first run is drawn broad and dark and the others
@@ -61,10 +64,11 @@ def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Pa
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
+        interruption.check()
         figure = draw()
         for path, metadata in zip(paths, ({"Software": None}, {"Date": None, "Creator": None})):
             with replacing(path) as temporary:
-                figure.savefig(temporary, dpi=DPI, metadata=metadata)
+                figure.savefig(temporary, dpi=DPI, format=path.suffix[1:], metadata=metadata)
     return paths
 
 
@@ -145,5 +149,5 @@ def _place_legend(figure: Figure, handles: Sequence[Artist], labels: Sequence[st
 
 def _plain(text: str) -> str:
     """Text that matplotlib shows as it stands: no formulas, and no label that it takes for a hidden one."""
-    text = text.replace("$", r"\$")
+    text = shortened(text, LONGEST_TEXT).replace("$", r"\$")
     return " " + text if text.startswith("_") else text

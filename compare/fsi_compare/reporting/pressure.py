@@ -2,15 +2,17 @@
 
 import argparse
 import math
-import sys
 from pathlib import Path
 from typing import Any, List, Sequence
 
-from ..base.errors import InputError
-from ..base.files import make_folder
+from ..base.errors import InputError, printable, say_warning
+from ..base.files import folder, together
 from ..runs.labels import default_labels, read_labels
 from ..runs.run_folder import Run, read_run
+from .layout import say_written
+from .matplotlib_loader import load_matplotlib
 
+MOST_TIMES = 60
 PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
 
 EXAMPLES = """\
@@ -39,7 +41,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/compare"),
         help="folder for the files written (default: %(default)s)",
     )
@@ -63,26 +65,28 @@ def pressure(options: argparse.Namespace) -> int:
     if options.threads is not None and options.threads < 1:
         raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     times = read_times(options.times)
+    if len(times) > MOST_TIMES:
+        raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
     labels = read_labels(options.labels, len(options.folders))
     runs = [read_run(folder) for folder in options.folders]
     labels = labels or default_labels(runs)
     check_comparable(runs, times)
-    make_folder(options.output)
+    title = printable(options.title) if options.title is not None else default_title(runs)
+    with together(options.output) as place:
+        # matplotlib takes a second to load: not before the input has proved right
+        load_matplotlib()
+        from . import pictures, pressure_tables as tables
 
-    # matplotlib takes a second to load: not before the input has proved right
-    from . import pictures, pressure_tables as tables
-
-    comparison = tables.compare_pressure(runs, labels, times)
-    written = [options.output / "pressure_waves.csv", options.output / "pressure_waves.json"]
-    tables.write_waves_csv(written[0], runs, labels, times)
-    tables.write_json(written[1], comparison)
-    title = options.title if options.title is not None else default_title(runs)
-    written += pictures.write_pressure_waves(options.output, [run.pressure for run in runs], labels, times, title)
+        comparison = tables.compare_pressure(runs, labels, times)
+        written = [place / "pressure_waves.csv", place / "pressure_waves.json"]
+        tables.write_waves_csv(written[0], runs, labels, times)
+        tables.write_json(written[1], comparison)
+        written += pictures.write_pressure_waves(place, [run.pressure for run in runs], labels, times, title)
     if not options.quiet:
         for warning in comparison.warnings:
-            print(f"fsi-compare: warning: {warning}", file=sys.stderr)
+            say_warning(warning)
         print(tables.text(runs, comparison))
-        print("Written: " + ", ".join(str(path) for path in written))
+        say_written(options.output, written)
     return 0
 
 

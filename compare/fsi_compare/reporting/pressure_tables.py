@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence
 
+from ..base.errors import printable
 from ..base.files import replacing
 from ..runs.conditions import Conditions, conditions, departures
 from ..runs.differences import Difference, OverTime, differences_at, largest_difference
@@ -53,7 +54,7 @@ def text(runs: Sequence[Run], comparison: Comparison) -> str:
         program = f"{run.program} {run.version}".strip()
         mesh = f"mesh {made.mesh}, " if made.mesh else ""
         lines.append(
-            f"  {label:<{width}}  {run.folder}: {program}, {mesh}{made.step_words}, {len(waves.times)} time levels "
+            f"  {label:<{width}}  {printable(str(run.folder))}: {program}, {mesh}{made.step_words}, {len(waves.times)} time levels "
             f"from {waves.times[0]:g} to {waves.times[-1]:g} ms, {len(waves.z)} points"
         )
     lines += [f"  Note: {warning}." for warning in comparison.warnings]

@@ -2,9 +2,13 @@
 
 import hashlib
 import json
-import tomllib
 from pathlib import Path
 from typing import Sequence
+
+from ..base.errors import InputError
+from ..base.files import read_bytes, read_toml
+
+MISSING = "give a case file that can be read"
 
 OTHERS = {"fsi-monolithic": "partitioned", "fsi-partitioned": "monolithic"}  # the section that the driver skips
 
@@ -12,11 +16,10 @@ OTHERS = {"fsi-monolithic": "partitioned", "fsi-partitioned": "monolithic"}  # t
 def case_digest(case: Path, program: str, ignored: Sequence[str] = ()) -> str:
     """SHA-256 of the entries, without comments, the other driver's section and what is `ignored` at the top; of the
     bytes where it is not TOML."""
-    content = case.read_bytes()
     try:
-        entries = tomllib.loads(content.decode("utf-8"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError):
-        return hashlib.sha256(content).hexdigest()
+        entries = read_toml(case, MISSING, MISSING)
+    except InputError:  # the driver will say what is wrong with it
+        return hashlib.sha256(read_bytes(case, MISSING, MISSING)).hexdigest()
     for name in (OTHERS.get(program, ""), *ignored):
         entries.pop(name, None)
     return hashlib.sha256(json.dumps(entries, sort_keys=True, default=str).encode()).hexdigest()

@@ -6,6 +6,7 @@ from typing import List, Optional, Sequence
 
 import numpy as np
 
+from ..base.errors import printable
 from .run_folder import Run
 
 SAME = 1e-6  # relative: times that are nearer were written with different round-off
@@ -28,10 +29,9 @@ class Conditions:
 
 def conditions(run: Run) -> Conditions:
     """From `summary.json` and the time levels of the pressure; a run of one level began at rest at zero."""
-    mesh = run.summary.get("mesh")
-    mesh = mesh if isinstance(mesh, dict) else {}
+    mesh = run.summary.get("mesh", {})
     nodes = mesh.get("nodes")
-    parts = [str(mesh.get("name", "")), f"{nodes} nodes" if nodes is not None else ""]
+    parts = [printable(mesh.get("name", "")), f"{nodes} nodes" if nodes is not None else ""]
     identity = mesh.get("hash", nodes)
     times = run.pressure.times
     steps = np.diff(times) if len(times) > 1 else times

@@ -3,14 +3,15 @@
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from ..base.errors import InputError
+from ..base.errors import InputError, printable
+from ..base.files import absolute
 from .run_folder import Run
 
 
 def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
     if text is None:
         return None
-    labels = [label.strip() for label in text.split(",")]
+    labels = [printable(label.strip()) for label in text.split(",")]
     if len(labels) != runs:
         raise InputError(
             "", "--labels", f"{len(labels)} labels for {runs} runs", "give one per run, separated by commas"
@@ -26,11 +27,12 @@ def read_labels(text: Optional[str], runs: int) -> Optional[List[str]]:
 def default_labels(runs: Sequence[Run]) -> list:
     """Names that tell the runs apart, as short as that allows: the program, then its case or folder beside it."""
     programs = [run.short_program for run in runs]
+    places = [printable(str(run.folder)) for run in runs]
     choices = (
         programs,
         [f"{p}, {run.title}" if run.title else p for p, run in zip(programs, runs)],
-        [f"{p}, {run.folder.resolve().name}" for p, run in zip(programs, runs)],
-        [f"{p}, {run.folder}" for p, run in zip(programs, runs)],
+        [f"{p}, {printable(absolute(run.folder).name)}" for p, run in zip(programs, runs)],
+        [f"{p}, {place}" for p, place in zip(programs, places)],
     )
     for labels in choices:
         if len(set(labels)) == len(runs):
@@ -40,5 +42,5 @@ def default_labels(runs: Sequence[Run]) -> list:
 
 def folder_labels(folders: Sequence[Path]) -> List[str]:
     """The folders' names, or their paths where two names are the same."""
-    names = [folder.resolve().name for folder in folders]
-    return [name if names.count(name) == 1 else str(folder) for name, folder in zip(names, folders)]
+    names = [printable(absolute(folder).name) for folder in folders]
+    return [name if names.count(name) == 1 else printable(str(folder)) for name, folder in zip(names, folders)]

@@ -1,13 +1,22 @@
 """Programs as processes, one or several at once, none of which outlives fsi-compare."""
 
+import ctypes
+import os
 import signal
 import subprocess
-import tempfile
+import threading
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Callable, Dict, IO, Iterable, List, NoReturn, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
+
+from ..base import interruption
 
 POLL = 0.1  # s
+GRACE = 10.0  # s that a program has to end the step in progress when it is asked to end
+PR_SET_PDEATHSIG = 1  # prctl(2)
+
+_libc = ctypes.CDLL(None, use_errno=True)
 
 
 @dataclass(frozen=True)
@@ -25,6 +34,14 @@ class Job:
     time_limit: float = float("inf")  # s
 
 
+@dataclass
+class _Running:
+    job: Job
+    process: subprocess.Popen
+    said: IO[bytes]  # its error output
+    start: float  # s, later by the time in which it was stopped
+
+
 def execute(command: Sequence, tick: Callable[[], None] = lambda: None) -> End:
     """Runs one program to its end, calling `tick` about once a second."""
     ends: List[End] = []
@@ -39,76 +56,159 @@ def run_jobs(
     tick: Callable[[Sequence[int]], None] = lambda running: None,
 ) -> None:
     """Runs all, calling `ended` after each and `tick` with the keys of those that run, about once a second. When
-    fsi-compare is interrupted or asked to end, so are they. A program that cannot be started ends with code 1."""
-
-    def stop(*_: object) -> NoReturn:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    running: Dict[int, Tuple[Job, subprocess.Popen, IO[bytes], float]] = {}
+    fsi-compare is interrupted or asked to end, so are they, and Interrupted is raised. A program that cannot be started
+    ends with code 1."""
+    running: Dict[int, _Running] = {}
     waiting = iter(jobs)
-    try:
-        job: Optional[Job] = next(waiting, None)
-        ticked = time.monotonic()
-        while running or job is not None:
-            while job is not None and len(running) < at_once:
-                try:
-                    process, said, start = _start(job)
-                    running[job.key] = (job, process, said, start)
-                except OSError as error:
-                    ended(job.key, End(1, f"{job.command[0]} cannot be started: {error.strerror}", 0.0))
-                job = next(waiting, None)
-            for key in list(running):
-                entry, process, said, start = running[key]
-                seconds = time.monotonic() - start
-                late = seconds > entry.time_limit
-                if process.poll() is None and not late:
-                    continue
-                _finish(process)
-                del running[key]
-                said.seek(0)
-                text = said.read().decode("utf-8", "replace")
-                said.close()
-                message = f"stopped after {entry.time_limit:g} s" if late else message_of(process.returncode, text)
-                ended(key, End(process.returncode, message, seconds, late))
-            if time.monotonic() - ticked > 1:
-                ticked = time.monotonic()
-                tick(list(running))
-            if running:
-                time.sleep(POLL if min(time.monotonic() - r[3] for r in running.values()) > 2 else 0.01)
-    finally:
-        for _, process, said, _ in running.values():
-            _finish(process)
-            said.close()
-        signal.signal(signal.SIGTERM, before)
+    with interruption.at_sudden_end(lambda: _kill(running)), _stopped_together(running):
+        try:
+            interruption.check()
+            job: Optional[Job] = next(waiting, None)
+            ticked = time.monotonic()
+            while running or job is not None:
+                while job is not None and len(running) < at_once:
+                    try:
+                        running[job.key] = _start(job)
+                    except (OSError, ValueError, subprocess.SubprocessError) as error:
+                        why = getattr(error, "strerror", None) or str(error)
+                        ended(job.key, End(1, f"{job.command[0]} cannot be started: {why}", 0.0))
+                    job = next(waiting, None)
+                    interruption.check()
+                for key in list(running):
+                    entry = running[key]
+                    seconds = time.monotonic() - entry.start
+                    late = seconds > entry.job.time_limit
+                    if entry.process.poll() is None and not late:
+                        continue
+                    _finish([entry.process])
+                    if interruption.noted():  # a signal to all processes of a group may have ended it
+                        break
+                    del running[key]
+                    text = _all_said(entry.said)
+                    message = f"stopped after {entry.job.time_limit:g} s" if late else ""
+                    message = message or message_of(entry.process.returncode, text)
+                    ended(key, End(entry.process.returncode, message, seconds, late))
+                interruption.check()
+                if time.monotonic() - ticked > 1:
+                    ticked = time.monotonic()
+                    tick(list(running))
+                if running:
+                    time.sleep(POLL if min(time.monotonic() - r.start for r in running.values()) > 2 else 0.01)
+        finally:
+            _finish([entry.process for entry in running.values()])
+            for entry in running.values():
+                entry.said.close()
 
 
-def _start(job: Job) -> Tuple[subprocess.Popen, IO[bytes], float]:
-    """The process, what it says on its error output, and when it began."""
-    said = tempfile.TemporaryFile()
+def _start(job: Job) -> _Running:
+    said = os.fdopen(os.memfd_create("error output"), "w+b")
     try:
         process = subprocess.Popen(
-            [str(word) for word in job.command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said
+            [str(word) for word in job.command],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=said,
+            process_group=0,  # Ctrl-C comes to fsi-compare alone, which passes it on
+            preexec_fn=_die_with(os.getpid()),
         )
-    except OSError:
+    except BaseException:
         said.close()
         raise
-    return process, said, time.monotonic()
+    return _Running(job, process, said, time.monotonic())
 
 
-def _finish(process: subprocess.Popen) -> None:
-    if process.poll() is None:
-        process.terminate()
+def _die_with(parent: int) -> Callable[[], None]:
+    """In the new process: it is to be killed when fsi-compare is, however that happens."""
+
+    def prepare() -> None:
+        _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        if os.getppid() != parent:  # too late
+            os._exit(1)
+
+    return prepare
+
+
+def _all_said(said: IO[bytes]) -> str:
+    said.seek(0)
+    text = said.read().decode("utf-8", "replace")
+    said.close()
+    return text
+
+
+def _finish(processes: Sequence[subprocess.Popen]) -> None:
+    """Asks those that run to end, and kills those that do not in time."""
+    for process in processes:
+        if process.poll() is None:
+            process.terminate()
+            process.send_signal(signal.SIGCONT)
+    latest = time.monotonic() + GRACE
+    for process in processes:
         try:
-            process.wait(timeout=10)
+            process.wait(timeout=max(0.0, latest - time.monotonic()))
         except subprocess.TimeoutExpired:
             process.kill()
-    process.wait()
+            process.wait()
+
+
+def _kill(running: Dict[int, _Running]) -> None:
+    for entry in list(running.values()):
+        entry.process.kill()
+
+
+@contextmanager
+def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
+    """Ctrl-Z stops the programs too, which are in process groups of their own; what a program's time was is then none
+    of it."""
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTSTP) != signal.SIG_DFL:
+        yield
+        return
+
+    def stop(number: int, frame: Any) -> None:
+        entries = list(running.values())
+        for entry in entries:
+            entry.process.send_signal(signal.SIGSTOP)
+        begin = time.monotonic()
+        os.kill(os.getpid(), signal.SIGSTOP)
+        for entry in entries:
+            entry.start += time.monotonic() - begin
+            entry.process.send_signal(signal.SIGCONT)
+
+    signal.signal(signal.SIGTSTP, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTSTP, signal.SIG_DFL)
+
+
+def answer(command: Sequence, time_limit: float) -> str:
+    """What a program says on its output. Raises OSError where it cannot be started or gives none in time."""
+    with os.fdopen(os.memfd_create("output"), "w+b") as said:
+        process = subprocess.Popen(
+            [str(word) for word in command],
+            stdin=subprocess.DEVNULL,
+            stdout=said,
+            stderr=subprocess.DEVNULL,
+            process_group=0,
+            preexec_fn=_die_with(os.getpid()),
+        )
+        latest = time.monotonic() + time_limit
+        try:
+            while process.poll() is None:
+                interruption.check()
+                if time.monotonic() > latest:
+                    raise OSError(None, f"no answer in {time_limit:g} s")
+                time.sleep(0.005)
+        finally:
+            if process.poll() is None:
+                process.kill()
+            process.wait()
+        said.seek(0)
+        return said.read(1 << 20).decode("utf-8", "replace")
 
 
 def message_of(code: int, said: str) -> str:
     """Why a program ended, from what it said on its error stream; empty when it ended well. Warnings are no reason."""
-    lines = [line.strip() for line in said.splitlines() if line.strip() and ": warning: " not in line]
+    lines = [line.strip() for line in said.splitlines() if line.strip() and not _is_no_reason(line)]
     if code < 0:
         try:
             name = signal.Signals(-code).name
@@ -119,3 +219,7 @@ def message_of(code: int, said: str) -> str:
         return f"ended with code {code} without a message" if code else ""
     head, mark, rest = lines[-1].partition(": error: ")
     return rest if mark and " " not in head else lines[-1]
+
+
+def _is_no_reason(line: str) -> bool:
+    return ": warning: " in line or ": note: " in line

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Optional
 
 from ..base.errors import InputError
+from ..base.files import absolute, exists, is_file, is_folder, read_bytes
+from .processes import answer
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"
 
@@ -45,22 +47,19 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     path = named if named is not None else _beside(Path(sys.argv[0]), name)
     if path is None:
         raise InputError(name, option, "is neither beside fsi-compare nor on the path", BUILD)
-    if not path.exists():
+    if not exists(path):
         raise InputError(path, option, "no such program", BUILD)
-    if path.is_dir() or not os.access(path, os.X_OK):
+    if is_folder(path) or not os.access(path, os.X_OK):
         raise InputError(path, option, "is not a program", BUILD)
-    path = path.resolve()
+    path = absolute(path)
     words = _answer(path, "--version").split()
     if len(words) != 2 or words[0] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
-    return Program(path, words[1], _executable_digest(path, option))
+    return Program(path, words[1], _executable_digest(path))
 
 
-def _executable_digest(path: Path, option: str) -> str:
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError as error:
-        raise InputError(path, option, f"cannot be read: {error.strerror}", BUILD) from None
+def _executable_digest(path: Path) -> str:
+    return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
 
 
 def find_mesh_maker(monolithic: Program) -> Optional[Path]:
@@ -68,8 +67,8 @@ def find_mesh_maker(monolithic: Program) -> Optional[Path]:
 
 
 def _beside(program: Path, name: str) -> Optional[Path]:
-    for folder in (program.parent, program.resolve().parent):
-        if (folder / name).is_file():
+    for folder in (program.parent, absolute(program).parent):
+        if is_file(folder / name):
             return folder / name
     found = shutil.which(name)
     return Path(found) if found else None
@@ -77,9 +76,7 @@ def _beside(program: Path, name: str) -> Optional[Path]:
 
 def _answer(path: Path, option: str) -> str:
     try:
-        return subprocess.run(
-            [str(path), option], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=60
-        ).stdout
-    except (OSError, subprocess.TimeoutExpired) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no answer in 60 s"
+        return answer([path, option], time_limit=60)
+    except (OSError, ValueError, subprocess.SubprocessError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
         raise InputError(path, "--program", f"cannot be started: {reason}", BUILD) from None

@@ -4,18 +4,18 @@ The folder is checked before anything is computed from it: a run that was interr
 complete, and a comparison with it would be wrong without a sign.
 """
 
-import json
 import math
-import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ..base.errors import InputError
+from ..base.errors import InputError, printable
+from ..base.files import exists, is_folder, read_text
+from .columns import LARGEST, number
 from .pressure_waves import PressureWaves
+from .summary import FILE, FINISHED, PROGRAMS, read_summary
 
-PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 PRESSURE_COLUMNS = ("time_ms", "z_mm", "pressure_Pa")
 
 
@@ -35,72 +35,31 @@ class Run:
         return PROGRAMS[self.program]
 
 
+def read_finished(folder: Path) -> dict:
+    """`summary.json` of a folder that must be a finished run's. Raises InputError."""
+    if not is_folder(folder):
+        problem = "is not a folder" if exists(folder) else "no such folder"
+        raise InputError(folder, "", problem, "give the folder that a run wrote with -o")
+    return read_summary(folder / FILE)
+
+
 def read_run(folder: Path) -> Run:
     """Reads `summary.json` and `centerline_pressure.csv`. Raises InputError naming file, key and problem unless the run
     is finished and both files are complete."""
-    if not folder.exists():
-        raise InputError(folder, "", "no such folder", "give the folder that a run wrote with -o")
-    if not folder.is_dir():
-        raise InputError(folder, "", "is not a folder", "give the folder that a run wrote with -o")
-    summary = read_summary(folder / "summary.json")
+    summary = read_finished(folder)
     return Run(
         folder=folder,
         program=summary["program"],
-        version=str(summary.get("version", "")),
-        title=str(summary.get("title", "")),
+        version=printable(summary.get("version", "")),
+        title=printable(summary.get("title", "")),
         summary=summary,
         pressure=read_pressure(folder / "centerline_pressure.csv"),
     )
 
 
-def read_summary(path: Path) -> dict:
-    """`summary.json` of a run that reached its end. Only `program` and `status` are demanded."""
-    text = _read_text(path)
-    try:
-        summary = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise InputError(
-            path,
-            f"line {error.lineno}",
-            f"is not JSON: {error.msg}",
-            "the run was interrupted while writing; run it again",
-        ) from None
-    if not isinstance(summary, dict):
-        raise InputError(path, "", "is not a JSON object", "run it again")
-
-    program = summary.get("program")
-    if program is None:
-        raise InputError(path, "program", "is missing", "give the result folder of a driver")
-    if not isinstance(program, str) or program not in PROGRAMS:
-        raise InputError(path, "program", f"'{program}' is unknown", f"it must be {' or '.join(PROGRAMS)}")
-
-    status = summary.get("status")
-    if status is None:
-        raise InputError(path, "status", "is missing", "run it again")
-    case = summary.get("case")
-    words = [program, *([case] if isinstance(case, str) else []), "--restart", str(path.parent)]
-    resume = shlex.join(words)  # to be copied as it stands
-    if status == "running":
-        raise InputError(path, "status", "the run is not finished", f"wait for its end or resume it with {resume}")
-    if status == "interrupted":
-        raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
-    if status == "not converged":
-        raise InputError(
-            path,
-            "status",
-            "the run stopped without converging",
-            f"see {path.parent / 'run.log'}, change the solver's settings and run it again",
-        )
-    if status == "failed":
-        raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
-    if status != "done":
-        raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")
-    return summary
-
-
 def read_pressure(path: Path) -> PressureWaves:
     """`centerline_pressure.csv`: one block of lines per time level, the same points in each."""
-    text = _read_text(path)
+    text = read_text(path, FINISHED, "run it again")
     if not text.strip():
         raise InputError(path, "", "is empty", "the run wrote no time step; run it again")
     lines = text.splitlines()
@@ -130,11 +89,15 @@ def read_pressure(path: Path) -> PressureWaves:
             )
         for i, column in enumerate(columns):
             try:
-                values[row, i] = float(fields[column])
+                values[row, i] = number(fields[column])
             except ValueError:
                 raise InputError(
                     path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number", "run it again"
                 ) from None
+            if abs(values[row, i]) > LARGEST and math.isfinite(values[row, i]):
+                raise InputError(
+                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} {fields[column]} is too large", "run it again"
+                )
             if not math.isfinite(values[row, i]):
                 raise InputError(
                     path,
@@ -178,14 +141,3 @@ def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -
                 "all time levels must hold the same points; run it again",
             )
     return PressureWaves(times=time[starts[:-1]], z=z[:points], pressure=pressure.reshape(-1, points))
-
-
-def _read_text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise InputError(path, "", "is missing", "give the result folder of a finished run") from None
-    except UnicodeDecodeError:
-        raise InputError(path, "", "is not a text file", "run it again") from None
-    except OSError as error:
-        raise InputError(path, "", f"cannot be read: {error.strerror}", "check its permissions") from None

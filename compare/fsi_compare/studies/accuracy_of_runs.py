@@ -1,7 +1,6 @@
 """`fsi-compare accuracy`: how far finished runs are from a reference, in space and at chosen times, and what they took."""
 
 import argparse
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,14 +8,14 @@ from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 
-from ..base.errors import InputError
-from ..base.files import make_folder
-from ..reporting.layout import Table, fixed, write_markdown
+from ..base.errors import InputError, printable
+from ..base.files import exists, folder, together
+from ..reporting.layout import Table, fixed, say_written, write_markdown
 from ..reporting.pressure import read_times
-from ..runs.columns import read_columns
+from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
-from ..runs.run_folder import read_summary
-from .evidence.reference import read_reference
+from ..runs.run_folder import read_finished
+from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
 from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, Quantity, Waves, read_run, relative_difference
 
 TIMES = "1.5,3,4.5,6"
@@ -84,7 +83,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "-o",
         "--output",
         metavar="OUTDIR",
-        type=Path,
+        type=folder,
         default=Path("results/accuracy"),
         help="folder for the files written (default: %(default)s)",
     )
@@ -111,39 +110,24 @@ def accuracy(options: argparse.Namespace) -> int:
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     reference = read_any_reference(options.reference, times)
     found = [read_accuracy(folder, label, reference, times) for folder, label in zip(options.folders, labels)]
-    make_folder(options.output)
-    table = accuracy_table(found, reference, times, options.title)
-    written = [table.write_csv(options.output), write_markdown(options.output / "accuracy.md", options.title, [table])]
+    title = printable(options.title)
+    table = accuracy_table(found, reference, times, title)
+    with together(options.output) as place:
+        written = [table.write_csv(place), write_markdown(place / "accuracy.md", title, [table])]
     if not options.quiet:
         print(table.text())
-        print("Written: " + ", ".join(str(path) for path in written))
+        say_written(options.output, written)
     return 0
 
 
 def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
     """A kept reference, or a finished run with its means around `times`. Raises InputError."""
-    if (folder / "reference.json").is_file():
+    if exists(folder / DESCRIPTION_FILE):
         kept = read_reference(folder)
-        return Reference(folder, dict(kept.waves), _kept_step(folder))
-    _finished(folder)
+        return Reference(folder, dict(kept.waves), kept.step)
+    read_finished(folder)
     waves = read_run(folder, times)
     return Reference(folder, waves, _step(waves))
-
-
-def _kept_step(folder: Path) -> Optional[float]:
-    step = json.loads((folder / "reference.json").read_text(encoding="utf-8")).get("step_ms")
-    return float(step) if isinstance(step, (int, float)) else None
-
-
-def _finished(folder: Path) -> dict:
-    if not folder.is_dir():
-        raise InputError(
-            folder,
-            "",
-            "is not a folder" if folder.exists() else "no such folder",
-            "give the folder that a run wrote with -o",
-        )
-    return read_summary(folder / "summary.json")
 
 
 def _step(waves: Dict[str, Waves]) -> float:
@@ -154,7 +138,7 @@ def _step(waves: Dict[str, Waves]) -> float:
 
 def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
     """Raises InputError unless the run is finished and run and reference cover the times and the reference's line."""
-    summary = _finished(folder)
+    summary = read_finished(folder)
     waves = read_run(folder, times)
     errors = {}
     for q in QUANTITIES:
@@ -176,11 +160,11 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
                 "compare runs on the same geometry",
             )
         errors[q.column] = [relative_difference(own, exact, [time]) for time in times]
-    seconds = read_columns(folder / "iterations.csv", ("wall_s",))["wall_s"]
+    seconds = read_iterations(folder, ("wall_s",))["wall_s"]
     return Accuracy(
         label=label,
-        element=str(summary.get("element", "p1")),
-        geometry=str(summary.get("geometry", "3d")),
+        element=printable(summary.get("element", "p1")),
+        geometry=printable(summary.get("geometry", "3d")),
         nodes=summary.get("mesh", {}).get("nodes"),
         step=_step(waves),
         steps=len(seconds),

@@ -3,19 +3,19 @@
 import argparse
 import platform
 import re
-import sys
 import time
 from pathlib import Path
 from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
-from ..base.errors import InputError
-from ..base.files import make_folder
+from ..base.errors import InputError, ProgramError, printable, say_warning
+from ..base.files import absolute, folder, is_file, output_folder, together
+from ..base.folder_lock import locked
 from ..base.progress import duration
 from ..base.suggestions import nearest
 from ..runs.programs import Program, find_mesh_maker, find_program
 from . import kinds
 from .overview import default_output, overview
-from .running.runner import Runner, remove_runs
+from .running.runner import Runner, remove_runs, sweep_study
 from .running.study_file import Study, read_study
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     study.add_argument(
         "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
     )
-    study.add_argument("-o", "--output", metavar="OUTDIR", type=Path, help="default: results/studies/NAME")
+    study.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
     study.add_argument("--quick", action="store_true", help="the study's short form")
     study.add_argument(
         "--list",
@@ -110,12 +110,18 @@ def study(options: argparse.Namespace) -> int:
     programs = find_programs(options)
     if options.list:
         lines = [f"{request.group}: {request.label}" for request in asked.requests]
-        print("\n".join([*lines, *getattr(kind, "also_runs", lambda study: [])(asked)]))
+        print("\n".join(map(printable, [*lines, *getattr(kind, "also_runs", lambda study: [])(asked)])))
         return 0
     folder = options.output or default_output(asked.path, options.quick)
+    with output_folder(folder), locked(folder):
+        return make(options, asked, kind, folder, programs)
+
+
+def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, programs: Dict[str, Program]) -> int:
+    """Makes the runs that are missing and the report from all. The folder is locked."""
     if options.fresh:
         remove_runs(folder)
-    make_folder(folder)
+    sweep_study(folder)
     begin = time.monotonic()
     runner = Runner(
         asked,
@@ -128,20 +134,21 @@ def study(options: argparse.Namespace) -> int:
     )
     runs = runner.run(asked.requests)
     if all(run.status == "refused" for run in runs):
-        raise InputError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
+        raise ProgramError(asked.path, runs[0].request.label, runs[0].message, "mend the study or the case")
 
     from .running.context import Context
     from ..reporting.report import Report  # matplotlib takes a second to load
 
-    report = Report(folder, asked.title)
-    code = kind.evaluate(Context(asked, runs, runner, report)) or 0
-    about(report, asked, runner, programs)
-    path = report.write()
+    with together(folder) as place:
+        report = Report(place, asked.title)
+        code = kind.evaluate(Context(asked, runs, runner, report)) or 0
+        about(report, asked, runner, programs)
+        path = folder / report.write().name
     if not options.quiet:
         if runner.warning:
-            print(f"fsi-compare: warning: {runner.warning}", file=sys.stderr)
+            say_warning(runner.warning)
         print(f"Runs took {duration(runner.seconds)} in all, this call {duration(time.monotonic() - begin)}.")
-        print(f"Report: {path.resolve()}")
+        print(f"Report: {printable(str(absolute(path)))}")
     return code
 
 
@@ -156,7 +163,7 @@ def list_ready(options: argparse.Namespace) -> int:
     except InputError as error:
         if options.monolithic or options.partitioned:
             raise
-        print(f"fsi-compare: warning: finished runs cannot be counted: {error}", file=sys.stderr)
+        say_warning(f"finished runs cannot be counted: {error}")
         programs = None
     maker = find_mesh_maker(programs["fsi-monolithic"]) if programs else None
     paths = [READY / f"{name}.toml" for name in ready()]
@@ -174,7 +181,7 @@ def find_programs(options: argparse.Namespace) -> Dict[str, Program]:
 
 def study_path(text: str) -> Path:
     path = Path(text)
-    if path.suffix == ".toml" or path.is_file():
+    if path.suffix == ".toml" or is_file(path):
         return path
     if text in ready():
         return READY / f"{text}.toml"
@@ -193,7 +200,7 @@ def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Pr
         report.text(f"**Note:** {runner.warning}.")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
     report.text(
-        f"Study `{asked.path.name}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
+        f"Study `{printable(asked.path.name)}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
         f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
         f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
         f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "

@@ -6,6 +6,8 @@ nothing. A kind that runs more than the study lists may have `also_runs(study)`,
 import importlib
 from typing import Any, Tuple
 
+from ..reporting.matplotlib_loader import load_matplotlib
+
 MODULES = {
     "paper": "paper.study",
     "accuracy-cost": "accuracy.study",
@@ -19,4 +21,5 @@ NAMES: Tuple[str, ...] = tuple(MODULES)
 
 def kind(name: str) -> Any:
     """Loaded on demand: the pictures' library takes a second."""
+    load_matplotlib()
     return importlib.import_module(f".{MODULES[name]}", __package__)

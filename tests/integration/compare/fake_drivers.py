@@ -7,12 +7,15 @@
   "signal"    {WORD: number}: such a run ends by this signal
   "seconds"   list: what the first, second, ... call says its time steps took, again from the start after the last
   "drifts"    true: each call has results of its own
+  "deaf"      true: SIGTERM is not heeded
+  "wait"      FILE: each run goes on when it exists
   "sleep"     seconds that each run takes; it writes its process number to `pid`, and begin and end to `times.txt`
 Each run adds its command line to `calls.txt`. Single linear systems are left to fake_monolithic.
 """
 
 import json
 import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -69,6 +72,10 @@ def main(words):
 
     folder = Path(words[words.index("-o") + 1])
     folder.mkdir(parents=True, exist_ok=True)
+    if behaviour.get("deaf"):
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    while "wait" in behaviour and not Path(behaviour["wait"]).exists():
+        time.sleep(0.02)
     if "sleep" in behaviour:
         with open(home / "pid", "a") as log:
             log.write(f"{os.getpid()}\n")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.cli import main
+from fsi_compare.start import main
 
 
 class FolderCase(unittest.TestCase):

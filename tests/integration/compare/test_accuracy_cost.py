@@ -271,8 +271,8 @@ class WholeStudy(FolderCase):
             ("targets = [10, 1]", "target = [10]", "report.target: is unknown; did you mean 'targets'?"),
             ("times = [1.5, 3.0]", "times = [3.0, 1.5]", "report.times: is not an interval"),
             ("times = [1.5, 3.0]", "times = [1.5, 9.0]", "is not covered by the reference of 'tube'"),
-            ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of this study"),
-            ('tube = "reference"', 'tube = "nowhere"', "reference.json: cannot be read"),
+            ('tight = "tight"', 'tight = "tidy"', "report.tight: 'tidy' is no method of the study"),
+            ('tube = "reference"', 'tube = "nowhere"', "reference.json: is missing"),
             ('tube = "reference"', 'pipe = "reference"', "report.references.pipe: is no case of this study"),
             ('"time.end" = 3.5', '"time.end" = 3.0', "runs.grid: ends at 3 ms, before report.times"),
         ):

@@ -374,7 +374,7 @@ class Restart(StudyTest):
         behave(self.program, sleep=60)
         code = (
             "import sys; sys.path[:0] = sys.argv.pop(1),; "
-            "from fsi_compare.cli import main; sys.exit(main(sys.argv[1:]))"
+            "from fsi_compare.start import main; sys.exit(main(sys.argv[1:]))"
         )
         words = [
             sys.executable,
@@ -400,7 +400,10 @@ class Restart(StudyTest):
             time.sleep(0.05)
         study.terminate()
         _, err = study.communicate(timeout=30)
-        self.assertEqual((study.returncode, err), (130, "fsi-compare: interrupted\n"))
+        self.assertEqual(
+            (study.returncode, err),
+            (143, "fsi-compare: interrupted by SIGTERM; finished runs are kept, the same command goes on\n"),
+        )
         with self.assertRaises(ProcessLookupError):
             os.kill(int(pid.read_text()), 0)
         behave(self.program)

@@ -123,7 +123,7 @@ class Restart(StudyCase):
                     "-E",
                     "-c",
                     "import sys; sys.path.insert(0, sys.argv[1]); "
-                    "from fsi_compare.cli import main; sys.exit(main(sys.argv[2:]))",
+                    "from fsi_compare.start import main; sys.exit(main(sys.argv[2:]))",
                     str(Path(__file__).resolve().parents[3] / "compare"),
                     *self.words(),
                 ],
@@ -133,10 +133,7 @@ class Restart(StudyCase):
             driver = self.wait_for_pid()
             process.send_signal(end)
             process.wait(timeout=30)
-            if end == signal.SIGTERM:
-                self.assertTrue(self.ends(driver), "the driver outlives the study")
-            else:
-                os.kill(driver, signal.SIGKILL)  # nothing can be done about a killed parent
+            self.assertTrue(self.ends(driver), "the driver outlives the study")
         self.assertEqual(list(self.out.glob("runs/tube-part-*/study_run.json")), [])
         behave(self.programs)
         before = len(calls(self.programs))
@@ -238,6 +235,18 @@ class Failures(StudyCase):
             self.call("--fresh", "-q")
             self.assertEqual(self.outcomes()["part"], expected)
             self.assertEqual(self.outcomes()["mono"][0], DONE)
+
+    def test_a_run_that_somebody_ended_is_made_anew(self):
+        for what in (
+            {"end": {"fsi-partitioned": [143, "interrupted by SIGTERM"]}},
+            {"signal": {"fsi-partitioned": 15}},
+        ):
+            behave(self.programs, **what)
+            self.call("-q", "--fresh")
+            self.assertEqual(self.outcomes()["part"][0], CRASHED)
+            behave(self.programs)
+            self.call("-q")
+            self.assertEqual(self.outcomes()["part"][0], DONE)
 
     def test_nothing_but_refusals_is_the_users_mistake(self):
         behave(self.programs, end={"fsi-": [1, "mesh.level: 'corse' is unknown"]})

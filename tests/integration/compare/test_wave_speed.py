@@ -1,6 +1,7 @@
 """Theory of the pressure wave's speed against the numbers published for this project, and against known limits."""
 
 import math
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -44,9 +45,13 @@ class Artery(unittest.TestCase):
         self.assertAlmostEqual(pressure / (stretch * tube.radius), wall_stiffness(tube), 5)
 
     def test_a_case_of_another_kind_is_refused(self):
-        with self.assertRaises(InputError) as caught:
-            read_tube(Path(__file__))
-        self.assertIn("holds no fluid-filled tube", str(caught.exception))
+        with tempfile.TemporaryDirectory() as folder:
+            wall = Path(folder) / "wall.toml"
+            wall.write_text("[structure]\ndensity = 1.2\n")
+            for case, expected in ((wall, "holds no fluid-filled tube"), (Path(__file__), "is not TOML")):
+                with self.assertRaises(InputError) as caught:
+                    read_tube(case)
+                self.assertIn(expected, str(caught.exception))
 
 
 class MoensKorteweg(unittest.TestCase):

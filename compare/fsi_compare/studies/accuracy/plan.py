@@ -4,9 +4,11 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Mapping, Tuple
 
 from ...base.errors import InputError
-from ...base.suggestions import check_keys, nearest
+from ...base.files import absolute
+from ...base.suggestions import nearest
 from ..evidence.reference import WaveReference, read_reference
 from ..evidence.waves import WINDOW
+from ..running.section import is_positive, report_of
 from ..running.study_file import Study
 
 Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
@@ -31,40 +33,17 @@ class Plan:
 
 def read_plan(study: Study) -> Plan:
     """Raises InputError naming the key."""
-    report = study.report
-
-    def wrong(key: str, problem: str, remedy: str) -> InputError:
-        return InputError(study.path, f"report.{key}", problem, remedy)
-
-    check_keys(study.path, "report", report, KEYS)
-
-    def numbers(key: str, default: List[float]) -> List[float]:
-        values: Any = report.get(key, default)
-        if (
-            not isinstance(values, list)
-            or not values
-            or not all(isinstance(v, (int, float)) and not isinstance(v, bool) and v > 0 for v in values)
-        ):
-            raise wrong(key, "is not a list of positive numbers", f"write {default}")
-        return [float(v) for v in values]
+    report = report_of(study, KEYS)
+    wrong = report.wrong
 
     def method(key: str) -> str:
-        name = report.get(key)
-        if not isinstance(name, str) or name not in study.methods:
-            raise wrong(
-                key,
-                "is missing" if name is None else f"'{name}' is no method of this study",
-                f"give one of {', '.join(study.methods)}",
-            )
-        return name
+        return report.one_of(key, list(study.methods), "method of the study")
 
-    window = numbers("times", [1.5, 9.0])
+    window = report.numbers("times", [1.5, 9.0])
     if len(window) != 2 or window[0] >= window[1]:
         raise wrong("times", "is not an interval", "write [first, last] in ms")
-    family = report.get("family", ["coarse", "intermediate", "fine"])
-    if not isinstance(family, list) or any(name not in study.meshes for name in family):
-        raise wrong("family", "names a mesh that the study does not have", f"choose from {', '.join(study.meshes)}")
-    targets = sorted((t / 100 for t in numbers("targets", [10, 3, 1])), reverse=True)
+    family = report.names("family", list(study.meshes), ["coarse", "intermediate", "fine"], "mesh of the study")
+    targets = sorted((t / 100 for t in report.numbers("targets", [10, 3, 1])), reverse=True)
     plan = Plan(
         _references(study, wrong), (window[0], window[1]), targets, method("method"), method("tight"), list(family)
     )
@@ -85,7 +64,7 @@ def _references(study: Study, wrong: Wrong) -> Dict[str, WaveReference]:
             )
         if not isinstance(folder, str):
             raise wrong(f"references.{case}", "is not a folder's name", "give it relative to the study")
-    return {case: read_reference((study.path.parent / folder).resolve()) for case, folder in folders.items()}
+    return {case: read_reference(absolute(study.path.parent / folder)) for case, folder in folders.items()}
 
 
 def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
@@ -104,8 +83,9 @@ def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
             raise wrong(
                 "references", f"has none for the case '{request.case}'", "make it with scripts/reference_waves.py"
             )
-        step, end = request.settings.get("time.step"), request.settings.get("time.end")
-        if not isinstance(step, (int, float)) or not isinstance(end, (int, float)):
+        step: Any = request.settings.get("time.step")
+        end: Any = request.settings.get("time.end")
+        if not is_positive(step) or not is_positive(end):
             raise InputError(
                 study.path,
                 f"runs.{request.group}",

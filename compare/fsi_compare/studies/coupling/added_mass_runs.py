@@ -5,14 +5,15 @@ theory.
 `width` (relative, at which bisection stops), `steps` (list of time steps in ms), `stabilisations` (list of the wall's
 alpha), `levels` (time steps of a run), `set` (entries of the case file for these runs)."""
 
+from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping
 
 import numpy as np
 
-from ...base.errors import InputError
-from ...base.suggestions import check_keys
+from ...base.errors import ProgramError
 from ...reporting.layout import Table
 from ..running.context import Context
+from ..running.section import Section
 from ..running.study_file import Study
 from ..running.study_run import DONE, NOT_CONVERGED, StudyRun
 from .added_mass import AddedMass
@@ -22,27 +23,49 @@ KEYS = ("method", "case", "low", "high", "width", "steps", "stabilisations", "le
 QUANTITIES = {"explicit": "structure.density", "constant": "partitioned.relaxation"}
 
 
+@dataclass(frozen=True)
+class Search:
+    """What one of the two sections asks for."""
+
+    method: str
+    case: str
+    low: float
+    high: float
+    width: float
+    steps: List[float]  # ms
+    stabilisations: List[float]
+    levels: float
+    settings: Mapping[str, Any]
+
+
 def check(study: Study) -> None:
-    for name, entry in sections(study).items():
-        check_keys(study.path, f"report.{name}", entry, KEYS)
-        for key in ("method", "case", "low", "high", "steps", "stabilisations"):
-            if key not in entry:
-                raise InputError(study.path, f"report.{name}.{key}", "is missing", f"the keys are {', '.join(KEYS)}")
-        if entry["method"] not in study.methods:
-            raise InputError(
-                study.path, f"report.{name}.method", f"'{entry['method']}' is unknown", "name one of [methods]"
-            )
-        if entry["case"] not in study.cases:
-            raise InputError(study.path, f"report.{name}.case", f"'{entry['case']}' is unknown", "name one of [cases]")
-        if not 0 < entry["low"] < entry["high"]:
-            raise InputError(
-                study.path, f"report.{name}.low", "is not below `high`, or not positive", "give the ends of the search"
-            )
+    """Raises InputError."""
+    sections(study)
 
 
-def sections(study: Study) -> Mapping[str, Mapping[str, Any]]:
-    """What is bisected, by the name of its section."""
-    return {name: entry for name, entry in study.report.items() if name in QUANTITIES}
+def sections(study: Study) -> Mapping[str, Search]:
+    """What is bisected, by the name of its section. Raises InputError."""
+    return {name: _search(study, name) for name in QUANTITIES if name in study.report}
+
+
+def _search(study: Study, name: str) -> Search:
+    entry = Section(study.path, f"report.{name}", study.report[name], KEYS)
+    found = Search(
+        entry.one_of("method", list(study.methods), "method of the study"),
+        entry.one_of("case", list(study.cases), "case of the study"),
+        entry.number("low"),
+        entry.number("high"),
+        entry.number("width", 0.02),
+        entry.numbers("steps"),
+        entry.numbers("stabilisations"),
+        entry.number("levels", 1),
+        flatten(entry.table("set")),
+    )
+    if not found.low < found.high:
+        raise entry.wrong("low", "is not below `high`", "give the ends of the search")
+    if not 1e-12 <= found.width < 1:
+        raise entry.wrong("width", f"{found.width:g} is no relative width", "give a number below 1, e.g. 0.02")
+    return found
 
 
 def report(context: Context) -> int:
@@ -53,24 +76,26 @@ def report(context: Context) -> int:
     return sum(bracket.runs for bracket in brackets)
 
 
-def search(context: Context, name: str, entry: Mapping[str, Any], step: float, stabilisation: float) -> Bracket:
+def search(context: Context, name: str, entry: Search, step: float, stabilisation: float) -> Bracket:
     quantity = QUANTITIES[name]
 
     def holds(value: float) -> bool:
         own = {
-            **flatten(entry.get("set", {})),
+            **entry.settings,
             "time.step": step,
             "structure.stabilisation": stabilisation,
-            "time.end": step * entry.get("levels", 1),
+            "time.end": step * entry.levels,
             quantity: value,
         }
         values = {quantity: value, "time.step": step, "structure.stabilisation": stabilisation}
-        (run,) = context.run([context.study.request(name, entry["case"], entry["method"], values, own)])
+        (run,) = context.run([context.study.request(name, entry.case, entry.method, values, own)])
         if run.status not in (DONE, NOT_CONVERGED):
-            raise InputError(context.study.path, f"report.{name}", f"{run.status}: {run.message}", f"see {run.folder}")
+            raise ProgramError(
+                context.study.path, f"report.{name}", f"{run.status}: {run.message}", f"see {run.folder}"
+            )
         return run.done and not (name == "explicit" and alternates_ever_more(run))
 
-    return bisect(holds, entry["low"], entry["high"], entry.get("width", 0.02))
+    return bisect(holds, entry.low, entry.high, entry.width)
 
 
 def alternates_ever_more(run: StudyRun) -> bool:
@@ -97,7 +122,7 @@ def flatten(entries: Mapping[str, Any], prefix: str = "") -> Dict[str, Any]:
     return found
 
 
-def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
+def explicit(context: Context, entry: Search) -> List[Bracket]:
     theory, brackets = AddedMass(), []
     table = Table(
         stem="added_mass_explicit",
@@ -121,8 +146,8 @@ def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
             "runs",
         ],
     )
-    for stabilisation in entry["stabilisations"]:
-        for step in entry["steps"]:
+    for stabilisation in entry.stabilisations:
+        for step in entry.steps:
             bracket = search(context, "explicit", entry, step, stabilisation)
             brackets.append(bracket)
             published, own = theory.critical_density_ratio(), theory.explicit_limit(1)
@@ -149,7 +174,7 @@ def explicit(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
     return brackets
 
 
-def constant(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
+def constant(context: Context, entry: Search) -> List[Bracket]:
     theory, brackets = AddedMass(), []
     table = Table(
         stem="added_mass_constant",
@@ -164,8 +189,8 @@ def constant(context: Context, entry: Mapping[str, Any]) -> List[Bracket]:
         ],
         csv_columns=["stabilisation", "time_step_ms", "converges_at", "diverges_at", "theory", "runs"],
     )
-    for stabilisation in entry["stabilisations"]:
-        for step in entry["steps"]:
+    for stabilisation in entry.stabilisations:
+        for step in entry.steps:
             bracket = search(context, "constant", entry, step, stabilisation)
             brackets.append(bracket)
             largest = theory.largest_factor(step)

@@ -13,7 +13,6 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.names import MATERIALS
-from ...base.suggestions import check_keys
 from ...reporting.cost import Cost, cost_table, read_cost
 from ...reporting.layout import Table, fixed
 from ...runs.differences import largest_difference
@@ -25,7 +24,6 @@ from . import added_mass_runs, sweeps
 from .pictures import passes_figure
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
-REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)
 MONOLITHIC = sweeps.MONOLITHIC
 AGREE = 1e-3  # relative difference of pressures that no picture shows
 
@@ -36,7 +34,6 @@ def check(study: Study) -> None:
             raise InputError(
                 study.path, f"runs.{request.group}", "is no group of a coupling study", f"there are {', '.join(GROUPS)}"
             )
-    check_keys(study.path, "report", study.report, REPORT_KEYS)
     sweeps.settings_of(study)
     added_mass_runs.check(study)
 
@@ -44,8 +41,8 @@ def check(study: Study) -> None:
 def also_runs(study: Study) -> List[str]:
     """For `--list`: what is run beside the study's runs."""
     return [
-        f"{name}: {entry['case']}, {entry['method']}, bisection of {added_mass_runs.QUANTITIES[name]} from "
-        f"{entry['low']:g} to {entry['high']:g}, {len(entry['steps']) * len(entry['stabilisations'])} times"
+        f"{name}: {entry.case}, {entry.method}, bisection of {added_mass_runs.QUANTITIES[name]} from "
+        f"{entry.low:g} to {entry.high:g}, {len(entry.steps) * len(entry.stabilisations)} times"
         for name, entry in added_mass_runs.sections(study).items()
     ]
 

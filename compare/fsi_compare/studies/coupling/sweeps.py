@@ -6,16 +6,17 @@
 from dataclasses import dataclass
 from typing import List, Sequence
 
-from ...base.errors import InputError
-from ...base.suggestions import check_keys, nearest
 from ...reporting.layout import Table, fixed
 from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
 from ..running.commands import with_name
+from ..running.section import report_of
 from ..running.study_file import Study
 from ..running.study_run import StudyRun
+from . import added_mass_runs
 from .pictures import Series
 
 KEYS = ("bound", "one_pass")
+REPORT_KEYS = ("sweeps", *added_mass_runs.QUANTITIES)
 MONOLITHIC = "fsi-monolithic"
 
 
@@ -26,24 +27,10 @@ class Settings:
 
 
 def settings_of(study: Study) -> Settings:
-    entry = study.report.get("sweeps", {})
-    check_keys(study.path, "report.sweeps", entry, KEYS)
-    bound, one_pass = entry.get("bound", BOUND), entry.get("one_pass", [])
-    if isinstance(bound, bool) or not isinstance(bound, (int, float)) or not bound > 0:
-        raise InputError(
-            study.path, "report.sweeps.bound", f"{bound} is not a positive number", f"leave it out for {BOUND:g}"
-        )
-    if not isinstance(one_pass, list):
-        raise InputError(study.path, "report.sweeps.one_pass", "is not a list", "name methods of the study")
-    for name in one_pass:
-        if name not in study.methods:
-            raise InputError(
-                study.path,
-                "report.sweeps.one_pass",
-                f"'{name}' is no method of the study",
-                f"did you mean '{nearest(str(name), list(study.methods))}'?",
-            )
-    return Settings(float(bound), one_pass)
+    entry = report_of(study, REPORT_KEYS).section("sweeps", KEYS)
+    return Settings(
+        entry.number("bound", BOUND), entry.names("one_pass", list(study.methods), [], "method of the study")
+    )
 
 
 def checked(runs: Sequence[StudyRun], settings: Settings) -> List[Cell]:

@@ -33,7 +33,7 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
     path = folder / FILE
     try:
         root = ElementTree.parse(path).getroot()
-    except (OSError, ElementTree.ParseError) as error:
+    except (OSError, ValueError, ElementTree.ParseError) as error:
         raise InputError(path, "", f"cannot be read: {error}", "run it with output.every above 0") from None
     media = {}
     for collection in root.iter("Grid"):
@@ -41,7 +41,7 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
             continue
         for grid in collection.findall("Grid"):
             written = grid.find("Time")
-            if written is not None and abs(float(written.get("Value", "nan")) - time) < 1e-6:
+            if written is not None and abs(_value(written) - time) < 1e-6:
                 media[collection.get("Name", "")] = _medium(folder, grid)
     if not media:
         raise InputError(
@@ -50,23 +50,42 @@ def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
     return media
 
 
+def _value(written: Any) -> float:
+    try:
+        return float(written.get("Value", "nan"))
+    except ValueError:
+        return float("nan")
+
+
 def _medium(folder: Path, grid: Any) -> Medium:
     data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
-    cells = _item(folder, grid.find("Topology")).astype(np.int64)
-    if cells.shape[1] not in (4, 10):
+    cells, points = _item(folder, grid.find("Topology")), _item(folder, grid.find("Geometry"))
+    if cells.ndim != 2 or cells.shape[1] not in (4, 10):
         raise InputError(folder / FILE, "", "shows a scene in two dimensions", 'give a run with geometry = "3d"')
+    cells = cells.astype(np.int64)
+    if points.ndim != 2 or points.shape[1] != 3 or not len(cells) or cells.min() < 0 or cells.max() >= len(points):
+        raise InputError(folder / FILE, "", "names nodes that are not there", "run it again")
+    for name, values in data.items():
+        if not len(values) or len(values) not in (len(points), len(cells)):
+            raise InputError(folder / FILE, str(name), f"has {len(values)} values", "run it again")
     if cells.shape[1] == 10:
         cells = cells[:, TETRAHEDRA].reshape(-1, 4)
         if "layer" in data:
             data["layer"] = np.repeat(data["layer"], len(TETRAHEDRA))
-    return Medium(_item(folder, grid.find("Geometry")), cells, data)
+    return Medium(points, cells, data)
 
 
 def _item(folder: Path, element: Any) -> np.ndarray:
     """The data set named by the element, `FILE:/PATH`."""
-    file, _, name = element.find("DataItem").text.strip().partition(":")
+    item = element.find("DataItem") if element is not None else None
+    if item is None or not item.text or ":" not in item.text:
+        raise InputError(folder / FILE, "", "does not say where the values are", "run it again")
+    file, _, name = item.text.strip().partition(":")
     try:
         with h5py.File(folder / file, "r") as data:
-            return data[name][()]
-    except (OSError, KeyError) as error:
+            values = np.asarray(data[name][()])
+    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise InputError(folder / file, name, f"cannot be read: {error}", "run it again") from None
+    if values.dtype.kind not in "fiu" or not values.ndim or not np.all(np.isfinite(values)):
+        raise InputError(folder / file, name, "is not an array of finite numbers", "run it again")
+    return values

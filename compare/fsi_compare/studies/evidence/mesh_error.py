@@ -1,16 +1,16 @@
 """How far a run's wave is from the artery's own: the error of mesh and time step, by the measure of the accuracy study."""
 
-import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
+from ...base.files import is_file, read_toml
 from ...base.names import MATERIALS, MESHES
 from ...reporting.layout import Table, fixed
 from ..running.study_run import StudyRun
-from .reference import WaveReference, read_reference
+from .reference import FILE, WaveReference, read_reference
 from .waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
 
 REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
@@ -76,7 +76,7 @@ def physical(case: Mapping[str, Any], settings: Optional[Mapping[str, Any]] = No
 @lru_cache(maxsize=None)
 def references(folder: Path = REFERENCES) -> Dict[str, WaveReference]:
     """Those that are kept, by material."""
-    return {name: read_reference(folder / name) for name in MATERIALS if (folder / name / "reference.json").is_file()}
+    return {name: read_reference(folder / name) for name in MATERIALS if is_file(folder / name / FILE)}
 
 
 def mesh_error(run: StudyRun) -> MeshError:
@@ -84,8 +84,8 @@ def mesh_error(run: StudyRun) -> MeshError:
     request = run.request
     mesh = request.mesh.name if request.mesh else None
     try:
-        case = tomllib.loads(request.case_file.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        case = read_toml(request.case_file, "", "")
+    except InputError:
         return MeshError(None, None, "its case file cannot be read")
     section = case.get("mesh")
     made = request.settings.get("mesh.error")

@@ -7,7 +7,6 @@ extension only. For small strains about rest
 with the radial, hoop and axial strains e_r, e_h, e_z."""
 
 import math
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Sequence
@@ -15,10 +14,12 @@ from typing import Optional, Sequence
 import numpy as np
 
 from ...base.errors import InputError
+from ...base.files import read_toml
 from .bessel import bessel_i
 
 # The rabbit's carotid artery [Holzapfel2000]: inner radius, thickness of media and adventitia, mm.
 INNER_RADIUS = 1.43
+CASE = "give one of the paper's cases"
 THICKNESS = {"media": 0.26, "adventitia": 0.13}
 
 
@@ -69,7 +70,7 @@ class Tube:
 def read_tube(case: Path, inner: float = INNER_RADIUS, fibre_scale: Optional[float] = None) -> Tube:
     """The tube of a case file with the artery's geometry. `fibre_scale` replaces the case's."""
     try:
-        data = tomllib.loads(case.read_text(encoding="utf-8"))
+        data = read_toml(case, CASE, CASE)
         layers, radius = [], inner
         for name, thickness in THICKNESS.items():
             entry = data["structure"]["layers"][name]
@@ -85,7 +86,5 @@ def read_tube(case: Path, inner: float = INNER_RADIUS, fibre_scale: Optional[flo
             )
             radius += thickness
         return Tube(layers, float(data["fluid"]["density"]), float(data["structure"]["density"]))
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(
-            case, "", f"holds no fluid-filled tube of media and adventitia ({error})", "give one of the paper's cases"
-        ) from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InputError(case, "", f"holds no fluid-filled tube of media and adventitia ({error})", CASE) from None

@@ -56,17 +56,18 @@ class Waves:
 
 def read_waves(path: Path, column: str) -> Waves:
     """Of a CSV with `time_ms`, `z_mm` and the column, all points of a level together. Raises InputError."""
-    columns = read_columns(path)
-    for name in ("time_ms", "z_mm", column):
-        if name not in columns:
-            raise InputError(path, name, "is not among the columns", "run it again")
+    columns = read_columns(path, ("time_ms", "z_mm", column))
     times = columns["time_ms"]
     starts = np.flatnonzero(np.concatenate([[True], np.diff(times) != 0])) if len(times) else np.array([], int)
     points = len(times) // len(starts) if len(starts) else 0
     if not points or len(times) != points * len(starts) or np.any(np.diff(starts) != points):
         raise InputError(path, "time_ms", "levels differ in their number of points", "run it again")
+    if points < 2:
+        raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
     if np.any(np.diff(times[starts]) <= 0) or np.any(np.diff(columns["z_mm"][:points]) <= 0):
         raise InputError(path, "time_ms", "times or points do not increase", "run it again")
+    if np.any(columns["z_mm"].reshape(len(starts), points) != columns["z_mm"][:points]):
+        raise InputError(path, "z_mm", "is not the same at all time levels", "run it again")
     return Waves(times[starts], columns["z_mm"][:points], columns[column].reshape(len(starts), points))
 
 

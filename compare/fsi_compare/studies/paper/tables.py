@@ -1,11 +1,11 @@
 """The paper's Tables 1 and 2 beside ours: parameters and meshes."""
 
-import tomllib
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional
 
 from ...base import paper
 from ...base.errors import InputError
+from ...base.files import read_toml
 from ...base.names import MATERIALS, MESHES
 from ...linear.solver_tables import Grid
 from ...reporting.layout import Table, fixed
@@ -58,10 +58,11 @@ def parameter_table(cases: Mapping[str, Path], printed_density: bool) -> Table:
 
 
 def _structure(case: Path) -> dict:
-    try:
-        return tomllib.loads(case.read_text(encoding="utf-8")).get("structure", {})
-    except (OSError, ValueError) as error:
-        raise InputError(case, "", f"cannot be read: {error}", "give one of the paper's cases") from None
+    remedy = "give one of the paper's cases"
+    structure = read_toml(case, remedy, remedy).get("structure", {})
+    if not isinstance(structure, dict):
+        raise InputError(case, "structure", "is not a section", remedy)
+    return structure
 
 
 def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, int]]:

@@ -2,22 +2,24 @@
 
 import hashlib
 import json
-import tomllib
 from pathlib import Path
 from typing import Optional
 
+from ...base.errors import InputError
+from ...base.files import is_file, read_bytes, read_toml
 from ...runs.case_digest import case_digest
 from ...runs.programs import Program
 from .study_file import Request
 
+UNREADABLE = "give a file that can be read"
 HEADINGS = ("title",)  # in the results; nothing is solved differently
 
 
 def fingerprint(request: Request, program: Program, mesh_file: Optional[Path], threads: int) -> str:
     digest = hashlib.sha256(case_digest(request.case_file, request.method.program, HEADINGS).encode())
     mesh = mesh_file or _own_mesh(request)
-    if mesh is not None and mesh.is_file():
-        digest.update(mesh.read_bytes())
+    if mesh is not None and is_file(mesh):
+        digest.update(read_bytes(mesh, UNREADABLE, UNREADABLE))
     level = request.mesh.name if request.mesh and not request.mesh.options else None
     digest.update(
         json.dumps(
@@ -32,7 +34,8 @@ def _own_mesh(request: Request) -> Optional[Path]:
     if request.mesh is not None:
         return None
     try:
-        name = tomllib.loads(request.case_file.read_text(encoding="utf-8")).get("mesh", {}).get("file")
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, AttributeError):
+        section = read_toml(request.case_file, UNREADABLE, UNREADABLE).get("mesh")
+    except InputError:
         return None  # the driver will say what is wrong with it
+    name = section.get("file") if isinstance(section, dict) else None
     return request.case_file.parent / name if isinstance(name, str) else None

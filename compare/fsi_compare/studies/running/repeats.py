@@ -1,11 +1,12 @@
 """Runs that are short are timed several times: the one of median seconds stays, and how far the others were off."""
 
 import filecmp
-import json
-import shutil
 from pathlib import Path
 from typing import Iterable, List, Optional, Sequence
 
+from ...base.errors import InputError
+from ...base.files import is_file, remove_tree
+from ...runs.summary import FILE, read_summary
 from .study_run import StudyRun
 
 RESULTS = ("centerline_pressure.csv", "wall_displacement.csv")  # the same bits whenever the same run is made
@@ -20,8 +21,8 @@ def place_of(folder: Path, repetition: int) -> Path:
 def step_seconds(folder: Path) -> float:
     """Of the time steps, from summary.json; NaN when there is none."""
     try:
-        return float(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["totals"]["wall_s"])
-    except (OSError, ValueError, KeyError, TypeError):
+        return float(read_summary(folder / FILE)["totals"]["wall_s"])
+    except (InputError, KeyError):
         return float("nan")
 
 
@@ -29,10 +30,10 @@ def same_results(folders: Sequence[Path]) -> bool:
     """Whether the repetitions have the first one's files, bit by bit; one that failed may lack them."""
     first = folders[0]
     return all(
-        (other / file).is_file() and filecmp.cmp(first / file, other / file, shallow=False)
+        is_file(other / file) and filecmp.cmp(first / file, other / file, shallow=False)
         for other in folders[1:]
         for file in RESULTS
-        if (first / file).is_file()
+        if is_file(first / file)
     )
 
 
@@ -43,10 +44,10 @@ def keep_median(folder: Path, repetitions: Sequence[Path]) -> List[float]:
     order = sorted(seconds, key=lambda place: seconds[place])
     middle = order[(len(order) - 1) // 2]
     if middle != folder:
-        shutil.rmtree(folder)
+        remove_tree(folder)
         middle.rename(folder)
     for place in repetitions:
-        shutil.rmtree(place, ignore_errors=True)
+        remove_tree(place)
     return sorted(seconds.values())
 
 

@@ -2,19 +2,31 @@
 
 import json
 import math
+import os
 import re
 import shlex
-import shutil
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
-from ...base.errors import InputError
-from ...base.files import make_folder, replacing
+from ...base import interruption
+from ...base.errors import InputError, ProgramError
+from ...base.files import (
+    TEMPORARY,
+    absolute,
+    is_file,
+    listed,
+    make_folder,
+    read_bytes,
+    read_json,
+    read_object,
+    remove_tree,
+    replacing,
+)
 from ...runs.processes import End, Job, execute, run_jobs
 from ...runs.programs import Program
-from ...runs.run_folder import read_summary
+from ...runs.summary import FILE, read_summary
 from . import repeats
 from .builds import Builds
 from .fingerprint import fingerprint
@@ -22,7 +34,9 @@ from .study_file import Request, Study, StudyMesh
 from .study_progress import StudyProgress
 from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, StudyRun
 
+AGAIN = "make the run again with --fresh"
 RECORD = "study_run.json"  # written last: a folder without it is not finished
+LONGEST_NAME = 100  # characters; the digest behind it tells runs apart
 OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a repetition of it
 NOT_A_NUMBER = re.compile(r"(?:^|,)\s*[-+]?(?:nan|inf(?:inity)?)\s*(?=$|,)", re.IGNORECASE | re.MULTILINE)
 
@@ -80,7 +94,7 @@ class Runner:
         progress.plan([request for _, request in order])
         for i, (key, request) in enumerate(order):
             folder = self._place(key, request)
-            shutil.rmtree(folder, ignore_errors=True)
+            remove_tree(folder)
             jobs.append(Job(i, self._command(request, folder), request.time_limit))
 
         def ended(i: int, end: End) -> None:
@@ -114,7 +128,7 @@ class Runner:
         places: Dict[str, List[Path]] = {key: [] for key in short}
         progress.repeat([request for _, request, _ in again])
         for _, _, place in again:
-            shutil.rmtree(place, ignore_errors=True)
+            remove_tree(place)
 
         def ended(i: int, end: End) -> None:
             key, request, place = again[i]
@@ -135,7 +149,7 @@ class Runner:
     def _settle(self, key: str, request: Request, places: Sequence[Path]) -> None:
         """Of all repetitions the median stays, if they had the same results."""
         run, folder = self._known[key], self._place(key, request)
-        record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
+        record = read_object(folder / RECORD, AGAIN, AGAIN)
         if repeats.same_results([folder, *places]):
             record["timings"] = repeats.keep_median(folder, places)
         else:
@@ -176,9 +190,11 @@ class Runner:
                 "fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release"
             )
         make_folder(path.parent)
-        end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", path])
+        unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
+        end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", unfinished])
         if end.code:
-            raise InputError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
+            raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
+        os.replace(unfinished, path)
         with replacing(path.with_suffix(".options.json")) as temporary:
             temporary.write_text(json.dumps(list(mesh.options)), encoding="utf-8")
         return path
@@ -189,10 +205,10 @@ class Runner:
     def _mesh_is_made(self, mesh: StudyMesh) -> bool:
         path = self._mesh_path(mesh)
         try:
-            made = json.loads(path.with_suffix(".options.json").read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            made = read_json(path.with_suffix(".options.json"), AGAIN, AGAIN)
+        except InputError:
             return False
-        return path.is_file() and made == list(mesh.options)
+        return is_file(path) and made == list(mesh.options)
 
     def standing(self, requests: Sequence[Request]) -> "Standing":
         """How many of the runs are there, without making any. The same run asked for twice counts once."""
@@ -209,7 +225,7 @@ class Runner:
         return Standing(len(found), len(there), sum(not run.done for run in there))
 
     def _place(self, key: str, request: Request) -> Path:
-        name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")
+        name = re.sub(r"[^A-Za-z0-9.+-]+", "-", f"{request.case}-{request.method.name}").strip("-")[:LONGEST_NAME]
         return self.folder / "runs" / f"{name}-{key[:12]}"
 
     def _command(self, request: Request, folder: Path) -> List[str]:
@@ -225,7 +241,7 @@ class Runner:
         mesh = self._mesh_file(request.mesh)
         settings = dict(request.settings)
         if mesh is not None:
-            settings["mesh.file"] = str(mesh.resolve())
+            settings["mesh.file"] = str(absolute(mesh))
         elif request.mesh is not None:
             settings["mesh.level"] = request.mesh.name
         for name, value in settings.items():
@@ -235,13 +251,12 @@ class Runner:
     def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
         folder = self._place(key, request)
         try:
-            record = json.loads((folder / RECORD).read_text(encoding="utf-8"))
-            if record["fingerprint"] != key or (
-                record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit
-            ):
+            record = read_object(folder / RECORD, AGAIN, AGAIN)
+            stopped_early = record["status"] == OUT_OF_TIME and record["seconds"] < request.time_limit
+            if record["fingerprint"] != key or stopped_early or record.get("interrupted"):
                 return None
             if record["status"] == DONE:
-                read_summary(folder / "summary.json")
+                read_summary(folder / FILE)
             run = StudyRun(
                 request,
                 folder,
@@ -253,7 +268,7 @@ class Runner:
             )
             self._taken_up.count(self._program(request), record.get("executable", ""))
             return run
-        except (OSError, ValueError, KeyError, TypeError, InputError):
+        except (OSError, ValueError, OverflowError, KeyError, TypeError, InputError):
             return None
 
     def _judge(self, key: str, request: Request, end: End) -> StudyRun:
@@ -272,9 +287,15 @@ class Runner:
                 "run": request.label,
                 "ended": time.strftime("%Y-%m-%d %H:%M:%S"),
                 "executable": self._program(request).digest,
+                "interrupted": is_interrupted(end.code) and not end.out_of_time,
             },
         )
         return StudyRun(request, folder, status, message, end.seconds, command)
+
+
+def is_interrupted(code: int) -> bool:
+    """Whether somebody ended the run: that says nothing about it, so that the next call makes it anew."""
+    return any(code in (-number, 128 + number) for number in interruption.WATCHED)
 
 
 def write_record(folder: Path, record: Dict[str, Any]) -> None:
@@ -284,9 +305,22 @@ def write_record(folder: Path, record: Dict[str, Any]) -> None:
 
 def remove_runs(folder: Path) -> None:
     """All runs that a study keeps in `folder`, unfinished ones too, but nothing that another command put there."""
-    for place in (folder / "runs").glob("*"):
-        if OWN_PLACE.fullmatch(place.name):
-            shutil.rmtree(place, ignore_errors=True)
+    for name in listed(folder / "runs"):
+        if OWN_PLACE.fullmatch(name):
+            remove_tree(folder / "runs" / name)
+
+
+def sweep_study(folder: Path) -> None:
+    """Removes the temporary files of calls that were killed. The folder must be locked: whose are they else?"""
+    for place in (
+        folder,
+        folder / "runs",
+        folder / "meshes",
+        *(folder / "runs" / run for run in listed(folder / "runs")),
+    ):
+        for name in listed(place):
+            if name.startswith(".") and TEMPORARY in name:
+                remove_tree(place / name)
 
 
 def judge(folder: Path, end: End) -> Tuple[str, str]:
@@ -294,12 +328,14 @@ def judge(folder: Path, end: End) -> Tuple[str, str]:
     if end.out_of_time:
         return OUT_OF_TIME, end.message
     if end.code == 0:
+        bad = first_not_finite(folder)
+        if bad:
+            return WRONG, bad
         try:
-            read_summary(folder / "summary.json")
+            read_summary(folder / FILE)
         except InputError as error:
             return CRASHED, f"exit code 0, but {error}"
-        bad = first_not_finite(folder)
-        return (WRONG, bad) if bad else (DONE, "")
+        return DONE, ""
     bad = first_not_finite(folder)
     if bad:
         return WRONG, bad
@@ -312,12 +348,12 @@ def judge(folder: Path, end: End) -> Tuple[str, str]:
 
 def first_not_finite(folder: Path) -> str:
     """Names the first result file that holds NaN or infinity; empty: none does. A message may speak of them."""
-    for file in sorted(folder.glob("*.csv")):
-        if NOT_A_NUMBER.search(file.read_text(encoding="utf-8", errors="replace")):
-            return f"{file.name} holds a value that is not a finite number"
+    for name in sorted(name for name in listed(folder) if name.endswith(".csv") and is_file(folder / name)):
+        if NOT_A_NUMBER.search(read_bytes(folder / name, AGAIN, AGAIN).decode("utf-8", "replace")):
+            return f"{name} holds a value that is not a finite number"
     try:
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        summary = read_object(folder / FILE, AGAIN, AGAIN)
+    except InputError:
         return ""
     return "" if _finite(summary) else "summary.json holds a value that is not a finite number"
 

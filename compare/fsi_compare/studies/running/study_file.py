@@ -1,17 +1,25 @@
 """A study file (TOML): cases, methods, meshes, what is varied, and what the report is about."""
 
 import itertools
-import tomllib
+import math
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
+from ...base.files import absolute, exists, is_file, read_toml
 from ...base.names import MESHES
 from ...base.suggestions import check_keys, nearest
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
+
+LONGEST_NAME = 200  # characters of a key
+MOST_RUNS = 100_000
+LARGEST_COUNT = 10_000  # threads, runs at once, repetitions
+LARGEST_NUMBER = 10**15
+FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
 TOP_KEYS = (
     "title",
@@ -120,15 +128,30 @@ def show(value: Any) -> str:
 def read_study(path: Path, kinds: Sequence[str], quick: bool = False) -> Study:
     """Raises InputError naming the key unless the file is a study that can be run. `quick`: each group in its quick
     form; groups without one are left out."""
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(path, "", "no such study", "give a study file, or the name of a ready one") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(path, "", f"cannot be read: {error}", "give a study file") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", f"is not TOML: {error}", "mend that line") from None
+    if not exists(path):
+        raise InputError(path, "", "no such study", "give a study file, or the name of a ready one")
+    data = read_toml(path, "give a study file, or the name of a ready one", "give a study file")
+    _require_shown(path, "", data)
     return _Reader(path, quick).study(data, kinds)
+
+
+def _require_shown(path: Path, key: str, entry: Any) -> None:
+    """Names and texts end in tables, reports and names of files: they must be such that people can read them."""
+    if isinstance(entry, dict):
+        for name, value in entry.items():
+            if not name.isprintable() or len(name) > LONGEST_NAME:
+                raise InputError(
+                    path,
+                    f"{key}.{name}".lstrip("."),
+                    f"has more than {LONGEST_NAME} characters" if name.isprintable() else "holds a control character",
+                    "choose another name",
+                )
+            _require_shown(path, f"{key}.{name}".lstrip("."), value)
+    elif isinstance(entry, list):
+        for value in entry:
+            _require_shown(path, key, value)
+    elif isinstance(entry, str) and not " ".join(entry.split()).isprintable():
+        raise InputError(path, key, "holds a control character", "leave it out")
 
 
 class _Reader:
@@ -185,8 +208,8 @@ class _Reader:
             file = entry.get("file")
         if not isinstance(file, str):
             raise self.wrong(f"cases.{name}", "is not a file name", "give the case file, relative to the study")
-        path = (self.path.parent / file).resolve()
-        if not path.is_file():
+        path = absolute(self.path.parent / file)
+        if not is_file(path):
             raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
         return path
 
@@ -194,7 +217,7 @@ class _Reader:
         key = f"methods.{name}"
         self.known(key, entry, METHOD_KEYS)
         program = self.one_of(f"{key}.program", self.text(entry, "program", key), PROGRAMS)
-        return Method(name, str(entry.get("label", name)), program, self.settings(entry, "set", key))
+        return Method(name, self.label(entry, name, key), program, self.settings(entry, "set", key))
 
     def mesh(self, name: str, entry: Any) -> StudyMesh:
         key = f"meshes.{name}"
@@ -206,7 +229,9 @@ class _Reader:
             raise self.wrong(
                 f"{key}.options", "is not a list of words", 'give options of fsi-mesh artery, e.g. ["--size", "0.5"]'
             )
-        return StudyMesh(name, str(entry.get("label", name)), tuple(options))
+        if not FILE_NAME.fullmatch(name):
+            raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
+        return StudyMesh(name, self.label(entry, name, key), tuple(options))
 
     def group(
         self,
@@ -221,15 +246,16 @@ class _Reader:
     ) -> List[Request]:
         key = f"runs.{name}"
         self.known(key, group, GROUP_KEYS)
+        quick = group.get("quick", False)
+        if not isinstance(quick, bool):
+            self.known(f"{key}.quick", quick, GROUP_KEYS[:-1])
         if self.quick:
-            quick = group.get("quick", False)
             if quick is False:
                 return []
             if quick is not True:
-                self.known(f"{key}.quick", quick, GROUP_KEYS[:-1])
                 group = {**group, **quick}
-        names = [self.one_of(f"{key}.cases", case, cases) for case in group.get("cases", list(cases))]
-        chosen = [methods[self.one_of(f"{key}.methods", m, methods)] for m in group.get("methods", list(methods))]
+        names = self.names(group, "cases", cases, key)
+        chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
         own = self.settings(group, "set", key)
         vary = self.table(group, "vary", False, key)
         axes = [
@@ -239,6 +265,8 @@ class _Reader:
             ]
             for quantity, values in vary.items()
         ]
+        if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
+            raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
         for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
             merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
@@ -260,8 +288,10 @@ class _Reader:
             self.known(key, value, VALUE_KEYS)
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
+            self.scalar(f"{key}.label", value["label"])
             mesh = meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None
             return quantity, value["label"], self.settings(value, "set", key), mesh
+        self.scalar(key, value)
         if "." not in quantity:
             raise self.wrong(
                 key,
@@ -276,7 +306,7 @@ class _Reader:
         check_keys(self.path, key, entry, keys)
 
     def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
-        if name not in names:
+        if not isinstance(name, str) or name not in names:
             raise self.wrong(
                 key,
                 f"'{name}' is unknown",
@@ -284,11 +314,28 @@ class _Reader:
             )
         return name
 
+    def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
+        """Of cases or methods: those that a group names, or all."""
+        given = group.get(name, list(known))
+        if not isinstance(given, list):
+            raise self.wrong(f"{section}.{name}", "is not a list of names", "write [a, b, ...]")
+        chosen = [self.one_of(f"{section}.{name}", entry, known) for entry in given]
+        return list(dict.fromkeys(chosen))
+
+    def label(self, entry: Dict[str, Any], name: str, section: str) -> str:
+        return self.text(entry, "label", section) if "label" in entry else name
+
+    def scalar(self, key: str, value: Any) -> None:
+        if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):
+            raise self.wrong(
+                key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
+            )
+
     def text(self, entry: Dict[str, Any], name: str, section: str = "") -> str:
         key = f"{section}.{name}".lstrip(".")
-        if not isinstance(entry.get(name), str) or not entry[name]:
+        if not isinstance(entry.get(name), str) or not entry[name].strip():
             raise self.wrong(key, "is missing" if name not in entry else "is not a text", "give it in quotes")
-        return entry[name]
+        return " ".join(entry[name].split())
 
     def table(self, entry: Dict[str, Any], name: str, needed: bool = False, section: str = "") -> Dict[str, Any]:
         found = entry.get(name, {})
@@ -318,12 +365,14 @@ class _Reader:
 
     def number(self, entry: Dict[str, Any], name: str, default: float) -> float:
         value = entry.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not value > 0:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value <= LARGEST_NUMBER:
             raise self.wrong(name, f"{value} is not a positive number", f"leave it out for {default:g}")
         return float(value)
 
     def count(self, entry: Dict[str, Any], name: str, default: int) -> int:
         value = entry.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise self.wrong(name, f"{value} is not a whole number from 1", f"leave it out for {default}")
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
+            raise self.wrong(
+                name, f"{value} is not a whole number from 1 to {LARGEST_COUNT}", f"leave it out for {default}"
+            )
         return value

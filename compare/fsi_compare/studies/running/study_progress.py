@@ -2,7 +2,7 @@
 
 import sys
 import time
-from typing import Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 from ...base.names import MESH_NODES
 from ...base.progress import duration
@@ -24,8 +24,11 @@ class StudyProgress:
     @staticmethod
     def weight(request: Request) -> float:
         nodes = MESH_NODES.get(request.mesh.name if request.mesh else "coarse", 3e3)
-        end, step = request.settings.get("time.end", 12.0), request.settings.get("time.step", 0.125)
-        return nodes * end / step
+        return (
+            nodes
+            * _positive(request.settings.get("time.end"), 12.0)
+            / _positive(request.settings.get("time.step"), 0.125)
+        )
 
     def known(self, request: Request, run: StudyRun) -> None:
         self._known_count += 1
@@ -87,3 +90,8 @@ class StudyProgress:
     def _say(self, text: str) -> None:
         if not self._quiet:
             print(("\r\033[K" if self._terminal else "") + text, file=sys.stderr, flush=True)
+
+
+def _positive(value: Any, usual: float) -> float:
+    """What a study sets is for the driver to judge; here it only weighs the work."""
+    return float(value) if isinstance(value, (int, float)) and 1e-9 < value < 1e9 else usual

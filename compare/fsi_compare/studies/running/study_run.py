@@ -1,16 +1,16 @@
 """One run of a study: what was asked for, how it ended, and its files."""
 
 import functools
-import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Tuple
+from typing import Tuple
 
-import numpy as np
-
-from ...runs.columns import read_columns
+from ...base.errors import InputError
+from ...base.files import is_file, read_object
+from ...runs.columns import Columns, read_columns
 from ...runs.pressure_waves import PressureWaves
 from ...runs.run_folder import read_pressure
+from ...runs.summary import FILE, checked
 from .study_file import Request
 
 DONE = "done"
@@ -41,22 +41,25 @@ class StudyRun:
 
     @functools.cached_property
     def summary(self) -> dict:
-        """`summary.json`; empty where the run wrote none."""
+        """`summary.json`; empty where the run wrote none, or one that cannot be what a driver wrote."""
+        path = self.folder / FILE
         try:
-            return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            return checked(path, read_object(path, "", ""))
+        except InputError:
+            if self.done and is_file(path):
+                raise
             return {}
 
     @functools.cached_property
     def pressure(self) -> PressureWaves:
         return read_pressure(self.folder / "centerline_pressure.csv")
 
-    def columns(self, file: str) -> Dict[str, np.ndarray]:
+    def columns(self, file: str) -> Columns:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""
         return read_columns(self.folder / file)
 
     def has(self, file: str) -> bool:
-        return (self.folder / file).is_file()
+        return is_file(self.folder / file)
 
     @property
     def steps(self) -> int:

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
-from ...base.suggestions import check_keys, nearest
+from ...base.suggestions import nearest
 from ...reporting.layout import Table, fixed
 from ...runs.differences import largest_difference
 from ..evidence.cross_check import waves_of
 from ..running.context import Context
+from ..running.section import Section, report_of
 from ..running.study_file import Request, Study, show
 from ..running.study_run import StudyRun
 
@@ -32,32 +33,32 @@ class Economy:
 
 
 def check(study: Study) -> None:
-    check_keys(study.path, "report", study.report, REPORT_KEYS)
     economies(study, study.requests, lambda request: request)
 
 
 def economies(study: Study, items: Sequence[Any], request_of: Callable[[Any], Request]) -> List[Economy]:
     """`items`: requests or runs; `request_of` gives an item's request. Groups that the quick form leaves out are left
     out."""
-    repeat = study.report.get("repeat", "repeat")
+    report = report_of(study, REPORT_KEYS)
+    repeat = report.text("repeat", "repeat")
     groups: Dict[str, Dict[Tuple, List[Any]]] = {}
     for item in items:
         request: Request = request_of(item)
         form = (request.case, request.method.name, *((k, show(v)) for k, v in request.values.items() if k != repeat))
         groups.setdefault(request.group, {}).setdefault(form, []).append(item)
-    named = study.report.get("economies")
-    if not isinstance(named, dict) or not named:
+    named = report.table("economies")
+    if not named:
         raise InputError(
             study.path, "report.economies", "is missing", "name each group of runs there, with label and counter"
         )
     found = []
     for name, entry in named.items():
         key = f"report.economies.{name}"
-        if not isinstance(entry, dict) or any(k not in ECONOMY_KEYS for k in entry):
-            raise InputError(study.path, key, "is no section of " + ", ".join(ECONOMY_KEYS), "see the ready study")
+        section = Section(study.path, key, entry, ECONOMY_KEYS)
         for needed in ("label", "counter"):
-            if not isinstance(entry.get(needed), str):
-                raise InputError(study.path, f"{key}.{needed}", "is missing", "give it in quotes")
+            section.text(needed)
+        for other in ECONOMY_KEYS:
+            section.text(other, "")
         if name not in groups:
             if study.quick:
                 continue

@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from ...base.errors import InputError
 from ...reporting.pictures import LINES, finish
 from ..evidence.tube import Layer
+from ..running.section import Section
 from ..running.study_run import StudyRun
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
@@ -96,26 +97,15 @@ class Wall:
         return 0.5 * (low + high)
 
 
-def read_wall(settings: Mapping, wrong: Callable[[str, str, str], InputError]) -> Wall:
-    """From the study's [report.tube]. `wrong(key, problem, remedy)` makes the error."""
+TUBE_KEYS = ("radii", "shear_moduli")
 
-    def positive(value: Any) -> bool:
-        return isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0
 
-    def numbers(name: str) -> List[float]:
-        values = settings.get(name)
-        if not isinstance(values, list) or not values or not all(positive(value) for value in values):
-            raise wrong(f"report.tube.{name}", "is not a list of positive numbers", "give them from the inside outward")
-        return [float(value) for value in values]
-
-    for name in settings:
-        if name not in ("radii", "shear_moduli"):
-            raise wrong(f"report.tube.{name}", "is unknown", "its keys are radii (mm) and shear_moduli (kPa)")
-    radii, moduli = numbers("radii"), numbers("shear_moduli")
+def read_wall(settings: Section) -> Wall:
+    """From the study's [report.tube]: radii of the faces in mm and shear moduli of the layers in kPa, from the inside
+    outward."""
+    radii, moduli = settings.numbers("radii"), settings.numbers("shear_moduli")
     if len(radii) != len(moduli) + 1 or sorted(set(radii)) != radii:
-        raise wrong(
-            "report.tube.radii", "are not one more than the layers, rising", "give the radius of each face in mm"
-        )
+        raise settings.wrong("radii", "are not one more than the layers, rising", "give the radius of each face in mm")
     return Wall([Layer(*layer) for layer in zip(radii, radii[1:], moduli)])
 
 

@@ -30,7 +30,7 @@ def _amplitude(cell: Cell) -> Optional[float]:
     """Pa, as the program found it."""
     said = cell.run.summary.get("ringing")
     amplitude = said.get("amplitude_Pa") if isinstance(said, dict) else None
-    return float(amplitude) if isinstance(amplitude, (int, float)) else None
+    return float(amplitude) if isinstance(amplitude, (int, float)) and abs(amplitude) < 1e100 else None
 
 
 def _largest(cell: Cell) -> Optional[float]:
@@ -75,5 +75,7 @@ def ringing_table(named: Sequence[Cell], settings: Settings) -> Table:
 
 
 def _range(values: Sequence[float]) -> str:
+    if not values:
+        return "-"
     low, high = f"{min(values):.2g}", f"{max(values):.2g}"
     return low if low == high else f"{low} to {high}"

@@ -1,14 +1,15 @@
 """[report] of a stability study."""
 
 from dataclasses import dataclass
-from typing import Any, List, Mapping, Optional, Sequence
+from typing import Any, Mapping, Optional, Sequence
 
 from ...base.errors import InputError
-from ...base.suggestions import check_keys, nearest
+from ...base.suggestions import nearest
 from ..evidence.cross_check import BOUND
+from ..running.section import Section, report_of
 from ..running.study_file import Study
 from ..running.study_run import StudyRun
-from .limit_load import Wall, read_wall
+from .limit_load import TUBE_KEYS, Wall, read_wall
 
 REPORT_KEYS = ("scope", "bound", "references", "one_pass", "quantities", "tube", "static", "pulse")
 QUANTITY_KEYS = ("label", "paper")
@@ -38,50 +39,35 @@ class Settings:
 
 
 def settings_of(study: Study) -> Settings:
-    def wrong(key: str, problem: str, remedy: str) -> InputError:
-        return InputError(study.path, key, problem, remedy)
-
-    def method_names(name: str, default: Sequence[str]) -> List[str]:
-        given = study.report.get(name, default)
-        if not isinstance(given, list):
-            raise wrong(f"report.{name}", "is not a list", "name methods of the study")
-        for entry in given:
-            if entry not in study.methods:
-                raise wrong(
-                    f"report.{name}",
-                    f"'{entry}' is no method of the study",
-                    f"did you mean '{nearest(str(entry), list(study.methods))}'?",
-                )
-        return given
-
-    check_keys(study.path, "report", study.report, REPORT_KEYS)
-    bound = study.report.get("bound", BOUND)
-    if isinstance(bound, bool) or not isinstance(bound, (int, float)) or not bound > 0:
-        raise wrong("report.bound", f"{bound} is not a positive number", f"leave it out for {BOUND:g}")
+    report = report_of(study, REPORT_KEYS)
     for request in study.requests:
         if len(request.values) != 1:
-            raise wrong(
-                f"runs.{request.group}.vary", f"varies {len(request.values)} quantities", "vary one in each group"
+            raise InputError(
+                study.path,
+                f"runs.{request.group}.vary",
+                f"varies {len(request.values)} quantities",
+                "vary one in each group",
             )
     varied = list(dict.fromkeys(next(iter(request.values)) for request in study.requests))
-    named = study.report.get("quantities", {})
-    for name, entry in named.items():
-        if not isinstance(entry, dict) or any(key not in QUANTITY_KEYS for key in entry):
-            raise wrong(
-                f"report.quantities.{name}", "is no section of " + " and ".join(QUANTITY_KEYS), "see the ready study"
-            )
+    named = report.table("quantities")
+    for name in named:
+        entry = Section(study.path, f"report.quantities.{name}", named[name], QUANTITY_KEYS)
+        entry.text("label", name)
+        if not isinstance(entry.entries.get("paper", 0), (int, float, str)):
+            raise entry.wrong("paper", "is no value", "give the paper's value of the quantity")
         if name not in varied and not study.quick:
-            raise wrong(f"report.quantities.{name}", "is varied nowhere", f"did you mean '{nearest(name, varied)}'?")
-    references = method_names("references", [m.name for m in study.methods.values() if m.program == "fsi-monolithic"])
+            raise report.wrong(f"quantities.{name}", "is varied nowhere", f"did you mean '{nearest(name, varied)}'?")
+    monolithic = [m.name for m in study.methods.values() if m.program == "fsi-monolithic"]
+    references = report.names("references", list(study.methods), monolithic, "method of the study")
     if len({study.methods[name].program for name in references}) != 1:
-        raise wrong("report.references", "are not methods of one driver", "name those of fsi-monolithic")
+        raise report.wrong("references", "are not methods of one driver", "name those of fsi-monolithic")
     return Settings(
-        str(study.report.get("scope", "")),
-        float(bound),
+        report.text("scope", ""),
+        report.number("bound", BOUND),
         references,
-        method_names("one_pass", []),
+        report.names("one_pass", list(study.methods), [], "method of the study"),
         named,
-        read_wall(study.report["tube"], wrong) if "tube" in study.report else None,
-        str(study.report.get("static", "")),
-        str(study.report.get("pulse", "")),
+        read_wall(report.section("tube", TUBE_KEYS)) if "tube" in report else None,
+        report.text("static", ""),
+        report.text("pulse", ""),
     )

@@ -1,0 +1,116 @@
+"""`summary.json` of a run: what of it fsi-compare uses, each entry of the kind that the drivers write."""
+
+import math
+import shlex
+from pathlib import Path
+from typing import Any, Callable, Dict, Mapping, Optional, Union
+
+from ..base.errors import InputError
+from ..base.files import read_object
+
+FILE = "summary.json"
+PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
+FINISHED = "give the result folder of a finished run"
+AGAIN = "the run was interrupted while writing; run it again"
+MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
+
+
+def _text(value: Any) -> Optional[str]:
+    return None if isinstance(value, str) else "is not a text"
+
+
+def _number(value: Any) -> Optional[str]:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return "is not a number"
+    if isinstance(value, float) and not math.isfinite(value):
+        return f"is {value}"
+    return None if 0 <= value < 1e100 else "is negative" if value < 0 else "is too large"
+
+
+def _count(value: Any) -> Optional[str]:
+    if isinstance(value, bool) or not isinstance(value, int):
+        return "is not a whole number"
+    return None if 0 <= value <= MOST else "is negative" if value < 0 else "is too large"
+
+
+class _Each(dict):
+    """Entries of any name, all of one shape."""
+
+
+Shape = Union[Callable[[Any], Optional[str]], Mapping[str, Any]]
+SHAPE: Mapping[str, Shape] = {
+    "title": _text,
+    "version": _text,
+    "case": _text,
+    "element": _text,
+    "geometry": _text,
+    "threads": _count,
+    "peak_memory_MiB": _number,
+    "restarted_from_step": _count,
+    "mesh": {"name": _text, "nodes": _count, "hash": _text},
+    "unknowns": {"coupled": _count},
+    "phases": _Each(entry={"calls": _count, "seconds": _number}),
+    "totals": _Each(entry=_number),
+    "counters": _Each(entry=_number),
+}
+
+
+def read_summary(path: Path) -> Dict[str, Any]:
+    """Of a run that reached its end. Only `program` and `status` are demanded; an entry that is null counts as missing.
+    Raises InputError naming the key."""
+    summary = read_object(path, FINISHED, AGAIN)
+    _require_driver(path, summary.get("program"))
+    _require_done(path, summary)
+    return checked(path, summary)
+
+
+def checked(path: Path, summary: Dict[str, Any]) -> Dict[str, Any]:
+    """What is there, without nulls. Raises InputError for an entry of another kind."""
+    return _checked(path, "", summary, SHAPE)
+
+
+def _checked(path: Path, key: str, value: Any, shape: Shape) -> Any:
+    if not isinstance(shape, Mapping):
+        problem = shape(value)
+        if problem:
+            raise InputError(path, key, problem, "run it again")
+        return value
+    if not isinstance(value, dict):
+        raise InputError(path, key, "is not a JSON object", "run it again")
+    kept = {}
+    for name, entry in value.items():
+        part = shape["entry"] if isinstance(shape, _Each) else shape.get(name)
+        if entry is not None:
+            kept[name] = entry if part is None else _checked(path, f"{key}.{name}".lstrip("."), entry, part)
+    return kept
+
+
+def _require_driver(path: Path, program: Any) -> None:
+    if program is None:
+        raise InputError(path, "program", "is missing", "give the result folder of a driver")
+    if not isinstance(program, str) or program not in PROGRAMS:
+        raise InputError(path, "program", f"'{program}' is unknown", f"it must be {' or '.join(PROGRAMS)}")
+
+
+def _require_done(path: Path, summary: Mapping[str, Any]) -> None:
+    program, status, case = (summary.get(key) for key in ("program", "status", "case"))
+    words = [str(program), *([case] if isinstance(case, str) else []), "--restart", str(path.parent)]
+    resume = shlex.join(words)  # to be copied as it stands
+    if status == "done":
+        return
+    if status is None:
+        raise InputError(path, "status", "is missing", "run it again")
+    if status == "running":
+        raise InputError(path, "status", "the run is not finished", f"wait for its end or resume it with {resume}")
+    if status == "interrupted":
+        raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
+    if status == "not converged":
+        raise InputError(
+            path,
+            "status",
+            "the run stopped without converging",
+            f"see {path.parent / 'run.log'}, change the solver's settings and run it again",
+        )
+    if status == "failed":
+        raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
+    raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")

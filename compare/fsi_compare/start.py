@@ -1,0 +1,69 @@
+"""From the first moment to the exit code: streams, signals, and one line for whatever went wrong."""
+
+import os
+import sys
+import traceback
+from typing import NoReturn, Sequence
+
+from .base import interruption
+from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
+from .base.streams import ReaderLeft, guarded
+
+TRACEBACK = "FSI_COMPARE_TRACEBACK"  # set in the environment: where an unexpected exception comes from is shown
+
+
+def program(version: str = "unknown") -> NoReturn:
+    """The whole of the program."""
+    sys.exit(main(sys.argv[1:], version, to_the_end=True))
+
+
+def main(arguments: Sequence[str], version: str = "unknown", to_the_end: bool = False) -> int:
+    """Exit code: 0 done, 1 wrong use or bad input, 2 done but something did not converge; 128 + n ended by signal n."""
+    with interruption.watched(to_the_end), guarded():
+        return _guarded_main(arguments, version)
+
+
+def _guarded_main(arguments: Sequence[str], version: str) -> int:
+    try:
+        if not _has_working_folder():
+            raise InputError(".", "", "the working folder has been removed", "change to another one")
+        from .cli import run  # takes a while to load: signals are watched by now
+
+        interruption.check()
+        code = run(arguments, version)
+        sys.stdout.flush()
+        return code
+    except InputError as error:
+        say_error(str(error))
+        return 1
+    except interruption.Interrupted as signal:
+        print(f"{PROGRAM}: interrupted by {signal}{_what_stays(arguments)}", file=sys.stderr)
+        return signal.code
+    except MemoryError:
+        say_error("out of memory; compare fewer or smaller runs, or take a larger machine")
+        return 1
+    except ReaderLeft:
+        return 0  # the reader, e.g. `head`, has seen enough
+    except ImportError as error:
+        say_error(str(InputError(error.name or "Python", "", f"cannot be loaded: {error}", "install it again")))
+        return 1
+    except Exception as error:
+        # Nothing ought to come here: the harness tests/faults/study counts it as wrong.
+        if os.environ.get(TRACEBACK):
+            traceback.print_exc()
+        text = shortened(f"{type(error).__name__}: {' '.join(str(error).split())}", PROBLEM_LIMIT)
+        say_error(f"unexpected: {text}; {TRACEBACK}=1 shows where")
+        return 1
+
+
+def _what_stays(arguments: Sequence[str]) -> str:
+    if arguments[:1] == ["study"] or arguments[:1] == ["solvers"]:
+        return "; finished runs are kept, the same command goes on"
+    return ""
+
+
+def _has_working_folder() -> bool:
+    try:
+        return bool(os.getcwd())
+    except OSError:
+        return False
