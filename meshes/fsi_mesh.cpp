@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
