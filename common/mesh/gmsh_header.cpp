@@ -45,7 +45,16 @@ class Header {
     }
     long long first = 0, second = 0;
     const int read = std::sscanf(begin.c_str() + position_, "%lld %lld", &first, &second);
-    if (read >= (version_41 ? 2 : 1)) require_bytes("nodes", version_41 ? second : first, binary == 1 ? 28 : 8);
+    if (read < (version_41 ? 2 : 1)) return;
+    if (binary == 0) {
+      require_bytes("nodes", version_41 ? second : first, 8);  // a tag and three coordinates with their blanks
+      return;
+    }
+    const std::size_t end = begin.find('\n', position_);
+    if (end == std::string::npos) return;
+    position_ = end + 1;
+    pass("nodes", first, 28);
+    end_section();
   }
 
  private:
