@@ -62,11 +62,11 @@ class Memory(Harness):
 
     def jobs(self):
         mesh = tiny_mesh(self)
-        case = (NEO_HOOKEAN, "-q", "--set", f"mesh.file={mesh}", "--set", "time.end=0.5")
-        case += ("--set", "output.checkpoint_every=1")
+        settings = (f"mesh.file={mesh}", "time.end=0.5", "output.checkpoint_every=1")
+        case = (NEO_HOOKEAN, "-q", *(word for setting in settings for word in ("--set", setting)))
 
-        def driver(program, threads, *settings):
-            words = [word for setting in settings for word in ("--set", setting)]
+        def driver(program, threads, *more):
+            words = [word for setting in more for word in ("--set", setting)]
             return Job(program, (*case, *words, "--threads", threads), threads)
 
         jobs = [
