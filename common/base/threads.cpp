@@ -2,7 +2,6 @@
 
 #include <omp.h>
 #include <unistd.h>
-#include <unistd.h>
 
 #include "base/begin_again.hpp"
 
