@@ -227,6 +227,14 @@ void end_out_of_memory(std::size_t asked) noexcept {
   end_with(message);
 }
 
+void end_out_of_memory(const std::string& program, const OutOfMemory& error) noexcept {
+  enter_the_end();
+  std::fflush(stdout);
+  char message[2048];
+  std::snprintf(message, sizeof message, "%s: error: %s\n", program.c_str(), error.what());
+  end_with(message);
+}
+
 void end_without_thread() noexcept {
   enter_the_end();
   char program[64], message[1024];

@@ -69,6 +69,10 @@ class MayFail {
 /// one speaks.
 /// \param asked  bytes, 0: not known
 [[noreturn]] void end_out_of_memory(std::size_t asked) noexcept;
+/// The same for one that was thrown and caught at the end of main(). Not by returning from it: another thread may have
+/// failed meanwhile, and waits for the end.
+/// \param program  name that the message begins with
+[[noreturn]] void end_out_of_memory(const std::string& program, const OutOfMemory& error) noexcept;
 /// The same because a thread could not be started.
 [[noreturn]] void end_without_thread() noexcept;
 

@@ -53,7 +53,7 @@ int run_program(const std::string& name, const std::function<int()>& body) {
   } catch (const ConvergenceError& error) {
     return failure(name, error.what(), exit_not_converged);
   } catch (const OutOfMemory& error) {
-    return failure(name, error.what(), exit_bad_input);
+    end_out_of_memory(name, error);
   } catch (const std::bad_alloc&) {
     return out_of_memory(name);
   } catch (const std::exception& error) {

@@ -72,6 +72,8 @@ TEST(Memory, EndsWithOneMessageAndExitCodeOne) {
   EXPECT_EXIT(
       end_out_of_memory(std::size_t{3} << 30), testing::ExitedWithCode(1),
       "^.*: error: out of memory \\(starting\\): 3.0 GiB asked, .* available \\(.*\\); take a coarser mesh.*\n$");
+  EXPECT_EXIT(end_out_of_memory("fsi-x", OutOfMemory("7 GiB asked")), testing::ExitedWithCode(1),
+              "^fsi-x: error: out of memory \\(starting\\): 7 GiB asked, .*\n$");
   EXPECT_EXIT(end_without_thread(), testing::ExitedWithCode(1), "a thread cannot be started .*--threads");
 }
 
