@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
@@ -168,6 +169,7 @@ int run(int argc, const char* const* argv) {
   set_sizes(request);
   require_known_extension(request.file);
   fsi::set_threads(request.threads);
+  const fsi::Activity activity("making the mesh");
   make_artery(request);
   return fsi::exit_done;
 }

@@ -4,20 +4,65 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cstdlib>
 
+#include "algebra/factorisation_memory.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 
 extern "C" void openblas_set_num_threads(int);
 extern "C" int openblas_get_num_threads();
 
 namespace fsi {
 
+namespace {
+
+int dense_threads = openblas_get_num_threads();  // as it begins, until it is set
+
+/// OpenBLAS starts its threads when it is told their number, and each takes 128 MiB of addresses: not before they are
+/// needed.
+void start_dense_threads() {
+  if (openblas_get_num_threads() != dense_threads) openblas_set_num_threads(dense_threads);
+}
+
+// UMFPACK copes with allocations that fail: it asks for less.
+void* malloc_for_umfpack(std::size_t size) {
+  const MayFail umfpack_asks_for_less;
+  return std::malloc(size);
+}
+void* calloc_for_umfpack(std::size_t count, std::size_t size) {
+  const MayFail umfpack_asks_for_less;
+  return std::calloc(count, size);
+}
+void* realloc_for_umfpack(void* old, std::size_t size) {
+  const MayFail umfpack_asks_for_less;
+  return std::realloc(old, size);
+}
+const bool umfpack_may_fail = [] {
+#if SUITESPARSE_VERSION >= SUITESPARSE_VER_CODE(6, 0)
+  SuiteSparse_config_malloc_func_set(malloc_for_umfpack);
+  SuiteSparse_config_calloc_func_set(calloc_for_umfpack);
+  SuiteSparse_config_realloc_func_set(realloc_for_umfpack);
+#else
+  SuiteSparse_config.malloc_func = malloc_for_umfpack;
+  SuiteSparse_config.calloc_func = calloc_for_umfpack;
+  SuiteSparse_config.realloc_func = realloc_for_umfpack;
+#endif
+  return true;
+}();
+
+}  // namespace
+
 struct DirectSolver::Implementation {
   double control[UMFPACK_CONTROL];
   void* symbolic = nullptr;
   void* numeric = nullptr;
   double lower = 0, upper = 0;
+  double bytes = 0;        ///< that a factorisation is expected to take
+  double bound_bytes = 0;  ///< UMFPACK's bound for the factors alone
+  bool warned = false;
   mutable std::vector<SuiteSparse_long> integer_work;
   mutable std::vector<double> work;
 
@@ -31,6 +76,31 @@ struct DirectSolver::Implementation {
                                                                   : UMFPACK_STRATEGY_AUTO;
     control[UMFPACK_IRSTEP] = options.refinement_steps;
   }
+  /// From what the symbolic analysis says.
+  void expect_memory(const double* info) {
+    bound_bytes = info[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info[UMFPACK_SIZE_OF_UNIT];
+    bytes = info[UMFPACK_STRATEGY_USED] == UMFPACK_STRATEGY_SYMMETRIC && info[UMFPACK_SYMMETRIC_LUNZ] > 0
+                ? factorisation_bytes(info[UMFPACK_SYMMETRIC_LUNZ], info[UMFPACK_NZ])
+                : bound_bytes / 5;  // no estimate there; the least that was seen beside the bound
+  }
+
+  std::string asked(std::int64_t unknowns) const {
+    return fmt::format("the factors of {} unknowns take about {}", unknowns, memory_text(bytes));
+  }
+
+  /// Refuses what does not fit and warns, once, of what takes much.
+  void require_memory(std::int64_t unknowns) {
+    control[UMFPACK_ALLOC_INIT] = UMFPACK_DEFAULT_ALLOC_INIT;
+    if (bytes < (std::size_t{1} << 20)) return;  // many small ones are factorised
+    const auto room = static_cast<double>(available_memory().bytes);
+    if (will_not_fit(bytes, room)) throw OutOfMemory(asked(unknowns));
+    // UMFPACK first takes 0.7 times its bound, else all that it gets. That leaves nothing for others where little is.
+    if (0.7 * bound_bytes > 0.5 * room) control[UMFPACK_ALLOC_INIT] = std::min(0.7, 1.2 * bytes / bound_bytes);
+    if (warned || !takes_more_than_half(bytes, room)) return;
+    warned = true;
+    memory_notice(fmt::format("{}, more than half of the {} available", asked(unknowns), memory_text(room)));
+  }
+
   ~Implementation() {
     if (numeric) umfpack_dl_free_numeric(&numeric);
     if (symbolic) umfpack_dl_free_symbolic(&symbolic);
@@ -64,22 +134,30 @@ void DirectSolver::factorise(const SparseMatrix& a) {
   const auto* offsets = indices(a.offsets);
   const auto* rows = indices(a.rows);
   double info[UMFPACK_INFO];
+  const Activity activity("factorising a matrix");
   if (!my.symbolic) {
     const auto status =
         umfpack_dl_symbolic(a.size(), a.size(), offsets, rows, a.values.data(), &my.symbolic, my.control, info);
+    if (status == UMFPACK_ERROR_out_of_memory)
+      throw OutOfMemory(fmt::format("the symbolic analysis of {} unknowns does not fit", a.size()));
     if (status < 0)
       throw ConvergenceError(fmt::format("sparse factorisation: symbolic analysis failed (UMFPACK status {})", status),
-                             "a smaller mesh if memory ran out");
+                             "a smaller time step, and check the materials");
+    my.expect_memory(info);
   }
   discard();
+  my.require_memory(a.size());
+  start_dense_threads();
   const auto status = umfpack_dl_numeric(offsets, rows, a.values.data(), my.symbolic, &my.numeric, my.control, info);
+  if (status == UMFPACK_ERROR_out_of_memory) {
+    discard();
+    throw OutOfMemory(my.asked(a.size()));
+  }
   if (status != UMFPACK_OK) {
     discard();
     throw ConvergenceError(
-        status == UMFPACK_ERROR_out_of_memory
-            ? "sparse factorisation: out of memory"
-            : fmt::format("sparse factorisation: the matrix is singular or holds NaN (UMFPACK status {})", status),
-        status == UMFPACK_ERROR_out_of_memory ? "a coarser mesh" : "a smaller time step, and check the materials");
+        fmt::format("sparse factorisation: the matrix is singular or holds NaN (UMFPACK status {})", status),
+        "a smaller time step, and check the materials");
   }
   my.lower = info[UMFPACK_LNZ];
   my.upper = info[UMFPACK_UNZ];
@@ -91,6 +169,7 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
   const auto& my = *implementation_;
   assert(my.numeric && static_cast<std::int64_t>(b.size()) == a.size());
   x.resize(b.size());
+  start_dense_threads();
   double info[UMFPACK_INFO];
   const auto status = umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(), x.data(),
                                         b.data(), my.numeric, my.control, info, my.integer_work.data(), my.work.data());
@@ -103,6 +182,7 @@ void DirectSolver::solve_each(const SparseMatrix& a, const std::vector<std::vect
   const auto& my = *implementation_;
   const int count = static_cast<int>(b.size());
   x.resize(b.size());
+  start_dense_threads();
   std::vector<int> status(b.size(), UMFPACK_OK);
 #pragma omp parallel for schedule(dynamic) if (a.size() > 2000)
   for (int k = 0; k < count; ++k) {
@@ -124,10 +204,10 @@ long long DirectSolver::factor_nonzeros() const {
 }
 
 void set_dense_threads(int count) {
-  openblas_set_num_threads(count);
+  dense_threads = count;
 }
 
-OneDenseThread::OneDenseThread() : before_(openblas_get_num_threads()) {
+OneDenseThread::OneDenseThread() : before_(dense_threads) {
   set_dense_threads(1);
 }
 OneDenseThread::~OneDenseThread() {

@@ -26,7 +26,7 @@ class DirectSolver {
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  /// \throws ConvergenceError when the matrix is singular to working precision
+  /// \throws ConvergenceError when the matrix is singular to working precision, OutOfMemory before what will not fit
   void factorise(const SparseMatrix& a);
   bool factorised() const;
   void discard();

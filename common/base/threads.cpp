@@ -3,8 +3,7 @@
 #include <omp.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdlib>
+#include "base/begin_again.hpp"
 
 namespace fsi {
 
@@ -24,11 +23,7 @@ int threads() {
 }
 
 void wait_briefly(const char* const* argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  if (setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;
-  std::array<char, 4096> file{};  // by its name: "/proc/self/exe" would be the name that ps shows
-  if (readlink("/proc/self/exe", file.data(), file.size() - 1) > 0) execv(file.data(), const_cast<char* const*>(argv));
-  // Where that is not possible the run goes on as it is.
+  begin_again_with_settings(argv, environ);
 }
 
 }  // namespace fsi

@@ -14,6 +14,7 @@
 #include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
 #include "base/idle_cores.hpp"
+#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
@@ -144,10 +145,15 @@ class Run {
         state_(scene_->at_rest()),
         observables_(loaded_.points, *scene_) {
     if (!scene_->is_static()) ringing_.emplace(scene_time(setup, *scene_));
+    set_memory_notices([this](const std::string& said) { say(said); });
   }
+  ~Run() { set_memory_notices({}); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
   /// To the last step or a signal; returns the program's exit code.
   int march() {
+    const Activity activity("preparing the first step");
     const bool restarted = !line_.restart.empty();
     ResultTables tables = observables_.tables();
     tables.coupling = stepper_->reports_coupling();
@@ -244,7 +250,11 @@ class Run {
     const auto start = Clock::now();
     console.expect(loads_.steps());
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
-    const StepReport report = march_.step(state_);
+    const StepReport report = [&] {
+      const Activity activity("solving a step");
+      return march_.step(state_);
+    }();
+    const Activity activity("writing results");
     watch_ringing(console, log);
     lock_.require_held();
     StepRecord record;
@@ -531,6 +541,7 @@ int run_driver(const std::string& program, const std::string& description, int a
     const FolderLock lock(line->output, program);
     if (!lock.said().empty()) warn(program, lock.said());
     require_folder(*line);  // again: a run may have ended in it meanwhile
+    const Activity activity("reading the mesh and building the scene");
     try {
       return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch, lock).march()
                                        : Run<3>(program, *line, setup, make_stepper, watch, lock).march();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 
@@ -51,6 +52,8 @@ int run_program(const std::string& name, const std::function<int()>& body) {
     return failure(name, error.what(), exit_bad_input);
   } catch (const ConvergenceError& error) {
     return failure(name, error.what(), exit_not_converged);
+  } catch (const OutOfMemory& error) {
+    end_out_of_memory(name, error);
   } catch (const std::bad_alloc&) {
     return out_of_memory(name);
   } catch (const std::exception& error) {

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <type_traits>
 
 #include "base/error.hpp"
 #include "base/input_file.hpp"
+#include "base/memory.hpp"
+#include "mesh/gmsh_header.hpp"
 
 namespace fsi {
 
@@ -29,6 +32,14 @@ std::string printable(std::string text) {
   return text;
 }
 
+/// Whether what was read so far, the last piece from `begin` on, may be a .msh file: its header, and no zero bytes in
+/// text. Reading need not go on to find that it is not.
+bool may_be_gmsh(const std::string& data, std::size_t begin) {
+  int binary = 0;
+  if (std::sscanf(data.substr(0, 64).c_str(), "$MeshFormat %*s %d", &binary) != 1) return false;
+  return binary != 0 || data.find('\0', begin) == std::string::npos;
+}
+
 std::string load(const std::filesystem::path& path) {
   require_regular_file(
       path, {"there is no such mesh file", "check the path, or make one: fsi-mesh artery --level coarse -o FILE.msh",
@@ -36,10 +47,18 @@ std::string load(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const auto size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size < 0) throw InputError(path.string(), "", "cannot be read", "check its permissions");
-  std::string data(static_cast<std::size_t>(size), '\0');
+  check_gmsh_header(path, static_cast<double>(available_memory().bytes));
+  std::string data;
+  data.reserve(static_cast<std::size_t>(size));
   stream.seekg(0);
-  stream.read(data.data(), size);
-  if (!stream) throw InputError(path.string(), "", "cannot be read to its end", "check the disk");
+  // In pieces, so that little is read of a large file that is not what it seems.
+  for (bool goes_on = true; goes_on && data.size() < static_cast<std::size_t>(size);) {
+    const std::size_t before = data.size();
+    data.resize(std::min(static_cast<std::size_t>(size), before + large_gmsh_file));
+    stream.read(data.data() + before, static_cast<std::streamsize>(data.size() - before));
+    if (!stream) throw InputError(path.string(), "", "cannot be read to its end", "check the disk");
+    goes_on = may_be_gmsh(data, before);
+  }
   return data;
 }
 

@@ -1,0 +1,34 @@
+#include "base/begin_again.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace fsi {
+
+void begin_again_with_settings(const char* const* argv, char* const* environment) noexcept {
+  static char spins[] = "GOMP_SPINCOUNT=1000", dense[] = "OPENBLAS_NUM_THREADS=1";
+  std::array<char*, 1024> with{};
+  std::size_t count = 0;
+  bool waits = false, starts_dense = false;
+  const auto begins = [](const char* entry, const char* name) {
+    return std::strncmp(entry, name, std::strlen(name)) == 0;
+  };
+  for (; environment != nullptr && environment[count] != nullptr; ++count) {
+    if (count + 3 >= with.size()) return;
+    with[count] = environment[count];
+    waits = waits || begins(with[count], "OMP_WAIT_POLICY=") || begins(with[count], "GOMP_SPINCOUNT=");
+    starts_dense = starts_dense || begins(with[count], "OPENBLAS_NUM_THREADS=");
+  }
+  if (waits && starts_dense) return;
+  if (!waits) with[count++] = spins;
+  if (!starts_dense) with[count++] = dense;
+  std::array<char, 4096> file{};  // by its name: "/proc/self/exe" would be the name that ps shows
+  if (readlink("/proc/self/exe", file.data(), file.size() - 1) > 0)
+    execve(file.data(), const_cast<char* const*>(argv), with.data());
+  // Where that is not possible the run goes on as it is.
+}
+
+}  // namespace fsi

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace fsi {
+
+/// Starts the program again with what libraries read from the environment before main() begins, unless it is there:
+/// - GOMP_SPINCOUNT: waiting threads spin for a microsecond or so only, then sleep. On a core that another job wants, a
+///   thread that spins on uses up the time that the others wait for; one that sleeps at once is late where nobody wants
+///   its core (docs/performance.md). Not where OMP_WAIT_POLICY is set.
+/// - OPENBLAS_NUM_THREADS: 1. OpenBLAS would start a thread per core at once, each with 128 MiB of addresses, which most
+///   runs never use. DirectSolver starts those it needs.
+///
+/// Allocates nothing, so that it can be called before libraries are ready.
+/// \param argv         as main() has it, ended by a null pointer
+/// \param environment  likewise
+void begin_again_with_settings(const char* const* argv, char* const* environment) noexcept;
+
+}  // namespace fsi
