@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
+#include "base/finite.hpp"
 #include "base/idle_cores.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
@@ -72,6 +73,22 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   return json;
 }
 
+/// Norms and energies are sums of squares, which double precision holds for numbers of a limited size only.
+void require_squares(const Case& setup) {
+  constexpr double smallest = 1e-100, largest = 1e100;
+  const auto look = [&](const std::optional<PressureTable>& table, const char* key) {
+    if (!table) return;
+    for (const auto& [time, pressure] : table->points)
+      if (const double size = std::abs(pressure); size != 0 && !(size >= smallest && size <= largest))
+        throw InputError(setup.path.string(), key,
+                         fmt::format("{:g} kPa is too {} for double precision, which squares it", pressure,
+                                     size < 1 ? "small" : "large"),
+                         fmt::format("give a pressure from {:g} to {:g} kPa, or 0", smallest, largest));
+  };
+  look(setup.inlet, "inlet.pressure");
+  look(setup.load, "load.pressure");
+}
+
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 template <int n>
 class Run {
@@ -126,16 +143,22 @@ class Run {
       const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
       const std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
       log.error(said);
-      if (state_.step > 0) save();
+      const bool whole = complete_ == state_.step;  // else its tables are not, and the last checkpoint stays
+      if (state_.step > 0 && whole) save();
       summary_["failure"] = said;
       write("not converged");
-      if (state_.step == 0) throw ConvergenceError(said, "");
+      if (state_.step == 0 || !whole) throw ConvergenceError(said, "");
       throw ConvergenceError(fmt::format("{} [the state after step {} is saved; with other solver settings, or another "
                                          "step, continue by: {}]",
                                          said, state_.step, restart_command(line_)),
                              "");
     }
     if (state_.step < loads_.steps()) return interrupted(interruption.signal(), log);
+    if (const std::string open = stepper_->unchecked(); !open.empty()) {
+      summary_["unchecked"] = open;
+      log.warning(open);
+      warn(program_, open);
+    }
     write("done");
     log.info("done");
     return exit_done;
@@ -143,7 +166,7 @@ class Run {
 
  private:
   static ThreadChoice set_as_chosen(const ThreadChoice& choice) {
-    set_dense_threads(set_threads(choice.count));
+    set_threads(choice.count);
     return choice;
   }
 
@@ -193,6 +216,7 @@ class Run {
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
+    complete_ = state_.step;
     log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,
                          record.outer_iterations, record.newton_iterations,
                          march_.errors() && march_.errors()->known ? "  error: " + march_.errors()->text() : ""));
@@ -287,6 +311,7 @@ class Run {
     checkpoint.mesh_hash = loaded_.mesh.hash;
     store(state_, stepper_->memory(), loads_.axis(), checkpoint);
     for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
+    for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
@@ -303,6 +328,7 @@ class Run {
     march_.recall(of_march);
     if (memory.step_changed) step_change_ = text_of_change(stretches.back());
     stepper_->recall(memory);
+    complete_ = state_.step;
   }
 
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
@@ -349,6 +375,7 @@ class Run {
   RunLog* log_ = nullptr;  ///< once there is one
   std::optional<RingingMonitor> ringing_;
   double ringing_amplitude_ = 0;  ///< kPa, the largest so far
+  int complete_ = 0;              ///< last step whose rows are all written
   State state_;
   State shown_;  ///< a finished level, for output
   Observables<n> observables_;
@@ -375,11 +402,12 @@ int run_driver(const std::string& program, const std::string& description, int a
     const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
-    set_dense_threads(set_threads(line->threads));  // for the other task; a run chooses
+    set_threads(line->threads);  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
+    require_squares(setup);
     require_folder(*line);
     return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch).march()
                                      : Run<3>(program, *line, setup, make_stepper, watch).march();
