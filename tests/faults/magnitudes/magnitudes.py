@@ -46,6 +46,7 @@ until = {until!r}
 step = {step!r}
 end = {end!r}
 scheme = "{scheme}"
+retries = 0
 [monolithic]
 newton_tolerance = 1e-6
 [partitioned]
@@ -156,8 +157,12 @@ def columns(folder):
         found[name] = (kind, rows[:, places])
     names = (folder / "energy.csv").read_text().split("\n", 1)[0].split(",")
     rows = np.loadtxt(folder / "energy.csv", delimiter=",", skiprows=1, ndmin=2)
-    for column in ("fluid_kinetic_energy_uJ", "wall_isochoric_energy_uJ", "inlet_work_uJ"):
-        found[column] = ("energy", rows[:, [names.index(column)]])
+    for column, kind in (
+        ("fluid_kinetic_energy_uJ", "energy"),
+        ("wall_isochoric_energy_uJ", "elastic"),
+        ("inlet_work_uJ", "energy"),
+    ):
+        found[column] = (kind, rows[:, [names.index(column)]])
     return found
 
 
@@ -235,7 +240,10 @@ def loads(magnitudes, full):
         if reference is None:
             continue
         for factor in factors:
-            scales = {kind: factor for kind in ("pressure", "length", "flow")} | {"energy": factor * factor}
+            scales = {kind: factor for kind in ("pressure", "length", "flow")} | {
+                "energy": factor * factor,
+                "elastic": factor * factor,
+            }
             magnitudes.judge(
                 f"load 1e-6 times {factor:g}, {values}",
                 program,
@@ -271,7 +279,13 @@ def units(magnitudes, full):
                 program,
                 settings,
                 other=reference,
-                scales={"pressure": pressure, "length": L, "flow": L**3 / T, "energy": pressure * L**3},
+                scales={
+                    "pressure": pressure,
+                    "length": L,
+                    "flow": L**3 / T,
+                    "energy": pressure * L**3,
+                    "elastic": pressure * L**3,
+                },
                 length=L,
                 **v,
             )
@@ -293,7 +307,7 @@ def steps(magnitudes, full):
                 program,
                 settings,
                 other=reference,
-                scales={"length": t * t, "flow": t, "energy": t * t},
+                scales={"length": t * t, "flow": t, "energy": t * t, "elastic": t**4},
                 **{**values, "step": step, "end": 4 * step},
             )
 
@@ -330,19 +344,24 @@ def constants(magnitudes, full):
 
 
 def explicit(magnitudes, full):
-    """One pass a step: refused where its added mass makes it unstable, before the first step; without a claim where the
-    run ends before its check can speak."""
-    for density, count in itertools.product((1.2, 30.0, 1e5), (1, 2, 4, 12) if full else (1, 12)):
-        values = dict(element="p1", scheme="euler", rho_s=density, end=0.1 * count)
+    """One pass a step: refused before the first step where its added mass makes it unstable. Else it is about as far from
+    a scheme that iterates as the added mass over the wall's answer, a tenth at a density of 30 mg/mm^3 here. It claims
+    nothing where the run ends before its check can speak."""
+    count = magnitudes.harness.count
+    for density, steps_made in itertools.product((0.1, 1.2, 30.0, 1e5), (1, 2, 4, 7, 8, 12) if full else (1, 12)):
+        values = {"element": "p1", "scheme": "euler", "rho_s": density, "end": 0.1 * steps_made}
         code, said, folder = magnitudes.run(PARTITIONED, ("partitioned.scheme=explicit",), **values)
-        name = f"explicit, density {density:g}, {count} steps: {code}: {said.strip()}"
-        if code == 2 and is_one_message(said, PARTITIONED) and "unstable" in said:
-            magnitudes.harness.count("refused" if density < 100 else "wrong", name)
-        elif code == 0 and density > 100:
+        name = f"explicit, density {density:g}, {steps_made} steps: {code}: {said.strip()}"
+        if code == 2 and is_one_message(said, PARTITIONED) and "step 1 " in said and "added mass" in said:
+            count("refused" if density < 2 else "wrong", name)
+        elif code == 0 and density > 2:
             open_question = "unchecked" in summary(folder) and "claims nothing" in said
-            magnitudes.harness.count("right" if open_question == (count < 8) else "wrong", name)
+            reference = magnitudes.run(PARTITIONED, ("partitioned.scheme=iqn-ils",), **values)[2]
+            apart = {name: d for name, d in differences(folder, reference).items() if name.endswith(".csv") and d > 0.2}
+            right = open_question == (steps_made < 8) and not apart and not not_finite(folder)
+            count("right" if right else "wrong", f"{name} {apart}")
         else:
-            magnitudes.harness.count("wrong", name)
+            count("wrong", name)
 
 
 GROUPS = {f.__name__: f for f in (loads, units, steps, rest, constants, explicit)}
