@@ -89,6 +89,15 @@ void require_squares(const Case& setup) {
   look(setup.load, "load.pressure");
 }
 
+/// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
+void require_resolvable(const Case& setup, double scene_time) {
+  constexpr double smallest = 1e-13;  // of the time in which the scene swings
+  if (!setup.time || setup.time->adaptive || setup.time->step >= smallest * scene_time) return;
+  throw InputError(setup.path.string(), "time.step",
+                   fmt::format("{:g} ms is too short for the scene's time of {:.3g} ms", setup.time->step, scene_time),
+                   fmt::format("give at least {:.3g} ms", smallest * scene_time));
+}
+
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 template <int n>
 class Run {
@@ -107,7 +116,9 @@ class Run {
         march_(setup, *scene_, *stepper_, loads_, [this](const std::string& said) { say(said); }),
         state_(scene_->at_rest()),
         observables_(loaded_.points, *scene_) {
-    if (!scene_->is_static()) ringing_.emplace(scene_time(setup, *scene_));
+    if (scene_->is_static()) return;
+    ringing_.emplace(scene_time(setup, *scene_));
+    require_resolvable(setup, scene_time(setup, *scene_));
   }
 
   /// To the last step or a signal; returns the program's exit code.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -33,10 +34,12 @@ struct Membrane {
   /// A Robin-Neumann pass with coefficient alpha multiplies the error of a mode, z being the wall's impedance for it
   /// and f the fluid's, by (1 - alpha / z) f / (f + alpha). Where the added mass is large the last factor is one, and
   /// best for all z from z_t to z_n is their harmonic mean, alpha = 2 / (1/z_n + 1/z_t): within a tenth the best by
-  /// trial for time steps from a tenth to four times the artery's, and for a wall ten times softer.
+  /// trial for time steps from a tenth to four times the artery's, and for a wall ten times softer. In steps so short that
+  /// l is less than a part of an element it is the nodes' mass that answers.
+  static constexpr double smallest_depth = 0.05;  ///< of l over h
   double impedance(double acceleration_factor, double step) const {
     const double inertia = acceleration_factor * density;
-    const double depth = std::sqrt(shear_modulus / inertia);
+    const double depth = std::max(std::sqrt(shear_modulus / inertia), smallest_depth * thickness);
     const double across = step * push_stiffness(acceleration_factor);
     const double along = step * inertia * depth * std::tanh(thickness / depth);
     return 2 / (1 / across + 1 / along);

@@ -99,7 +99,7 @@ class Magnitudes:
             sizes = zip(("--inner-radius", "--media", "--adventitia", "--length"), (1.43, 0.26, 0.13, 3))
             cells = zip(("--lumen-cells", "--media-cells", "--adventitia-cells", "--axial-cells"), (2, 1, 1, 4))
             words = [w for name, value in sizes for w in (name, repr(value * length))]
-            words += [w for pair in cells for w in pair] + kind + ["--order", order]
+            words += [w for pair in cells for w in pair] + kind + ["--order", order, "--size", length]
             made = execute(self.harness.program("fsi-mesh"), "artery", "-q", "-o", file, *words)
             if made.returncode != 0:
                 raise SystemExit(f"cannot make the mesh: {made.stderr}")
@@ -229,7 +229,8 @@ def methods(full):
             settings = (f"partitioned.scheme={scheme}", f"partitioned.linear_solver={solver}")
             yield PARTITIONED, settings, dict(until=0.2, end=0.3)
     for solver in COUPLED_SOLVERS:
-        yield MONOLITHIC, (f"monolithic.linear_solver={solver}",), dict(element="p1", geometry="3d", scheme="euler")
+        settings = (f"monolithic.linear_solver={solver}", "structure.layer_pressure=continuous")
+        yield MONOLITHIC, settings, dict(element="p1", geometry="3d", scheme="euler")
 
 
 def loads(magnitudes, full):
@@ -300,7 +301,7 @@ def steps(magnitudes, full):
         reference = magnitudes.judge("step 1e-6", program, settings, **values)
         if reference is None:
             continue
-        for step in (1e-7, 1e-9, 1e-12, 1e-15) if full else (1e-9,):
+        for step in (1e-7, 1e-9, 1e-12) if full else (1e-9,):
             t = step / first
             magnitudes.judge(
                 f"step {step:g}, {values}",
