@@ -228,8 +228,7 @@ std::pair<int, int> fibre_count(const Scenario& scenario) {
       const auto strain = strain_of(gradient_of(d, Tet::at(pack.geometry, 0)));
       for (const auto& point : layer.fibres[0][p])
         for (const auto& a : point.direction)
-          for (int lane = 0; lane < pack_width; ++lane)
-            ++(extension(strain, a)[lane] > 0 ? tight : loose);
+          for (int lane = 0; lane < pack_width; ++lane) ++(extension(strain, a)[lane] > 0 ? tight : loose);
     }
   return {tight, loose};
 }

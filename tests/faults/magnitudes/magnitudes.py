@@ -16,6 +16,7 @@ import itertools
 import re
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -55,7 +56,7 @@ tolerance = 1e-6
 fields = ["displacement", "velocity", "pressure"]
 every = 1
 """
-STANDARD = dict(
+STANDARD: dict[str, Any] = dict(
     element="p2p1",
     geometry="axisymmetric",
     rho=1.0,
@@ -95,10 +96,10 @@ class Magnitudes:
         order = 2 if element == "p2p1" else 1
         file = self.harness.base / f"{geometry}-{order}-{length:g}.msh"
         if not file.exists():
-            kind = ["--axisymmetric"] if geometry == "axisymmetric" else ["--around", 8, "--sector", 90]
+            kind: list[Any] = ["--axisymmetric"] if geometry == "axisymmetric" else ["--around", 8, "--sector", 90]
             sizes = zip(("--inner-radius", "--media", "--adventitia", "--length"), (1.43, 0.26, 0.13, 3))
             cells = zip(("--lumen-cells", "--media-cells", "--adventitia-cells", "--axial-cells"), (2, 1, 1, 4))
-            words = [w for name, value in sizes for w in (name, repr(value * length))]
+            words: list[Any] = [w for name, value in sizes for w in (name, repr(value * length))]
             words += [w for pair in cells for w in pair] + kind + ["--order", order, "--size", length]
             made = execute(self.harness.program("fsi-mesh"), "artery", "-q", "-o", file, *words)
             if made.returncode != 0:
@@ -110,7 +111,7 @@ class Magnitudes:
         key = (program, tuple(settings), length, tuple(sorted(values.items())))
         if key in self.known:
             return self.known[key]
-        v = {**STANDARD, **values}
+        v: dict[str, Any] = {**STANDARD, **values}
         v["mesh"] = self.mesh(v["element"], v["geometry"], length)
         v["media"] = f'material = "{v["material"]}"\nc10 = {v["c10"]!r}'
         if v["material"] == "artery":
@@ -193,12 +194,13 @@ def not_finite(folder):
                 found.append(file.name)
         elif file.suffix == ".h5":
             with h5py.File(file, "r") as opened:
-                bad = []
-                opened.visititems(
-                    lambda n, d, bad=bad: bad.append(n)
-                    if isinstance(d, h5py.Dataset) and d.dtype.kind == "f" and not np.isfinite(d[()]).all()
-                    else None
-                )
+                bad: list[str] = []
+
+                def look(name, item, bad=bad):
+                    if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not np.isfinite(item[()]).all():
+                        bad.append(name)
+
+                opened.visititems(look)
                 found += [f"{file.name}:{name}" for name in bad]
         elif file.suffix == ".json" and re.search(r"(?i)\b(nan|inf|null)\b", file.read_text()):
             found.append(file.name)
@@ -269,7 +271,7 @@ def units(magnitudes, full):
         if reference is None:
             continue
         for place, (L, T, M) in enumerate(changes):
-            v = {**STANDARD, **values}
+            v: dict[str, Any] = {**STANDARD, **values}
             pressure = M / (L * T**2)
             for name in ("pressure", "kappa", "c10", "c10_adventitia", "k1"):
                 v[name] *= pressure
