@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "algebra/vector_operations.hpp"
@@ -71,12 +73,14 @@ StepReport CouplingStepper<n>::advance(State& state) {
     throw;
   }
   problem_->finish_step();
+  steps_ = state.step;
   return report_;
 }
 
 template <int n>
 void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   order_ = first_order();
+  if (scheme_.one_pass && state.step == 0 && data.rates.stage == 0) check_added_mass(state, data);
   start(state, data);
   note_period(data.rates.interface.period);
   accelerator_->start();
@@ -131,6 +135,7 @@ Memory CouplingStepper<n>::memory() const {
   memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
   memory.numbers["interface_period"] = period_;
   if (scheme_.one_pass) {
+    memory.numbers["steps"] = steps_;
     memory.numbers["alternating_steps"] = march_.steps();
     memory.numbers["last_gap"] = march_.last_gap();
     memory.numbers["steps_apart"] = velocity_gap_.steps();
@@ -150,6 +155,7 @@ void CouplingStepper<n>::recall(const Memory& memory) {
   period_ = number("interface_period");
   if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
   if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
+  steps_ = static_cast<int>(number("steps"));
   velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
 }
 
@@ -186,7 +192,10 @@ void CouplingStepper<n>::start(State& state, StepData& data) {
 template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = norm(pass.residual);
-  coupling_.displacement_residual = coupling_.displacement_gap / std::max(norm(pass.displacement), 1e-300);
+  const double size = norm(pass.displacement);
+  coupling_.displacement_residual = size > 0
+                                        ? coupling_.displacement_gap / size
+                                        : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
   coupling_.force_residual = problem_->force_residual();
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
 }
@@ -195,7 +204,8 @@ template <int n>
 bool CouplingStepper<n>::agrees() const {
   const double residual = weighs_pressure() ? std::max(coupling_.displacement_residual, coupling_.pressure_residual)
                                             : coupling_.displacement_residual;
-  return (residual <= options_.tolerance || coupling_.displacement_gap <= options_.absolute_tolerance) &&
+  return (residual <= options_.tolerance || coupling_.displacement_residual <= displacement_rounding ||
+          coupling_.displacement_gap <= options_.absolute_tolerance) &&
          (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
 }
 
@@ -221,6 +231,65 @@ void CouplingStepper<n>::give_up(const State& state, const StepData& data, const
                   weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "", coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);
+}
+
+template <int n>
+double CouplingStepper<n>::added_mass(const State& state, const StepData& data) {
+  constexpr int passes = 5;           // modes are few and far apart: the longest wave's counts
+  constexpr double amplitude = 1e-6;  // of the wall's thickness: the answer is linear
+  constexpr PassAccuracy accuracy{1e-4, false};
+  State rest = state;
+  StepData push = data;
+  push.wall_pressure = 0;
+  double growth = 0;
+  try {
+    // Pushed by one pressure at all openings the wall moves outward everywhere, as its supports allow.
+    start(rest, push);
+    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(),
+              amplitude * problem_->pressure_of_thickness());
+    std::vector<double> x = problem_->first_guess(0);
+    set_zero(x);
+    Pass pass = problem_->pass(x, accuracy);
+    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(), 0.0);
+    for (int k = 0; k < passes; ++k) {
+      const double before = norm(x), length = norm(pass.displacement);
+      if (!(length > 0)) break;
+      if (k > 0) growth = length / before;
+      x = pass.displacement;
+      if (k > 0) scale(before / length, x);
+      pass = problem_->pass(x, accuracy);
+    }
+  } catch (const PassFailure&) {
+    growth = 0;
+  }
+  problem_->cost = {};
+  return growth;
+}
+
+template <int n>
+void CouplingStepper<n>::check_added_mass(const State& state, const StepData& data) {
+  if (data.rates.is_static()) return;
+  const double ratio = added_mass(state, data), limit = std::pow(3, 1 - first_order());
+  report_.history.push_back(fmt::format("added mass over the wall's answer: {:.3g}", ratio));
+  if (!(ratio > limit)) return;
+  throw ConvergenceError(
+      fmt::format(
+          "step 1 (to t = {:g} ms): the {} coupling is unstable: the fluid's added mass is {:.3g} times what the "
+          "wall answers with, more than {:.3g}",
+          data.time, scheme_.name, ratio, limit),
+      scheme_.advice);
+}
+
+template <int n>
+std::string CouplingStepper<n>::unchecked() const {
+  if (!scheme_.one_pass) return {};
+  const int apart = std::max(velocity_gap_.steps(), march_.steps());
+  if (steps_ >= VelocityGapMonitor::most_steps && apart == 0) return {};
+  const std::string seen = apart > 0 ? fmt::format("; in the last {} of them fluid and wall came apart", apart) : "";
+  return fmt::format(
+      "the {} coupling claims nothing of {} steps{}: whether fluid and wall hold together shows after {}; "
+      "compare with partitioned.scheme = \"iqn-ils\"",
+      scheme_.name, steps_, seen, VelocityGapMonitor::most_steps);
 }
 
 template <int n>

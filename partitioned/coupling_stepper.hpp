@@ -33,6 +33,8 @@ class CouplingStepper : public Stepper {
   StepReport advance(State& state) override;
   /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
   bool can_retry() const override { return !scheme_.one_pass; }
+  /// One pass a step: its monitor speaks after some steps only.
+  std::string unchecked() const override;
 
   Memory memory() const override;
   void recall(const Memory& memory) override;
@@ -48,6 +50,9 @@ class CouplingStepper : public Stepper {
   static constexpr double sub_problem_share = 0.01;  ///< tolerance of the sub-problems over the interface residual
   static constexpr double sub_problem_rounding =
       1e-13;  ///< below it increments of their Newton iterations are rounding
+  /// Relative interface residual that is rounding of the displacements: no pass makes it smaller, also where steps are so
+  /// short that it is worth a pressure.
+  static constexpr double displacement_rounding = 1e-13;
 
   /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
   /// makes it unstable at three times the wall's mass (docs/coupling.md).
@@ -76,6 +81,13 @@ class CouplingStepper : public Stepper {
 
   [[noreturn]] void give_up(const State& state, const StepData& data, const char* what) const;
 
+  /// The fluid's added mass over what the wall answers a push of the interface with, both within the stage: the size G
+  /// of the largest eigenvalue of d -> d~ at rest, by power iteration, an estimate from below. 0: no answer.
+  double added_mass(const State& state, const StepData& data);
+  /// With one pass a step and an extrapolation of order p, steps that alternate grow where G > 1/3^(p-1), whatever the
+  /// time scheme; with backward Euler and Newmark's beta = gamma = 1 from half of that on (docs/coupling.md).
+  /// \throws ConvergenceError there, before the first step
+  void check_added_mass(const State& state, const StepData& data);
   /// One pass a step, and no claim that fluid and wall agree: a march that has become unstable ends here, long before
   /// an element is inverted, and so does one that lingers at its stability limit with a pressure that means nothing.
   void check_march(const State& state, const StepData& data);
@@ -99,6 +111,7 @@ class CouplingStepper : public Stepper {
   AlternationMonitor march_;         ///< of the steps, with one pass each,
   VelocityGapMonitor velocity_gap_;  ///< and of what they leave
   int passes_ = 0;                   ///< of the stage in progress
+  int steps_ = 0;                    ///< finished, of the whole run
   int order_ = 0;                    ///< of the extrapolated start
   double period_ = 0;                ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet
   bool starts_far_ = true;           ///< the last step's first guess was far from its end

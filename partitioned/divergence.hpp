@@ -65,7 +65,7 @@ class VelocityGapMonitor {
   /// \param movement  |d~ - d^{n-1}|, mm: the wall's velocity times the time step
   bool comes_apart(double gap, double movement) {
     largest_movement_ = std::max(largest_movement_, movement);
-    last_ = gap / std::max(largest_movement_, 1e-300);
+    last_ = largest_movement_ > 0 ? gap / largest_movement_ : 0;
     steps_ = last_ > bound_ ? steps_ + 1 : 0;
     return steps_ >= most_steps;
   }

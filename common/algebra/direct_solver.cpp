@@ -129,6 +129,7 @@ void DirectSolver::discard() {
 }
 
 void DirectSolver::factorise(const SparseMatrix& a) {
+  const OneDenseThread same_bits_for_any_number;
   auto& my = *implementation_;
   assert(a.rows.size() == a.values.size() && a.offsets.back() == a.nonzeros());
   const auto* offsets = indices(a.offsets);
@@ -166,6 +167,7 @@ void DirectSolver::factorise(const SparseMatrix& a) {
 }
 
 void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const {
+  const OneDenseThread same_bits_for_any_number;
   const auto& my = *implementation_;
   assert(my.numeric && static_cast<std::int64_t>(b.size()) == a.size());
   x.resize(b.size());
@@ -179,6 +181,7 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
 
 void DirectSolver::solve_each(const SparseMatrix& a, const std::vector<std::vector<double>>& b,
                               std::vector<std::vector<double>>& x) const {
+  const OneDenseThread same_bits_for_any_number;
   const auto& my = *implementation_;
   const int count = static_cast<int>(b.size());
   x.resize(b.size());

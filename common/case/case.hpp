@@ -115,7 +115,7 @@ struct PartitionedData {
   std::string scheme = "robin-neumann-iqn";          ///< one of coupling_scheme_names()
   double tolerance = 1e-6;                           ///< ||d~ - d|| <= tolerance ||d~|| on the interface
   ToleranceOf tolerance_of = ToleranceOf::pressure;  ///< pressure: alike for what the gap is worth as a pressure
-  double absolute_tolerance = 1e-13;                 ///< or ||d~ - d|| <= this, mm: no motion, nothing to resolve
+  double absolute_tolerance = 0;                     ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
   double force_tolerance = 0;        ///< further demand: force residual relative to the interface force; 0: none
   double velocity_gap = 0.5;         ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
   std::optional<double> relaxation;  ///< constant factor, or the first of the scheme; empty: the scheme chooses

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -11,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "algebra/direct_solver.hpp"
 #include "base/error.hpp"
+#include "base/finite.hpp"
 #include "base/idle_cores.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
@@ -80,17 +81,6 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   return json;
 }
 
-/// What a WriteError said that an action ended with; empty when it came to its end.
-template <class Action>
-std::string write_error_of(Action action) {
-  try {
-    action();
-  } catch (const WriteError& failure) {
-    return failure.what();
-  }
-  return {};
-}
-
 /// Whether a run goes on in the folder that it began in.
 bool in_place(const CommandLine& line) {
   std::error_code error;
@@ -124,6 +114,31 @@ std::string write_error_of(Action action) {
   return {};
 }
 
+/// Norms and energies are sums of squares, which double precision holds for numbers of a limited size only.
+void require_squares(const Case& setup) {
+  constexpr double smallest = 1e-100, largest = 1e100;
+  const auto look = [&](const std::optional<PressureTable>& table, const char* key) {
+    if (!table) return;
+    for (const auto& [time, pressure] : table->points)
+      if (const double size = std::abs(pressure); size != 0 && !(size >= smallest && size <= largest))
+        throw InputError(setup.path.string(), key,
+                         fmt::format("{:g} kPa is too {} for double precision, which squares it", pressure,
+                                     size < 1 ? "small" : "large"),
+                         fmt::format("give a pressure from {:g} to {:g} kPa, or 0", smallest, largest));
+  };
+  look(setup.inlet, "inlet.pressure");
+  look(setup.load, "load.pressure");
+}
+
+/// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
+void require_resolvable(const Case& setup, double scene_time) {
+  constexpr double smallest = 1e-13;  // of the time in which the scene swings
+  if (!setup.time || setup.time->adaptive || setup.time->step >= smallest * scene_time) return;
+  throw InputError(setup.path.string(), "time.step",
+                   fmt::format("{:g} ms is too short for the scene's time of {:.3g} ms", setup.time->step, scene_time),
+                   fmt::format("give at least {:.3g} ms", smallest * scene_time));
+}
+
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 template <int n>
 class Run {
@@ -144,8 +159,10 @@ class Run {
         march_(setup, *scene_, *stepper_, loads_, [this](const std::string& said) { say(said); }),
         state_(scene_->at_rest()),
         observables_(loaded_.points, *scene_) {
-    if (!scene_->is_static()) ringing_.emplace(scene_time(setup, *scene_));
     set_memory_notices([this](const std::string& said) { say(said); });
+    if (scene_->is_static()) return;
+    ringing_.emplace(scene_time(setup, *scene_));
+    require_resolvable(setup, scene_time(setup, *scene_));
   }
   ~Run() { set_memory_notices({}); }
   Run(const Run&) = delete;
@@ -169,7 +186,7 @@ class Run {
     note_signals();  // until here nothing has been written
     ResultFolder folder = earlier ? ResultFolder(line_.output, tables, *earlier) : ResultFolder(line_.output, tables);
     earlier.reset();
-    RunLog log(line_.output, restarted && in_place());
+    RunLog log(line_.output, in_place(line_));
     log_ = &log;
     FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
                           restarted ? observed_until() : 0);
@@ -188,7 +205,7 @@ class Run {
     else if (restarted && !std::filesystem::exists(line_.output / "fields.h5"))
       field_entries_ = 0;
     // A new folder can be gone on from as soon as it holds all that the earlier one has.
-    if (restarted && setup_.output.checkpoint_every > 0 && !in_place()) save();
+    if (restarted && setup_.output.checkpoint_every > 0 && !in_place(line_)) save();
     if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
       while (state_.step < loads_.steps() && noted_signal() == 0) step(folder, fields, console, log);
@@ -202,11 +219,12 @@ class Run {
         log.error(said);
       });
       const std::string not_closed = write_error_of([&] { folder.close(); });
+      const bool whole = complete_ == state_.step;  // else its tables are not, and the last checkpoint stays
       const std::string not_saved = write_error_of([&] {
-        if (state_.step > 0) save();
+        if (state_.step > 0 && whole) save();
       });
       const std::string not_summed_up = write_error_of([&] { write("not converged"); });
-      if (state_.step > 0 && not_saved.empty())
+      if (state_.step > 0 && whole && not_saved.empty())
         said += fmt::format(
             " [the state after step {} is saved; with other solver settings, or another step, continue "
             "by: {}]",
@@ -220,6 +238,11 @@ class Run {
     }
     folder.close();
     if (state_.step < loads_.steps()) return interrupted(noted_signal(), log);
+    if (const std::string open = stepper_->unchecked(); !open.empty()) {
+      summary_["unchecked"] = open;
+      log.warning(open);
+      warn(program_, open);
+    }
     log.info("done");
     log.close();
     write("done");  // last: whoever reads it finds everything on the disk
@@ -228,7 +251,7 @@ class Run {
 
  private:
   static ThreadChoice set_as_chosen(const ThreadChoice& choice) {
-    set_dense_threads(set_threads(choice.count));
+    set_threads(choice.count);
     return choice;
   }
 
@@ -284,6 +307,7 @@ class Run {
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
+    complete_ = state_.step;
     log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,
                          record.outer_iterations, record.newton_iterations,
                          march_.errors() && march_.errors()->known ? "  error: " + march_.errors()->text() : ""));
@@ -400,6 +424,7 @@ class Run {
     for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
     store(digests_, checkpoint);
     if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
+    for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
     write_checkpoint(checkpoint_file(line_.output), checkpoint);
   }
 
@@ -432,6 +457,7 @@ class Run {
     march_.recall(of_march);
     if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
+    complete_ = state_.step;
     return earlier;
   }
 
@@ -446,11 +472,6 @@ class Run {
                        fmt::format("{} of {} entries up to {:g} ms are missing, which {} knows of",
                                    field_entries_ - found, field_entries_, observed_until(), file.string()),
                        "bring the file back, or continue without fields by --set output.every=0");
-  }
-  /// Whether the run goes on in the folder that it was begun in.
-  bool in_place() const {
-    std::error_code error;
-    return line_.output == line_.restart || std::filesystem::equivalent(line_.output, line_.restart, error);
   }
   bool wants_fields() const { return setup_.output.every > 0 && !setup_.output.fields.empty(); }
 
@@ -500,6 +521,7 @@ class Run {
   bool console_failed_ = false;
   std::optional<RingingMonitor> ringing_;
   double ringing_amplitude_ = 0;  ///< kPa, the largest so far
+  int complete_ = 0;              ///< last step whose rows are all written
   State state_;
   State shown_;  ///< a finished level, for output
   TableDigests digests_;
@@ -524,17 +546,17 @@ int run_driver(const std::string& program, const std::string& description, int a
                const StepperMaker& make_stepper, const OtherTask& other) {
   guard_standard_streams();
   wait_briefly(argv);
-  std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit on the size of files a write fails, and says so
   end_at_signals(program, "before the first step; nothing is lost by starting again");
   return run_program(program, [&] {
     const CoreWatch watch;
     const auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
-    set_dense_threads(set_threads(line->threads));  // for the other task; a run chooses
+    set_threads(line->threads);  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
+    require_squares(setup);
     require_no_run_in_source(*line);
     require_no_run_in(line->output, "wait for its end, or give -o another folder");
     require_folder(*line);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/finite.hpp"
 #include "base/output_file.hpp"
 #include "io/atomic_file.hpp"
 #include "io/energy_table.hpp"
@@ -94,9 +95,14 @@ std::string results_without_steps(const fs::path& folder, const std::string& sta
   std::string header;
   if (steps && (!std::getline(steps, header) || header == iterations_table().header)) return {};
   for (const auto& file : result_files())
-    if (file != "run.log" && file != "summary.json" && fs::exists(folder / file, error))
-      return file;
+    if (file != "run.log" && file != "summary.json" && fs::exists(folder / file, error)) return file;
   return {};
+}
+
+/// \throws ConvergenceError before anything is written when a number is not finite
+void write_rows(CsvFile& file, const std::string& name, const std::vector<std::vector<double>>& rows) {
+  for (const auto& row : rows) require_finite(row, "a number of " + name);
+  file.write(rows);
 }
 
 }  // namespace
@@ -132,7 +138,8 @@ void require_no_results(const fs::path& folder, const std::string& go_on) {
   if (row.size() < 2) {
     const auto found = results_without_steps(folder, status);
     if (found.empty()) return;
-    throw InputError(folder.string(), "", "holds " + found + ", but no " + iterations_table().file + " with their steps",
+    throw InputError(folder.string(), "",
+                     "holds " + found + ", but no " + iterations_table().file + " with their steps",
                      "give -o another folder, or replace what is there with --force");
   }
   const std::string what = "run" + (program.empty() ? "" : " of " + program), steps = row[0] + " steps";
@@ -188,7 +195,7 @@ void ResultFolder::write_centerline(double time, const std::vector<double>& z, c
   assert(pressure.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], pascal_per_kilopascal * pressure.at(i)});
-  centerline_.value().write(rows);
+  write_rows(*centerline_, centerline_table().file, rows);
 }
 
 void ResultFolder::write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
@@ -196,32 +203,35 @@ void ResultFolder::write_wall(double time, const std::vector<double>& z, const s
   assert(radial.size() == z.size() && axial.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
-  wall_.value().write(rows);
+  write_rows(*wall_, wall_table().file, rows);
 }
 
 void ResultFolder::write_flow(double time, const FlowRecord& flow) {
-  flow_.value().write({time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
-                       pascal_per_kilopascal * flow.outlet_pressure});
+  write_rows(*flow_, flow_table().file,
+             {{time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
+               pascal_per_kilopascal * flow.outlet_pressure}});
 }
 
 void ResultFolder::write_iterations(const StepRecord& record) {
-  iterations_.value().write({static_cast<double>(record.step), record.time,
-                             static_cast<double>(record.outer_iterations),
-                             static_cast<double>(record.newton_iterations),
-                             static_cast<double>(record.linear_iterations), record.wall_seconds, record.solver_error});
+  write_rows(*iterations_, iterations_table().file,
+             {{static_cast<double>(record.step), record.time, static_cast<double>(record.outer_iterations),
+               static_cast<double>(record.newton_iterations), static_cast<double>(record.linear_iterations),
+               record.wall_seconds, record.solver_error}});
 }
 
 void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& c) {
   const auto number = [](auto count) { return static_cast<double>(count); };
-  coupling_.value().write({number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes),
-                           c.relaxation, number(c.columns), c.displacement_residual, c.displacement_gap,
-                           c.force_residual, number(c.fluid_newton_iterations), number(c.wall_newton_iterations),
-                           number(c.fluid_linear_iterations), number(c.wall_linear_iterations), c.fluid_seconds,
-                           c.wall_seconds, c.mesh_seconds, c.algebra_seconds, c.pressure_residual});
+  write_rows(*coupling_, coupling_table().file,
+             {{number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes), c.relaxation,
+               number(c.columns), c.displacement_residual, c.displacement_gap, c.force_residual,
+               number(c.fluid_newton_iterations), number(c.wall_newton_iterations), number(c.fluid_linear_iterations),
+               number(c.wall_linear_iterations), c.fluid_seconds, c.wall_seconds, c.mesh_seconds, c.algebra_seconds,
+               c.pressure_residual}});
 }
 
 void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {
-  energy_.value().write(energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy));
+  write_rows(*energy_, energy_table(*energy_parts_).file,
+             {energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy)});
 }
 
 void ResultFolder::close() {

@@ -38,13 +38,14 @@ struct Artery {
     return k1 * fibre_scale > 0 ? std::nullopt : std::optional<double>(c10);
   }
 
+  /// With phi(x) = (exp(x) - 1) / x, phi(0) = 1, which is right for every k2 > 0:
+  ///   Psi = c10/2 (J_1 - 3) + k1/2 sum over J_i > 1 of (J_i - 1)^2 phi(k2 (J_i - 1)^2)
   template <class T>
   T energy(const Strain<T>& s, const Fibres& fibres) const {
-    T psi = Pack(0.5 * c10) * (s.i1 * s.isochoric - 3.0);
+    T psi = Pack(0.5 * c10) * first_invariant_change(s);
     for (const auto& a : fibres.direction) {
-      const T stretch = s.isochoric * dot(a, s.c * a) - 1.0;
-      psi +=
-          select(stretch > 0.0, Pack(fibre_scale * k1 / (2 * k2)) * (exp(Pack(k2) * stretch * stretch) - 1.0), T(0.0));
+      const T stretch = extension(s, a), square = stretch * stretch;
+      psi += select(stretch > 0.0, Pack(0.5 * fibre_scale * k1) * square * phi(Pack(k2) * square), T(0.0));
     }
     return psi;
   }
@@ -53,16 +54,18 @@ struct Artery {
   ///    + 2 k1 sum over J_i > 1 of exp(k2 (J_i - 1)^2) (J_i - 1) I_3^(-1/3) (a_i a_i^T - (a_i . C a_i)/3 C^-1)
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const Fibres& fibres) const {
-    Sym3<T> total = (Pack(c10) * s.isochoric) * (identity<T>() - (s.i1 * Pack(1.0 / 3.0)) * s.c_inverse);
+    Sym3<T> total = Pack(c10) * first_invariant_stress(s);
     for (const auto& a : fibres.direction) {
-      const T i4 = dot(a, s.c * a);
-      const T stretch = s.isochoric * i4 - 1.0;
+      const T stretch = extension(s, a);
       const auto active = stretch > 0.0;
       if (!any(active)) continue;
-      const T tension = select(
-          active, Pack(2 * fibre_scale * k1) * exp(Pack(k2) * stretch * stretch) * stretch * s.isochoric, T(0.0));
+      const T tension =
+          select(active, Pack(2 * fibre_scale * k1) * exp(Pack(k2) * stretch * stretch) * stretch, T(0.0));
+      const T third = (stretch + 1.0) * Pack(1.0 / 3.0);  // J_i / 3
       const Sym3<Pack> aa = dyad(a);
-      for (int k = 0; k < 6; ++k) total.c[k] += tension * (Pack(aa.c[k]) - (i4 * Pack(1.0 / 3.0)) * s.c_inverse.c[k]);
+      for (int k = 0; k < 6; ++k)
+        total.c[k] +=
+            tension * (s.isochoric * Pack(aa.c[k]) + third * (s.inverse_change.c[k] - Pack(k < 3 ? 1.0 : 0.0)));
     }
     return total;
   }

@@ -25,22 +25,20 @@ struct MooneyRivlin {
   std::optional<double> inflation_modulus() const { return c10 + c01; }
 
   template <class T>
-  static T i2(const Strain<T>& s) {
-    return Pack(0.5) * (s.i1 * s.i1 - contract(s.c, s.c));
-  }
-
-  template <class T>
   T energy(const Strain<T>& s, const NoFibres&) const {
-    return Pack(0.5 * c10) * (s.i1 * s.isochoric - 3.0) + Pack(0.5 * c01) * (i2(s) * s.isochoric * s.isochoric - 3.0);
+    return Pack(0.5 * c10) * first_invariant_change(s) + Pack(0.5 * c01) * second_invariant_change(s);
   }
 
-  /// S' = c10 I_3^(-1/3) (I - I_1/3 C^-1) + c01 I_3^(-2/3) (I_1 I - C - 2/3 I_2 C^-1)
+  /// S' = c10 I_3^(-1/3) (I - I_1/3 C^-1) + c01 I_3^(-2/3) (I_1 I - C - 2/3 I_2 C^-1),
+  /// the second bracket with A = C - I as 2/3 I_2 (I - C^-1) - (tr A + 2 tr cof A)/3 I - A, I_2 = 3 + 2 tr A + tr cof A
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const NoFibres&) const {
-    const Sym3<T> first = (Pack(c10) * s.isochoric) * (identity<T>() - (s.i1 * Pack(1.0 / 3.0)) * s.c_inverse);
-    const Sym3<T> second = (Pack(c01) * s.isochoric * s.isochoric) *
-                           (s.i1 * identity<T>() - s.c - (i2(s) * Pack(2.0 / 3.0)) * s.c_inverse);
-    return first + second;
+    const T half = 0.5 * (s.trace_change * s.trace_change - contract(s.change, s.change));  // tr cof A
+    const T i2 = 2.0 * s.trace_change + half + 3.0;
+    Sym3<T> second = (i2 * Pack(2.0 / 3.0)) * s.inverse_change - s.change;
+    const T volumetric = (s.trace_change + 2.0 * half) * Pack(1.0 / 3.0);
+    for (int k = 0; k < 3; ++k) second.c[k] -= volumetric;
+    return Pack(c10) * first_invariant_stress(s) + (Pack(c01) * s.isochoric * s.isochoric) * second;
   }
 };
 

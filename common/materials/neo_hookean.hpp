@@ -24,13 +24,13 @@ struct NeoHookean {
 
   template <class T>
   T energy(const Strain<T>& s, const NoFibres&) const {
-    return Pack(0.5 * c10) * (s.i1 * s.isochoric - 3.0);
+    return Pack(0.5 * c10) * first_invariant_change(s);
   }
 
   /// S' = 2 dPsi/dC = c10 I_3^(-1/3) (I - I_1/3 C^-1)
   template <class T>
   Sym3<T> stress(const Strain<T>& s, const NoFibres&) const {
-    return (Pack(c10) * s.isochoric) * (identity<T>() - (s.i1 * Pack(1.0 / 3.0)) * s.c_inverse);
+    return Pack(c10) * first_invariant_stress(s);
   }
 };
 

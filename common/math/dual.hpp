@@ -193,6 +193,10 @@ inline Dual<N> exp(const Dual<N>& x) {
   return detail::chained(e, e, x);
 }
 template <int N>
+inline Dual<N> phi(const Dual<N>& x) {
+  return detail::chained(phi(x.value), phi_slope(x.value), x);
+}
+template <int N>
 inline Dual<N> cbrt(const Dual<N>& x) {
   const Pack root = cbrt(x.value);
   return detail::chained(root, root / (3.0 * x.value), x);

@@ -89,6 +89,19 @@ inline Pack sqrt(Pack x) {
 inline Pack exp(Pack x) {
   return each(x, [](double v) { return std::exp(v); });
 }
+/// phi(x) = (exp(x) - 1) / x, phi(0) = 1, to rounding for every x.
+inline Pack phi(Pack x) {
+  return each(x, [](double v) { return v == 0 ? 1.0 : std::expm1(v) / v; });
+}
+/// phi'(x) = (exp(x) - phi(x)) / x = sum over k of (k + 1) x^k / (k + 2)!; the series where the quotient cancels.
+inline Pack phi_slope(Pack x) {
+  return each(x, [](double v) {
+    if (std::abs(v) > 1) return (std::exp(v) - std::expm1(v) / v) / v;
+    double sum = 0;
+    for (int k = 18; k > 0; --k) sum = (sum + 1) * v * (k + 1.0) / (k * (k + 2.0));  // ratio of terms k and k - 1
+    return 0.5 * (sum + 1);
+  });
+}
 inline Pack cbrt(Pack x) {
   return each(x, [](double v) { return std::cbrt(v); });
 }

@@ -84,7 +84,7 @@ std::optional<NewtonReport> linearised_newton(NewtonProblem& problem, const Newt
     if (last > 0) report.contraction = contraction = increment / last;
     report.iterations.push_back(iteration);
     report.error = estimated_error(problem, contraction > 0 ? contraction : 1);
-    const bool rounded = increment <= rounding_increment * problem.size();
+    const bool rounded = problem.negligible(increment, rounding_increment);
     const bool accurate = report.error <= options.tolerance || rounded;
     const auto converged = [&](bool to_rounding) {
       if (to_rounding) report.error = 0;
@@ -188,7 +188,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     };
     const bool accurate = options.mode == NewtonMode::linearised ? error_now() <= options.tolerance
                                                                  : iteration.increment <= options.tolerance * reference;
-    const bool small = iteration.step == 1 && (accurate || iteration.increment <= rounding_increment * problem.size() ||
+    const bool small = iteration.step == 1 && (accurate || problem.negligible(increment, rounding_increment) ||
                                                (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);

@@ -31,6 +31,8 @@ class NewtonProblem {
   virtual void move(double step) = 0;
   /// Norm of the iterate, in the norm of the increments.
   virtual double size() const = 0;
+  /// Whether the last increment, of this norm, is lost in the rounding of the iterate: below `share` of it.
+  virtual bool negligible(double increment, double share) const { return increment <= share * size(); }
   /// The last increment relative to what the iterate differs by from the last solution, in time or load; infinite where
   /// nobody knows.
   virtual double relative_increment() const { return std::numeric_limits<double>::infinity(); }
@@ -92,7 +94,8 @@ struct NewtonReport {
 };
 
 /// Newton's method with backtracking and, optionally, a kept Jacobian (chord iterations). Reports, never throws.
-/// Neither increment nor residual can fall below rounding: an increment of 1e-14 times the iterate, or a residual that
+/// Neither increment nor residual can fall below rounding: an increment of 1e-14 times the iterate, of each of its fields
+/// where there are several, or a residual that
 /// is nothing but the rounding error of its own evaluation, counts as converged.
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options);
 

@@ -164,6 +164,27 @@ double System<n>::size() const {
 }
 
 template <int n>
+bool System<n>::negligible(double, double share) const {
+  const auto small = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& field,
+                         int entries) {
+    for (const bool scalar : {false, true}) {
+      double increment = 0, size = 0;
+      for (std::size_t i = 0; i < map.size(); ++i) {
+        if ((static_cast<int>(i % entries) == n) != scalar) continue;
+        const double moved = map[i].index < 0 ? 0 : map[i].factor * increment_[map[i].index];
+        increment += volumes[i / entries] * moved * moved;
+        size += volumes[i / entries] * field[i] * field[i];
+      }
+      if (increment > share * share * size) return false;
+    }
+    return true;
+  };
+  return small(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries) &&
+         small(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries) &&
+         small(numbering_.wall, wall_volumes_, state_->now.wall, Mixed::entries);
+}
+
+template <int n>
 double System<n>::relative_increment() const {
   // Where values alternate from step to step, two steps show what changes beside that.
   const bool two = data_->rates.stage == 0 && state_->balances_since_jump > 1;
@@ -204,12 +225,6 @@ double System<n>::rounding() {
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
   values(numbering_.wall, state_->now.wall);
-  if (!numbering_.wall.empty())
-    for (int node = 0; node < scene_.wall->node_count(); ++node)
-      for (int k = 0; k < n && scene_.wall->nodes().original_of(node) == node; ++k) {
-        const Unknown& unknown = numbering_.wall[Mixed::vector(node, k)];
-        if (unknown.index >= 0) x[unknown.index] += std::cbrt(wall_volumes_[node]);
-      }
   add_absolute_products(x, terms);
   double sum = 0;
   for (double t : terms) sum += t * t;

@@ -78,12 +78,14 @@ class System : public NewtonProblem {
   void move(double step) override;
 
   double size() const override;
+  /// Each field by itself: displacements may be smaller than pressures by any number, which the units alone decide.
+  bool negligible(double increment, double share) const override;
   /// The largest of velocities, displacements of the wall and pressures of both: the pressures of the next step feel
   /// errors of displacements that count little in a norm of all fields.
   double relative_increment() const override;
 
-  /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Wall displacements count as
-  /// large as the elements, since stresses are differences of terms of order one (I - I_1/3 C^-1) whatever the strain.
+  /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Stresses are sums of terms as
+  /// small as the strain (materials/strain.hpp), so that none of them is of order one.
   double rounding() override;
 
  private:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/finite.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -67,14 +68,21 @@ class Stepper {
   virtual bool can_retry() const { return true; }
   /// Whether the steps' reports have a coupling part.
   virtual bool reports_coupling() const { return false; }
+  /// What a method that checks itself only later cannot say yet of the steps taken so far, a sentence for the user;
+  /// empty: nothing is open.
+  virtual std::string unchecked() const { return {}; }
   /// Of the last step, also of one that failed.
   const StepReport& report() const { return report_; }
   virtual Memory memory() const = 0;
   virtual void recall(const Memory& memory) = 0;
 
  protected:
-  /// Of a step whose last stage is solved.
+  /// Of a step whose last stage is solved. \throws ConvergenceError when the solution of a stage is not finite
   bool rejects(const State& state, const StepData& data) {
+    const std::string step = "step " + std::to_string(state.step + 1);
+    require_finite(state.now.mesh, step + ": the displacement of the fluid's mesh");
+    require_finite(state.now.fluid, step + ": the fluid's velocity or pressure");
+    require_finite(state.now.wall, step + ": the wall's displacement or pressure");
     report_.rejected = judge_ != nullptr && data.rates.last_stage && !judge_->accepts(state, data);
     return report_.rejected;
   }

@@ -57,9 +57,9 @@ struct Hyperelastic {
     k.volume_ratio = f.volume_ratio;
     if constexpr (has_fibres) {
       k.gradient = f.gradient;
-      k.strain = strain_of(f);
+      k.strain = strain_of(grad_d, f);
     } else {
-      k.isochoric_flux = isochoric_flux(f, strain_of(f), {});
+      k.isochoric_flux = isochoric_flux(f, strain_of(grad_d, f), {});
     }
     if constexpr (!std::is_same_v<Size, Unstabilised>)
       k.stabilisation_flux = stabilisation_flux(f, grad_p, size_squared);

@@ -35,7 +35,7 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
         pack.geometry,
         [&](const auto& g) {
           Prepared k;
-          k.strain = strain_of(deformation(gradient_of(d, g)));
+          k.strain = strain_of(gradient_of(d, g));
           if constexpr (!has_fibres) k.isotropic = form.material.energy(k.strain, {});
           return k;
         },
@@ -93,7 +93,7 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
     const auto stress = [&](const Prepared& k, const typename M::FibreData& fibre) {
       const auto flux_at = [&](const Mat3<Pack>& h) {
         const auto f = deformation(h);
-        return form.isochoric_flux(f, strain_of(f), fibre);
+        return form.isochoric_flux(f, strain_of(h, f), fibre);
       };
       const Mat3<Pack> flux = flux_at(k.now);
       Pack beyond = contract(flux, k.moved - weight * k.way);

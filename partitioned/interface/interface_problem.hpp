@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -69,6 +70,8 @@ class InterfaceProblem {
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
   /// the wall lacks (docs/coupling.md).
   double pressure_per_gap() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
+  /// The pressure, kPa, that moves the wall by its own thickness within the stage.
+  double pressure_of_thickness() const { return pressure_per_gap() * membrane_.thickness; }
   /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
   double pressure_residual(const std::vector<double>& residual) const {
     std::vector<double> loads = data_->interface_load;
@@ -82,7 +85,8 @@ class InterfaceProblem {
         gap += lack * lack;
         force += load * load;
       }
-    return gap > 0 ? pressure_per_gap() * std::sqrt(gap / std::max(force, 1e-300)) : 0.0;
+    if (gap == 0) return 0;
+    return force > 0 ? pressure_per_gap() * std::sqrt(gap / force) : std::numeric_limits<double>::max();
   }
 
   /// |d~ - d^{n-1}| of the last pass, mm.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Membrane {
     return acceleration_factor * density * thickness + stiffness();
   }
 
+  static constexpr double smallest_depth = 0.05;  ///< l / h in impedance()
+
   /// Traction per interface velocity, kPa/(mm/ms), with which the wall answers within a step whose acceleration is
   /// `acceleration_factor` (1/ms^2) times the displacement. Pushed outward, its whole thickness moves, and the hoop
   /// stretches; pushed along, it shears, and inertia is felt to a depth of l only:
@@ -33,10 +36,11 @@ struct Membrane {
   /// A Robin-Neumann pass with coefficient alpha multiplies the error of a mode, z being the wall's impedance for it
   /// and f the fluid's, by (1 - alpha / z) f / (f + alpha). Where the added mass is large the last factor is one, and
   /// best for all z from z_t to z_n is their harmonic mean, alpha = 2 / (1/z_n + 1/z_t): within a tenth the best by
-  /// trial for time steps from a tenth to four times the artery's, and for a wall ten times softer.
+  /// trial for time steps from a tenth to four times the artery's, and for a wall ten times softer. l counts as h/20 at
+  /// least: where it is less than a part of an element, the mass of the nodes answers.
   double impedance(double acceleration_factor, double step) const {
     const double inertia = acceleration_factor * density;
-    const double depth = std::sqrt(shear_modulus / inertia);
+    const double depth = std::max(std::sqrt(shear_modulus / inertia), smallest_depth * thickness);
     const double across = step * push_stiffness(acceleration_factor);
     const double along = step * inertia * depth * std::tanh(thickness / depth);
     return 2 / (1 / across + 1 / along);

@@ -225,11 +225,10 @@ std::pair<int, int> fibre_count(const Scenario& scenario) {
       const auto& pack = layer.packs.of_thread(0)[p];
       NodalVector<Tet> d{};
       gather<MixedLayout<3>>(d, pack, scenario.state.now.wall.data());
-      const auto strain = strain_of(deformation(gradient_of(d, Tet::at(pack.geometry, 0))));
+      const auto strain = strain_of(gradient_of(d, Tet::at(pack.geometry, 0)));
       for (const auto& point : layer.fibres[0][p])
         for (const auto& a : point.direction)
-          for (int lane = 0; lane < pack_width; ++lane)
-            ++((strain.isochoric * dot(a, strain.c * a))[lane] > 1 ? tight : loose);
+          for (int lane = 0; lane < pack_width; ++lane) ++(extension(strain, a)[lane] > 0 ? tight : loose);
     }
   return {tight, loose};
 }

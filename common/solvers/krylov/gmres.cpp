@@ -85,7 +85,7 @@ RestartedGmres::Cycle RestartedGmres::run_cycle(const LinearOperator& a, const L
     const double radius = std::hypot(h(k, k), h(k + 1, k));
     // A M^-1 v lies in the space already spanned: either the solution is in it, or the operator is singular on it.
     const bool breakdown = rest <= 1e-14 * length;
-    if (radius <= 1e-300 || radius <= 1e-14 * length) break;
+    if (radius <= 1e-14 * length) break;
     cosine_[k] = h(k, k) / radius;
     sine_[k] = h(k + 1, k) / radius;
     h(k, k) = radius;

@@ -65,15 +65,10 @@ TEST(MaterialTable, KnowsWhatTheMembraneAndTheLimitLoadNeed) {
 TEST(MaterialTable, FibreStiffnessIsTheSlopeOfTheFibreStressAtRest) {
   const double alpha = 29, eps = 1e-5, c = std::cos(alpha * std::acos(-1.0) / 180);
   const Artery with{3, 2.4, 0.8, 1, alpha}, without{3, 0, 0.8, 1, alpha};
-  Strain<Pack> strain;  // membrane: the circumference stretches, the length is held, the thickness follows
+  // Membrane: the circumference stretches, the length is held, the thickness follows.
   const double l2 = (1 + eps) * (1 + eps);
-  strain.c.c[0] = Pack(1 / l2);
-  strain.c.c[1] = Pack(l2);
-  strain.c.c[2] = Pack(1.0);
-  for (int k = 3; k < 6; ++k) strain.c.c[k] = Pack(0.0);
-  strain.c_inverse = cofactor(strain.c);
-  strain.i1 = trace(strain.c);
-  strain.isochoric = Pack(1.0);
+  const Sym3<Pack> change{{Pack(1 / l2 - 1), Pack(l2 - 1), Pack(0.0), Pack(0.0), Pack(0.0), Pack(0.0)}};
+  const Strain<Pack> strain = strain_from(change, Pack(0.0));
   Fibres fibres;
   fibres.direction[0] = {{Pack(0.0), Pack(c), Pack(std::sqrt(1 - c * c))}};
   fibres.direction[1] = {{Pack(0.0), Pack(c), Pack(-std::sqrt(1 - c * c))}};

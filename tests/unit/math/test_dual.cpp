@@ -106,6 +106,28 @@ TEST(Dual, Functions) {
       cbrt(x), [](double a, double) { return std::cbrt(a); }, [](double a, double) { return std::cbrt(a) / (3 * a); });
 }
 
+// phi(a) = (exp(a) - 1) / a against sums in long double, from the smallest number to the largest that does not overflow.
+TEST(Dual, PhiIsAccurateForEveryNumber) {
+  const auto sum_of = [](long double a, bool slope) {
+    long double sum = 0, term = 1;  // a^k / (k + 1)!
+    for (int k = 0; k < 2000; ++k) {
+      sum += slope ? term * (k + 1) / (k + 2) : term;
+      term *= a / (k + 2);
+    }
+    return static_cast<double>(sum);
+  };
+  EXPECT_EQ(phi(Pack(0.0))[0], 1.0);
+  EXPECT_EQ(phi_slope(Pack(0.0))[0], 0.5);
+  for (const double a :
+       {5e-324, 1e-310, 1e-200, 1e-17, 1e-9, 1e-3, 0.3, 0.99, 1.0, 1.01, 3.0, 30.0, 300.0, 690.0, -1e-9, -0.5, -1.0}) {
+    Dual<1> argument{Pack(a)};
+    argument.slope[0] = Pack(2.0);
+    const Dual<1> result = phi(argument);
+    EXPECT_NEAR(result.value[0] / sum_of(a, false), 1, 4e-16 * std::max(1.0, std::abs(a))) << a;
+    EXPECT_NEAR(0.5 * result.slope[0][0] / sum_of(a, true), 1, 2e-15 * std::max(1.0, std::abs(a))) << a;
+  }
+}
+
 TEST(Dual, SelectTakesValueAndSlopeLaneByLane) {
   const double threshold = x0 + 0.05;  // lane 0 below, all others above
   const D z = select(x > threshold, x * x, y);

@@ -244,6 +244,68 @@ TEST(CouplingStepper, ExplicitTakesOnePass) {
   EXPECT_GT(report.coupling->displacement_residual, 1e-6) << "reported as it is";
 }
 
+TEST(CouplingStepper, ExplicitIsRefusedBeforeItsFirstStepWhereTheAddedMassIsLarge) {
+  Case setup = partitioned_case("explicit", 1e-6);
+  setup.structure->density = 1e-2;
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  try {
+    stepper.advance(state);
+    FAIL();
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what()).find("added mass"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(state.step, 0);
+  EXPECT_EQ(largest(state.now.wall), 0);
+}
+
+TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
+  Case setup = partitioned_case("explicit", 1e-6);
+  setup.structure->density = 1e4;
+  setup.time->end = 20 * setup.time->step;
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  for (int step = 1; step <= 12; ++step) {
+    stepper.advance(state);
+    EXPECT_EQ(stepper.unchecked().empty(), step >= VelocityGapMonitor::most_steps) << step;
+    CouplingStepper<3> restarted(*scene, loads, setup);
+    restarted.recall(stepper.memory());
+    EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
+  }
+}
+
+// Nothing has a natural size: with a load that is a million million times smaller fluid and wall agree as well.
+TEST(CouplingStepper, AgreesForLoadsOfAnySize) {
+  for (const double pressure : {1e-3, 1e-15, 1e-60}) {
+    Case setup = partitioned_case("iqn-ils", 1e-6);
+    setup.inlet = PressureTable{{{0.0, pressure}}};
+    const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+    const Loads loads(setup);
+    CouplingStepper<3> stepper(*scene, loads, setup);
+    State state = scene->at_rest();
+    const StepReport report = stepper.advance(state);
+    EXPECT_GT(report.coupling->displacement_residual, 0) << pressure;
+    EXPECT_LE(report.coupling->displacement_residual, 1e-6) << pressure;
+    EXPECT_LE(report.coupling->force_residual, 1e-3) << pressure;
+  }
+}
+
+TEST(CouplingStepper, WithoutALoadNothingMoves) {
+  Case setup = partitioned_case("iqn-ils", 1e-6);
+  setup.inlet = PressureTable{{{0.0, 0.0}}};
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
+  State state = scene->at_rest();
+  for (int step = 0; step < 3; ++step) EXPECT_EQ(stepper.advance(state).outer_iterations, 1);
+  EXPECT_EQ(largest(state.now.wall), 0);
+  EXPECT_EQ(largest(state.now.fluid), 0);
+}
+
 TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
   Case setup = partitioned_case("explicit", 1e-6);
   setup.time->predictor = 0;
