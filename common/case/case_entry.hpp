@@ -16,7 +16,7 @@ namespace fsi {
 std::string printable(std::string text);
 
 /// Sizes of numbers in any unit that anyone measures in. Beyond them squares and quotients are not numbers any more.
-constexpr double smallest_size = 1e-30, largest_size = 1e30;
+constexpr double smallest_size = 1e-100, largest_size = 1e100;
 
 /// Where the entries of a case come from, for messages.
 struct CaseSource {

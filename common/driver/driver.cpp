@@ -114,22 +114,6 @@ std::string write_error_of(Action action) {
   return {};
 }
 
-/// Norms and energies are sums of squares, which double precision holds for numbers of a limited size only.
-void require_squares(const Case& setup) {
-  constexpr double smallest = 1e-100, largest = 1e100;
-  const auto look = [&](const std::optional<PressureTable>& table, const char* key) {
-    if (!table) return;
-    for (const auto& [time, pressure] : table->points)
-      if (const double size = std::abs(pressure); size != 0 && !(size >= smallest && size <= largest))
-        throw InputError(setup.path.string(), key,
-                         fmt::format("{:g} kPa is too {} for double precision, which squares it", pressure,
-                                     size < 1 ? "small" : "large"),
-                         fmt::format("give a pressure from {:g} to {:g} kPa, or 0", smallest, largest));
-  };
-  look(setup.inlet, "inlet.pressure");
-  look(setup.load, "load.pressure");
-}
-
 /// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
 void require_resolvable(const Case& setup, double scene_time) {
   constexpr double smallest = 1e-13;  // of the time in which the scene swings
@@ -556,7 +540,6 @@ int run_driver(const std::string& program, const std::string& description, int a
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
-    require_squares(setup);
     require_no_run_in_source(*line);
     require_no_run_in(line->output, "wait for its end, or give -o another folder");
     require_folder(*line);

@@ -333,7 +333,7 @@ const std::vector<BadCase>& bad_cases() {
            one_of(coupling_scheme_names())},
       {"AbsoluteToleranceNegative", coupled_case, "tolerance = 1e-6", "absolute_tolerance = -1e-9",
        "case.toml:32: partitioned.absolute_tolerance: -1e-09 is negative; give a number >= 0 (interface change in mm "
-       "(Euclidean norm) that is small enough too, default 1e-13)"},
+       "(Euclidean norm) that is small enough too, default 0)"},
       {"ForceToleranceOne", coupled_case, "tolerance = 1e-6", "force_tolerance = 1",
        "case.toml:32: partitioned.force_tolerance: 1 is out of range; give a number >= 0 and < 1 (what the interface's "
        "momentum balance may lack relative to the force, default 0: not demanded)"},
