@@ -9,7 +9,7 @@ namespace fsi {
 constexpr std::uint64_t large_gmsh_file = std::uint64_t{16} << 20;
 
 /// Bytes that reading a .msh file of this size takes: its text or data, its nodes and elements, and the mesh made of them.
-/// Measured: 2.1 to 2.9 times the size with files of 4.1 and 2.2, binary and text.
+/// Reckoned from the sizes of what is made: 2.1 to 2.9 times that of the file, for 4.1 and 2.2, binary and text.
 constexpr double gmsh_reading_bytes(std::uint64_t file_bytes) {
   return 3.0 * static_cast<double>(file_bytes);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/names.hpp"
 
 namespace fsi {
@@ -31,6 +32,15 @@ void require(bool good, const std::string& option, double value, const std::stri
 
 bool positive(double value) {
   return std::isfinite(value) && value > 0;
+}
+
+/// \throws OutOfMemory for a mesh that would not fit, before it is begun
+void require_room(double nodes) {
+  constexpr double bytes_per_node = 1600, worth_asking = 1e5;  // measured with straight edges; quadratic ones take more
+  if (nodes < worth_asking || nodes * bytes_per_node <= static_cast<double>(available_memory().bytes)) return;
+  throw OutOfMemory(
+      fmt::format("about {} asked for a mesh of {:.3g} nodes", memory_text(nodes * bytes_per_node), nodes),
+      "give larger elements or fewer cells");
 }
 
 }  // namespace
@@ -80,6 +90,7 @@ ArteryCells artery_cells(const ArteryOptions& o) {
                      fmt::format("{} mm asks for {:.3g} nodes", across ? o.size : axial_size, nodes),
                      fmt::format("give a larger one, for at most {:.3g} nodes", max_artery_nodes));
   }
+  require_room(nodes);
   ArteryCells cells;
   cells.lumen = static_cast<int>(lumen);
   cells.media = static_cast<int>(media);
@@ -117,6 +128,7 @@ void require_cells(const ArteryShape& shape, const ArteryCells& cells) {
     throw InputError("fsi-mesh", cells.axial >= cells.around * rings ? "--axial-cells" : "--around",
                      fmt::format("the cells asked for have up to {:.3g} nodes", nodes),
                      fmt::format("give fewer, for at most {:.3g} nodes", max_artery_nodes));
+  require_room(nodes);
 }
 
 }  // namespace fsi
