@@ -28,7 +28,9 @@ struct Insertion {
 class TimeAxis {
  public:
   /// One stretch from the start to the end, as the case asks.
+  /// \param setup  must outlive this
   explicit TimeAxis(const Case& setup);
+  explicit TimeAxis(Case&& setup) = delete;
 
   /// Number of the run's last step; of adaptive steps an estimate.
   int steps() const;

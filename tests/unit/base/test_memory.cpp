@@ -79,7 +79,7 @@ TEST(Memory, EndsWithOneMessageAndExitCodeOne) {
 
 TEST(Memory, LimitOfAddressesBoundsTheRoom) {
   const auto limited_room = [] {
-    const rlimit limit{std::uint64_t{1} << 40, RLIM_INFINITY};
+    const rlimit limit{std::uint64_t{1} << 46, RLIM_INFINITY};  // above the shadow memory of sanitizers
     setrlimit(RLIMIT_AS, &limit);
     const rlimit data{1, RLIM_INFINITY};
     setrlimit(RLIMIT_DATA, &data);

@@ -130,7 +130,8 @@ TEST(StateCheckpoint, DoesNotGrowWithTheNumberOfAdaptiveSteps) {
 }
 
 TEST(StateCheckpoint, AfterAStepWithoutSolutionCanBeReadAgain) {
-  TimeAxis axis(adaptive_case());
+  const Case setup = adaptive_case();
+  TimeAxis axis(setup);
   std::vector<Insertion> inserted;
   double start = 0;
   for (std::size_t k = 0; k < ends.size(); ++k) {
