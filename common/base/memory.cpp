@@ -87,7 +87,7 @@ void tighten(MemoryRoom& room, std::uint64_t bytes, const char* bound) noexcept 
 
 /// The name the system knows this process by; a program's own is not known before main().
 void program_name(char (&name)[64]) noexcept {
-  if (!read_text("/proc/self/comm", name)) std::strcpy(name, "fsi");
+  if (!read_text("/proc/self/comm", name)) std::snprintf(name, sizeof name, "%s", "fsi");
   if (char* end = std::strchr(name, '\n')) *end = 0;
 }
 

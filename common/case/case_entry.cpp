@@ -161,7 +161,7 @@ std::string CaseEntry::text() const {
 
 std::string CaseEntry::line() const {
   constexpr std::size_t longest = 1000;
-  const auto given = text();
+  auto given = text();
   if (printable(given) != given) refuse_value("holds control characters", "give one line of printable text");
   if (given.size() > longest)
     refuse_value(fmt::format("is {} bytes long", given.size()), fmt::format("give at most {}", longest));

@@ -99,7 +99,7 @@ void EarlierTables::copy_to(const fs::path& folder) const {
 }
 
 EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
-  const Part part = table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps);
+  Part part = table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps);
   const auto known = steps.digests.find(table.file);
   if (known == steps.digests.end()) return part;
   TableDigest digest(folder_ / table.file);
@@ -132,7 +132,7 @@ EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const
   if (!same(before, steps.time, steps.time))
     reader.refuse(
         fmt::format("step {} ends at {:.12g} here and at {:.12g} in the checkpoint", steps.step, before, steps.time));
-  const Part part{table.file, reader.bytes()};
+  Part part{table.file, reader.bytes()};
   check_rest(reader, 1, steps.time);
   return part;
 }
