@@ -102,7 +102,9 @@ def judged(trial, code, error, folder, stopped):
 def names_key(line):
     """PROGRAM: error: FILE[:LINE]: KEY: PROBLEM, or a problem that names a section: no [time]."""
     return (
-        re.search(r"(\.toml|\.msh)(:\d+)?: [$\w][^:]*: ", line) or re.search(r"\[[a-z]+\]", line) or "--set: " in line
+        re.search(r"(\.toml|\.msh|/etc/passwd)(:\d+)?: [$\w][^:]*: ", line)
+        or re.search(r"\[[a-z]+\]", line)
+        or "--set: " in line
     )
 
 
