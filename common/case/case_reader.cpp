@@ -11,6 +11,7 @@
 #include "case/case_keys.hpp"
 #include "case/case_overrides.hpp"
 #include "case/key_depth.hpp"
+#include "case/named_lists.hpp"
 
 namespace fsi {
 
@@ -137,6 +138,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 Case parse_case(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   CaseSource source{file.string(), {}, {}};
   toml::table document = parsed_document(text, source);
+  name_lists_by_surface(document, source);
   apply_overrides(overrides, document, source);
 
   const CaseEntry whole_case(document, "", "", source);
