@@ -1,72 +1,21 @@
 #include "mesh/gmsh_writer.hpp"
 
-#include <fcntl.h>
-#include <gmsh.h>
-#include <unistd.h>
-
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <cstddef>
-#include <cstring>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
-#include "base/removed_on_signal.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/gmsh_file.hpp"
+#include "mesh/gmsh_session.hpp"
+#include "mesh/temporary_mesh.hpp"
 
 namespace fsi {
 
 namespace {
-
-/// The library between its initialize and finalize.
-class GmshSession {
- public:
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);  // no configuration files: a user's own options must not change the mesh
-    gmsh::option::setNumber("General.Terminal", 0);
-  }
-  ~GmshSession() { gmsh::finalize(); }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
-
-/// A file that is removed again unless it was moved to its final name.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::filesystem::path& final_name)
-      : final_name_(final_name),
-        path_(final_name.parent_path() / (".fsi-mesh-" + std::to_string(getpid()) + ".msh")),  // picks gmsh's writer
-        on_signal_(path_) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  /// On disk first: whatever happens, the name stands for the old file or for the whole new one.
-  void move_into_place() const {
-    const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0 || ::fsync(descriptor) != 0 || ::close(descriptor) != 0)
-      throw InputError(final_name_.string(), "", std::string("cannot be written (") + std::strerror(errno) + ")",
-                       "check the space on the disk");
-    std::error_code failure;
-    std::filesystem::rename(path_, final_name_, failure);
-    if (failure)
-      throw InputError(final_name_.string(), "", "cannot be written (" + failure.message() + ")",
-                       "choose another file");
-  }
-
- private:
-  std::filesystem::path final_name_, path_;
-  RemovedOnSignal on_signal_;
-};
 
 /// gmsh's number of the simplex with that many dimensions and that order.
 constexpr int gmsh_simplex(int dim, int order) {
@@ -142,7 +91,7 @@ void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path
   if (format.version != "4.1" && format.version != "2.2")
     throw InputError(file.string(), "format", "there is no writer for version '" + format.version + "'",
                      "use 4.1 or 2.2");
-  const TemporaryFile temporary(regular_output_file(file));
+  const TemporaryMesh temporary(regular_output_file(file));
   std::string failure;
   {
     const GmshSession session;
@@ -151,9 +100,8 @@ void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path
       gmsh::option::setNumber("Mesh.MshFileVersion", format.version == "4.1" ? 4.1 : 2.2);
       gmsh::option::setNumber("Mesh.Binary", format.binary ? 1 : 0);
       gmsh::write(temporary.path().string());
-    } catch (...) {  // the type thrown differs between versions of the library
-      gmsh::logger::getLastError(failure);
-      if (failure.empty()) failure = "unknown reason";
+    } catch (...) {
+      failure = GmshSession::last_error();
     }
   }
   if (!failure.empty())

@@ -1,0 +1,59 @@
+#include "meshes/geo_command.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/threads.hpp"
+#include "mesh/geo_script.hpp"
+#include "meshes/mesh_report.hpp"
+
+namespace fsi {
+
+namespace {
+
+struct Request {
+  std::string script;
+  std::vector<std::string> settings;  ///< name=number
+  int order = 1;
+  MeshOutput output;
+};
+
+std::map<std::string, double> numbers_of(const std::vector<std::string>& settings) {
+  std::map<std::string, double> numbers;
+  for (const auto& text : settings) {
+    const auto equals = text.find('=');
+    double value = 0;
+    if (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value))
+      throw InputError("--set", text, "is no name=number", "write, for one, --set size=0.2");
+    numbers[text.substr(0, equals)] = value;
+  }
+  return numbers;
+}
+
+void make(const Request& request) {
+  require_known_extension(request.output.file);
+  set_threads(request.output.threads);
+  const auto file = regular_output_file(request.output.file);
+  const auto mesh = mesh_of_geo_script(request.script, numbers_of(request.settings), request.order, file);
+  write_and_report(mesh, request.output, TriangleGeometry::plane);
+}
+
+}  // namespace
+
+MeshCommand geo_command(CLI::App& app) {
+  auto* options = app.add_subcommand("geo", "A shape that a gmsh script (.geo) describes");
+  const auto request = std::make_shared<Request>();
+  options->add_option("script", request->script, "The script, .geo")->required();
+  options->add_option("--set", request->settings, "name=number: another value of a constant of the script");
+  options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells with nodes on the shape")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2));
+  add_output_options(*options, request->output);
+  return {options, [request] { make(*request); }};
+}
+
+}  // namespace fsi

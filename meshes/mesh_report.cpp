@@ -1,0 +1,71 @@
+#include "meshes/mesh_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <variant>
+
+#include "base/error.hpp"
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
+#include "driver/program.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/quality.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The mesh as the solvers will see it.
+template <int Dim, int Order>
+SimplexMesh<Dim, Order> read_again(const SimplexMesh<Dim, Order>& made, const std::string& file,
+                                   TriangleGeometry plane) {
+  return read_gmsh<Dim, Order>(file, made.regions, plane);
+}
+
+/// Nobody needs to read to the end; but a report that is to be kept and cannot be is an error.
+void print_report(const std::string& text, const std::string& file) {
+  if (const int error = try_to_print(text); error != 0 && !nobody_reads(error))
+    throw InputError(
+        "standard output", "",
+        fmt::format("the report cannot be written ({}), the mesh {} is complete", std::strerror(error), file),
+        "give -q, or let it go to a disk with space");
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& command, MeshOutput& output) {
+  command.add_option("-o,--output", output.file, "The file to write, .msh")->required();
+  command.add_option("--format", output.format.version, "4.1 or 2.2")->capture_default_str();
+  command.add_flag("--binary", output.format.binary, "Write binary data");
+  command.add_option("--threads", output.threads, "Taken as by all programs; one is all this needs")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("-q,--quiet", output.quiet, "No quality report and no warnings");
+}
+
+void require_known_extension(const std::string& file) {
+  const auto extension = std::filesystem::path(file).extension().string();
+  if (extension == ".msh") return;
+  throw InputError(file, "--output",
+                   extension.empty() ? "has no extension" : "the extension " + extension + " is unknown",
+                   "the one that is known is .msh, gmsh 4.1 or 2.2 (--format), text or --binary");
+}
+
+void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeometry plane,
+                      const std::string& foreword, bool warn) {
+  const auto quality = std::visit(
+      [&](const auto& made) -> std::optional<MeshQuality> {
+        write_gmsh(made, output.file, output.format);
+        if (output.quiet) return std::nullopt;
+        return measure_quality(read_again(made, output.file, plane));
+      },
+      mesh);
+  if (!quality) return;
+  print_report(foreword + fmt::format("{}: {}", printable(output.file), to_text(*quality)), output.file);
+  if (!warn) return;
+  for (const auto& warning : warnings_of(*quality)) fsi::warn(mesh_program, warning);
+}
+
+}  // namespace fsi

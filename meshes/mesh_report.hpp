@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "mesh/geo_script.hpp"
+#include "mesh/gmsh_writer.hpp"
+
+namespace fsi {
+
+inline constexpr const char* mesh_program = "fsi-mesh";
+
+/// What every command of fsi-mesh is told about its output.
+struct MeshOutput {
+  std::string file;
+  GmshFormat format;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// -o, --format, --binary, --threads and -q.
+void add_output_options(CLI::App& command, MeshOutput& output);
+
+/// The format is named by the version and --binary; another extension would promise another format.
+/// \throws InputError
+void require_known_extension(const std::string& file);
+
+/// Writes the mesh and reports its quality as the solvers will see it; warnings of bad elements go to stderr.
+/// \param plane     where a mesh of triangles lies
+/// \param foreword  printed before the report; a sentence with its newline, or empty
+/// \param warn      false: its stretched elements are meant
+void write_and_report(const AnyMesh& mesh, const MeshOutput& output, TriangleGeometry plane,
+                      const std::string& foreword = "", bool warn = true);
+
+}  // namespace fsi
