@@ -1,7 +1,7 @@
 # What `cmake --install` puts where. Below the prefix everything finds everything else by relative paths, so that the
 # tree can be moved.
 #   bin/                   the programs
-#   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases
+#   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery
 #   share/doc/fsi-duo/     README, docs, licence
 #   include/fsi-duo/       headers, in the folders of the sources
 #   lib/                   libraries, and lib/cmake/fsi-duo for find_package(fsi-duo)
@@ -26,6 +26,8 @@ install(PROGRAMS ${PROJECT_BINARY_DIR}/installed/fsi-compare DESTINATION ${CMAKE
 install(DIRECTORY compare/fsi_compare compare/studies DESTINATION ${_data}/compare COMPONENT programs
   PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY meshes/artery DESTINATION ${_data}/meshes COMPONENT programs FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY gallery DESTINATION ${_data} COMPONENT programs
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.py" PATTERN "*.geo" PATTERN "*.csv")
 install(DIRECTORY docs DESTINATION ${_documents} COMPONENT programs PATTERN "*.in" EXCLUDE)
 install(FILES README.md DESTINATION ${_documents} COMPONENT programs)
 install(FILES CHANGELOG.md CONTRIBUTING.md DESTINATION ${_documents} COMPONENT programs OPTIONAL)

@@ -4,6 +4,7 @@ import argparse
 from typing import NoReturn, Sequence
 
 from .base.errors import InputError
+from .gallery.command import add_parser as add_gallery, gallery
 from .linear.command import add_parser as add_solvers, solvers
 from .reporting.cost import add_parser as add_cost, cost
 from .reporting.pressure import add_parser as add_pressure, pressure
@@ -31,6 +32,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_accuracy(commands, version)
     add_solvers(commands, "results/solvers", version)
     add_study(commands, version)
+    add_gallery(commands, version)
     return top
 
 
@@ -43,5 +45,12 @@ def run(arguments: Sequence[str], version: str) -> int:
         return int(end.code or 0)
     if options.command is None:
         top.error("no command")
-    command = {"pressure": pressure, "cost": cost, "accuracy": accuracy, "solvers": solvers, "study": study}
+    command = {
+        "pressure": pressure,
+        "cost": cost,
+        "accuracy": accuracy,
+        "solvers": solvers,
+        "study": study,
+        "gallery": gallery,
+    }
     return command[options.command](options)

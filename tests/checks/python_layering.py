@@ -18,7 +18,7 @@ FLOORS = (
     ("base",),
     ("runs",),
     ("reporting",),
-    ("linear",),
+    ("linear", "gallery"),
     ("studies.running",),
     ("studies.evidence",),
     ("studies.accuracy", "studies.coupling", "studies.paper", "studies.skip", "studies.stability"),

@@ -1,0 +1,90 @@
+"""`fsi-compare gallery`: runs the scenes of the gallery with both drivers and makes its page."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any, List
+
+from ..base.errors import InputError, printable, say_error
+from ..base.files import folder, make_folder
+from ..base.folder_lock import locked
+from ..runs.programs import find_mesh_maker, find_program
+from .running import Programs, make_runs
+from .scene import BOTH, READY, Number, find_scenes
+
+DEFAULT_OUTPUT = "results/gallery"
+
+DESCRIPTION = """\
+Runs scenes of the gallery with both drivers, holds what they compute against what is known, and writes to OUTDIR:
+  report.html           the page, in one file
+  report.md             its text and tables, pictures by name
+  NAME/                 of each scene: its mesh and its result folders
+Exit code 2: a run failed, or a number is further from what is known than it may be."""
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    gallery = commands.add_parser(
+        "gallery",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        help="runs the scenes of the gallery and makes its page",
+        description=DESCRIPTION,
+    )
+    gallery.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all)")
+    gallery.add_argument(
+        "-o", "--output", metavar="OUTDIR", type=folder, default=Path(DEFAULT_OUTPUT), help=f"default: {DEFAULT_OUTPUT}"
+    )
+    gallery.add_argument(
+        "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
+    )
+    gallery.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
+    gallery.add_argument("--list", action="store_true", help="say what there is, and run nothing")
+    gallery.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at once (default: 2)")
+    gallery.add_argument(
+        "--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)"
+    )
+    gallery.add_argument(
+        "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
+    )
+    gallery.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+
+
+def gallery(options: argparse.Namespace) -> int:
+    """The command. Raises InputError."""
+    scenes = find_scenes(options.scenes, options.source)
+    if options.list:
+        for scene in scenes:
+            print(f"{scene.name:<24} {scene.title}")
+        return 0
+    if options.jobs < 1:
+        raise InputError("", "--jobs", f"{options.jobs} is too few", "give 1 or more")
+    named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}
+    drivers = {name: find_program(name, named[name], "--" + name.removeprefix("fsi-")) for name in BOTH}
+    mesh_maker = find_mesh_maker(drivers["fsi-monolithic"])
+    if mesh_maker is None:
+        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
+
+    def said(text: str) -> None:
+        if not options.quiet:
+            print(printable(text), file=sys.stderr, flush=True)
+
+    make_folder(options.output)
+    with locked(options.output):
+        outcomes = make_runs(scenes, options.output, Programs(mesh_maker, drivers), options.quick, options.jobs, said)
+        from .page import write_page  # matplotlib takes a second to load
+
+        report, numbers = write_page(options.output, outcomes, options.quick)
+    failed = [f"{o.scene.name}: {program}: {why}" for o in outcomes for program, why in o.failures.items()]
+    wrong = [_too_far(number) for number in numbers if not number.holds]
+    for text in failed + wrong:
+        say_error(text)
+    if not options.quiet:
+        print(f"{len(numbers) - len(wrong)} of {len(numbers)} numbers as known; {options.output / 'report.html'}")
+    return 2 if failed or wrong else 0
+
+
+def _too_far(number: Number) -> str:
+    return (
+        f"{number.what}: {number.value:.6g} {number.unit} by {number.program} differs by {100 * number.error:.2g} % from "
+        f"{number.reference:.6g}, may by {100 * number.tolerance:.2g} %"
+    )

@@ -1,0 +1,159 @@
+"""What a scene of the gallery is: a folder `gallery/NAME/` with a case `NAME.toml`, a module `scene.py` and what the mesh
+is made from.
+
+`scene.py` holds
+  its docstring   the scene's page: a title, an empty line, paragraphs of Markdown
+  MESH            the words of the fsi-mesh command that makes its mesh, without -o
+  numbers(runs)   what is measured, beside what is known: a list of Number
+  draw(runs)      a matplotlib Figure
+and may hold
+  DRIVERS         the drivers that run it, both unless said otherwise: a static wall knows one
+  QUICK           entries of the case that make a run of the scene's test, a second or two
+  QUICK_MESH      the words of the command that makes that run's mesh
+"""
+
+import shlex
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
+
+from ..base.errors import InputError
+from ..base.files import exists, is_file, is_folder, listed, read_text
+from ..base.suggestions import nearest
+from ..runs.columns import Columns, read_columns
+from ..runs.run_folder import read_finished
+
+BOTH = ("fsi-monolithic", "fsi-partitioned")
+READY = Path(__file__).resolve().parents[3] / "gallery"
+
+
+@dataclass(frozen=True)
+class Number:
+    """`value` in a run of `program` beside the `reference`, from which it may differ by `tolerance` of it."""
+
+    what: str
+    unit: str
+    program: str
+    value: float
+    reference: float
+    tolerance: float  # relative to `scale`
+    source: str  # of the reference: a formula, a publication
+    scale: float = 0.0  # what the tolerance counts in; 0: the reference
+
+    @property
+    def error(self) -> float:
+        return abs(self.value - self.reference) / (self.scale or abs(self.reference))
+
+    @property
+    def holds(self) -> bool:
+        return self.error <= self.tolerance  # a NaN does not
+
+
+@dataclass(frozen=True)
+class SceneRun:
+    """A finished run of a scene."""
+
+    folder: Path
+    program: str
+    summary: Dict[str, Any]
+    seconds: float
+
+    def table(self, name: str) -> Columns:
+        """Columns of a table of numbers of the result folder, `flow.csv` for one."""
+        return read_columns(self.folder / name)
+
+    def level(self, name: str, time: float) -> Columns:
+        """The rows of such a table at the level nearest to a time in ms."""
+        table = self.table(name)
+        times = table["time_ms"]
+        rows = times == times[abs(times - time).argmin()]
+        return Columns(self.folder / name, {column: values[rows] for column, values in table.items()})
+
+
+@dataclass(frozen=True)
+class SceneRuns:
+    """Those that `numbers` and `draw` are given: by program, in the order of the scene's drivers."""
+
+    runs: Mapping[str, SceneRun]
+    quick: bool
+
+    def __iter__(self) -> Any:
+        return iter(self.runs.values())
+
+    @property
+    def first(self) -> SceneRun:
+        return next(iter(self.runs.values()))
+
+
+@dataclass(frozen=True)
+class Scene:
+    folder: Path
+    name: str
+    title: str
+    paragraphs: Tuple[str, ...]
+    mesh: str
+    drivers: Tuple[str, ...]
+    module: ModuleType = field(repr=False)
+    quick_mesh: str = ""
+    quick: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def case(self) -> Path:
+        return self.folder / f"{self.name}.toml"
+
+    def mesh_words(self, quick: bool) -> List[str]:
+        return shlex.split((quick and self.quick_mesh) or self.mesh)
+
+    def numbers(self, runs: SceneRuns) -> List[Number]:
+        return list(self.module.numbers(runs))
+
+
+def scene_names(folder: Path = READY) -> List[str]:
+    return [name for name in listed(folder) if is_file(folder / name / "scene.py")]
+
+
+def find_scenes(wanted: Sequence[str], folder: Path = READY) -> List[Scene]:
+    """All when none is named. Raises InputError for a name that is no scene's."""
+    names = scene_names(folder)
+    if not names:
+        raise InputError(folder, "", "holds no scene", "take it from the sources of fsi-duo")
+    for name in wanted:
+        if name not in names:
+            raise InputError("", "", f"'{name}' is no scene", f"did you mean {nearest(name, names)}?")
+    return [read_scene(folder / name) for name in wanted or names]
+
+
+def read_scene(folder: Path) -> Scene:
+    """Raises InputError."""
+    path = folder / "scene.py"
+    if not is_folder(folder) or not exists(path):
+        raise InputError(path, "", "no such file", "a scene is a folder with scene.py and a case")
+    module = ModuleType(f"scene_{folder.name.replace('-', '_')}")
+    text = read_text(path, "give a folder of the gallery", "mend the scene")
+    try:
+        exec(compile(text, str(path), "exec"), module.__dict__)  # and not imported, which would leave a file beside it
+        title, _, page = (module.__doc__ or "").strip().partition("\n\n")
+        scene = Scene(
+            folder=folder,
+            name=folder.name,
+            title=title,
+            paragraphs=tuple(" ".join(part.split()) for part in page.split("\n\n") if part.strip()),
+            mesh=module.MESH,
+            drivers=tuple(getattr(module, "DRIVERS", BOTH)),
+            module=module,
+            quick_mesh=getattr(module, "QUICK_MESH", ""),
+            quick=dict(getattr(module, "QUICK", {})),
+        )
+    except Exception as error:  # whatever the scene's text does
+        raise InputError(path, "", f"cannot be loaded: {type(error).__name__}: {error}", "mend the scene") from None
+    for needed in ("numbers", "draw"):
+        if not hasattr(module, needed):
+            raise InputError(path, needed, "is missing", "see fsi_compare/gallery/scene.py")
+    if not is_file(scene.case):
+        raise InputError(scene.case, "", "no such file", "a scene's case is named after its folder")
+    return scene
+
+
+def read_scene_run(folder: Path, program: str, seconds: float) -> SceneRun:
+    return SceneRun(folder, program, read_finished(folder), seconds)

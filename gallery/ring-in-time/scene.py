@@ -1,0 +1,100 @@
+"""Ring in time: a wall that swings after a push
+
+The tube of the static scene gets 0.2 kPa for one millisecond and then swings freely. With its incompressible wall it has
+one degree of freedom, whose equation of motion is integrated here beside the finite elements.
+
+Second order in time shows in how little the swing is damped: the energy table of the run tells how much.
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from fsi_compare.gallery.scene import Number
+
+MESH = "geo tube.geo --order 2"
+DRIVERS = ("fsi-monolithic",)
+QUICK = {"time.end": 2.0}
+
+INNER, OUTER = 1.43, 1.82  # mm
+LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear modulus in kPa
+DENSITY = 1.2  # mg/mm^3
+PUSH, UNTIL = 0.2, 1.0  # kPa, ms
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+
+def static_pressure(radius):
+    """kPa: see the static tube."""
+    total = 0.0
+    for low, high, modulus in LAYERS:
+        at_rest = low + (high - low) * (POINTS + 1) / 2
+        now = np.sqrt(at_rest**2 + radius**2 - INNER**2)
+        stretch = now / at_rest
+        total += float(np.sum(WEIGHTS * (high - low) / 2 * modulus * (stretch**2 - stretch**-2) / now / stretch))
+    return total
+
+
+def acceleration(radius, rate, load):
+    """Of the inner radius a, from rho (q' ln(b/a) + q^2/2 (1/b^2 - 1/a^2)) + S(a) = p with q = a a' and
+    b^2 = a^2 + Ro^2 - Ri^2."""
+    outer = np.sqrt(radius**2 + OUTER**2 - INNER**2)
+    q = radius * rate
+    inertia = DENSITY * q**2 / 2 * (1 / outer**2 - 1 / radius**2)
+    change = (load - static_pressure(radius) - inertia) / (DENSITY * np.log(outer / radius))
+    return (change - rate**2) / radius
+
+
+def exact(end, steps_per_ms=2000):
+    """Times in ms and radii in mm, by the classical Runge-Kutta method."""
+    step = 1 / steps_per_ms
+    y = np.array([INNER, 0.0])
+    radii = [INNER]
+    for i in range(round(end * steps_per_ms)):
+        load = PUSH if (i + 0.5) * step < UNTIL else 0.0  # the jump is the end of a step
+
+        def slope(v, load=load):
+            return np.array([v[1], acceleration(v[0], v[1], load)])
+
+        k1 = slope(y)
+        k2 = slope(y + step / 2 * k1)
+        k3 = slope(y + step / 2 * k2)
+        k4 = slope(y + step * k3)
+        y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        radii.append(y[0])
+    return np.arange(len(radii)) * step, np.array(radii)
+
+
+def inner_radius(run):
+    table = run.table("wall_displacement.csv")
+    at = table["z_mm"] == table["z_mm"].min()
+    return table["time_ms"][at], INNER + table["radial_mm"][at]
+
+
+def numbers(runs):
+    times, radii = inner_radius(runs.first)
+    known, exact_radii = exact(times[-1], 500)
+    wanted = (1.0, 2.0) if runs.quick else (1.0, 2.0, 6.0)
+    return [
+        Number(
+            f"inner radius at {time:g} ms",
+            "mm",
+            runs.first.program,
+            float(radii[np.abs(times - time).argmin()]),
+            float(np.interp(time, known, exact_radii)),
+            0.02,
+            "equation of motion",
+            scale=float(np.max(np.abs(exact_radii - INNER))),
+        )
+        for time in wanted
+    ]
+
+
+def draw(runs):
+    figure = Figure(figsize=(6.4, 3.2), layout="constrained")
+    axes = figure.add_subplot()
+    times, radii = inner_radius(runs.first)
+    axes.plot(*exact(times[-1], 500), "-", color="black", label="exact")
+    axes.plot(times[::4], radii[::4], "o", color="black", mfc="white", markersize=3, label=runs.first.program)
+    axes.set_xlabel("time [ms]")
+    axes.set_ylabel("inner radius [mm]")
+    axes.legend()
+    return figure

@@ -1,0 +1,78 @@
+"""Static tube: an artery's wall under pressure, at finite strain
+
+A long tube of two neo-Hookean layers is held at its ends and pressed from within, up to 0.4 kPa. Incompressibility leaves
+the inner radius as the one unknown, so pressure and radius are tied by an integral over the wall, which is exact at any
+strain.
+
+There is no time and no fluid in it: the case has a load in steps, and one driver.
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from fsi_compare.gallery.scene import Number
+
+MESH = "geo tube.geo --order 2"
+DRIVERS = ("fsi-monolithic",)
+
+INNER = 1.43  # mm
+LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear modulus in kPa
+
+
+def pressure(radius):
+    """kPa that holds the inner radius (mm): the integral of (sigma_tt - sigma_rr) / r over the wall, with the
+    difference of stresses mu (l^2 - 1 / l^2) at the stretch l = r / R."""
+    total = 0.0
+    points, weights = np.polynomial.legendre.leggauss(20)
+    for low, high, modulus in LAYERS:
+        at_rest = low + (high - low) * (points + 1) / 2
+        now = np.sqrt(at_rest**2 + radius**2 - INNER**2)
+        stretch = now / at_rest
+        difference = modulus * (stretch**2 - stretch**-2)
+        total += float(np.sum(weights * (high - low) / 2 * difference / now / stretch))  # dr = dR / l
+    return total
+
+
+def exact_radius(load):
+    """By bisection."""
+    low, high = INNER, 3 * INNER
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if pressure(middle) < load else (low, middle)
+    return (low + high) / 2
+
+
+def inner_radius(run):
+    """Pressures in kPa and radii in mm. The time of a static case is the load's fraction."""
+    table = run.table("wall_displacement.csv")
+    at = table["z_mm"] == table["z_mm"].min()
+    return 0.4 * table["time_ms"][at], INNER + table["radial_mm"][at]
+
+
+def numbers(runs):
+    loads, radii = inner_radius(runs.first)
+    return [
+        Number(
+            f"inner radius under {load:.1f} kPa",
+            "mm",
+            runs.first.program,
+            float(radii[np.abs(loads - load).argmin()]),
+            exact_radius(load),
+            1e-5,
+            "integral over the wall",
+        )
+        for load in (0.2, 0.4)
+    ]
+
+
+def draw(runs):
+    figure = Figure(figsize=(6.4, 3.2), layout="constrained")
+    axes = figure.add_subplot()
+    loads, radii = inner_radius(runs.first)
+    line = np.linspace(INNER, radii[-1], 60)
+    axes.plot(line, [pressure(radius) for radius in line], "-", color="black", label="exact")
+    axes.plot(radii, loads, "o", color="black", mfc="white", label=runs.first.program)
+    axes.set_xlabel("inner radius [mm]")
+    axes.set_ylabel("pressure [kPa]")
+    axes.legend()
+    return figure

@@ -1,0 +1,72 @@
+"""fsi-compare gallery: what it says of scenes that are right, wrong, or no scenes. The ready scenes have tests of their
+own, registered in CMakeLists.txt."""
+
+import shutil
+import unittest
+from pathlib import Path
+
+from programs import MESH, FolderTest, execute
+
+COMPARE = Path(MESH).parent / "fsi-compare"
+READY = Path(__file__).resolve().parents[3] / "gallery"
+
+
+class Gallery(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.own = self.base / "own"
+        shutil.rmtree(self.own, ignore_errors=True)
+        shutil.copytree(READY / "static-tube", self.own / "static-tube")
+
+    def gallery(self, *words):
+        return execute(COMPARE, "gallery", *words, "-o", self.base / "out")
+
+    def own_scene(self, old, new):
+        path = self.own / "static-tube" / "scene.py"
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new))
+        return self.gallery("--from", self.own)
+
+    def test_page_of_a_scene(self):
+        process = self.gallery("--from", self.own)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("2 of 2 numbers as known", process.stdout)
+        text = (self.base / "out" / "report.md").read_text()
+        for part in ("## Static tube", "fsi-mesh geo tube.geo --order 2", "integral over the wall", "static_tube.png"):
+            self.assertIn(part, text)
+        self.assertTrue((self.base / "out" / "static_tube.png").is_file())
+        self.assertEqual(
+            sorted(p.name for p in (self.own / "static-tube").iterdir()), ["scene.py", "static-tube.toml", "tube.geo"]
+        )
+
+    def test_a_number_that_is_off_fails(self):
+        process = self.own_scene("exact_radius(load),", "1.001 * exact_radius(load),")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("differs by 0.1 % from", process.stderr)
+        self.assertIn("(!)", (self.base / "out" / "report.md").read_text())
+
+    def test_a_run_that_is_refused_fails_and_the_page_says_so(self):
+        path = self.own / "static-tube" / "static-tube.toml"
+        path.write_text(path.read_text().replace("c10 = 3.0", "c10 = -3.0"))
+        process = self.gallery("--from", self.own)
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("c10", process.stderr)
+        self.assertIn("failed", (self.base / "out" / "report.md").read_text())
+
+    def test_what_is_no_scene_is_refused_in_one_line(self):
+        for process, words in (
+            (self.gallery("statictube"), ("'statictube' is no scene", "static-tube")),
+            (self.gallery("--from", self.base / "nothing"), ("holds no scene",)),
+            (self.own_scene("MESH = ", "MSH = "), ("scene.py", "MESH")),
+            (self.own_scene("MSH = ", "MESH = 1 / 0  # "), ("scene.py", "division by zero")),
+        ):
+            with self.subTest(words=words):
+                self.assertEqual(process.returncode, 1, process.stdout)
+                self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+                for word in words:
+                    self.assertIn(word, process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
