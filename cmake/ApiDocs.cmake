@@ -14,3 +14,17 @@ else()
     COMMAND ${CMAKE_COMMAND} -E false
     VERBATIM)
 endif()
+
+# `cmake --build --preset release --target site` makes the documentation site with the API in it: site/index.html of the
+# build folder, by the Debian packages mkdocs and mkdocs-material.
+if(DOXYGEN_PROGRAM)
+  add_custom_target(site
+    COMMAND ${FSI_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/make_site.py ${PROJECT_BINARY_DIR}/site
+      --api ${PROJECT_BINARY_DIR}/api/html
+    VERBATIM)
+  add_dependencies(site api)
+else()
+  add_custom_target(site
+    COMMAND ${FSI_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/make_site.py ${PROJECT_BINARY_DIR}/site
+    VERBATIM)
+endif()

@@ -4,7 +4,7 @@ Blood fills the space between a porous cylinder of radius 0.5 mm and an artery's
 cylinder presses with 0.1 kPa for 2 ms. Nothing depends on the angle or on z, so the wall stretches by 9 % and swings.
 
 Continuity leaves one unknown, the inner radius a(t), whose equation of motion is exact at finite strain. The fluid is
-seven tenths of the swinging mass: a scheme that treats this added mass wrongly shows it here at once.
+four fifths of the swinging mass: a scheme that treats this added mass wrongly shows it here at once.
 """
 
 import numpy as np

@@ -38,7 +38,7 @@ def numbers(runs):
             runs.first.program,
             float(flow["outlet_flow_mm3_per_ms"][np.abs(flow["time_ms"] - time).argmin()]),
             float(exact_flow(time)),
-            0.02,
+            0.005,
             "series of Bessel functions",
         )
         for time in ((10, 20) if runs.quick else (10, 20, 60))

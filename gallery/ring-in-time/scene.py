@@ -80,7 +80,7 @@ def numbers(runs):
             runs.first.program,
             float(radii[np.abs(times - time).argmin()]),
             float(np.interp(time, known, exact_radii)),
-            0.02,
+            0.002,
             "equation of motion",
             scale=float(np.max(np.abs(exact_radii - INNER))),
         )

@@ -30,10 +30,12 @@ def _scene(report: Report, outcome: Outcome, quick: bool) -> List[Number]:
     stem = scene.name.replace("-", "_")
     report.section(scene.title)
     report.text(*scene.paragraphs)
-    commands = [f"fsi-mesh {' '.join(scene.mesh_words(quick))} -o {scene.name}.msh"]
+    place = f"gallery/{scene.name}"
+    words = [f"{place}/{word}" if word.endswith(".geo") else word for word in scene.mesh_words(quick)]
+    commands = [f"fsi-mesh {' '.join(words)} -o {scene.name}.msh"]
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [
-        f"{program} gallery/{scene.name}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
+        f"{program} {place}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
         f"-o {scene.name}-{program.removeprefix('fsi-')}"
         for program in scene.drivers
     ]
