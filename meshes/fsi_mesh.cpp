@@ -15,7 +15,9 @@
 #include "driver/program.hpp"
 #include "meshes/artery_command.hpp"
 #include "meshes/geo_command.hpp"
+#include "meshes/import_command.hpp"
 #include "meshes/mesh_report.hpp"
+#include "meshes/thicken_command.hpp"
 
 namespace {
 
@@ -32,7 +34,8 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Makes meshes for the FSI programs. Lengths in mm.", fsi::mesh_program);
   app.set_version_flag("--version", fmt::format("{} {}", fsi::mesh_program, fsi::version));
   app.require_subcommand(1);
-  const std::vector<fsi::MeshCommand> commands{fsi::artery_command(app), fsi::geo_command(app)};
+  const std::vector<fsi::MeshCommand> commands{fsi::artery_command(app), fsi::geo_command(app),
+                                               fsi::import_command(app), fsi::thicken_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

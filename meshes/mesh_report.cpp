@@ -36,8 +36,8 @@ void print_report(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-void add_output_options(CLI::App& command, MeshOutput& output) {
-  command.add_option("-o,--output", output.file, "The file to write, .msh")->required();
+void add_output_options(CLI::App& command, MeshOutput& output, bool file_required) {
+  command.add_option("-o,--output", output.file, "The file to write, .msh")->required(file_required);
   command.add_option("--format", output.format.version, "4.1 or 2.2")->capture_default_str();
   command.add_flag("--binary", output.format.binary, "Write binary data");
   command.add_option("--threads", output.threads, "Taken as by all programs; one is all this needs")

@@ -19,7 +19,7 @@ struct MeshOutput {
 };
 
 /// -o, --format, --binary, --threads and -q.
-void add_output_options(CLI::App& command, MeshOutput& output);
+void add_output_options(CLI::App& command, MeshOutput& output, bool file_required = true);
 
 /// The format is named by the version and --binary; another extension would promise another format.
 /// \throws InputError

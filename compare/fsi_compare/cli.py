@@ -6,6 +6,7 @@ from typing import NoReturn, Sequence
 from .base.errors import InputError
 from .gallery.command import add_parser as add_gallery, gallery
 from .linear.command import add_parser as add_solvers, solvers
+from .mesh_import.command import add_parser as add_convert_mesh, convert_mesh
 from .reporting.cost import add_parser as add_cost, cost
 from .reporting.pressure import add_parser as add_pressure, pressure
 from .studies.accuracy_of_runs import accuracy, add_parser as add_accuracy
@@ -33,6 +34,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_solvers(commands, "results/solvers", version)
     add_study(commands, version)
     add_gallery(commands, version)
+    add_convert_mesh(commands, version)
     return top
 
 
@@ -52,5 +54,6 @@ def run(arguments: Sequence[str], version: str) -> int:
         "solvers": solvers,
         "study": study,
         "gallery": gallery,
+        "convert-mesh": convert_mesh,
     }
     return command[options.command](options)

@@ -16,7 +16,7 @@ FOLDER = f"compare/{PACKAGE}"
 # Lowest first. Packages of one line share a floor; "" is fsi_compare itself, with its command line.
 FLOORS = (
     ("base",),
-    ("runs",),
+    ("runs", "mesh_import"),
     ("reporting",),
     ("linear", "gallery"),
     ("studies.running",),
@@ -25,7 +25,7 @@ FLOORS = (
     ("studies",),
     ("",),
 )
-LIBRARIES = ("numpy", "matplotlib", "h5py")
+LIBRARIES = ("numpy", "matplotlib", "h5py", "meshio")
 # Imports by a name that is computed are seen by no check: only where every module that it may name lies below.
 COMPUTED = ("studies.kinds",)
 

@@ -1,0 +1,117 @@
+#include "meshes/import_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/child_program.hpp"
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/standard_streams.hpp"
+#include "base/threads.hpp"
+#include "mesh/gmsh_file.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/temporary_mesh.hpp"
+#include "meshes/mesh_report.hpp"
+#include "meshes/options.hpp"
+
+namespace fsi {
+
+namespace {
+
+struct Request {
+  std::string file;
+  std::vector<std::string> groups, openings;
+  double scale = 1;
+  int order = 0;
+  bool list = false;
+  MeshOutput output;
+};
+
+/// meshio is Python's, so fsi-compare reads the file. Returns what it printed.
+std::string convert(const Request& request, const std::vector<std::string>& more) {
+  const auto program = beside_this_program("fsi-compare");
+  if (program.empty())
+    throw InputError("fsi-compare", "", "is not beside fsi-mesh, which needs it to read other formats",
+                     "install both from the same sources");
+  std::vector<std::string> words{program.string(), "convert-mesh", request.file, "--scale",
+                                 fmt::format("{}", request.scale)};
+  for (const auto& group : request.groups) words.insert(words.end(), {"--group", group});
+  words.insert(words.end(), more.begin(), more.end());
+  const ChildEnd end = run_child(words);
+  if (end.code == 0) return end.output;
+  std::string said = end.errors.substr(0, end.errors.find('\n'));
+  if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
+  throw InputError("", "", said.empty() ? "fsi-compare ended without a message" : said, "");
+}
+
+/// Second-order cells keep their order unless another is asked for.
+int order_of(const std::filesystem::path& file, int dimension) {
+  for (const auto& block : parse_gmsh(file).blocks) {
+    const auto* type = gmsh_type(block.type);
+    if (type && type->dimension == dimension && type->nodes > dimension + 1) return 2;
+  }
+  return 1;
+}
+
+template <int Dim, int Order>
+AnyMesh read_mesh(const std::filesystem::path& file, const std::vector<FlatPart>& openings) {
+  auto mesh = read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
+  if constexpr (Dim == 3) name_flat_parts(mesh, openings);
+  return mesh;
+}
+
+AnyMesh read_any(const Request& request, const std::filesystem::path& file) {
+  const auto openings = flat_parts_of(request.openings);
+  const int dimension = gmsh_dimension(file);
+  if (dimension != 3 && !openings.empty())
+    throw InputError(request.file, "--opening", "is for meshes of volumes", "name curves by --group");
+  const int order = request.order > 0 ? request.order : order_of(file, dimension);
+  try {
+    if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
+    return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);
+  } catch (const InputError& error) {
+    std::string said = error.what();
+    if (const auto name = file.string() + ": "; said.rfind(name, 0) == 0) said.erase(0, name.size());
+    throw InputError(request.file, "", said, "");
+  }
+}
+
+void make(const Request& request) {
+  if (request.list) {
+    print(convert(request, {"--list"}));
+    return;
+  }
+  if (request.output.file.empty()) throw InputError("", "--output", "is not given", "give -o FILE.msh, or --list");
+  require_known_extension(request.output.file);
+  set_threads(request.output.threads);
+  const TemporaryMesh temporary(regular_output_file(request.output.file), "import-");
+  const std::string said = convert(request, {"-o", temporary.path().string()});
+  write_and_report(read_any(request, temporary.path()), request.output, TriangleGeometry::plane, said);
+}
+
+}  // namespace
+
+MeshCommand import_command(CLI::App& app) {
+  auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ... (by meshio)");
+  const auto request = std::make_shared<Request>();
+  options->add_option("file", request->file, "The mesh: simplices, in any format that meshio reads")->required();
+  options->add_flag("--list", request->list, "Say which parts the file names or numbers, and write nothing");
+  options->add_option("--group", request->groups,
+                      "NAME=PART: a volume or surface of this name, from a part that --list shows; sets of points give "
+                      "the surface between them; unless given all parts with a name of their own");
+  options->add_option("--opening", request->openings,
+                      "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary nearest to this point");
+  options->add_option("--scale", request->scale, "From the file's unit of length to mm: 1000 for a mesh in m")
+      ->capture_default_str();
+  options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells; the file's unless given")
+      ->check(CLI::Range(1, 2));
+  add_output_options(*options, request->output, false);
+  return {options, [request] { make(*request); }};
+}
+
+}  // namespace fsi

@@ -1,0 +1,93 @@
+#include "meshes/thicken_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/threads.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/group_names.hpp"
+#include "mesh/lumen_volume.hpp"
+#include "mesh/wall_growth.hpp"
+#include "meshes/mesh_report.hpp"
+#include "meshes/options.hpp"
+
+namespace fsi {
+
+namespace {
+
+struct Request {
+  std::string lumen;
+  std::vector<std::string> layers, openings;
+  WallGrowth growth;
+  MeshOutput output;
+};
+
+/// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS
+GrownLayer layer_of(const std::string& text) {
+  constexpr const char* remedy = "write, for one, --layer media=0.26:2, for 0.26 mm of two elements";
+  const auto equals = text.find('=');
+  const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  GrownLayer layer{text.substr(0, equals)};
+  if (equals == std::string::npos || layer.name.empty())
+    throw InputError("--layer", text, "is no NAME=THICKNESS", remedy);
+  const std::string thickness = text.substr(equals + 1, colon == std::string::npos ? colon : colon - equals - 1);
+  if (!CLI::detail::lexical_cast(thickness, layer.thickness) || !(layer.thickness > 0 && layer.thickness < 1e6))
+    throw InputError("--layer", text, "'" + thickness + "' is no thickness in mm", remedy);
+  if (colon != std::string::npos && (!CLI::detail::lexical_cast(text.substr(colon + 1), layer.elements) ||
+                                     layer.elements < 1 || layer.elements > 100))
+    throw InputError("--layer", text, "'" + text.substr(colon + 1) + "' is no number of elements from 1 to 100",
+                     remedy);
+  return layer;
+}
+
+/// A mesh of the lumen's volume, or of its surface, which is filled.
+TetrahedralMesh lumen_of(const Request& request) {
+  const std::filesystem::path file = request.lumen;
+  const auto openings = flat_parts_of(request.openings);
+  if (file.extension() == ".msh" && gmsh_dimension(file) == 3) {
+    auto lumen = read_gmsh<3, 1>(file, {group::fluid});
+    name_flat_parts(lumen, openings);
+    return lumen;
+  }
+  return fill_lumen(file, openings);
+}
+
+void make(Request& request) {
+  require_known_extension(request.output.file);
+  set_threads(request.output.threads);
+  regular_output_file(request.output.file);  // before anything is computed
+  for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text));
+  const auto lumen = lumen_of(request);
+  write_and_report(request.growth.layers.empty() ? lumen : grow_wall(lumen, request.growth), request.output,
+                   TriangleGeometry::plane);
+}
+
+}  // namespace
+
+MeshCommand thicken_command(CLI::App& app) {
+  auto* options = app.add_subcommand("thicken", "A wall of given layers, grown on a lumen's surface");
+  const auto request = std::make_shared<Request>();
+  options
+      ->add_option("lumen", request->lumen,
+                   "Mesh of the lumen (.msh with a volume fluid), or its closed surface (.stl, .msh), which is filled")
+      ->required();
+  options->add_option("--layer", request->layers,
+                      "NAME=THICKNESS[:ELEMENTS], from the lumen outwards; none: the lumen alone");
+  options->add_option("--opening", request->openings,
+                      "NAME=X,Y,Z: of a surface without names, the flat part nearest to this point");
+  options->add_option("--on", request->growth.on,
+                      "Surface that the wall grows on; all that has no name, or is called inner, unless given");
+  options->add_option("--smoothing", request->growth.smoothing, "Times that the normals are averaged with neighbours'")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  add_output_options(*options, request->output);
+  return {options, [request] { make(*request); }};
+}
+
+}  // namespace fsi

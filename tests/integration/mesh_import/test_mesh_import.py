@@ -1,0 +1,125 @@
+"""fsi-mesh import: meshes of other programs, in formats that meshio reads."""
+
+import math
+import re
+import unittest
+
+import meshio
+import numpy as np
+
+from programs import MESH, FolderTest, execute
+
+TUBE = """
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 3, 1};
+Mesh.MeshSizeMax = 0.8;
+Physical Volume("fluid") = {1};
+Physical Surface("inlet") = {3};
+Physical Surface("outlet") = {2};
+"""
+
+
+class MeshImport(FolderTest):
+    def lumen(self, order=1):
+        """The tube's nodes in m, tetrahedra and the triangles of its surfaces, as meshio has them."""
+        (self.base / "tube.geo").write_text(TUBE)
+        file = self.base / "tube.msh"
+        process = execute(MESH, "geo", self.base / "tube.geo", "-o", file, "-q", "--order", order)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        mesh = meshio.read(file)
+        kinds = {1: ("tetra", "triangle"), 2: ("tetra10", "triangle6")}[order]
+        solid = np.concatenate([block.data for block in mesh.cells if block.type == kinds[0]])
+        sides = [block.data for block in mesh.cells if block.type == kinds[1]]
+        return mesh.points / 1000, (kinds[0], solid), [(kinds[1], side) for side in sides]
+
+    def imported(self, file, *options):
+        (self.base / "out.msh").unlink(missing_ok=True)
+        return execute(MESH, "import", file, "-o", self.base / "out.msh", "--format", "2.2", *options)
+
+    def expect_tube(self, process, order=1):
+        self.assertEqual(process.returncode, 0, process.stderr)
+        volume = float(re.search(r"^fluid +\d+ +([\d.]+)", process.stdout, re.MULTILINE).group(1))
+        self.assertAlmostEqual(volume / (3 * math.pi), 1, delta=0.15 if order == 1 else 0.005)
+        text = (self.base / "out.msh").read_text()
+        self.assertEqual(set(re.findall(r'^\d \d+ "(\w+)"', text, re.MULTILINE)), {"fluid", "inlet", "outlet"})
+        self.assertIn("\n1 9 2" if order == 2 else "\n1 2 2", text)
+
+    def test_vtu_with_numbered_cells_of_both_orders(self):
+        for order in (1, 2):
+            points, solid, sides = self.lumen(order)
+            blocks = [solid, *sides]
+            numbers = [np.full(len(data), i + 1) for i, (_, data) in enumerate(blocks)]
+            meshio.Mesh(points, blocks, cell_data={"part": numbers}).write(self.base / "tube.vtu")
+            words = ("--scale", 1000, "--group", "fluid=part:1", "--group", "inlet=part:2", "--group", "outlet=part:3")
+            self.expect_tube(self.imported(self.base / "tube.vtu", *words), order)
+
+    def test_med_and_abaqus_with_names_of_their_own(self):
+        points, solid, sides = self.lumen()
+        blocks = [solid, *sides]
+        both = np.concatenate([sides[0][1], sides[1][1]])
+        families = [np.full(len(solid[1]), -1), np.repeat([-2, -3], [len(sides[0][1]), len(sides[1][1])])]
+        mesh = meshio.Mesh(1000 * points, [solid, ("triangle", both)], cell_data={"cell_tags": families})
+        mesh.cell_tags = {-1: ["fluid"], -2: ["inlet"], -3: ["outlet"]}
+        mesh.write(self.base / "tube.med")
+        self.expect_tube(self.imported(self.base / "tube.med"))
+        names = ("fluid", "inlet", "outlet")
+        sets = {
+            name: [np.arange(len(d)) if i == k else np.array([], int) for k, (_, d) in enumerate(blocks)]
+            for i, name in enumerate(names)
+        }
+        meshio.Mesh(1000 * points, blocks, cell_sets=sets).write(self.base / "tube.inp")
+        self.expect_tube(self.imported(self.base / "tube.inp"))
+
+    def test_exodus_with_sets_of_points(self):
+        points, solid, sides = self.lumen()
+        sets = {"in": np.unique(sides[0][1]), "out": np.unique(sides[1][1])}
+        mesh = meshio.Mesh(1000 * points, [solid], point_sets=sets, cell_data={"part": [np.ones(len(solid[1]))]})
+        mesh.write(self.base / "tube.e")
+        listed = execute(MESH, "import", self.base / "tube.e", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertRegex(listed.stdout, r"(?m)^in +\d+ points$")
+        mesh.write(self.base / "tube.vtu")  # which has no sets: openings by where they are
+        words = ("--group", "fluid=part:1", "--opening", "inlet=0,0,0", "--opening", "outlet=0,0,3")
+        self.expect_tube(self.imported(self.base / "tube.vtu", *words))
+
+    def test_sets_of_points_and_cells_inside_out(self):
+        points, solid, sides = self.lumen()
+        number = np.zeros(len(points), int)
+        number[np.unique(sides[0][1])] = 1
+        number[np.unique(sides[1][1])] = 2
+        turned = solid[1].copy()
+        turned[:5] = turned[:5][:, [0, 2, 1, 3]]
+        mesh = meshio.Mesh(points, [("tetra", turned)], {"end": number}, {"part": [np.ones(len(turned), int)]})
+        mesh.write(self.base / "tube.vtk")
+        words = ("--group", "fluid=part:1", "--group", "inlet=end:1", "--group", "outlet=end:2", "--scale", 1000)
+        process = self.imported(self.base / "tube.vtk", *words)
+        self.expect_tube(process)
+        self.assertIn("5 cells were turned inside out", process.stdout)
+
+    def test_what_is_wrong_is_named_and_nothing_is_left(self):
+        points, solid, sides = self.lumen()
+        meshio.Mesh(points, [solid], cell_data={"part": [np.ones(len(solid[1]), int)]}).write(self.base / "tube.vtu")
+        cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+        meshio.Mesh(cube, [("hexahedron", np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]).write(self.base / "cube.vtu")
+        (self.base / "text.vtu").write_text("no mesh")
+        for file, options, words in (
+            ("none.vtu", (), ("none.vtu: no such file",)),
+            ("text.vtu", (), ("meshio cannot read it",)),
+            ("cube.vtu", (), ("holds hexahedron in place of tetrahedra",)),
+            ("tube.vtu", (), ("--group: is not given", "part:1 (tetrahedra)")),
+            ("tube.vtu", ("--group", "fluid=prt:1"), ("no part prt:1", "did you mean part:1?")),
+            ("tube.vtu", ("--group", "fluid"), ("'fluid' is no NAME=PART",)),
+            ("tube.vtu", ("--scale", 0, "--group", "fluid=part:1"), ("--scale: 0 is no factor",)),
+            ("tube.vtu", ("--group", "fluid=part:1", "--opening", "inlet=0"), ("is no NAME=X,Y,Z",)),
+        ):
+            with self.subTest(file=file, options=options):
+                process = self.imported(self.base / file, *options)
+                self.assertEqual(process.returncode, 1, process.stdout)
+                self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+                for word in words:
+                    self.assertIn(word, process.stderr)
+                self.assertEqual([f.name for f in self.base.iterdir() if "out" in f.name or "import" in f.name], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,186 @@
+"""fsi-mesh thicken: a wall of given layers, grown on a lumen's volume or on its closed surface."""
+
+import math
+import re
+import unittest
+
+from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute
+
+TUBE = """
+SetFactory("OpenCASCADE");
+DefineConstant[ size = 0.5 ];
+Cylinder(1) = {0, 0, 0, 0, 0, 5, 1};
+Mesh.MeshSizeMax = size;
+Physical Volume("fluid") = {1};
+Physical Surface("inlet") = {3};
+Physical Surface("outlet") = {2};
+"""
+BEND = """
+SetFactory("OpenCASCADE");
+DefineConstant[ radius = 2, bend = 8, size = 1.2 ];
+Disk(1) = {0, 0, 0, radius};
+o() = Extrude { {0, 1, 0}, {bend, 0, 0}, Pi / 2 } { Surface{1}; };
+Mesh.MeshSizeMax = size;
+Physical Volume("fluid") = {o(1)};
+Physical Surface("inlet") = {1};
+Physical Surface("outlet") = {o(0)};
+"""
+CASE = """
+[mesh]
+file = "wall.msh"
+[fluid]
+density = 1.0
+viscosity = 3.5e-3
+[structure]
+density = 1.2
+bulk_modulus = 1e4
+[structure.layers.media]
+material = "neo-hookean"
+c10 = 30
+[structure.layers.adventitia]
+material = "neo-hookean"
+c10 = 3
+[inlet]
+pressure = 0.1
+[time]
+step = 0.25
+end = 0.5
+"""
+
+
+def surface_of(lines):
+    """Nodes and triangles of an ASCII 2.2 file."""
+    start = lines.index("$Nodes") + 2
+    nodes = {}
+    for line in lines[start : lines.index("$EndNodes")]:
+        tag, *x = line.split()
+        nodes[tag] = tuple(map(float, x))
+    start = lines.index("$Elements") + 2
+    elements = [line.split() for line in lines[start : lines.index("$EndElements")]]
+    return nodes, elements
+
+
+class MeshThicken(FolderTest):
+    def geo(self, script, *options):
+        (self.base / "lumen.geo").write_text(script)
+        process = execute(MESH, "geo", self.base / "lumen.geo", "-o", self.base / "lumen.msh", "-q", *options)
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def thicken(self, *options, lumen="lumen.msh"):
+        (self.base / "wall.msh").unlink(missing_ok=True)
+        return execute(MESH, "thicken", self.base / lumen, "-o", self.base / "wall.msh", *options)
+
+    def volumes(self, process):
+        self.assertEqual(process.returncode, 0, process.stderr)
+        rows = re.findall(r"^(\w+) +(\d+) +([\d.]+) .* (\S+) *$", process.stdout, re.MULTILINE)
+        return {name: (float(volume), layers) for name, _, volume, layers in rows}
+
+    def test_straight_tube_is_exact(self):
+        self.geo(TUBE)
+        found = self.volumes(self.thicken("--layer", "media=0.2:2", "--layer", "adventitia=0.1", "--format", "2.2"))
+        nodes, elements = surface_of((self.base / "wall.msh").read_text().splitlines())
+        groups = {}
+        names = re.findall(r'^2 (\d+) "(\w+)"', (self.base / "wall.msh").read_text(), re.MULTILINE)
+        for element in elements:
+            if element[1] == "2":
+                groups.setdefault(dict(names)[element[3]], set()).update(element[-3:])
+        self.assertEqual(set(groups), {"inlet", "outlet", "outer", "wall_ends"})
+        for node in groups["outer"]:
+            x, y, z = nodes[node]
+            self.assertAlmostEqual(math.hypot(x, y), 1.3, delta=2e-3)
+        for node in groups["wall_ends"]:
+            self.assertIn(round(nodes[node][2], 9), (0.0, 5.0))
+        # A tube of n sides has the same part of each ring's volume.
+        share = found["fluid"][0] / (5 * math.pi)
+        self.assertAlmostEqual(found["media"][0] / (5 * math.pi * (1.2**2 - 1)), share, delta=3e-3)
+        self.assertAlmostEqual(found["adventitia"][0] / (5 * math.pi * (1.3**2 - 1.2**2)), share, delta=3e-3)
+        self.assertEqual((found["media"][1], found["adventitia"][1]), ("2", "1"))
+
+    def test_bent_tube_is_of_second_order(self):
+        exact = math.pi * (2.4**2 - 2**2) * math.pi / 2 * 8
+        errors = []
+        for size in (1.2, 0.6):
+            self.geo(BEND, "--set", f"size={size}")
+            errors.append(abs(self.volumes(self.thicken("--layer", "media=0.4"))["media"][0] / exact - 1))
+        self.assertLess(errors[1], 0.015)
+        self.assertGreater(math.log2(errors[0] / errors[1]), 1.6)
+
+    def test_both_drivers_run_on_what_was_grown(self):
+        self.geo(TUBE)
+        self.volumes(self.thicken("--layer", "media=0.2", "--layer", "adventitia=0.1"))
+        (self.base / "case.toml").write_text(CASE)
+        for program in (MONOLITHIC, PARTITIONED):
+            process = attempt(program, self.base / "case.toml", "-q", "--force", folder=self.base / "out")
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+
+    def test_surface_is_closed_named_and_filled(self):
+        self.geo(TUBE, "--format", "2.2")
+        nodes, elements = surface_of((self.base / "lumen.msh").read_text().splitlines())
+        solid = self.faces_of_tetrahedra(elements)
+
+        def write(faces):
+            with open(self.base / "lumen.stl", "w") as file:
+                print("solid lumen", file=file)
+                for face in faces:
+                    print("facet normal 0 0 0\nouter loop", file=file)
+                    for node in face:
+                        print("vertex", *nodes[node], file=file)
+                    print("endloop\nendfacet", file=file)
+                print("endsolid lumen", file=file)
+
+        write(solid)
+        named = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,5")
+        found = self.volumes(self.thicken("--layer", "media=0.2", *named, lumen="lumen.stl"))
+        self.assertAlmostEqual(found["fluid"][0] / (5 * math.pi), 1, delta=0.05)
+        self.assertAlmostEqual(found["media"][0] / (5 * math.pi * 0.44), found["fluid"][0] / (5 * math.pi), delta=3e-3)
+        for options, words in (
+            ((), ("--opening", "(0, 0, 5) mm")),
+            (("--opening", "a=0,0,0", "--opening", "b=0,0,1"), ("--opening b", "the same part of the surface as a")),
+            (("--opening", "a=0,0"), ("is no NAME=X,Y,Z",)),
+        ):
+            self.expect(self.thicken("--layer", "media=0.2", *options, lumen="lumen.stl"), *words)
+        write(solid[2:])
+        self.expect(self.thicken("--layer", "media=0.2", *named, lumen="lumen.stl"), "lumen.stl: surface: has", "hole")
+        write(solid + solid[:1])
+        self.expect(self.thicken("--layer", "media=0.2", *named, lumen="lumen.stl"), "lumen.stl")
+
+    def faces_of_tetrahedra(self, elements):
+        once = {}
+        for element in elements:
+            if element[1] != "4":
+                continue
+            a, b, c, d = element[-4:]
+            for face in ((b, c, d), (a, d, c), (a, b, d), (a, c, b)):
+                key = frozenset(face)
+                if key in once:
+                    once[key] = None
+                else:
+                    once[key] = face
+        return [face for face in once.values() if face]
+
+    def expect(self, process, *words):
+        self.assertEqual(process.returncode, 1, process.stdout)
+        self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+        for word in words:
+            self.assertIn(word, process.stderr)
+        self.assertFalse((self.base / "wall.msh").exists())
+
+    def test_what_is_wrong_is_named(self):
+        self.geo(BEND)
+        for options, words in (
+            (("--layer", "media=9"), ("--layer", "the wall folds near", "thinner layers")),
+            (("--layer", "media"), ("media: is no NAME=THICKNESS",)),
+            (("--layer", "media=-1"), ("'-1' is no thickness",)),
+            (("--layer", "media=1:0"), ("'0' is no number of elements",)),
+            (("--layer", "fluid=1"), ("the volume fluid is there already",)),
+            (("--layer", "a=.1", "--layer", "a=.1"), ("the volume a is there already",)),
+            (("--layer", "a=.1", "--on", "wall"), ("no surface wall", "inlet, outlet")),
+            (("--layer", "a=.1", "--opening", "inlet=0,0,0"), ("has a surface of this name",)),
+        ):
+            with self.subTest(options=options):
+                self.expect(self.thicken(*options), *words)
+        self.expect(self.thicken("--layer", "a=.1", lumen="none.stl"), "no such file")
+
+
+if __name__ == "__main__":
+    unittest.main()
