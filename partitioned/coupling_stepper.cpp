@@ -35,6 +35,13 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
                                  "comes back with every step, and the pressure is wrong",
                                  time_schemes().name_of(time_scheme), scheme_.name),
                      "use \"euler\", \"generalised-alpha\" or \"bdf2\", or a coupling scheme that iterates");
+  if (!scheme_.robin && scene.coupled() && scene.has_flow_only())
+    throw InputError(setup.path.string(), "partitioned.scheme",
+                     fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "
+                                 "opening: its pressure is not determined",
+                                 scheme_.name),
+                     "use a scheme that begins with robin-neumann, or give one opening a pressure, a resistance or a "
+                     "windkessel");
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
@@ -61,6 +68,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       advance_stage(state, data);
+      scene_.set_windkessels(state.now, data.rates);
       if (rejects(state, data)) {
         take_back();
         return report_;
@@ -185,6 +193,7 @@ template <int n>
 void CouplingStepper<n>::start(State& state, StepData& data) {
   scene_.integrator->predict(state, order_, data);
   scene_.impose_conditions(state.now);
+  scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
   problem_->start(state, data);
 }
@@ -241,6 +250,7 @@ double CouplingStepper<n>::added_mass(const State& state, const StepData& data) 
   State rest = state;
   StepData push = data;
   push.wall_pressure = 0;
+  push.opening_flows.clear();
   double growth = 0;
   try {
     // Pushed by one pressure at all openings the wall moves outward everywhere, as its supports allow.

@@ -106,6 +106,21 @@ const Quantity& angle() {
   return q;
 }
 
+const Quantity& flow_rate() {
+  static const Quantity q{"mm^3/ms", {}};  // 1 mm^3/ms is 1 ml/s: the usual unit for blood
+  return q;
+}
+
+const Quantity& resistance() {
+  static const Quantity q{"kPa ms/mm^3", {{"dyn s/cm^5", 1e-4, 1e4, 1e7}, {"Pa s/m^3", 1e-9, 1e7, 1e12}}};
+  return q;
+}
+
+const Quantity& compliance() {
+  static const Quantity q{"mm^3/kPa", {{"m^3/Pa", 1e12, 1e-13, 1e-7}}};
+  return q;
+}
+
 }  // namespace quantity
 
 }  // namespace fsi

@@ -18,6 +18,8 @@ struct Bounds {
 };
 inline constexpr Bounds positive{0, std::numeric_limits<double>::infinity(), false, false};
 inline constexpr Bounds not_negative{0, std::numeric_limits<double>::infinity(), true, false};
+inline constexpr Bounds any_number{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                                   false, false};
 
 /// A unit that users mistake for the right one, and the values that give it away. They lie where a value in the right
 /// unit would be beyond what is merely unusual: nobody computes with a fluid a thousand times denser than water.
@@ -56,6 +58,9 @@ const Quantity& time_step();
 const Quantity& rate();  ///< 1/ms
 const Quantity& length();
 const Quantity& angle();
+const Quantity& flow_rate();   ///< mm^3/ms
+const Quantity& resistance();  ///< kPa ms/mm^3
+const Quantity& compliance();  ///< mm^3/kPa
 }  // namespace quantity
 
 }  // namespace fsi

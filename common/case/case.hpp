@@ -10,6 +10,8 @@
 #include "case/choices.hpp"
 #include "case/coupled_multigrid_options.hpp"
 #include "case/fast_options.hpp"
+#include "case/opening_conditions.hpp"
+#include "case/pressure_table.hpp"
 #include "case/quasi_newton_options.hpp"
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
@@ -18,17 +20,6 @@
 #include "solvers/newton.hpp"
 
 namespace fsi {
-
-/// Pressure over time. Between table points linear; before the first point its value, after the last point its value.
-struct PressureTable {
-  std::vector<std::pair<double, double>> points;  ///< (ms, kPa), times not decreasing; equal times make a jump
-
-  /// Mean pressure over [from, to] in kPa: the load of a step, so that the impulse does not depend on the time step.
-  double mean(double from, double to) const;
-  /// Times at which it jumps, ms, ascending.
-  std::vector<double> jumps() const;
-  double at_end() const { return points.empty() ? 0.0 : points.back().second; }
-};
 
 /// [mesh]: `file`, or `level` made on demand beside the case file.
 struct MeshData {
@@ -149,8 +140,9 @@ struct Case {
   MeshData mesh;
   std::optional<FluidData> fluid;
   std::optional<StructureData> structure;
-  std::optional<PressureTable> inlet;  ///< [inlet]: pressure on the fluid's inlet
-  std::optional<PressureTable> load;   ///< [load]: pressure on the inner face of a wall without fluid
+  std::optional<PressureTable> inlet;                   ///< [inlet]: pressure on the fluid's inlet
+  std::optional<PressureTable> load;                    ///< [load]: pressure on the inner face of a wall without fluid
+  std::map<std::string, OpeningConditions> openings{};  ///< [[opening]], by surface
   std::optional<TimeData> time;
   std::optional<StaticData> static_load;
   MonolithicData monolithic;

@@ -12,6 +12,7 @@
 #include "case/case_overrides.hpp"
 #include "case/key_depth.hpp"
 #include "case/named_lists.hpp"
+#include "case/opening_keys.hpp"
 
 namespace fsi {
 
@@ -34,7 +35,8 @@ void check_sections(const CaseEntry& whole_case, const Case& scene) {
       {in_static && fluid, "static", "is for a wall without fluid", "replace it by [time]"},
       {!in_time && !in_static && fluid, "", "no [time]", "add [time] with step and end"},
       {!in_time && !in_static, "", "neither [time] nor [static]", "add [time] with step and end, or [static]"},
-      {fluid && !scene.inlet, "", "no [inlet]", "add [inlet] with pressure, since there is a fluid"},
+      {fluid && !scene.inlet && scene.openings.empty(), "", "no [inlet]",
+       "add [inlet] with pressure, since there is a fluid, or [[opening]]"},
       {!fluid && scene.inlet, "inlet", "stands in a case without fluid", "rename it to [load], or add [fluid]"},
       {!fluid && !scene.load, "", "no [load]", "add [load] with pressure, since there is no fluid"},
       {fluid && scene.load, "load", "is for a wall without fluid", "rename it to [inlet], or remove it"},
@@ -146,6 +148,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   scene.path = file;
   read_keys(whole_case, case_keys(), scene);
   check_sections(whole_case, scene);
+  check_openings(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_output_times(whole_case, scene);

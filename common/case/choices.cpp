@@ -43,6 +43,13 @@ const NameTable<Geometry>& geometries() {
   return table;
 }
 
+const NameTable<InflowProfile>& inflow_profiles() {
+  static const NameTable<InflowProfile> table("profile", {{"plug", InflowProfile::plug},
+                                                          {"parabolic", InflowProfile::parabolic},
+                                                          {"womersley", InflowProfile::womersley}});
+  return table;
+}
+
 const NameTable<TimeScheme>& time_schemes() {
   static const NameTable<TimeScheme> table{"time.scheme",
                                            {{"euler", TimeScheme::euler},

@@ -53,6 +53,10 @@ enum class ToleranceOf {
 };
 
 const NameTable<TimeScheme>& time_schemes();
+
+/// The velocity over an opening whose flow is given.
+enum class InflowProfile { plug, parabolic, womersley };
+const NameTable<InflowProfile>& inflow_profiles();
 const NameTable<ToleranceOf>& tolerance_kinds();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();

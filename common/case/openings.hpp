@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case/case.hpp"
@@ -13,14 +14,37 @@ namespace fsi {
 struct OpeningData {
   std::string surface;                    ///< name of the facet group
   std::optional<PressureTable> pressure;  ///< on the fluid from outside; none: free of traction
+  std::optional<FlowRateData> flow_rate{};
+  std::optional<OutflowLaw> outflow_law{};
+  bool demanded = true;  ///< of the mesh; else it may have no such surface
 };
 
-/// The open boundaries of a case with fluid, in the order in which scenes and loads hold them.
+/// The open boundaries of a case with fluid, in the order in which scenes and loads hold them: `inlet` of a case with
+/// [inlet], those of [[opening]] by name, and `outlet` where none of them is it. With [[opening]] the mesh need not have
+/// the latter.
 inline std::vector<OpeningData> openings_of(const Case& setup) {
   if (!setup.fluid) return {};
-  std::vector<OpeningData> openings{{group::inlet, setup.inlet}};
-  if (setup.fluid->outlet) openings.push_back({group::outlet, std::nullopt});
+  std::vector<OpeningData> openings;
+  if (setup.inlet || setup.openings.empty()) openings.push_back({group::inlet, setup.inlet});
+  for (const auto& [surface, conditions] : setup.openings)
+    openings.push_back({surface, conditions.pressure, conditions.flow_rate, conditions.outflow_law});
+  if (setup.fluid->outlet && setup.openings.count(group::outlet) == 0) {
+    openings.push_back({group::outlet, std::nullopt});
+    openings.back().demanded = setup.openings.empty();
+  }
   return openings;
+}
+
+/// The tables over time of a case with their keys, in which steps end at jumps.
+inline std::vector<std::pair<std::string, const PressureTable*>> tables_over_time(const Case& setup) {
+  std::vector<std::pair<std::string, const PressureTable*>> tables;
+  if (setup.inlet) tables.emplace_back("inlet.pressure", &*setup.inlet);
+  if (setup.load) tables.emplace_back("load.pressure", &*setup.load);
+  for (const auto& [surface, conditions] : setup.openings) {
+    if (conditions.pressure) tables.emplace_back("opening." + surface + ".pressure", &*conditions.pressure);
+    if (conditions.flow_rate) tables.emplace_back("opening." + surface + ".flow_rate", &conditions.flow_rate->table);
+  }
+  return tables;
 }
 
 }  // namespace fsi

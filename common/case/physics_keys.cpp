@@ -8,6 +8,8 @@
 #include "base/names.hpp"
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
+#include "case/opening_keys.hpp"
+#include "case/table_input.hpp"
 #include "materials/material.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
@@ -17,7 +19,6 @@ namespace fsi {
 namespace {
 
 constexpr int most_steps = 1'000'000;
-constexpr std::size_t most_rows = 100'000;     // of a table of pressures
 constexpr double smallest_part_of_end = 1e-9;  // of an adaptive step; times are told apart to 12 digits
 constexpr bool required = true, optional = false;
 
@@ -190,86 +191,36 @@ std::vector<CaseKey<StructureData>> structure_keys() {
 
 // [inlet], [load].
 
-/// `pressure` and `until` as they stand in the file.
-struct PressureInput {
-  PressureTable table;
-  bool is_table = false;
-  std::optional<double> until;
-};
-
-void read_pressure(const CaseEntry& entry, PressureInput& input) {
-  input.is_table = entry.is_array();
-  if (!input.is_table) {
-    input.table.points = {{0.0, entry.number(quantity::pressure())}};
-    return;
-  }
-  bool warned_of_time = false, warned_of_pressure = false;  // once is enough
-  auto& points = input.table.points;
-  const auto rows = entry.elements();
-  if (rows.size() > most_rows)
-    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_rows));
-  for (const auto& row : rows) {
-    const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
-    if (pair.size() != 2) row.refuse_value("is no pair", "give [time, pressure]");
-    points.emplace_back(pair[0].number(), pair[1].number());
-    if (!warned_of_time) warned_of_time = pair[0].warn_of_unit(quantity::time(), points.back().first);
-    if (!warned_of_pressure) warned_of_pressure = pair[1].warn_of_unit(quantity::pressure(), points.back().second);
-    const auto n = points.size();
-    if (n > 1 && points[n - 1].first < points[n - 2].first)
-      row.refuse_value(fmt::format("comes before the time {} of the row above", points[n - 2].first),
-                       "sort the table by time");
-    if (n > 2 && points[n - 1].first == points[n - 3].first)
-      row.refuse_value("is the third row with this time", "give two rows for a jump");
-  }
-  if (points.empty()) entry.refuse_name("is empty", "give at least one row [time, pressure]");
-}
-
-void read_until(const CaseEntry& entry, PressureInput& input) {
-  input.until = entry.number(quantity::time());
-  if (!(*input.until > 0)) entry.refuse_value("is not positive", "give a time > 0");
-}
-
-void check_pressure(const CaseEntry& entry, PressureInput& input) {
-  if (!input.until) return;
-  if (input.is_table)
-    entry.child("until").refuse("stands beside a table of pressures",
-                                "remove it; the table says when the pressure ends");
-  auto& points = input.table.points;
-  const double pressure = points.front().second;
-  points = {{0.0, pressure}, {*input.until, pressure}, {*input.until, 0.0}};
-}
-
-std::vector<CaseKey<PressureInput>> pressure_keys() {
-  const auto unlisted = [](const PressureInput&) { return std::string(); };  // the section lists the table
+std::vector<CaseKey<TableInput>> pressure_keys() {
+  const auto unlisted = [](const TableInput&) { return std::string(); };  // the section lists the table
+  const auto read = [](const CaseEntry& entry, TableInput& input) { read_table(entry, pressure_kind(), false, input); };
   return {
-      leaf<PressureInput>("pressure", required,
-                          "pressure in {unit}, or a table of [time in ms, pressure in {unit}], linear in between",
-                          {read_pressure, unlisted, "", quantity::pressure().unit}),
-      leaf<PressureInput>("until", optional,
-                          "time in {unit} at which a constant pressure falls to 0; without it the pressure stays",
-                          {read_until, unlisted, "", quantity::time().unit}),
+      leaf<TableInput>("pressure", required,
+                       "pressure in {unit}, or a table of [time in ms, pressure in {unit}], linear in between",
+                       {read, unlisted, "", quantity::pressure().unit}),
+      leaf<TableInput>("until", optional,
+                       "time in {unit} at which a constant pressure falls to 0; without it the pressure stays",
+                       {read_until, unlisted, "", quantity::time().unit}),
   };
 }
 
 CaseKey<Case> pressure_section(const std::string& name, const std::string& about,
                                std::optional<PressureTable> Case::*place) {
-  const auto input = section<PressureInput, PressureInput>(
-      name, optional, about, pressure_keys(), [](PressureInput& all) -> PressureInput& { return all; },
-      [](const PressureInput& all) { return &all; }, KeyRole::physics, check_pressure);
+  const auto input = section<TableInput, TableInput>(
+      name, optional, about, pressure_keys(), [](TableInput& all) -> TableInput& { return all; },
+      [](const TableInput& all) { return &all; }, KeyRole::physics,
+      [](const CaseEntry& entry, TableInput& all) { finish_table(entry, pressure_kind(), all); });
   return {name,
           optional,
           about,
           [read = input.read, place](const CaseEntry& entry, Case& scene) {
-            PressureInput given;
+            TableInput given;
             read(entry, given);
             scene.*place = given.table;
           },
           [place](const Case& scene, const std::string& path, std::vector<CaseValue>& values) {
             if (!(scene.*place)) return;
-            std::vector<std::string> rows;
-            for (const auto& [time, pressure] : (scene.*place)->points)
-              rows.push_back(fmt::format("[{}, {}]", time, pressure));
-            values.push_back({path + ".pressure", fmt::format("[{}]", fmt::join(rows, ", ")), KeyRole::physics});
+            values.push_back({path + ".pressure", text_of_table(*(scene.*place)), KeyRole::physics});
           },
           KeyRole::physics,
           input.below};
@@ -424,6 +375,7 @@ std::vector<CaseKey<Case>> physics_keys() {
       scene_section("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
                     &Case::structure),
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
+      opening_key(),
       pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),
       scene_section<TimeData>("time", "a run in time", time_keys(), &Case::time, check_time),
       scene_section("static", "a wall without inertia, instead of [time]", static_keys(), &Case::static_load),

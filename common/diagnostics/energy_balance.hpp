@@ -110,9 +110,25 @@ class EnergyBalance {
         record.inlet_kinetic -= kinetic;
       else
         record.outlet_kinetic += kinetic;
-      if (i < pressures.size() && pressures[i] != 0)
-        record.inlet_work -= in.duration * pressures[i] * open[i].outflow(balance.at.fluid);
+      const double pressure = open[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in.balance);
+      if (pressure != 0) record.inlet_work -= in.duration * pressure * open[i].outflow(balance.at.fluid);
     }
+    if (!scene_.inflows.empty()) record.inlet_work += in.duration * inflow_power(balance);
+  }
+
+  /// Of the forces that make the velocities at openings whose flow is given, uJ/ms: the rows of the equations there are
+  /// what these forces are.
+  double inflow_power(const Balance& balance) const {
+    std::vector<double> rows;
+    scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures, rows);
+    double power = 0;
+    for (const auto& inflow : scene_.inflows)
+      for (const int node : inflow.nodes())
+        for (int k = 0; k < n; ++k) {
+          const std::size_t at = MixedLayout<n>::vector(node, k);
+          power += rows[at] * balance.at.fluid[at];
+        }
+    return power;
   }
 
   void add_wall(const State& state, const Balance& balance, double weight, double step,

@@ -32,6 +32,7 @@
 #include "driver/load_scene.hpp"
 #include "driver/march.hpp"
 #include "driver/observables.hpp"
+#include "driver/opening_observer.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
 #include "io/earlier_fields.hpp"
@@ -142,7 +143,8 @@ class Run {
         stepper_(make_stepper.make(*scene_, loads_, setup)),
         march_(setup, *scene_, *stepper_, loads_, [this](const std::string& said) { say(said); }),
         state_(scene_->at_rest()),
-        observables_(loaded_.points, *scene_) {
+        observables_(loaded_.points, *scene_),
+        openings_(setup, *scene_) {
     set_memory_notices([this](const std::string& said) { say(said); });
     if (scene_->is_static()) return;
     ringing_.emplace(scene_time(setup, *scene_));
@@ -157,6 +159,7 @@ class Run {
     const Activity activity("preparing the first step");
     const bool restarted = !line_.restart.empty();
     ResultTables tables = observables_.tables();
+    tables.openings = openings_.names();
     tables.coupling = stepper_->reports_coupling();
     if (setup_.output.energy) tables.energy = EnergyBalance<n>::parts_of(*scene_);
     // All that a restart reads is checked before anything is written.
@@ -361,6 +364,7 @@ class Run {
   double observed_until() const { return lagging() ? state_.times[1] : state_.time; }
   void observe(const State& level, ResultFolder& folder, FieldOutput<n>& fields) {
     observables_.write(level, folder);
+    openings_.write(level, folder);
     if (fields.write(level) && level.time <= observed_until()) ++field_entries_;
   }
   /// The tables hold what a restart from this step goes on from.
@@ -430,6 +434,7 @@ class Run {
     EarlierTables earlier(line_.restart, tables, past);
     StoredSteps steps = stored_steps(file, checkpoint, state_, earlier.times());
     if (past.levels > 0) observables_.require_same(lagging() ? level_before() : state_, earlier);
+    if (past.levels > 0) openings_.require_same(lagging() ? level_before() : state_, earlier);
     recall_fields(file, checkpoint);
 
     const Stretch before = steps.stretches.back();
@@ -511,6 +516,7 @@ class Run {
   TableDigests digests_;
   std::int64_t field_entries_ = 0;  ///< of the levels up to observed_until()
   Observables<n> observables_;
+  OpeningObserver<n> openings_;
   std::optional<EnergyBalance<n>> energy_;
   StepRecord total_;
   std::string step_change_;  ///< said when the run goes on with another step

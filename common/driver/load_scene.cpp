@@ -25,6 +25,7 @@
 #include "mesh/sampling.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/build_scene.hpp"
+#include "scene/required_openings.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
@@ -119,17 +120,29 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
   return made;
 }
 
+/// Names of its groups of facets that are not empty.
+template <class Mesh>
+std::vector<std::string> surfaces_of(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const auto& group : mesh.facet_groups)
+    if (!group.facets.empty()) names.push_back(group.name);
+  return names;
+}
+
 /// The mesh of a case, checked against what the scene needs and renumbered (reverse Cuthill-McKee). Volumes that the
 /// scene does not need are left out, save `fluid` under a wall alone: its interface is where the pressure acts.
 template <class Element>
 MeshOf<Element> load_mesh(const Case& setup) {
   SceneMeshNeeds needs;
   needs.fluid = setup.fluid.has_value();
-  for (const auto& opening : openings_of(setup)) (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
+  if (setup.openings.empty())
+    for (const auto& opening : openings_of(setup))
+      (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
   needs.geometry = triangle_geometry<Element>;
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
+  if (!setup.openings.empty()) needs.openings = required_openings(setup, surfaces_of(mesh), mesh_name(setup));
   check_scene_mesh(mesh, needs, mesh_source(setup));
   // Made meshes come in a good order already.
   auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));

@@ -39,6 +39,8 @@ void for_each_array(StateType& state, Visit visit) {
     visit(fmt::format("level{}.mesh", level), state.before[level].mesh);
     visit(fmt::format("level{}.flow", level), state.before[level].fluid);
     visit(fmt::format("level{}.wall", level), state.before[level].wall);
+    if (!state.before[level].windkessel.empty())
+      visit(fmt::format("level{}.windkessel", level), state.before[level].windkessel);
   }
   visit("wall_velocity", state.wall_velocity);
   visit("wall_acceleration", state.wall_acceleration);
@@ -47,11 +49,14 @@ void for_each_array(StateType& state, Visit visit) {
     visit(fmt::format("balance{}.mesh", k), state.balances[k].mesh);
     visit(fmt::format("balance{}.flow", k), state.balances[k].fluid);
     visit(fmt::format("balance{}.wall", k), state.balances[k].wall);
+    if (!state.balances[k].windkessel.empty())
+      visit(fmt::format("balance{}.windkessel", k), state.balances[k].windkessel);
   }
   visit("wall_velocity_before", state.wall_velocity_before);
   visit("rate.mesh", state.rate.mesh);
   visit("rate.flow", state.rate.fluid);
   visit("rate.wall", state.rate.wall);
+  if (!state.rate.windkessel.empty()) visit("rate.windkessel", state.rate.windkessel);
   visit("rate.wall_velocity", state.velocity_rate);
   visit("rate.loads", state.load_rates);
 }

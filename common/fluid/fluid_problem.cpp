@@ -28,7 +28,8 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
   residual.assign(space_.mixed_size(), 0.0);
   const auto result =
       assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
-  for (std::size_t i = 0; i < pressures.size(); ++i) open_[i].add_pressure(pressures[i], residual);
+  for (std::size_t i = 0; i < open_.size(); ++i)
+    open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), residual);
   return result;
 }
 

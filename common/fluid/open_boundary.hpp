@@ -1,12 +1,17 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fem/facet_load.hpp"
+#include "fluid/fluid_input.hpp"
+#include "fluid/outflow_law.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -28,6 +33,28 @@ class OpenBoundary {
         kinetic_flux_(std::move(kinetic_flux)) {}
 
   const std::string& name() const { return name_; }
+  /// Integrals of N_a n, as a flow array, mm^2.
+  const std::vector<double>& normals() const { return normals_; }
+  /// Whether there is a surface at all.
+  bool empty() const {
+    return std::all_of(areas_.begin(), areas_.end(), [](double area) { return area == 0; });
+  }
+
+  /// Lets a law say what pressure answers the flow. \param place  of its p_c among those of all openings
+  void set_law(const OutflowLaw& law, std::size_t place) {
+    law_ = law;
+    place_ = place;
+  }
+  /// Null where the outside pressure does not depend on the flow.
+  const OutflowLaw* law() const { return law_ ? &*law_ : nullptr; }
+  /// Of the p_c of a law that stores, in Solution::windkessel.
+  std::size_t place() const { return place_; }
+  /// The pressure from outside at a balance, kPa. \param applied  of a table
+  double outside_pressure(double applied, const FluidInput& in) const {
+    if (!law_) return applied;
+    const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
+    return applied + law_->pressure(in.fluid_factor, reference, outflow(in.fluid));
+  }
 
   /// Adds to the fluid's residual what the traction J sigma F^-T N = -pressure N leaves there.
   void add_pressure(double pressure, std::vector<double>& residual) const {
@@ -36,9 +63,8 @@ class OpenBoundary {
   }
 
   /// Of a flow array (u, p): volume flow outward, mm^3/ms.
-  double outflow(const std::vector<double>& flow) const {
-    return std::inner_product(normals_.begin(), normals_.end(), flow.begin(), 0.0);
-  }
+  double outflow(const std::vector<double>& flow) const { return outflow(flow.data()); }
+  double outflow(const double* flow) const { return std::inner_product(normals_.begin(), normals_.end(), flow, 0.0); }
   /// Mean pressure, kPa; 0 on an empty surface.
   double mean_pressure(const std::vector<double>& flow) const {
     double integral = 0, area = 0;
@@ -58,6 +84,8 @@ class OpenBoundary {
   std::vector<double> normals_;  ///< as flow arrays
   std::vector<double> areas_;    ///< per node
   KineticFlux kinetic_flux_;
+  std::optional<OutflowLaw> law_;
+  std::size_t place_ = 0;
 };
 
 /// \param nodes   reference positions of the fluid's nodes, mm

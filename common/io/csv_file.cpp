@@ -30,10 +30,19 @@ CsvFile::CsvFile(const std::filesystem::path& file, const std::string& header, b
 }
 
 void CsvFile::write(const std::vector<std::vector<double>>& rows) {
+  write(rows, {});
+}
+
+void CsvFile::write(const std::vector<std::vector<double>>& rows, const std::vector<std::string>& names) {
+  assert(names.empty() || names.size() == rows.size());
   fmt::memory_buffer text;
-  for (const auto& row : rows) {
-    assert(row.size() == columns_);
-    for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(std::back_inserter(text), i > 0 ? ",{}" : "{}", row[i]);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto& row = rows[r];
+    assert(row.size() + (names.empty() ? 0 : 1) == columns_);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      fmt::format_to(std::back_inserter(text), i > 0 ? ",{}" : "{}", row[i]);
+      if (i == 0 && !names.empty()) fmt::format_to(std::back_inserter(text), ",{}", names[r]);
+    }
     text.push_back('\n');
   }
   file_.require_undisturbed();

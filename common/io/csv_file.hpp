@@ -19,6 +19,8 @@ class CsvFile {
   /// when the disk is full, or when the file has been deleted or changed by somebody else; no part of a row stays then,
   /// if the file can be cut
   void write(const std::vector<std::vector<double>>& rows);
+  /// The same with a name as the second column of each row. \param names  without commas
+  void write(const std::vector<std::vector<double>>& rows, const std::vector<std::string>& names);
   void write(const std::vector<double>& row) { write(std::vector<std::vector<double>>{row}); }
 
   /// Onto the disk, and closes. \throws WriteError

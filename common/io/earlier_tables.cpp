@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checked_file.hpp"
 #include "io/table_reader.hpp"
@@ -138,11 +139,11 @@ EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const
 }
 
 EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, const EarlierSteps& steps) const {
-  TableReader reader(folder_ / table.file, table.header);
+  TableReader reader(folder_ / table.file, table.header, !table.names.empty());
   const std::vector<double>* z = table.file == centerline_table().file ? &steps.centre_z
                                  : table.file == wall_table().file     ? &steps.wall_z
                                                                        : nullptr;
-  const std::size_t rows = z == nullptr ? 1 : z->size();
+  const std::size_t rows = z != nullptr ? z->size() : std::max<std::size_t>(1, table.names.size());
   const double length = z == nullptr || z->empty() ? 0 : std::max(std::abs(z->front()), std::abs(z->back()));
   Part part{table.file};
   double time = 0;
@@ -157,6 +158,9 @@ EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, cons
       if (z != nullptr && !same(reader.row()[1], (*z)[i], length))
         reader.refuse_line(fmt::format("is of z = {:g} mm, not {:g}: rows are missing, doubled or out of order",
                                        reader.row()[1], (*z)[i]));
+      if (!table.names.empty() && reader.name() != table.names[i])
+        reader.refuse_line(fmt::format("is of the opening {}, not {}: rows are missing, doubled or out of order",
+                                       printable(reader.name()), table.names[i]));
       if (step == steps.levels) part.last_level.insert(part.last_level.end(), reader.row().begin(), reader.row().end());
     }
   }

@@ -27,7 +27,8 @@ namespace {
 const std::vector<std::string>& result_files() {
   static const std::vector<std::string> files = [] {
     std::vector<std::string> names{"summary.json", "fields.h5", "fields.xdmf", "checkpoint.h5", "run.log"};
-    for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts()})) names.push_back(table.file);
+    for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts(), {"any"}}))
+      names.push_back(table.file);
     return names;
   }();
   return files;
@@ -175,6 +176,8 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.centerline_pressure) open(centerline_, centerline_table());
   if (tables.wall_displacement) open(wall_, wall_table());
   if (tables.flow) open(flow_, flow_table());
+  opening_names_ = tables.openings;
+  if (!opening_names_.empty()) open(openings_, openings_table(opening_names_));
   if (tables.coupling) open(coupling_, coupling_table());
   energy_parts_ = tables.energy;
   if (energy_parts_) open(energy_, energy_table(*energy_parts_));
@@ -212,6 +215,17 @@ void ResultFolder::write_flow(double time, const FlowRecord& flow) {
                pascal_per_kilopascal * flow.outlet_pressure}});
 }
 
+void ResultFolder::write_openings(double time, const std::vector<OpeningRecord>& openings) {
+  const std::string file = openings_table({}).file;
+  std::vector<std::vector<double>> rows;
+  for (const OpeningRecord& opening : openings) {
+    rows.push_back({time, opening.flow, pascal_per_kilopascal * opening.mean_pressure,
+                    pascal_per_kilopascal * opening.windkessel_pressure});
+    require_finite(rows.back(), "a number of " + file);
+  }
+  openings_->write(rows, opening_names_);
+}
+
 void ResultFolder::write_iterations(const StepRecord& record) {
   write_rows(*iterations_, iterations_table().file,
              {{static_cast<double>(record.step), record.time, static_cast<double>(record.outer_iterations),
@@ -235,7 +249,7 @@ void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& en
 }
 
 void ResultFolder::close() {
-  for (auto* table : {&centerline_, &wall_, &flow_, &iterations_, &coupling_, &energy_})
+  for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_})
     if (*table) (*table)->close();
 }
 

@@ -23,6 +23,13 @@ struct FlowRecord {
   double outlet_pressure = 0;  ///< kPa; written in Pa
 };
 
+/// What openings.csv says of an opening at a level.
+struct OpeningRecord {
+  double flow = 0;                 ///< mm^3/ms, out of the fluid
+  double mean_pressure = 0;        ///< of the fluid, over the surface, kPa; written in Pa
+  double windkessel_pressure = 0;  ///< stored; behind a resistance the distal pressure, else 0; kPa; written in Pa
+};
+
 /// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, whether its
 /// summary can be read or not, they are worth the time they took. A folder whose run has not come to the end of a step
 /// may be used again.
@@ -58,6 +65,8 @@ class ResultFolder {
   void write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
                   const std::vector<double>& axial);
   void write_flow(double time, const FlowRecord& flow);
+  /// \param openings  in the order of ResultTables::openings
+  void write_openings(double time, const std::vector<OpeningRecord>& openings);
   void write_iterations(const StepRecord& record);
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
@@ -74,7 +83,8 @@ class ResultFolder {
   std::filesystem::path folder_;
   std::optional<EnergyParts> energy_parts_;
   std::map<std::string, TableDigest> digests_;
-  std::optional<CsvFile> centerline_, wall_, flow_, iterations_, coupling_, energy_;
+  std::vector<std::string> opening_names_;
+  std::optional<CsvFile> centerline_, wall_, flow_, openings_, iterations_, coupling_, energy_;
 };
 
 }  // namespace fsi

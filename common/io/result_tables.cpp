@@ -23,6 +23,10 @@ ResultTable flow_table() {
   return {"flow.csv", "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
 }
 
+ResultTable openings_table(const std::vector<std::string>& names) {
+  return {"openings.csv", "time_ms,opening,flow_mm3_per_ms,mean_pressure_Pa,windkessel_pressure_Pa", false, names};
+}
+
 ResultTable coupling_table() {
   return {
       "coupling.csv",
@@ -41,6 +45,7 @@ std::vector<ResultTable> tables_of(const ResultTables& wanted) {
   if (wanted.centerline_pressure) tables.push_back(centerline_table());
   if (wanted.wall_displacement) tables.push_back(wall_table());
   if (wanted.flow) tables.push_back(flow_table());
+  if (!wanted.openings.empty()) tables.push_back(openings_table(wanted.openings));
   if (wanted.coupling) tables.push_back(coupling_table());
   if (wanted.energy) tables.push_back(energy_table(*wanted.energy));
   return tables;

@@ -17,6 +17,7 @@ struct ResultTables {
   bool flow = false;                    ///< scenes with fluid
   bool coupling = false;                ///< partitioned runs
   std::optional<EnergyParts> energy{};  ///< unless the case does not want it
+  std::vector<std::string> openings{};  ///< names of those that openings.csv has rows for; empty: no such table
 };
 
 /// A table of a result folder.
@@ -24,6 +25,8 @@ struct ResultTable {
   std::string file;
   std::string header;
   bool of_steps = false;  ///< a row for each step, `step,time_ms,...`; else rows for each level, `time_ms,...`
+  /// A row for each of these at each level, the name in the second column. Empty: all columns are numbers.
+  std::vector<std::string> names{};
 };
 
 /// By name: what each table is. energy.csv has the columns of the parts that a scene has.
@@ -31,6 +34,7 @@ ResultTable iterations_table();
 ResultTable centerline_table();
 ResultTable wall_table();
 ResultTable flow_table();
+ResultTable openings_table(const std::vector<std::string>& names);
 ResultTable coupling_table();
 ResultTable energy_table(const EnergyParts& parts);
 

@@ -19,7 +19,8 @@ constexpr const char* remedy = "restart from a folder whose tables are whole, or
 
 }  // namespace
 
-TableReader::TableReader(std::filesystem::path file, const std::string& header) : file_(std::move(file)) {
+TableReader::TableReader(std::filesystem::path file, const std::string& header, bool named)
+    : file_(std::move(file)), named_(named) {
   std::error_code error;
   if (!std::filesystem::exists(file_, error)) refuse("missing");
   if (!std::filesystem::is_regular_file(file_, error)) refuse("is no file");
@@ -51,6 +52,12 @@ TableReader::Found TableReader::next() {
   row_.clear();
   const char *at = text_.data(), *const end = at + text_.size();
   while (true) {
+    if (named_ && row_.size() == 1) {
+      const char* const behind = std::find(at, end, ',');
+      if (behind == end) return Found::no_row;
+      name_.assign(at, behind);
+      at = behind + 1;
+    }
     double number = 0;
     const auto [stop, error] = std::from_chars(at, end, number);
     if (error != std::errc() && error != std::errc::result_out_of_range) return Found::no_row;
@@ -59,7 +66,7 @@ TableReader::Found TableReader::next() {
     if (*stop != ',') return Found::no_row;
     at = stop + 1;
   }
-  return row_.size() == columns_ ? Found::row : Found::no_row;
+  return row_.size() + (named_ ? 1 : 0) == columns_ ? Found::row : Found::no_row;
 }
 
 void TableReader::refuse_line(const std::string& problem) const {

@@ -8,11 +8,12 @@
 
 namespace fsi {
 
-/// Reads a CSV table of numbers row by row, in bounded memory whatever the file holds.
+/// Reads a CSV table of numbers, its second column perhaps names, row by row, in bounded memory whatever the file holds.
 class TableReader {
  public:
   /// \throws InputError when the file is missing, no regular file, or begins with another line than `header`
-  TableReader(std::filesystem::path file, const std::string& header);
+  /// \param named  whether the second column holds names
+  TableReader(std::filesystem::path file, const std::string& header, bool named = false);
 
   /// What stands at a place of the table.
   enum class Found {
@@ -25,6 +26,8 @@ class TableReader {
 
   /// Of the last row found.
   const std::vector<double>& row() const { return row_; }
+  /// The name in the last row found, which row() leaves out; empty where the table has none.
+  const std::string& name() const { return name_; }
   /// Number of the last line read; the header's is 1.
   std::int64_t line() const { return line_; }
   /// Bytes from the beginning of the file up to the end of the last line read.
@@ -44,6 +47,8 @@ class TableReader {
   std::ifstream stream_;
   std::string text_;
   std::vector<double> row_;
+  std::string name_;
+  bool named_;
   std::size_t columns_ = 0;
   std::int64_t line_ = 0;
   std::uint64_t bytes_ = 0;

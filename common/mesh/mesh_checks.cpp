@@ -236,6 +236,10 @@ class Checks {
       surface(group::outlet, {fluid_}, "the fluid", needs_.outlet);
       disjoint(group::inlet, group::outlet);
     }
+    for (std::size_t i = 0; i < needs_.openings.size(); ++i) {
+      surface(needs_.openings[i], {fluid_}, "the fluid", true);
+      for (std::size_t j = 0; j < i; ++j) disjoint(needs_.openings[j].c_str(), needs_.openings[i].c_str());
+    }
     if (!layers_.empty()) {
       surface(group::wall_ends, layers_, wall, !supported_by_symmetry());
       surface(group::outer, layers_, wall, false);
@@ -280,6 +284,7 @@ class Checks {
         flat(plane);
       disjoint(group::inlet, name.c_str());
       disjoint(group::outlet, name.c_str());
+      for (const auto& opening : needs_.openings) disjoint(opening.c_str(), name.c_str());
     }
   }
 

@@ -9,11 +9,12 @@ namespace fsi {
 
 /// What a scene asks of its mesh.
 struct SceneMeshNeeds {
-  bool fluid = false;               ///< a volume `fluid`
-  std::vector<std::string> layers;  ///< names of the wall's volumes; empty: no wall
-  bool inlet = false;               ///< a surface `inlet` on the fluid
-  bool outlet = false;              ///< a surface `outlet` on the fluid
-  bool inner_surface = false;       ///< a surface `inner` on the wall (a wall without fluid)
+  bool fluid = false;                   ///< a volume `fluid`
+  std::vector<std::string> layers;      ///< names of the wall's volumes; empty: no wall
+  bool inlet = false;                   ///< a surface `inlet` on the fluid
+  bool outlet = false;                  ///< a surface `outlet` on the fluid
+  std::vector<std::string> openings{};  ///< further surfaces on the fluid, that it passes through
+  bool inner_surface = false;           ///< a surface `inner` on the wall (a wall without fluid)
   /// Of triangle meshes: what is there called a volume is a physical surface, and what is called a surface a curve.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;
 };

@@ -145,10 +145,13 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   boundary.velocity = boundary.mesh = DirichletConditions<n>(nodes);
   std::vector<FacetsOf<Element>> not_closed{interface};
   for (const auto& plane : symmetry_planes(mesh)) not_closed.push_back(plane.group->facets);
+  std::size_t stores = 0;
   for (const auto& opening : openings) {
     const FacetsOf<Element> facets = group_facets(mesh, opening.surface);
     not_closed.push_back(facets);
     boundary.open.push_back(open_boundary<Element>(opening.surface, fluid.nodes, in_part<Element>(fluid, facets)));
+    if (opening.outflow_law) boundary.open.back().set_law(*opening.outflow_law, stores);
+    stores += opening.outflow_law && opening.outflow_law->stores() ? 1 : 0;
     const auto on = nodes_on<Element>(fluid, facets);
     for (int a = 0; a < nodes; ++a)
       if (on[a]) boundary.mesh.fix(a);
@@ -162,6 +165,18 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   boundary.mirrored = mirrored_components<Element>(mesh, fluid);
   fix<n>(boundary.mirrored, {&boundary.velocity, &boundary.mesh});
   const auto wet = nodes_on<Element>(fluid, interface);
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    if (!openings[i].flow_rate || boundary.open[i].empty()) continue;
+    InflowNodes inflow{i, {}, std::vector<char>(nodes, 0)};
+    const auto on = nodes_on<Element>(fluid, group_facets(mesh, openings[i].surface));
+    for (int a = 0; a < nodes; ++a) {
+      inflow.sticking[a] = closed[a] || wet[a];
+      if (!on[a] || inflow.sticking[a]) continue;
+      boundary.velocity.fix(a);
+      inflow.nodes.push_back(a);
+    }
+    boundary.inflows.push_back(std::move(inflow));
+  }
   const auto areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, interface));
   for (int a = 0; a < nodes; ++a) {
     if (!wet[a]) continue;

@@ -43,6 +43,13 @@ VanishingComponents<Element::components> mirrored_components(const MeshOf<Elemen
 template <class Element>
 DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall);
 
+/// Where the velocity of an opening is prescribed by its flow.
+struct InflowNodes {
+  std::size_t opening;         ///< its number
+  std::vector<int> nodes;      ///< of the fluid, but for those where it sticks
+  std::vector<char> sticking;  ///< per node of the fluid
+};
+
 /// What bounds the fluid.
 template <class Element>
 struct FluidBoundary {
@@ -50,12 +57,14 @@ struct FluidBoundary {
   std::vector<InterfaceNode> interface;
   std::vector<double> interface_areas;  ///< that belongs to each of its nodes, mm^2
   std::vector<OpenBoundary<Element::components>> open;
+  std::vector<InflowNodes> inflows;                   ///< of the openings whose flow is given
   VanishingComponents<Element::components> mirrored;  ///< normal to planes of symmetry, radial on the axis
 };
 
 /// No slip on every facet that is neither open nor interface nor on a symmetry plane or the axis, and on the rims where
 /// the wall's clamped ends meet the fluid; a mesh at rest there and on the open boundaries. On symmetry planes and on
-/// the axis the normal components are zero, of the velocity and of the mesh.
+/// the axis the normal components are zero, of the velocity and of the mesh. Where the flow through an opening is given,
+/// the velocity of its nodes is prescribed, save where the fluid sticks or moves with the interface.
 /// \param interface   facets between fluid and wall, nodes of the whole mesh
 /// \param wall        the wall's part and its conditions; null pointers without wall
 template <class Element>

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fem/elements.hpp"
+#include "fem/facet_load.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
@@ -25,6 +26,29 @@ CylinderAxis cylinder_axis(const StructureData& data) {
     axis.direction[i] = d[i] / length;
   }
   return axis;
+}
+
+/// The velocity profile of an opening whose flow is given.
+template <class Element>
+PrescribedInflow<Element::components> prescribed_inflow(const Case& setup, const MeshOf<Element>& mesh,
+                                                        const PartOf<Element>& part, InflowNodes inflow) {
+  constexpr int n = Element::components;
+  const OpeningData opening = openings_of(setup).at(inflow.opening);
+  const auto facets = in_part<Element>(part, group_facets(mesh, opening.surface));
+  // A plug, until there are profiles.
+  const auto normals = normal_weights<Element, VectorLayout<n>>(part.nodes, facets);
+  std::vector<double> unit(normals.size(), 0.0);
+  Direction<n> direction{};
+  for (std::size_t i = 0; i < normals.size(); ++i) direction[i % n] -= normals[i];
+  double flow = 0;
+  for (const int node : inflow.nodes)
+    for (int k = 0; k < n; ++k) flow -= normals[VectorLayout<n>::vector(node, k)] * direction[k];
+  for (const int node : inflow.nodes)
+    for (int k = 0; k < n; ++k) unit[VectorLayout<n>::vector(node, k)] = direction[k] / flow;
+  return {inflow.opening, std::move(inflow.nodes), unit.size(),
+          [unit](double, double rate, std::vector<double>& velocity) {
+            for (std::size_t i = 0; i < unit.size(); ++i) velocity[i] = rate * unit[i];
+          }};
 }
 
 }  // namespace
@@ -68,6 +92,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     auto boundary =
         fluid_boundary<Element>(openings_of(setup), mesh, part, interface, scene->wall ? &wall_part : nullptr,
                                 scene->wall ? &scene->wall_conditions : nullptr);
+    for (InflowNodes& inflow : boundary.inflows)
+      scene->inflows.push_back(prescribed_inflow<Element>(setup, mesh, part, std::move(inflow)));
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
     scene->fluid_frames = boundary.mirrored.frames;

@@ -9,6 +9,7 @@
 #include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "scene/dirichlet_conditions.hpp"
+#include "scene/prescribed_inflow.hpp"
 #include "time/time_integrator.hpp"
 #include "wall/wall.hpp"
 
@@ -33,16 +34,17 @@ class Scene {
   std::unique_ptr<Wall<n>> wall;
   std::unique_ptr<MeshMotion<n>> mesh_motion_problem;  ///< null unless fluid and wall meet
   MeshMotionMatrix<n> mesh_motion;                     ///< its operator; empty unless fluid and wall meet
-  int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
-  bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
-  std::vector<InterfaceNode> interface;  ///< ascending in the fluid's numbers
-  std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
-  std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
-  Conditions velocity_conditions;        ///< of the fluid's velocity
-  Conditions mesh_conditions;            ///< of the mesh displacement
-  Conditions wall_conditions;            ///< of the wall's displacement
-  NodalFrames<n> fluid_frames;           ///< of nodes whose conditions are along no axis of space; for both above
-  NodalFrames<n> wall_frames;            ///< on the interface those of the fluid
+  int mesh_motion_assemblies = 0;            ///< what is made of the matrix is as old as the count it was made at
+  bool keep_constant_operators = true;       ///< false: assembled at each use, to see what keeping them saves
+  std::vector<InterfaceNode> interface;      ///< ascending in the fluid's numbers
+  std::vector<double> interface_areas;       ///< that belongs to each of them, mm^2
+  std::array<int, n> axes{};                 ///< of space, 0 to 2, that the components of vectors lie along
+  Conditions velocity_conditions;            ///< of the fluid's velocity
+  Conditions mesh_conditions;                ///< of the mesh displacement
+  Conditions wall_conditions;                ///< of the wall's displacement
+  std::vector<PrescribedInflow<n>> inflows;  ///< velocities at openings whose flow is given
+  NodalFrames<n> fluid_frames;               ///< of nodes whose conditions are along no axis of space; for both above
+  NodalFrames<n> wall_frames;                ///< on the interface those of the fluid
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
   int predictor = 1;        ///< order of the extrapolated start of each step
   mutable Profile profile;  ///< also of those who only read the scene
@@ -75,8 +77,15 @@ class Scene {
     }
     state.now = zero;
     impose_conditions(state.now);
+    for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
+      if (law.stores()) state.now.windkessel.push_back(law.initial_pressure);
+    });
     state.before = {state.now, state.now, state.now};
     integrator->prepare(state);
+    for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
+      if (law.stores() && !state.rate.windkessel.empty())
+        state.rate.windkessel[open.place()] = law.rate(law.initial_pressure, open.outflow(state.now.fluid));
+    });
     if (!state.velocity_rate.empty() || !state.rate.fluid.empty())
       state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + 1, 0.0);
     return state;
@@ -96,6 +105,7 @@ class Scene {
     in.fluid_reference = rates.fluid_reference.data();
     in.fluid_factor = rates.fluid_factor;
     in.step = rates.interface.period;
+    if (!rates.windkessel_reference.empty()) in.windkessel_reference = rates.windkessel_reference.data();
     return in;
   }
   WallInput wall_input(const Solution& now, const StepRates& rates) const {
@@ -113,6 +123,35 @@ class Scene {
     if (fluid) velocity_conditions.template impose<Mixed>(solution.fluid);
     if (coupled()) mesh_conditions.template impose<Vector>(solution.mesh);
     if (wall) wall_conditions.template impose<Mixed>(solution.wall);
+  }
+
+  /// Calls visit(open boundary, law) for each opening whose pressure answers the flow.
+  template <class Visit>
+  void for_each_law(Visit visit) const {
+    if (!fluid) return;
+    for (const auto& open : fluid->open_boundaries())
+      if (open.law() != nullptr) visit(open, *open.law());
+  }
+  /// Whether the velocity is given wherever fluid may pass, so that nothing but a moving wall determines its pressure.
+  bool has_flow_only() const {
+    if (!fluid || inflows.empty()) return false;
+    std::size_t open = 0;
+    for (const auto& boundary : fluid->open_boundaries()) open += !boundary.empty();
+    return open == inflows.size();
+  }
+
+  /// Writes the velocities of the openings whose flow is given to state.now: so that the stage ends with that flow.
+  void impose_inflows(State& state, const StepData& data) const {
+    for (const auto& inflow : inflows) inflow.impose(state.before[0].fluid, data, state.now.fluid);
+  }
+
+  /// Sets what the Windkessels store at a balance from the flow there.
+  void set_windkessels(Solution& balance, const StepRates& rates) const {
+    for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
+      if (law.stores())
+        balance.windkessel[open.place()] = law.stored_pressure(
+            rates.fluid_factor, rates.windkessel_reference[open.place()], open.outflow(balance.fluid));
+    });
   }
 
   /// Imposes d_m = d_s and the velocity that belongs to it on the interface of state.now.

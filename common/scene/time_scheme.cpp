@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "case/openings.hpp"
 #include "fem/dimensions.hpp"
 #include "scene/wave_speed.hpp"
 #include "time/bdf2.hpp"
@@ -47,12 +48,14 @@ double radius_of_fluid(const Case& setup, const std::vector<Point>& nodes) {
 
 /// Shortest time between two jumps of the load, the start counted among them, ms; infinite when there is no jump.
 double shortest_pulse(const Case& setup) {
-  double shortest = std::numeric_limits<double>::infinity(), last = 0;
-  if (setup.inlet)
-    for (double jump : setup.inlet->jumps()) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& [key, table] : tables_over_time(setup)) {
+    double last = 0;
+    for (double jump : table->jumps(2 * table->period)) {  // of a periodic one between two periods as well
       if (jump > last) shortest = std::min(shortest, jump - last);
       last = jump;
     }
+  }
   return shortest;
 }
 

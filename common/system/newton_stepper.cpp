@@ -72,6 +72,7 @@ StepReport NewtonStepper<n>::advance(State& state) {
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
+    scene_.set_windkessels(state.now, data.rates);
     if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
     scene_.integrator->accept(state, data);
@@ -139,6 +140,7 @@ template <int n>
 NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int predictor) {
   scene_.integrator->predict(state, predictor, data);
   scene_.impose_conditions(state.now);
+  scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
   system_.work_on(state, data);
   NewtonOptions options = options_;

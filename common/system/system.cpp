@@ -32,9 +32,20 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
       interface_(interface_pairs(scene)),
       norm_(norm),
       impedance_(impedance),
-      solver_(make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<n>>(blocks())),
+      solver_(solver_by(make_solver)),
       increment_(numbering_.size),
       weights_(norm_weights()) {}
+
+template <int n>
+std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>& make_solver) {
+  std::unique_ptr<LinearSolver> solver =
+      make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<n>>(blocks());
+  if (numbering_.fluid_rows.empty()) return solver;
+  scene_.for_each_law(
+      [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
+  if (opening_terms_.empty()) return solver;
+  return std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
+}
 
 template <int n>
 JacobianBlocks<n> System<n>::blocks() {
@@ -101,6 +112,9 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   StepData data;
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
+  scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {  // no derivative depends on these
+    if (law.stores()) data.rates.windkessel_reference.push_back(0);
+  });
   if (!point.rates.is_static() && scene_.wall)
     data.rates.acceleration_history.assign(scene_.wall->space().vector_size(), 0.0);
   work_on(state, data);
@@ -258,6 +272,12 @@ AssemblyResult System<n>::assemble(bool derivatives) {
       if (derivatives_ == FluidDerivatives::fluid_and_domain)
         scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
     }
+    if (derivatives) {
+      std::size_t term = 0;
+      scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
+        opening_terms_[term++].slope = law.slope(data_->rates.fluid_factor);
+      });
+    }
     if (impedance_) add_impedance(derivatives);
   }
   if (!numbering_.wall_rows.empty()) {
@@ -318,6 +338,15 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
   if (j.fluid) add(*j.fluid, numbering_.fluid_rows, numbering_.fluid, false);
   if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
+  for (const auto& [normals, slope] : opening_terms_) {
+    double flow = 0;
+    for (std::size_t i = 0; i < normals->size(); ++i)
+      if (const Unknown& column = numbering_.fluid[i]; column.index >= 0)
+        flow += std::abs((*normals)[i] * column.factor) * x[column.index];
+    for (std::size_t i = 0; i < normals->size(); ++i)
+      if (const Unknown& row = numbering_.fluid_rows[i]; row.index >= 0)
+        terms[row.index] += std::abs((*normals)[i] * row.factor) * slope * flow;
+  }
 }
 
 template <int n>

@@ -13,6 +13,7 @@
 #include "system/direct_linear_solver.hpp"
 #include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
+#include "system/low_rank_solver.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {
@@ -91,6 +92,9 @@ class System : public NewtonProblem {
  private:
   static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
 
+  /// The asked-for solver, which knows the openings' pressures that answer the flow where the equations have such.
+  std::unique_ptr<LinearSolver> solver_by(const LinearSolverFactory<n>& make_solver);
+
   AssemblyResult assemble(bool derivatives);
 
   void add_impedance(bool derivatives);
@@ -127,6 +131,7 @@ class System : public NewtonProblem {
   Numbering numbering_;
   FluidDerivatives derivatives_;
   std::vector<InterfacePair> interface_;
+  std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
   SystemNorm norm_;
   const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;

@@ -18,6 +18,7 @@ void for_each_field(Function function) {
   function(&Solution::mesh);
   function(&Solution::fluid);
   function(&Solution::wall);
+  function(&Solution::windkessel);
 }
 
 std::vector<double> combine(double a, const std::vector<double>& x, double b, const std::vector<double>& y) {
@@ -132,6 +133,7 @@ StepRates BalanceScheme<n>::rates_from(double step, double k, References referen
   rates.mesh_reference = std::move(references.of.mesh);
   rates.fluid_reference = std::move(references.of.fluid);
   rates.wall_reference = std::move(references.of.wall);
+  rates.windkessel_reference = std::move(references.of.windkessel);
   return rates;
 }
 

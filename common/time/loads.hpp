@@ -51,11 +51,20 @@ class Loads {
     for (std::size_t i = 0; i < openings_.size(); ++i)
       data.opening_pressures.push_back(openings_[i].pressure ? of_balance(*openings_[i].pressure, data, state, i)
                                                              : 0.0);
+    set_flows(data);
     if (setup_.load) data.wall_pressure = of_balance(*setup_.load, data, state, openings_.size());
     return data;
   }
 
  private:
+  void set_flows(StepData& data) const {
+    for (std::size_t i = 0; i < openings_.size(); ++i) {
+      if (!openings_[i].flow_rate) continue;
+      data.opening_flows.resize(openings_.size(), 0.0);
+      data.opening_flows[i] = openings_[i].flow_rate->table.at(data.rates.end);
+    }
+  }
+
   /// \param place  of the table in State::load_rates
   static double of_balance(const PressureTable& table, const StepData& data, const State& state, std::size_t place) {
     const StepRates& rates = data.rates;

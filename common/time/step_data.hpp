@@ -21,6 +21,8 @@ struct StepRates {
   double fluid_factor = 0;         ///< 1/ms: du/dt = fluid_factor (u - fluid_reference)
   double acceleration_factor = 0;  ///< 1/ms^2: wall's acceleration = acceleration_factor d + acceleration_history
   std::vector<double> mesh_reference, fluid_reference, wall_reference;
+  std::vector<double>
+      windkessel_reference{};                ///< kPa, as Solution::windkessel: dp_c/dt = fluid_factor (p_c - reference)
   std::vector<double> acceleration_history;  ///< mm/ms^2
 
   int stage = 0;               ///< from 0
@@ -44,9 +46,11 @@ struct StepData {
   double time = 0;  ///< ms, at the step's end; load fraction in statics
   StepRates rates;
   std::vector<double> opening_pressures;  ///< kPa, of the balance, of the scene's open boundaries in their order
-  double wall_pressure = 0;               ///< kPa, on the inner face of a wall without fluid
-  std::vector<double> interface_load;     ///< added to the wall's residual, as Solution::wall; empty: none
-  bool ends_at_jump = false;              ///< the load jumps at the step's end
+  /// Into the fluid at the stage's end, mm^3/ms, of the same boundaries; 0 where no flow is prescribed. Empty: nowhere.
+  std::vector<double> opening_flows{};
+  double wall_pressure = 0;            ///< kPa, on the inner face of a wall without fluid
+  std::vector<double> interface_load;  ///< added to the wall's residual, as Solution::wall; empty: none
+  bool ends_at_jump = false;           ///< the load jumps at the step's end
 };
 
 /// A balance of a finished step: the solution and what its equations were.

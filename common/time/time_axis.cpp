@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "case/openings.hpp"
+
 namespace fsi {
 
 namespace {
@@ -15,10 +17,9 @@ constexpr double rounding = 1e-9;  // of a step: no further one for what is left
 
 TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullptr) {
   if (time_ != nullptr)
-    for (const auto* table : {&setup.inlet, &setup.load})
-      if (*table)
-        for (double jump : (*table)->jumps())
-          if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);  // at the end, too: a restart goes on from it
+    for (const auto& [key, table] : tables_over_time(setup))
+      for (double jump : table->jumps(time_->end))
+        if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);  // at the end, too: a restart goes on from it
   std::sort(jumps_.begin(), jumps_.end());
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
   stops_ = jumps_;

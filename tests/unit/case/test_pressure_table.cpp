@@ -57,6 +57,36 @@ TEST(PressureTable, SinglePointIsAConstant) {
   EXPECT_DOUBLE_EQ(PressureTable{}.mean(0, 1), 0);
 }
 
+TEST(PressureTable, RepeatsItselfExactly) {
+  // Over a period of 4 ms: up to 2 in the first, down to -1 by a jump in its middle, there to the end, and back by a jump.
+  const PressureTable beat{{{0, 0}, {2, 2}, {2, -1}, {4, -1}}, 4};
+  EXPECT_DOUBLE_EQ(beat.mean(0, 4), 0);
+  EXPECT_DOUBLE_EQ(beat.mean(0, 2), 1);
+  EXPECT_DOUBLE_EQ(beat.mean(8, 10), 1);
+  EXPECT_DOUBLE_EQ(beat.mean(9, 10), 1.5);
+  EXPECT_DOUBLE_EQ(beat.mean(3, 5), (-1 + 0.5) / 2);
+  EXPECT_DOUBLE_EQ(beat.mean(1, 4 * 25 + 1), 0) << "whole periods from anywhere";
+  EXPECT_DOUBLE_EQ(beat.mean(3, 4 * 25 + 5), (-1 + 0.5) / 102);
+  EXPECT_DOUBLE_EQ(beat.at(1), 1);
+  EXPECT_DOUBLE_EQ(beat.at(401), 1);
+  EXPECT_DOUBLE_EQ(beat.at(2), 2) << "the value before the jump";
+  EXPECT_DOUBLE_EQ(beat.at(400), -1) << "alike at the end of a period";
+  EXPECT_EQ(beat.jumps(9), (std::vector<double>{2, 4, 6, 8}));
+  EXPECT_EQ(beat.jumps_in_period(), 2u);
+  double impulse = 0;  // of steps that do not fit the period
+  for (int k = 0; k < 1000; ++k) impulse += 0.37 * beat.mean(0.37 * k, 0.37 * (k + 1));
+  EXPECT_NEAR(impulse, 370 * beat.mean(0, 370), 1e-9);
+}
+
+TEST(PressureTable, WithoutJumpsWhereAPeriodEndsAsItBegins) {
+  const PressureTable beat{{{0, 1}, {1, 3}, {4, 1}}, 4};
+  EXPECT_TRUE(beat.jumps(100).empty());
+  EXPECT_DOUBLE_EQ(beat.mean(0, 40), 2);
+  const PressureTable held{{{1, 1}, {2, 3}}, 4};  // before and after its points their values
+  EXPECT_EQ(held.jumps(9), (std::vector<double>{4, 8}));
+  EXPECT_DOUBLE_EQ(held.mean(0, 4), (1 + 2 + 2 * 3) / 4.0);
+}
+
 }  // namespace
 
 }  // namespace fsi::test

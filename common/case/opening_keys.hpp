@@ -1,0 +1,13 @@
+#pragma once
+
+#include "case/case_keys.hpp"
+
+namespace fsi {
+
+/// [[opening]], read as a section for each surface.
+CaseKey<Case> opening_key();
+
+/// What openings need of the case as a whole. \throws InputError
+void check_openings(const CaseEntry& whole_case, const Case& scene);
+
+}  // namespace fsi

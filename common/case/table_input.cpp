@@ -1,0 +1,184 @@
+#include "case/table_input.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "base/input_file.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr std::size_t most_rows = 100'000;
+
+/// Sorted by time, two rows at most of one time. \param refuse  says what is wrong with the last row, and what to do
+template <class Refuse>
+void check_last_row(const std::vector<std::pair<double, double>>& points, Refuse refuse) {
+  const auto n = points.size();
+  if (n > 1 && points[n - 1].first < points[n - 2].first)
+    refuse(fmt::format("comes before the time {} of the row above", points[n - 2].first), "sort the table by time");
+  if (n > 2 && points[n - 1].first == points[n - 3].first)
+    refuse("is the third row with this time", "give two rows for a jump");
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
+}
+
+/// A finite number of a sensible size, and nothing else.
+std::optional<double> number_of(std::string_view text) {
+  text = trimmed(text);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (value != 0 && !(std::abs(value) >= smallest_size && std::abs(value) <= largest_size)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::pair<double, double>> row_of(std::string_view line) {
+  const auto comma = line.find_first_of(",;");
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto time = number_of(line.substr(0, comma)), value = number_of(line.substr(comma + 1));
+  if (!time || !value) return std::nullopt;
+  return std::pair{*time, *value};
+}
+
+/// Relative to the case file; given by --set, relative to the working directory if the file is there.
+std::filesystem::path path_of(const CaseEntry& entry) {
+  const std::string name = entry.line();
+  if (name.empty()) entry.refuse_value("is empty", "give the path of a CSV file");
+  std::error_code error;
+  if (entry.source().is_overridden(entry.key()) && std::filesystem::exists(name, error)) return name;
+  return std::filesystem::path(entry.source().file).parent_path() / name;
+}
+
+void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
+  const auto file = path_of(entry);
+  const std::string remedy =
+      fmt::format("give a CSV file with a header and two columns, time in ms and {} in {}", kind.key, kind.values.unit);
+  try {
+    require_regular_file(file, {"no such file", remedy.c_str(), remedy.c_str(), 64 << 20});
+  } catch (const InputError& problem) {
+    entry.refuse(fmt::format("\"{}\" cannot be read: {}", file.string(), problem.what()), remedy);
+  }
+  std::ifstream stream(file);
+  if (!stream) entry.refuse(fmt::format("\"{}\" cannot be read", file.string()), "check its permissions");
+  auto& points = input.table.points;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    const auto refuse = [&](const std::string& problem, const std::string& what_to_do) {
+      throw InputError(fmt::format("{}:{}", file.string(), number), entry.key(), problem, what_to_do);
+    };
+    const auto row = row_of(line);
+    if (number == 1) {
+      if (row)
+        refuse("the first line is a row of numbers", "put a header above it, like time_ms," + std::string(kind.key));
+      if (line.find_first_of(",;") == std::string::npos) refuse("the first line is no header of two columns", remedy);
+      continue;
+    }
+    if (trimmed(line).empty()) continue;
+    if (!row) refuse("is no row of two numbers", remedy);
+    points.push_back(*row);
+    if (points.size() > most_rows)
+      refuse(fmt::format("a table of more than {} rows", most_rows), fmt::format("give at most {}", most_rows));
+    check_last_row(points, [&](const std::string& problem, const std::string& what_to_do) {
+      refuse(fmt::format("{} {}", trimmed(line), problem), what_to_do);
+    });
+  }
+  if (points.empty()) entry.refuse(fmt::format("\"{}\" has no row below its header", file.string()), remedy);
+}
+
+}  // namespace
+
+const TableKind& pressure_kind() {
+  static const TableKind kind{"pressure", "pressures", quantity::pressure()};
+  return kind;
+}
+
+const TableKind& flow_rate_kind() {
+  static const TableKind kind{"flow_rate", "flow rates", quantity::flow_rate()};
+  return kind;
+}
+
+void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input) {
+  if (with_file && entry.is_section()) {
+    refuse_unknown_keys(entry, {"file"});
+    if (!entry.has("file")) entry.refuse_missing("file", "add it (path of a CSV file)");
+    input.is_table = true;
+    read_file(entry.child("file", "path of a CSV file"), kind, input);
+    return;
+  }
+  input.is_table = entry.is_array();
+  if (!input.is_table) {
+    input.table.points = {{0.0, entry.number(kind.values)}};
+    return;
+  }
+  bool warned_of_time = false, warned_of_value = false;  // once is enough
+  auto& points = input.table.points;
+  const auto rows = entry.elements();
+  if (rows.size() > most_rows)
+    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_rows));
+  for (const auto& row : rows) {
+    const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
+    if (pair.size() != 2) row.refuse_value("is no pair", fmt::format("give [time, {}]", kind.key));
+    points.emplace_back(pair[0].number(), pair[1].number());
+    if (!warned_of_time) warned_of_time = pair[0].warn_of_unit(quantity::time(), points.back().first);
+    if (!warned_of_value) warned_of_value = pair[1].warn_of_unit(kind.values, points.back().second);
+    check_last_row(points,
+                   [&](const std::string& problem, const std::string& remedy) { row.refuse_value(problem, remedy); });
+  }
+  if (points.empty()) entry.refuse_name("is empty", fmt::format("give at least one row [time, {}]", kind.key));
+}
+
+void read_until(const CaseEntry& entry, TableInput& input) {
+  input.until = entry.number(quantity::time());
+  if (!(*input.until > 0)) entry.refuse_value("is not positive", "give a time > 0");
+}
+
+void read_period(const CaseEntry& entry, TableInput& input) {
+  input.period = entry.number(quantity::time());
+  if (!(*input.period > 0)) entry.refuse_value("is not positive", "give a time > 0");
+}
+
+void finish_table(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
+  auto& points = input.table.points;
+  if (input.until) {
+    if (input.is_table)
+      entry.child("until").refuse(fmt::format("stands beside a table of {}", kind.plural),
+                                  fmt::format("remove it; the table says when the {} ends",
+                                              std::string(kind.key) == "flow_rate" ? "flow rate" : kind.key));
+    const double value = points.front().second;
+    points = {{0.0, value}, {*input.until, value}, {*input.until, 0.0}};
+  }
+  if (!input.period) return;
+  if (!input.is_table && !input.until)
+    entry.child("period").refuse(fmt::format("stands beside a {} that never changes", kind.key),
+                                 "remove it, or give a table");
+  if (points.front().first < 0)
+    entry.child("period").refuse(fmt::format("the table begins at {} ms", points.front().first),
+                                 "let the table of a period begin at 0 or later");
+  if (points.back().first > *input.period)
+    entry.child("period").refuse(
+        fmt::format("{} is shorter than the table, which ends at {} ms", *input.period, points.back().first),
+        fmt::format("give at least {}, or a shorter table", points.back().first));
+  input.table.period = *input.period;
+}
+
+std::string text_of_table(const PressureTable& table) {
+  std::vector<std::string> rows;
+  for (const auto& [time, value] : table.points) rows.push_back(fmt::format("[{}, {}]", time, value));
+  return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+}  // namespace fsi

@@ -1,0 +1,127 @@
+#include "system/low_rank_solver.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include "algebra/dense_inverse.hpp"
+#include "algebra/vector_operations.hpp"
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double tolerance_of_terms = 1e-8;  // of A^-1 w by an iterative solver
+constexpr int most_corrections = 4;          // of a solution by an iterative solver
+
+}  // namespace
+
+template <int n>
+LowRankLinearSolver<n>::LowRankLinearSolver(const JacobianBlocks<n>& blocks, std::unique_ptr<LinearSolver> solver,
+                                            const std::vector<OpeningTerm>& terms)
+    : blocks_(blocks), solver_(std::move(solver)), terms_(terms), product_(blocks) {}
+
+template <int n>
+void LowRankLinearSolver<n>::update() {
+  solver_->update();
+  const Numbering& numbering = blocks_.numbering;
+  const auto size = static_cast<std::size_t>(numbering.size);
+  of_system_.resize(terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    Term& term = of_system_[i];
+    term.slope = terms_[i].slope;
+    std::vector<double> normals = *terms_[i].normals;
+    if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<MixedLayout<n>>(normals);
+    term.rows.assign(size, 0.0);
+    term.columns.assign(size, 0.0);
+    add_to_system(numbering.fluid_rows, normals, term.rows);
+    add_to_system(numbering.fluid, normals, term.columns);
+  }
+  prepared_ = false;
+}
+
+template <int n>
+LinearReport LowRankLinearSolver<n>::prepare() {
+  LinearReport report;
+  preparing_iterations_ = 0;
+  for (Term& term : of_system_) {
+    report = solver_->solve(term.rows, tolerance_of_terms, term.solution);
+    preparing_iterations_ += report.iterations;
+    if (!report.converged) return report;
+  }
+  const std::size_t m = of_system_.size();
+  std::vector<double> matrix(m * m);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; j < m; ++j)
+      matrix[i * m + j] = (i == j ? 1 : 0) + of_system_[i].slope * dot(of_system_[i].columns, of_system_[j].solution);
+  inverse_ = dense_inverse(matrix, static_cast<int>(m));
+  report.converged = !inverse_.empty();
+  if (inverse_.empty()) report.failure = "the equations of the openings are singular";
+  prepared_ = report.converged;
+  return report;
+}
+
+template <int n>
+void LowRankLinearSolver<n>::correct(std::vector<double>& z) const {
+  const std::size_t m = of_system_.size();
+  std::vector<double> pressures(m);
+  for (std::size_t i = 0; i < m; ++i) pressures[i] = of_system_[i].slope * dot(of_system_[i].columns, z);
+  for (std::size_t i = 0; i < m; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < m; ++j) sum += inverse_[i * m + j] * pressures[j];
+    axpy(-sum, of_system_[i].solution, z);
+  }
+}
+
+template <int n>
+double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, const std::vector<double>& x) {
+  product_.multiply(x, residual_);
+  for (const Term& term : of_system_) axpy(term.slope * dot(term.columns, x), term.rows, residual_);
+  for (std::size_t i = 0; i < b.size(); ++i) residual_[i] = b[i] - residual_[i];
+  return norm(residual_);
+}
+
+template <int n>
+LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  int iterations = 0;
+  if (!prepared_) {
+    const LinearReport preparing = prepare();
+    iterations = preparing_iterations_;
+    if (!prepared_) return preparing;
+  }
+  LinearReport report = solver_->solve(b, tolerance, x);
+  iterations += report.iterations;
+  if (!report.converged) return report;
+  correct(x);
+  if (const double size = norm(b); report.relative_residual > 0 && size > 0) {
+    double left = residual_norm(b, x) / size;
+    for (int k = 0; k < most_corrections && left > tolerance; ++k) {
+      const LinearReport again = solver_->solve(residual_, 0.5 * tolerance / left, correction_);
+      iterations += again.iterations;
+      if (!again.converged) break;
+      correct(correction_);
+      axpy(1, correction_, x);
+      left = residual_norm(b, x) / size;
+    }
+    report.relative_residual = left;
+    if (left > 2 * tolerance) {
+      report.converged = false;
+      report.failure = "the pressures that answer the flow at openings keep the residual too large";
+    }
+  }
+  report.iterations = iterations;
+  return report;
+}
+
+template <int n>
+LinearStatistics LowRankLinearSolver<n>::statistics() const {
+  LinearStatistics statistics = solver_->statistics();
+  for (const Term& term : of_system_)
+    statistics.memory_mib += 8.0 * static_cast<double>(3 * term.rows.size()) / (1 << 20);
+  return statistics;
+}
+
+#define FSI_INSTANTIATE(n) template class LowRankLinearSolver<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

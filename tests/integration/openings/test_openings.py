@@ -1,0 +1,145 @@
+"""Openings by name: a periodic pressure, a resistance, a Windkessel and flow rates, with both drivers."""
+
+import csv
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import DRIVERS, MONOLITHIC, FolderTest, attempt, energy, make_mesh, restart, run
+
+CASE = Path(__file__).with_name("openings.toml")
+SCHEMES = ("euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2")
+WINDKESSEL = {"proximal": 0.5, "compliance": 1.0, "distal": 2.0, "initial_pressure": 0.1}  # as in the case file
+
+RIGID = """
+title = "a rigid pipe"
+element = "p2p1"
+geometry = "axisymmetric"
+[mesh]
+level = "coarse"
+[fluid]
+density = 1.0
+viscosity = 1.0
+{openings}
+[time]
+step = {step}
+end = {end}
+scheme = "{scheme}"
+[monolithic]
+newton_tolerance = 1e-11
+[output]
+every = 0
+"""
+
+
+def openings(folder):
+    """{opening: rows of (time, flow, mean pressure, Windkessel pressure)} of openings.csv, pressures in kPa."""
+    rows = {}
+    with (folder / "openings.csv").open() as file:
+        reader = csv.reader(file)
+        header = next(reader)
+        assert header == ["time_ms", "opening", "flow_mm3_per_ms", "mean_pressure_Pa", "windkessel_pressure_Pa"]
+        for time, name, flow, mean, stored in reader:
+            rows.setdefault(name, []).append((float(time), float(flow), float(mean) / 1000, float(stored) / 1000))
+    return {name: np.array(values) for name, values in rows.items()}
+
+
+class Artery(FolderTest):
+    """Fluid and wall, six millimetres of the coarse section."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.mesh = make_mesh(cls.base / "section.msh", "--axisymmetric", "--level", "coarse", "--length", 6)
+        cls.settings = (f"mesh.file={cls.mesh}",)
+        cls.runs = {}
+
+    @classmethod
+    def march(cls, program, name, *settings):
+        key = (program, name)
+        if key not in cls.runs:
+            folder = cls.base / f"{Path(program).name}-{name}"
+            cls.runs[key] = run(program, CASE, folder, *cls.settings, *settings)
+        return cls.runs[key]
+
+    def test_drivers_agree(self):
+        one, other = (openings(self.march(program, "whole")) for program in DRIVERS)
+        self.assertEqual(list(one), ["inlet", "outlet"])
+        for name in one:
+            for column in (1, 2, 3):
+                size = np.abs(one[name][:, column]).max()
+                np.testing.assert_allclose(one[name][:, column], other[name][:, column], atol=1e-6 * size + 1e-12)
+        self.assertGreater(np.abs(one["outlet"][:, 1]).max(), 0.05)
+
+    def test_restarts_bit_for_bit(self):
+        for program in DRIVERS:
+            whole = self.march(program, "whole")
+            part = run(program, CASE, self.base / f"{Path(program).name}-part", *self.settings, "time.end=0.75")
+            restart(program, CASE, part, *self.settings)
+            self.assertEqual((part / "openings.csv").read_bytes(), (whole / "openings.csv").read_bytes())
+            self.assertSameResults(part, whole)
+
+    def test_a_disturbed_table_is_not_continued(self):
+        part = run(MONOLITHIC, CASE, self.base / "disturbed", *self.settings, "time.end=0.75")
+        rows = (part / "openings.csv").read_text().splitlines(keepends=True)
+        rows[1], rows[2] = rows[2], rows[1]
+        (part / "openings.csv").write_text("".join(rows))
+        refused = attempt(MONOLITHIC, CASE, "--restart", part, folder=part, settings=self.settings)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("openings.csv: line 2: is of the opening outlet, not inlet", refused.stderr)
+
+    def test_energy_is_balanced_by_every_scheme(self):
+        for scheme in SCHEMES:
+            columns = energy(self.march(MONOLITHIC, scheme, f'time.scheme="{scheme}"', "time.end=0.75"))
+            size = np.abs(columns["inlet_work"]).max()
+            self.assertLess(np.abs(columns["remainder"]).max(), 1e-6 * size, scheme)
+
+    def test_windkessel_stores_what_flows(self):
+        """C dp_c/dt = Q - p_c / R_d, integrated over each step by the trapezoidal rule: to second order in the step."""
+        rows = openings(self.march(MONOLITHIC, "fine", "time.step=0.025"))["outlet"]
+        time, flow, _, stored = rows.T
+        step = np.diff(time)
+        rate = flow - stored / WINDKESSEL["distal"]
+        gained = np.cumsum(0.5 * step * (rate[1:] + rate[:-1])) / WINDKESSEL["compliance"]
+        np.testing.assert_allclose(stored[1:] - stored[0], gained, atol=2e-3 * np.abs(stored).max())
+
+
+class RigidPipe(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.mesh = make_mesh(cls.base / "section.msh", "--axisymmetric", "--level", "coarse", "--length", 6)
+
+    def flow(self, name, text, scheme="euler", step=100, end=300):
+        """Rows of openings.csv of a pipe with these openings."""
+        case = self.base / f"{name}.toml"
+        case.write_text(RIGID.format(openings=text, scheme=scheme, step=step, end=end))
+        folder = run(MONOLITHIC, case, self.base / name, f"mesh.file={self.mesh}")
+        return openings(folder), folder
+
+    def test_resistance_is_its_pressure(self):
+        """With the resistance that the outlet's pressure over the flow is, the flow is the same; so it is with the
+        equal Windkessel in its steady state, and in the flow between them Poiseuille's law adds the resistances."""
+        inlet = '[[opening]]\nsurface = "inlet"\npressure = 0.5\n'
+        rows, _ = self.flow("pressure", inlet + '[[opening]]\nsurface = "outlet"\npressure = 0.2\n')
+        rate = rows["outlet"][-1, 1]
+        self.assertGreater(rate, 0)
+        self.assertAlmostEqual(rows["inlet"][-1, 1], -rate, delta=1e-9 * rate)
+        resistance = 0.2 / rate
+        kinds = {
+            "resistance": f"resistance = {resistance!r}",
+            "raised": f"resistance = {0.5 * resistance!r}\ndistal_pressure = 0.1",
+            "windkessel": f"windkessel = {{ proximal = {0.25 * resistance!r}, compliance = 0.1, "
+            f"distal = {0.75 * resistance!r} }}",
+        }
+        for name, kind in kinds.items():
+            rows, _ = self.flow(name, f'{inlet}[[opening]]\nsurface = "outlet"\n{kind}\n')
+            self.assertAlmostEqual(rows["outlet"][-1, 1], rate, delta=1e-7 * rate, msg=name)
+        self.assertAlmostEqual(rows["outlet"][-1, 3], 0.75 * 0.2, delta=1e-7)
+        # The pipe's own: 8 mu L / (pi R^4), but for the profile near the ends, which is free of traction there.
+        own = (0.5 - 0.2) / rate
+        self.assertAlmostEqual(own / (8 * 1.0 * 6 / (np.pi * 1.43**4)), 1, delta=0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()

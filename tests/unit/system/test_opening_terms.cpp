@@ -1,0 +1,147 @@
+// Openings whose pressure answers the flow: their share in the residual, and Newton's corrections with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "condensed_solver/fast_or_direct.hpp"
+#include "fem/p1_tetrahedron.hpp"
+#include "monolithic/coupled_numbering.hpp"
+#include "support/nodal_arrays.hpp"
+#include "support/random.hpp"
+#include "support/scenes.hpp"
+#include "system/numbering.hpp"
+#include "system/system.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+constexpr OutflowLaw windkessel{0.3, 0.05, 2.0, 0.5, 0.8}, resistance{1.5, 0, 0, 0.2, 0};
+
+/// The fluid of a box at a random state, a Windkessel at the outlet and perhaps a resistance at the inlet.
+struct OpenFluid {
+  std::unique_ptr<Scene<3>> scene;
+  State state;
+  StepData data;
+
+  explicit OpenFluid(bool both = true) {
+    Case setup = coupled_case("neo-hookean");
+    setup.openings["outlet"].outflow_law = windkessel;
+    if (both) {
+      setup.inlet.reset();
+      setup.openings["inlet"].outflow_law = resistance;
+    }
+    scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+    state = scene->at_rest();
+    data.rates = scene->integrator->rates(state, 0.125);
+    data.opening_pressures = {0.1, 0.2};
+    state.now.fluid = random_field(scene->fluid->nodes().nodes, 4, 0.3, 1e-3, 1);
+  }
+  std::unique_ptr<System<3>> system() {
+    auto made = std::make_unique<System<3>>("fluid", *scene, number_fluid(*scene));
+    made->work_on(state, data);
+    return made;
+  }
+};
+
+TEST(OpeningTerms, PressAsTheirLawSays) {
+  OpenFluid open;
+  const auto& boundaries = open.scene->fluid->open_boundaries();
+  ASSERT_EQ(boundaries.size(), 2u);
+  EXPECT_EQ(open.state.now.windkessel, std::vector<double>{windkessel.initial_pressure});
+  const auto in = open.scene->fluid_input(open.state, open.data.rates);
+  std::vector<double> with, without;
+  open.scene->fluid->assemble(in, open.data.opening_pressures, with);
+  Case plain = coupled_case("neo-hookean");
+  const auto other = build_scene<P1Tetrahedron>(plain, fluid_and_wall_box(2));
+  other->fluid->assemble(other->fluid_input(open.state, open.data.rates), open.data.opening_pressures, without);
+  for (const auto& boundary : boundaries) {
+    const double flow = boundary.outflow(open.state.now.fluid);
+    const bool stores = boundary.name() == "outlet";
+    const double k = open.data.rates.fluid_factor;
+    const double pressure = stores ? windkessel.pressure(k, windkessel.initial_pressure, flow)
+                                   : resistance.distal_pressure + resistance.proximal * flow;
+    boundary.add_pressure(pressure, without);
+  }
+  EXPECT_LT(largest(difference(with, without)), 1e-13);
+}
+
+/// The residual's derivative along Newton's correction is the residual's opposite: by differences, which know nothing of
+/// how the correction was found.
+void expect_exact_corrections(const std::string& solver, bool coupled, double linear_tolerance, double tolerance) {
+  OpenFluid open;
+  const auto system = std::make_unique<System<3>>("tested", *open.scene,
+                                                  coupled ? number_scene(*open.scene) : number_fluid(*open.scene),
+                                                  general_solver_factory<3>(solver, {}));
+  for (const double period : {1.0, 2.0}) {  // the second time with another slope
+    open.data.rates = open.scene->integrator->rates(open.state, 0.125 * period);
+    system->work_on(open.state, open.data);
+    system->evaluate();
+    const std::vector<double> residual = system->residual();
+    system->linearise();
+    system->solve(linear_tolerance);
+    const double size = norm(residual), step = 1e-5;
+    system->move(step);
+    system->evaluate();
+    std::vector<double> ahead = system->residual();
+    system->move(-2 * step);
+    system->evaluate();
+    const std::vector<double> behind = system->residual();
+    system->move(step);
+    for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = (ahead[i] - behind[i]) / (2 * step) + residual[i];
+    EXPECT_LT(norm(ahead), tolerance * size) << solver << ", " << period;
+  }
+}
+
+TEST(OpeningTerms, AreInCorrectionsByFactorisation) {
+  expect_exact_corrections("direct", false, 1e-12, 1e-7);
+  expect_exact_corrections("direct", true, 1e-12, 1e-7);
+}
+
+TEST(OpeningTerms, AreInCorrectionsByIteration) {
+  expect_exact_corrections("fast", false, 1e-8, 1e-7);
+  expect_exact_corrections("fast", true, 1e-8, 1e-7);
+}
+
+/// A resistance a thousand times that of the fluid lets nothing through: the correction takes the flow away.
+TEST(OpeningTerms, HoldTheFlowBack) {
+  OpenFluid open;
+  const auto system = open.system();
+  system->evaluate();
+  const std::vector<double> residual = system->residual();
+  system->linearise();
+  const auto& outlet = open.scene->fluid->open_boundaries().back();
+  const auto flow_of = [&](const std::vector<double>& x) {
+    std::vector<double> flow(system->numbering().fluid.size(), 0.0);
+    add_to_field(system->numbering().fluid, x, 1, flow);
+    return outlet.outflow(flow);
+  };
+  const auto flow_with = [&](double slope) {
+    const std::vector<OpeningTerm> terms{{&outlet.normals(), slope}};
+    LowRankLinearSolver<3> solver(system->blocks(), std::make_unique<DirectLinearSolver<3>>(system->blocks()), terms);
+    solver.update();
+    std::vector<double> x;
+    solver.solve(residual, 1e-12, x);
+    return flow_of(x);
+  };
+  const double free = flow_with(0), answer = free / flow_with(1) - 1;  // Q = Q_0 / (1 + slope w^T A^-1 w)
+  EXPECT_GT(answer, 0);
+  EXPECT_NEAR(flow_with(1e4), free / (1 + 1e4 * answer), 1e-9 * std::abs(free));
+}
+
+TEST(OpeningTerms, AreNotBuiltWithoutThem) {
+  const auto scene = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(2));
+  System<3> fluid("fluid", *scene, number_fluid(*scene)), wall("wall", *scene, number_wall(*scene));
+  EXPECT_NE(dynamic_cast<const DirectLinearSolver<3>*>(&fluid.solver()), nullptr);
+  OpenFluid open(false);
+  EXPECT_NE(dynamic_cast<const LowRankLinearSolver<3>*>(&open.system()->solver()), nullptr);
+  System<3> own_wall("wall", *open.scene, number_wall(*open.scene));
+  EXPECT_NE(dynamic_cast<const DirectLinearSolver<3>*>(&own_wall.solver()), nullptr);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
