@@ -1,0 +1,53 @@
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "fluid/inflow_profile.hpp"
+#include "fluid/periodic_flow.hpp"
+
+namespace fsi {
+
+/// Velocity on an opening of the fully developed flow of a periodic flow rate (Womersley). The rate's Fourier modes have
+/// a profile each (docs/theory.md, section 3.5):
+///   circle, circle about the axis   1 - J_0(l r) / J_0(l R),     l^2 = -i k w / nu,
+///   straight segment                1 - cosh(l s) / cosh(l h),   l^2 = i k w / nu,
+///   else the solution of i k w f - nu Laplace f = 1, f = 0 where the fluid sticks, on the opening's facets.
+/// Each is scaled to a discrete flow of one. As many modes are taken as leave less than a thousandth of the rate's root
+/// mean square, 64 at most. What they leave, and what a rate asked for differs by, flows with the real part of the last
+/// mode's profile, so that the discrete flow is that asked for to rounding.
+class WomersleyInflow {
+ public:
+  /// Sets the vectors of the opening's nodes, in the vector layout of the part (its other entries stay), to the velocity
+  /// in mm/ms at a time in ms. \param flow_rate  that the discrete flow into the fluid shall have, mm^3/ms
+  void set(double time, double flow_rate, std::vector<double>& velocity) const;
+  /// The same with the periodic rate itself.
+  void set(double time, std::vector<double>& velocity) const { set(time, flow_.at(time), velocity); }
+
+  const PeriodicFlow& flow() const { return flow_; }
+  int modes() const { return static_cast<int>(profiles_.size()) - 1; }  ///< besides the mean
+  /// What was taken in place of the Bessel functions, and why; empty: nothing.
+  const std::string& instead() const { return instead_; }
+
+ private:
+  template <class Element>
+  friend WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const PeriodicFlow& flow,
+                                          double density, double viscosity);
+
+  PeriodicFlow flow_;
+  std::string instead_;
+  std::vector<std::size_t> entries_;                         ///< of the part's vector layout
+  std::vector<double> direction_;                            ///< per entry, component of the inward normal
+  std::vector<std::vector<std::complex<double>>> profiles_;  ///< per mode and entry, without direction, 1/mm^2
+  std::vector<std::complex<double>> coefficients_;           ///< per mode, mm^3/ms
+};
+
+/// \param density    mg/mm^3
+/// \param viscosity  kPa ms
+/// \throws InputError as plug_inflow()
+template <class Element>
+WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const PeriodicFlow& flow, double density,
+                                 double viscosity);
+
+}  // namespace fsi
