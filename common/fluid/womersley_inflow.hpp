@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,16 +32,17 @@ class WomersleyInflow {
   const std::string& instead() const { return instead_; }
 
  private:
+  using Complex = std::complex<double>;
   template <class Element>
   friend WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const PeriodicFlow& flow,
                                           double density, double viscosity);
 
   PeriodicFlow flow_;
   std::string instead_;
-  std::vector<std::size_t> entries_;                         ///< of the part's vector layout
-  std::vector<double> direction_;                            ///< per entry, component of the inward normal
-  std::vector<std::vector<std::complex<double>>> profiles_;  ///< per mode and entry, without direction, 1/mm^2
-  std::vector<std::complex<double>> coefficients_;           ///< per mode, mm^3/ms
+  std::vector<std::size_t> entries_;            ///< per node of the opening, of its vector in the vector layout
+  std::vector<double> direction_;               ///< components of the inward normal
+  std::vector<std::vector<Complex>> profiles_;  ///< per mode and node, 1/mm^2
+  std::vector<Complex> coefficients_;           ///< per mode, mm^3/ms
 };
 
 /// \param density    mg/mm^3

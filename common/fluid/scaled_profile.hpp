@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fem/facet_load.hpp"
+#include "fluid/inflow_profile.hpp"
+
+namespace fsi {
+
+/// Scales a profile, one real or complex number per entry of `nodes`, to a discrete flow of one along `inward`.
+template <class Element, class Number>
+void scale_to_unit_flow(const InflowOpening<Element>& opening, const std::vector<int>& nodes, const Point& inward,
+                        std::vector<Number>& w) {
+  constexpr int n = Element::components;
+  const auto weights = normal_weights<Element, VectorLayout<n>>(opening.nodes, opening.facets);
+  Number flow = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int k = 0; k < n; ++k) flow -= weights[VectorLayout<n>::vector(nodes[i], k)] * inward[Element::axis[k]] * w[i];
+  for (Number& value : w) value /= flow;
+}
+
+/// Why a profile is not that of the closed form, for UnitInflow::instead.
+inline const char* const no_rim = "the fluid sticks nowhere on its rim: the same velocity is let in everywhere";
+template <class Element>
+std::string of_its_own_shape() {
+  const char* ideal = Element::dim == 3       ? "no flat circle"
+                      : Element::axisymmetric ? "no flat circle about the axis"
+                                              : "not straight between walls";
+  return std::string("it is ") + ideal + ": the flow that is fully developed on its own facets is let in";
+}
+
+}  // namespace fsi
