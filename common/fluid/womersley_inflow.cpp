@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int most_modes = 64;
-constexpr double left_over = 1e-3;  ///< of the rate's root mean square, that the modes may leave
+constexpr double left_over = 5e-3;  ///< of the rate's root mean square, that the modes may leave
 
 /// The profile over a circle, but for a factor, at the distance s of the centre. \param l  sqrt(-i w / nu), Im l > 0
 Complex over_circle(Complex l, double radius, double s) {

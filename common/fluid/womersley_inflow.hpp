@@ -15,8 +15,8 @@ namespace fsi {
 ///   circle, circle about the axis   1 - J_0(l r) / J_0(l R),     l^2 = -i k w / nu,
 ///   straight segment                1 - cosh(l s) / cosh(l h),   l^2 = i k w / nu,
 ///   else the solution of i k w f - nu Laplace f = 1, f = 0 where the fluid sticks, on the opening's facets.
-/// Each is scaled to a discrete flow of one. As many modes are taken as leave less than a thousandth of the rate's root
-/// mean square, 64 at most. What they leave, and what a rate asked for differs by, flows with the real part of the last
+/// Each is scaled to a discrete flow of one. As many modes are taken as leave less than 0.5 % of the rate's root mean
+/// square, 64 at most. What they leave, and what a rate asked for differs by, flows with the real part of the last
 /// mode's profile, so that the discrete flow is that asked for to rounding.
 class WomersleyInflow {
  public:
