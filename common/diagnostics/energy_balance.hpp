@@ -22,7 +22,8 @@ class EnergyBalance {
 
   /// What of it a scene has.
   static EnergyParts parts_of(const Scene<n>& scene) {
-    return {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene)};
+    return {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene),
+            scene.fluid && scene.fluid->stabilises_backflow()};
   }
 
   /// The balance of energy of the step that led to `state`, the successor of the last one seen.
@@ -39,6 +40,7 @@ class EnergyBalance {
     }
     if (quadratic(scene_)) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
     record.remainder = record.supply() - (record.energy() - energy_) - record.viscous - record.numerical();
+    record.remainder -= record.backflow;
     energy_ = record.energy();
     keep(state);
     return record;
@@ -97,6 +99,7 @@ class EnergyBalance {
     }
     const FluidWork work = scene_.fluid->work(in);
     record.viscous += work.viscous;
+    record.backflow += work.backflow;
     record.fluid_inertia += work.inertia;
     record.fluid_mesh_motion += work.mesh_motion;
     record.fluid_divergence += work.divergence;

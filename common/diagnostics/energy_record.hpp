@@ -13,13 +13,14 @@ struct EnergyRecord {
   double load_work = 0;                          ///< of the pressure on a wall without fluid
   double inlet_kinetic = 0, outlet_kinetic = 0;  ///< kinetic energy that flows in, and out
   double viscous = 0;                            ///< dissipation
+  double backflow = 0;                           ///< taken by the stabilisation of backflow at openings
 
   // Numerical dissipation by origin; negative where the discretisation adds energy.
   double fluid_inertia = 0, fluid_mesh_motion = 0, fluid_divergence = 0, fluid_stabilisation = 0;
   double fluid_quadrature = 0;
   double wall_inertia = 0, wall_stress = 0, wall_stabilisation = 0;
 
-  double remainder = 0;  ///< supply() - change of energy() - viscous - numerical()
+  double remainder = 0;  ///< supply() - change of energy() - viscous - backflow - numerical()
 
   double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric; }
   double supply() const { return inlet_work + load_work + inlet_kinetic - outlet_kinetic; }
@@ -34,6 +35,7 @@ struct EnergyParts {
   bool fluid = false, wall = false;
   bool in_time = true;     ///< not static
   bool quadratic = false;  ///< elements whose rule does not integrate convection exactly
+  bool backflow = false;   ///< openings with stabilisation of backflow
 };
 
 }  // namespace fsi

@@ -47,41 +47,53 @@ struct FacetShapes {
       return Shapes::slope(rule.point[q], a, i);
   }
 
-  /// Of one point of a facet: gradients of the shape functions within the surface, 1/mm, and the area that the point
-  /// stands for, mm^2, of the whole ring where the body is one of revolution, of unit thickness in the plane.
-  struct AtPoint {
-    std::array<Point, nodes> gradient;
-    double area;
-  };
-  /// \param x  positions of the facet's nodes, mm
-  static AtPoint at(const std::array<Point, nodes>& x, int q) {
-    std::array<Point, dim> tangent{};  // dx/dl_(i + 1) - dx/dl_0
-    for (int i = 0; i < dim; ++i)
-      for (int a = 0; a < nodes; ++a) tangent[i] = tangent[i] + (slope(q, a, i + 1) - slope(q, a, 0)) * x[a];
-    // The dual basis: of the surface, tangent[i] . dual[j] = (i == j).
-    std::array<Point, dim> dual;
-    AtPoint p;
+  using Positions = std::array<Point, nodes>;  ///< of a facet's nodes, mm
+
+  /// The normal times the area that a point stands for, mm^2: of the whole ring where the body is one of revolution, of
+  /// unit thickness in the plane. Its sense is that of Element::Facet::weighted_normal().
+  static Point weighted_normal(const Positions& x, int q) {
+    Point normal{0, 0, 0};
     if constexpr (dim == 1) {
-      const double square = dot(tangent[0], tangent[0]);
-      dual[0] = (1 / square) * tangent[0];
-      p.area = rule.weight[q] * std::sqrt(square);
+      const Point along = tangent(x, q, 0);
+      normal[Element::axis[0]] = along[Element::axis[1]];
+      normal[Element::axis[1]] = -along[Element::axis[0]];
     } else {
-      const Point normal = cross(tangent[0], tangent[1]);
-      const double square = dot(normal, normal);
-      dual[0] = (1 / square) * cross(tangent[1], normal);
-      dual[1] = (1 / square) * cross(normal, tangent[0]);
-      p.area = 0.5 * rule.weight[q] * std::sqrt(square);
+      normal = 0.5 * cross(tangent(x, q, 0), tangent(x, q, 1));
     }
+    double weight = rule.weight[q];
     if constexpr (Element::axisymmetric) {
       double r = 0;
       for (int a = 0; a < nodes; ++a) r += shape(q, a) * x[a][0];
-      p.area *= two_pi * r;
+      weight *= two_pi * r;
     }
+    return weight * normal;
+  }
+
+  /// Gradients of the shape functions within the surface, 1/mm.
+  static std::array<Point, nodes> gradients(const Positions& x, int q) {
+    std::array<Point, dim> dual;  // of the tangents: tangent[i] . dual[j] = (i == j)
+    if constexpr (dim == 1) {
+      const Point t = tangent(x, q, 0);
+      dual[0] = (1 / dot(t, t)) * t;
+    } else {
+      const Point t0 = tangent(x, q, 0), t1 = tangent(x, q, 1), normal = cross(t0, t1);
+      dual[0] = (1 / dot(normal, normal)) * cross(t1, normal);
+      dual[1] = (1 / dot(normal, normal)) * cross(normal, t0);
+    }
+    std::array<Point, nodes> gradient;
     for (int a = 0; a < nodes; ++a) {
-      p.gradient[a] = {0, 0, 0};
-      for (int i = 0; i < dim; ++i) p.gradient[a] = p.gradient[a] + (slope(q, a, i + 1) - slope(q, a, 0)) * dual[i];
+      gradient[a] = {0, 0, 0};
+      for (int i = 0; i < dim; ++i) gradient[a] = gradient[a] + (slope(q, a, i + 1) - slope(q, a, 0)) * dual[i];
     }
-    return p;
+    return gradient;
+  }
+
+ private:
+  /// dx/dl_(i + 1) - dx/dl_0.
+  static Point tangent(const Positions& x, int q, int i) {
+    Point t{0, 0, 0};
+    for (int a = 0; a < nodes; ++a) t = t + (slope(q, a, i + 1) - slope(q, a, 0)) * x[a];
+    return t;
   }
 };
 

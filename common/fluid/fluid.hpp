@@ -25,6 +25,12 @@ class Fluid {
   virtual const AleFluid& form() const = 0;
   /// \param speed  of pressure waves in the scene, mm/ms, for the stabilisation; 0, as at first: not known
   virtual void set_wave_speed(double speed) = 0;
+  /// Stabilises the flow at an open boundary against fluid that enters (fluid/backflow.hpp).
+  /// \param open         its place in open_boundaries()
+  /// \param coefficient  beta; 0, as at first: without
+  virtual void stabilise_backflow(std::size_t open, double coefficient) = 0;
+  /// Whether this is done anywhere.
+  virtual bool stabilises_backflow() const = 0;
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }
 
@@ -36,8 +42,9 @@ class Fluid {
     return nullptr;
   }
 
-  /// Overwrites the residual, in the mixed layout, with all terms but prescribed values; the tractions -p N of the open
-  /// boundaries included, p being what is applied there and what the opening's law answers the flow with.
+  /// Overwrites the residual, in the mixed layout, with all terms but prescribed values; the tractions of the open
+  /// boundaries included: -p N, p being what is applied there and what the opening's law answers the flow with, and those
+  /// against backflow.
   /// \param pressures  kPa, of the open boundaries in their order; missing ones are zero
   virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
                                   std::vector<double>& residual,

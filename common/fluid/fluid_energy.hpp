@@ -37,7 +37,7 @@ double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& p
   return sum_over_elements<1>(packs, integrals)[0];
 }
 
-/// Of one balance of a step.
+/// Of one balance of a step, but for what the openings take.
 template <class Element>
 FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const FluidStep& step) {
   constexpr int n = Element::components;
@@ -93,7 +93,14 @@ FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const Fl
         });
   };
   const auto sums = sum_over_elements<6>(packs, integrals);
-  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+  FluidWork work;
+  work.viscous = sums[0];
+  work.stabilisation = sums[1];
+  work.inertia = sums[2];
+  work.mesh_motion = sums[3];
+  work.divergence = sums[4];
+  work.convection = sums[5];
+  return work;
 }
 
 }  // namespace fsi

@@ -58,6 +58,7 @@ struct FluidWork {
   /// rho/2 (D, |u|^2) + omega rho/2 [(J - J_1, |u_1|^2) - (J - J_0, |u_0|^2)]: the domain's motion is not conserved
   double mesh_motion = 0;
   double divergence = 0;  ///< -W rho/2 (J div u, |u|^2): convection in convective form
+  double backflow = 0;    ///< W beta rho <(u . n)_-, |u|^2> of the openings: stabilisation of backflow
   double convection = 0;  ///< W rho ((J grad u F^-1 c, u) + (J div c, |u|^2)/2), the outflow if integrated exactly
 
   FluidWork& operator+=(const FluidWork& b) {
@@ -66,6 +67,7 @@ struct FluidWork {
     inertia += b.inertia;
     mesh_motion += b.mesh_motion;
     divergence += b.divergence;
+    backflow += b.backflow;
     convection += b.convection;
     return *this;
   }

@@ -30,7 +30,17 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
       assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
   for (std::size_t i = 0; i < open_.size(); ++i)
     open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), residual);
+  for (const auto& [open, facets] : backflow_)
+    facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);
   return result;
+}
+
+template <class Element>
+void FluidProblem<Element>::stabilise_backflow(std::size_t open, double coefficient) {
+  backflow_.erase(open);
+  if (coefficient != 0)
+    backflow_.emplace(open,
+                      BackflowFacets<Element>(coefficient, part_.nodes, open_.at(open).facets(), *space_.graph()));
 }
 
 template <class Element>
@@ -51,7 +61,10 @@ template <class Element>
 FluidWork FluidProblem<Element>::work(FluidStep step) const {
   PressureProjection<Element> projection(mirrored_);
   step.balance = with_projection(step.balance, projection);
-  return fluid_work(form_, packs_, step);
+  FluidWork work = fluid_work(form_, packs_, step);
+  for (const auto& [open, facets] : backflow_)
+    work.backflow += step.duration * facets.power(form_.density, step.balance.fluid);
+  return work;
 }
 
 template <class Element>

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "fem/element_packs.hpp"
+#include "fluid/backflow.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/pressure_projection.hpp"
 
@@ -27,6 +30,8 @@ class FluidProblem : public Fluid<Element::components> {
   const FunctionSpace<n>& space() const override { return space_; }
   const AleFluid& form() const override { return form_; }
   void set_wave_speed(double speed) override { form_.wave_speed = speed; }
+  void stabilise_backflow(std::size_t open, double coefficient) override;
+  bool stabilises_backflow() const override { return !backflow_.empty(); }
   const std::vector<OpenBoundary<n>>& open_boundaries() const override { return open_; }
 
   AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
@@ -50,6 +55,7 @@ class FluidProblem : public Fluid<Element::components> {
   VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;
+  std::map<std::size_t, BackflowFacets<Element>> backflow_;  ///< by place among the open boundaries
 };
 
 }  // namespace fsi

@@ -26,11 +26,14 @@ class OpenBoundary {
 
   /// \param normals  integrals of N_a n, as flow arrays, mm^2
   /// \param areas    integrals of the scalar fields' shape functions per node, mm^2
-  OpenBoundary(std::string name, std::vector<double> normals, std::vector<double> areas, KineticFlux kinetic_flux)
+  /// \param facets   nodes of its facets, one after the other
+  OpenBoundary(std::string name, std::vector<double> normals, std::vector<double> areas, KineticFlux kinetic_flux,
+               std::vector<int> facets)
       : name_(std::move(name)),
         normals_(std::move(normals)),
         areas_(std::move(areas)),
-        kinetic_flux_(std::move(kinetic_flux)) {}
+        kinetic_flux_(std::move(kinetic_flux)),
+        facets_(std::move(facets)) {}
 
   const std::string& name() const { return name_; }
   /// Integrals of N_a n, as a flow array, mm^2.
@@ -55,6 +58,8 @@ class OpenBoundary {
     const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
     return applied + law_->pressure(in.fluid_factor, reference, outflow(in.fluid));
   }
+  /// The nodes of its facets, one after the other, normals outward.
+  const std::vector<int>& facets() const { return facets_; }
 
   /// Adds to the fluid's residual what the traction J sigma F^-T N = -pressure N leaves there.
   void add_pressure(double pressure, std::vector<double>& residual) const {
@@ -84,6 +89,7 @@ class OpenBoundary {
   std::vector<double> normals_;  ///< as flow arrays
   std::vector<double> areas_;    ///< per node
   KineticFlux kinetic_flux_;
+  std::vector<int> facets_;
   std::optional<OutflowLaw> law_;
   std::size_t place_ = 0;
 };
@@ -94,11 +100,14 @@ template <class Element>
 OpenBoundary<Element::components> open_boundary(
     std::string name, const std::vector<Point>& nodes,
     const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets) {
+  std::vector<int> facet_nodes;
+  for (const auto& facet : facets) facet_nodes.insert(facet_nodes.end(), facet.begin(), facet.end());
   return {std::move(name), normal_weights<Element, MixedLayout<Element::components>>(nodes, facets),
           scalar_weights<Element>(nodes, facets),
           [facets](const std::vector<Point>& at, const std::vector<double>& flow) {
             return kinetic_flux<Element>(at, facets, flow);
-          }};
+          },
+          std::move(facet_nodes)};
 }
 
 }  // namespace fsi

@@ -48,21 +48,22 @@ std::vector<std::complex<double>> developed_flow(const InflowOpening<Element>& o
   std::map<std::pair<int, int>, double> entries;
   std::vector<double> right(static_cast<std::size_t>(size), 0.0), solution;
   for (const auto& facet : opening.facets) {
-    std::array<Point, Shapes::nodes> x;
+    typename Shapes::Positions x;
     std::array<int, Shapes::nodes> at;
     for (int a = 0; a < Shapes::nodes; ++a) {
       x[a] = opening.nodes[facet[a]];
       at[a] = unknown_of(facet[a]);
     }
     for (int q = 0; q < Shapes::points; ++q) {
-      const auto p = Shapes::at(x, q);
+      const auto gradient = Shapes::gradients(x, q);
+      const double area = norm(Shapes::weighted_normal(x, q));
       for (int a = 0; a < Shapes::nodes; ++a) {
         if (at[a] < 0) continue;
-        right[static_cast<std::size_t>(at[a])] += p.area * Shapes::shape(q, a);
+        right[static_cast<std::size_t>(at[a])] += area * Shapes::shape(q, a);
         for (int b = 0; b < Shapes::nodes; ++b) {
           if (at[b] < 0) continue;
-          const double mass = p.area * Shapes::shape(q, a) * Shapes::shape(q, b);
-          const double real = p.area * dot(p.gradient[a], p.gradient[b]) + lambda.real() * mass;
+          const double mass = area * Shapes::shape(q, a) * Shapes::shape(q, b);
+          const double real = area * dot(gradient[a], gradient[b]) + lambda.real() * mass;
           for (int part = 0; part < parts; ++part) entries[{at[b] + part, at[a] + part}] += real;
           if (complex) {
             entries[{at[b] + 1, at[a]}] -= lambda.imag() * mass;

@@ -49,6 +49,8 @@ constexpr Column columns[] = {
     {"wall_stabilisation_uJ", [](const R& r) { return r.wall_stabilisation; }, wall},
     {"fluid_quadrature_uJ", [](const R& r) { return r.fluid_quadrature; },
      [](const EnergyParts& parts) { return parts.fluid && parts.quadratic; }},
+    {"backflow_dissipation_uJ", [](const R& r) { return r.backflow; },
+     [](const EnergyParts& parts) { return parts.fluid && parts.backflow; }},
 };
 
 }  // namespace
