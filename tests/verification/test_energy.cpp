@@ -219,6 +219,31 @@ TEST(EnergyBalance, LeavesOverTheTestedResidualOfArbitraryTaylorHoodBalances) {
   for (const auto* material : {"neo-hookean", "artery"}) check_arbitrary_steps<P2P1Tetrahedron>(material);
 }
 
+// A term of its own, beside the numerical dissipation.
+template <class Element>
+void check_arbitrary_backflow() {
+  for (const TimeScheme scheme : all_schemes) {
+    Case setup = lively_case("neo-hookean");
+    setup.time->scheme = scheme;
+    setup.time->damping = 0.2;
+    ArbitrarySteps<Element> steps(setup);
+    EXPECT_FALSE(EnergyBalance<3>::parts_of(steps.scene()).backflow);
+    steps.scene().fluid->stabilise_backflow(0, 0.7);
+    steps.scene().fluid->stabilise_backflow(1, 0.4);
+    EXPECT_TRUE(EnergyBalance<3>::parts_of(steps.scene()).backflow);
+    for (double step : {0.5, 0.3}) {
+      const EnergyRecord e = steps.advance(step);
+      EXPECT_GT(e.backflow, 0.01);
+      EXPECT_NEAR(e.remainder, -steps.tested_residual(), 1e-12) << name_of(scheme);
+    }
+  }
+}
+
+TEST(EnergyBalance, CountsWhatTheStabilisationOfBackflowTakes) {
+  check_arbitrary_backflow<P1Tetrahedron>();
+  check_arbitrary_backflow<P2P1Tetrahedron>();
+}
+
 // What Newmark's method and the midpoint rule take, in closed form (docs/energy.md): here the velocities at the ends of
 // steps count, which the remainder does not see.
 TEST(EnergyBalance, InertiaOfTheWallHasTheClosedFormOfItsScheme) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,6 +18,7 @@
 #include "support/ring_meshes.hpp"
 #include "support/scene_errors.hpp"
 #include "support/scenes.hpp"
+#include "support/told_of_stages.hpp"
 #include "system/newton_stepper.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -111,35 +111,6 @@ class PipeAt {
   const OscillatingPipe& pipe_;
   double time_, length_;
   PolynomialFit velocity_;
-};
-
-/// A time scheme that says before each stage which rates it will have, so that prescribed values can follow it.
-class ToldOfStages : public TimeIntegrator {
- public:
-  using Tell = std::function<void(const StepRates&)>;
-  ToldOfStages(std::unique_ptr<const TimeIntegrator> scheme, Tell tell)
-      : scheme_(std::move(scheme)), tell_(std::move(tell)) {}
-
-  NewmarkParameters newmark() const override { return scheme_->newmark(); }
-  void prepare(State& state) const override { scheme_->prepare(state); }
-  int stages(const State& state) const override { return scheme_->stages(state); }
-  void predict(State& state, int order, const StepData& data) const override { scheme_->predict(state, order, data); }
-  std::array<double, 3> balance_weights(const State& state, int order, const StepData& data) const override {
-    return scheme_->balance_weights(state, order, data);
-  }
-  std::optional<Balance> balance_again(const State& state) const override { return scheme_->balance_again(state); }
-  void accept(State& state, const StepData& data) const override { scheme_->accept(state, data); }
-  bool pressures_lag() const override { return scheme_->pressures_lag(); }
-
- private:
-  StepRates rates_of(const State& state, double step, int stage) const override {
-    StepRates rates = scheme_->rates(state, step, stage);
-    tell_(rates);
-    return rates;
-  }
-
-  std::unique_ptr<const TimeIntegrator> scheme_;
-  Tell tell_;
 };
 
 struct PipeSteps {
