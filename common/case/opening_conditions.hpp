@@ -19,6 +19,7 @@ struct OpeningConditions {
   std::optional<PressureTable> pressure{};  ///< on the fluid from outside, kPa
   std::optional<FlowRateData> flow_rate{};  ///< prescribes the velocity
   std::optional<OutflowLaw> outflow_law{};  ///< a resistance or a Windkessel
+  std::optional<double> backflow{};         ///< beta of its stabilisation (fluid/backflow.hpp); empty: the standard
 };
 
 }  // namespace fsi

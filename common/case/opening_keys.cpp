@@ -10,6 +10,7 @@
 #include "case/key_values.hpp"
 #include "case/openings.hpp"
 #include "case/table_input.hpp"
+#include "fluid/backflow.hpp"
 
 namespace fsi {
 
@@ -24,7 +25,7 @@ struct OpeningInput {
   TableInput table;  ///< of the pressure or the flow rate
   InflowProfile profile = InflowProfile::parabolic;
   OutflowLaw resistance, windkessel;
-  OpeningConditions conditions;  ///< once it is read
+  OpeningConditions conditions;
 };
 
 std::vector<CaseKey<OutflowLaw>> windkessel_keys() {
@@ -69,6 +70,10 @@ std::vector<CaseKey<OpeningInput>> keys_of_opening() {
            number(at(&OpeningInput::resistance, &OutflowLaw::proximal), not_negative, quantity::resistance())),
       leaf("distal_pressure", optional, "behind the resistance in {unit}, default {}",
            number(at(&OpeningInput::resistance, &OutflowLaw::distal_pressure), any_number, quantity::pressure())),
+      leaf("backflow", optional,
+           "factor of the stabilisation against fluid that enters where its flow is not given, 0: none; default 0.5, "
+           "which lets no kinetic energy in",
+           number(at(&OpeningInput::conditions, &OpeningConditions::backflow), not_negative)),
       section<OutflowLaw, OpeningInput>(
           "windkessel", optional, "proximal resistance, compliance and distal resistance, in place of a pressure",
           windkessel_keys(), [](OpeningInput& input) -> OutflowLaw& { return input.windkessel; },
@@ -105,7 +110,9 @@ OpeningConditions read_opening(const CaseEntry& entry) {
     entry.child("distal_pressure").refuse("stands beside windkessel", "put it into the section windkessel");
   read_keys(entry, keys_of_opening(), input);
   check_sources(entry);
-  OpeningConditions conditions;
+  OpeningConditions& conditions = input.conditions;
+  if (entry.has("flow_rate") && entry.has("backflow"))
+    entry.child("backflow").refuse("stands beside flow_rate, which says what enters", "remove it");
   if (entry.has("pressure")) {
     finish_table(entry, pressure_kind(), input.table);
     conditions.pressure = input.table.table;
@@ -149,6 +156,7 @@ void list_openings(const Case& scene, const std::string& path, std::vector<CaseV
       add("resistance", law->proximal);
       add("distal_pressure", law->distal_pressure);
     }
+    if (!conditions.flow_rate) add("backflow", conditions.backflow.value_or(BackflowTraction::standard));
     if (!conditions.pressure && !conditions.flow_rate && !conditions.outflow_law)
       values.push_back({here, "free of traction", KeyRole::physics});
   }
@@ -156,10 +164,10 @@ void list_openings(const Case& scene, const std::string& path, std::vector<CaseV
 
 std::vector<KeyHelp> help() {
   std::vector<KeyHelp> lines{
-      {"opening.surface", "name of a surface group of the mesh, that [[opening]] begins with", required}};
+      {"opening.surface", "NAME in what follows: a surface group of the mesh; said within [[opening]]", required}};
   for (const auto& key : keys_of_opening()) {
-    if (key.below.empty()) lines.push_back({"opening." + key.name, key.about, key.required});
-    for (const auto& below : key.below) lines.push_back({"opening." + below.path, below.about, false});
+    if (key.below.empty()) lines.push_back({"opening.NAME." + key.name, key.about, key.required});
+    for (const auto& below : key.below) lines.push_back({"opening.NAME." + below.path, below.about, false});
   }
   return lines;
 }

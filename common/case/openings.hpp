@@ -16,7 +16,9 @@ struct OpeningData {
   std::optional<PressureTable> pressure;  ///< on the fluid from outside; none: free of traction
   std::optional<FlowRateData> flow_rate{};
   std::optional<OutflowLaw> outflow_law{};
-  bool demanded = true;  ///< of the mesh; else it may have no such surface
+  std::optional<double> backflow{};  ///< as in OpeningConditions
+  bool listed = false;               ///< the case has [[opening]], and this is none that [inlet] makes
+  bool demanded = true;              ///< of the mesh; else it may have no such surface
 };
 
 /// The open boundaries of a case with fluid, in the order in which scenes and loads hold them: `inlet` of a case with
@@ -27,10 +29,12 @@ inline std::vector<OpeningData> openings_of(const Case& setup) {
   std::vector<OpeningData> openings;
   if (setup.inlet || setup.openings.empty()) openings.push_back({group::inlet, setup.inlet});
   for (const auto& [surface, conditions] : setup.openings)
-    openings.push_back({surface, conditions.pressure, conditions.flow_rate, conditions.outflow_law});
+    openings.push_back(
+        {surface, conditions.pressure, conditions.flow_rate, conditions.outflow_law, conditions.backflow, true});
   if (setup.fluid->outlet && setup.openings.count(group::outlet) == 0) {
     openings.push_back({group::outlet, std::nullopt});
     openings.back().demanded = setup.openings.empty();
+    openings.back().listed = !setup.openings.empty();
   }
   return openings;
 }

@@ -393,6 +393,10 @@ class Run {
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
     if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
     for (const auto& warning : setup_.warnings) log.warning(warning);
+    for (const auto& notice : scene_->notices) {
+      log.warning(notice);
+      warn(program_, notice);
+    }
     if (!lock_.said().empty()) log.warning(lock_.said());
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));

@@ -4,11 +4,12 @@
 #include <utility>
 
 #include "fem/elements.hpp"
-#include "fem/facet_load.hpp"
+#include "fluid/backflow.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/inflow.hpp"
 #include "scene/time_scheme.hpp"
 #include "scene/wave_speed.hpp"
 #include "wall/wall_problem.hpp"
@@ -16,6 +17,11 @@
 namespace fsi {
 
 namespace {
+
+/// beta of the stabilisation of backflow: on by default where the case lists openings, save where their flow is given.
+double backflow_of(const OpeningData& opening) {
+  return opening.listed && !opening.flow_rate ? opening.backflow.value_or(BackflowTraction::standard) : 0;
+}
 
 CylinderAxis cylinder_axis(const StructureData& data) {
   CylinderAxis axis;
@@ -26,29 +32,6 @@ CylinderAxis cylinder_axis(const StructureData& data) {
     axis.direction[i] = d[i] / length;
   }
   return axis;
-}
-
-/// The velocity profile of an opening whose flow is given.
-template <class Element>
-PrescribedInflow<Element::components> prescribed_inflow(const Case& setup, const MeshOf<Element>& mesh,
-                                                        const PartOf<Element>& part, InflowNodes inflow) {
-  constexpr int n = Element::components;
-  const OpeningData opening = openings_of(setup).at(inflow.opening);
-  const auto facets = in_part<Element>(part, group_facets(mesh, opening.surface));
-  // A plug, until there are profiles.
-  const auto normals = normal_weights<Element, VectorLayout<n>>(part.nodes, facets);
-  std::vector<double> unit(normals.size(), 0.0);
-  Direction<n> direction{};
-  for (std::size_t i = 0; i < normals.size(); ++i) direction[i % n] -= normals[i];
-  double flow = 0;
-  for (const int node : inflow.nodes)
-    for (int k = 0; k < n; ++k) flow -= normals[VectorLayout<n>::vector(node, k)] * direction[k];
-  for (const int node : inflow.nodes)
-    for (int k = 0; k < n; ++k) unit[VectorLayout<n>::vector(node, k)] = direction[k] / flow;
-  return {inflow.opening, std::move(inflow.nodes), unit.size(),
-          [unit](double, double rate, std::vector<double>& velocity) {
-            for (std::size_t i = 0; i < unit.size(); ++i) velocity[i] = rate * unit[i];
-          }};
 }
 
 }  // namespace
@@ -92,8 +75,11 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     auto boundary =
         fluid_boundary<Element>(openings_of(setup), mesh, part, interface, scene->wall ? &wall_part : nullptr,
                                 scene->wall ? &scene->wall_conditions : nullptr);
-    for (InflowNodes& inflow : boundary.inflows)
-      scene->inflows.push_back(prescribed_inflow<Element>(setup, mesh, part, std::move(inflow)));
+    for (InflowNodes& nodes : boundary.inflows) {
+      MadeInflow<n> made = make_inflow<Element>(setup, mesh, part, std::move(nodes));
+      scene->inflows.push_back(std::move(made.inflow));
+      if (!made.instead.empty()) scene->notices.push_back(std::move(made.instead));
+    }
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
     scene->fluid_frames = boundary.mirrored.frames;
@@ -103,6 +89,9 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),
                                                          std::move(boundary.mirrored));
     scene->profile.count("fluid elements", static_cast<std::int64_t>(fluid->element_count()));
+    const auto openings = openings_of(setup);
+    for (std::size_t i = 0; i < openings.size(); ++i)
+      if (!fluid->open_boundaries()[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i]));
     if (scene->wall) scene->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid->packs());
     scene->fluid = std::move(fluid);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -31,10 +32,13 @@ class PrescribedInflow {
   /// Writes the velocity of a balance to a flow array (u, p): such that the stage's end, which the scheme carries it to,
   /// has that of the flow in `data`.
   /// \param level  flow array that the stage starts from
+  /// \param data   without flows the fluid stands still there
   void impose(const std::vector<double>& level, const StepData& data, std::vector<double>& flow) const {
     using Mixed = MixedLayout<n>;
-    const double rate = data.opening_flows.empty() ? 0 : data.opening_flows[opening_];
-    profile_(data.rates.end, rate, velocity_);
+    if (data.opening_flows.empty())
+      std::fill(velocity_.begin(), velocity_.end(), 0.0);
+    else
+      profile_(data.rates.end, data.opening_flows[opening_], velocity_);
     for (const int node : nodes_)
       for (int k = 0; k < n; ++k) {
         const std::size_t at = Mixed::vector(node, k);

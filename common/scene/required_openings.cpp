@@ -18,7 +18,7 @@ std::vector<std::string> required_openings(const Case& setup, const std::vector<
     const bool found = std::find(surfaces.begin(), surfaces.end(), opening.surface) != surfaces.end();
     if (!found && opening.demanded)
       throw InputError(setup.path.string(), "opening." + opening.surface,
-                       fmt::format("the mesh {} has no surface of this name", mesh),
+                       fmt::format("the mesh {} has no such surface on the volumes of the scene", mesh),
                        surfaces.empty() ? "name the surface in the mesh" : name_remedy(opening.surface, surfaces));
     if (!found) continue;
     names.push_back(opening.surface);

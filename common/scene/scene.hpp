@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/profile.hpp"
@@ -46,8 +47,9 @@ class Scene {
   NodalFrames<n> fluid_frames;               ///< of nodes whose conditions are along no axis of space; for both above
   NodalFrames<n> wall_frames;                ///< on the interface those of the fluid
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
-  int predictor = 1;        ///< order of the extrapolated start of each step
-  mutable Profile profile;  ///< also of those who only read the scene
+  std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
+  int predictor = 1;                 ///< order of the extrapolated start of each step
+  mutable Profile profile;           ///< also of those who only read the scene
 
   bool coupled() const { return fluid && wall; }
   bool is_static() const { return integrator->is_static(); }

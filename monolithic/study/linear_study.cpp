@@ -122,6 +122,11 @@ class LinearStudy {
                        "give [fluid] and [structure]");
     refuse_pressures_per_layer(setup, scene_->wall->nodes(), "--linear-systems");
     refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, "--linear-systems");
+    scene_->for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw&) {
+      throw InputError(setup.path.string(), "opening." + open.name(),
+                       "--linear-systems studies matrices, and the pressure of a resistance or a windkessel is in none",
+                       "give this opening a pressure");
+    });
     if (systems_.back().step > loads_.steps())
       throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
                        fmt::format("give steps up to {}", loads_.steps()));

@@ -132,6 +132,13 @@ TEST_F(Openings, AreRefusedWithOneMessage) {
        "period, or profile = \"parabolic\""},
       {"pressure = 1\nprofile = \"plug\"",
        "case.toml:12: opening.left.profile: belongs to flow_rate; remove it, or give flow_rate as well"},
+      {"flow_rate = 1\nbackflow = 0.2",
+       "case.toml:12: opening.left.backflow: stands beside flow_rate, which says what "
+       "enters; remove it"},
+      {"backflow = -1",
+       "case.toml:11: opening.left.backflow: -1 is negative; give a number >= 0 (factor of the "
+       "stabilisation against fluid that enters where its flow is not given, 0: none; default 0.5, which "
+       "lets no kinetic energy in)"},
       {"flow_rate = 1\nprofile = \"plugg\"",
        "case.toml:12: opening.left.profile: \"plugg\" is unknown; did you mean "
        "plug? There are plug, parabolic or womersley"},

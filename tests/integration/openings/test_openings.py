@@ -71,6 +71,29 @@ class Artery(FolderTest):
                 np.testing.assert_allclose(one[name][:, column], other[name][:, column], atol=1e-6 * size + 1e-12)
         self.assertGreater(np.abs(one["outlet"][:, 1]).max(), 0.05)
 
+    def test_drivers_agree_with_a_flow_rate(self):
+        """A flow rate in place of the pressure; generalised-alpha, whose pressures lag; a restart of it."""
+        text = CASE.read_text().replace(
+            'pressure = { file = "beat.csv" }', "flow_rate = [[0, 0], [0.375, 1], [0.75, 0]]"
+        )
+        case = self.base / "flow.toml"
+        case.write_text(text.replace("[time]", '[time]\nscheme = "generalised-alpha"'))
+        runs = []
+        for program in DRIVERS:
+            folder = run(program, case, self.base / f"{Path(program).name}-flow", *self.settings)
+            part = run(program, case, self.base / f"{Path(program).name}-flow-part", *self.settings, "time.end=0.75")
+            restart(program, case, part, *self.settings)
+            self.assertEqual((part / "openings.csv").read_bytes(), (folder / "openings.csv").read_bytes())
+            self.assertSameResults(part, folder)
+            runs.append(openings(folder))
+        for name in runs[0]:
+            for column in (1, 2, 3):
+                size = np.abs(runs[0][name][:, column]).max()
+                np.testing.assert_allclose(runs[0][name][:, column], runs[1][name][:, column], atol=1e-6 * size)
+        time, flow = runs[0]["inlet"][:, :2].T
+        phase = time % 0.75
+        np.testing.assert_allclose(-flow, np.minimum(phase, 0.75 - phase) / 0.375, atol=1e-9)
+
     def test_restarts_bit_for_bit(self):
         for program in DRIVERS:
             whole = self.march(program, "whole")
@@ -102,6 +125,12 @@ class Artery(FolderTest):
         rate = flow - stored / WINDKESSEL["distal"]
         gained = np.cumsum(0.5 * step * (rate[1:] + rate[:-1])) / WINDKESSEL["compliance"]
         np.testing.assert_allclose(stored[1:] - stored[0], gained, atol=2e-3 * np.abs(stored).max())
+
+    def test_a_surface_of_the_wall_is_no_opening(self):
+        settings = (*self.settings, "opening.outer.pressure=1")
+        refused = attempt(MONOLITHIC, CASE, folder=self.base / "outer", settings=settings)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("do not bound the fluid", refused.stderr)
 
 
 class RigidPipe(FolderTest):
@@ -139,6 +168,39 @@ class RigidPipe(FolderTest):
         # The pipe's own: 8 mu L / (pi R^4), but for the profile near the ends, which is free of traction there.
         own = (0.5 - 0.2) / rate
         self.assertAlmostEqual(own / (8 * 1.0 * 6 / (np.pi * 1.43**4)), 1, delta=0.05)
+
+    def test_flow_rates_are_met_by_every_scheme(self):
+        """What is let in at each time is the table's value there, and leaves at once; the energy is balanced."""
+        inlet = '[[opening]]\nsurface = "inlet"\nflow_rate = [[0, 0], [1, 2], [2, 0]]\nperiod = 2\n'
+        for scheme, profile in zip(SCHEMES, ("plug", "parabolic", "womersley", "parabolic", "womersley")):
+            text = f'{inlet}profile = "{profile}"\n[[opening]]\nsurface = "outlet"\nresistance = 0.3\n'
+            rows, folder = self.flow(f"{scheme}-{profile}", text, scheme, 0.125, 2.5)
+            time, flow, _, _ = rows["inlet"].T
+            phase = time % 2
+            np.testing.assert_allclose(-flow, 2 * np.minimum(phase, 2 - phase), atol=1e-9, err_msg=scheme)
+            np.testing.assert_allclose(rows["outlet"][:, 1], -flow, atol=1e-8, err_msg=scheme)
+            columns = energy(folder)
+            size = np.abs(columns["inlet_work"]).max()
+            self.assertLess(np.abs(columns["remainder"]).max(), 1e-6 * size, scheme)
+
+    def test_what_openings_a_mesh_and_a_rigid_fluid_cannot_have(self):
+        cases = {
+            "opening.outlett: the mesh": '[[opening]]\nsurface = "outlett"\npressure = 1\n',
+            "did you mean outlet?": '[[opening]]\nsurface = "outlett"\npressure = 1\n',
+            "its pressure undetermined": "".join(
+                f'[[opening]]\nsurface = "{name}"\nflow_rate = 1\n' for name in ("inlet", "outlet")
+            ),
+            "no such surface on the volumes": '[[opening]]\nsurface = "outer"\npressure = 1\n',
+        }
+        for message, text in cases.items():
+            case = self.base / "refused.toml"
+            case.write_text(RIGID.format(openings=text, scheme="euler", step=1, end=2))
+            for program in DRIVERS:
+                refused = attempt(program, case, folder=self.base / "refused", settings=(f"mesh.file={self.mesh}",))
+                self.assertEqual(refused.returncode, 1, refused.stderr)
+                self.assertIn(message, refused.stderr)
+                self.assertEqual(refused.stderr.count("\n"), 1, refused.stderr)
+                self.assertFalse((self.base / "refused" / "openings.csv").exists())
 
 
 if __name__ == "__main__":

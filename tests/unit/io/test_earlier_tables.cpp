@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ResultTables tables{true, true, true, false, EnergyParts{true, true}};
+const ResultTables tables{true, true, true, false, EnergyParts{true, true}};
 const std::vector<double> centre{0, 0.5, 1}, wall{0, 1};
 
 using Lines = std::vector<std::string>;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ResultTables no_fluid{false, true, false};
+const ResultTables no_fluid{false, true, false};
 constexpr int last_step = 200;
 constexpr double step_size = 0.25;  // exact in binary, so that times can be compared
 

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr EnergyParts coupled{true, true, true};
-constexpr ResultTables all_tables{true, true, true, false, coupled};
+const ResultTables all_tables{true, true, true, false, coupled};
 
 void write_step(ResultFolder& results, int step) {
   const double time = 0.1 * step;
