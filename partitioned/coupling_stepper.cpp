@@ -251,16 +251,25 @@ double CouplingStepper<n>::added_mass(const State& state, const StepData& data) 
   StepData push = data;
   push.wall_pressure = 0;
   push.opening_flows.clear();
+  // What stands behind an opening without flow is taken off: the answer to the push alone counts.
+  const auto push_all = [&](double pressure) {
+    const auto& open = scene_.fluid->open_boundaries();
+    for (std::size_t i = 0; i < push.opening_pressures.size(); ++i) {
+      const OutflowLaw* law = open[i].law();
+      const double reference = law != nullptr && law->stores() ? push.rates.windkessel_reference[open[i].place()] : 0;
+      push.opening_pressures[i] =
+          pressure - (law != nullptr ? law->pressure(push.rates.fluid_factor, reference, 0) : 0);
+    }
+  };
   double growth = 0;
   try {
     // Pushed by one pressure at all openings the wall moves outward everywhere, as its supports allow.
     start(rest, push);
-    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(),
-              amplitude * problem_->pressure_of_thickness());
+    push_all(amplitude * problem_->pressure_of_thickness());
     std::vector<double> x = problem_->first_guess(0);
     set_zero(x);
     Pass pass = problem_->pass(x, accuracy);
-    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(), 0.0);
+    push_all(0);
     for (int k = 0; k < passes; ++k) {
       const double before = norm(x), length = norm(pass.displacement);
       if (!(length > 0)) break;

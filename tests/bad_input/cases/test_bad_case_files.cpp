@@ -379,7 +379,7 @@ const std::vector<BadCase>& bad_cases() {
       {"NeitherFluidNorWall", fluid_case, "[fluid]\ndensity = 1.0\nviscosity = 3.5e-3\n", "",
        "case.toml: neither [fluid] nor [structure]; add at least one of them"},
       {"InletMissing", fluid_case, "[inlet]\npressure = [[0, 0], [1, 2.5], [1, 0], [3, 1]]\n", "",
-       "case.toml: no [inlet]; add [inlet] with pressure, since there is a fluid"},
+       "case.toml: no [inlet]; add [inlet] with pressure, since there is a fluid, or [[opening]]"},
       {"InletWithoutFluid", static_case, "[load]", "[inlet]",
        "case.toml:10: inlet: stands in a case without fluid; rename it to [load], or add [fluid]"},
       {"LoadMissing", static_case, "[load]\npressure = 2.0\n", "",

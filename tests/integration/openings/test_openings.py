@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, FolderTest, attempt, energy, make_mesh, restart, run
+from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, restart, run
 
 CASE = Path(__file__).with_name("openings.toml")
 SCHEMES = ("euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2")
@@ -131,6 +131,29 @@ class Artery(FolderTest):
         refused = attempt(MONOLITHIC, CASE, folder=self.base / "outer", settings=settings)
         self.assertEqual(refused.returncode, 1)
         self.assertIn("do not bound the fluid", refused.stderr)
+
+    def test_flow_given_everywhere_needs_a_scheme_that_lets_the_wall_answer(self):
+        """The wall takes up what does not leave: the monolithic driver and Robin-Neumann agree, Dirichlet-Neumann says no."""
+        text = CASE.read_text().split("[[opening]]")[0] + "".join(
+            f'[[opening]]\nsurface = "{name}"\nflow_rate = {rate}\n'
+            for name, rate in (("inlet", "[[0, 0], [0.5, 0.5]]"), ("outlet", "[[0, 0], [0.5, -0.45]]"))
+        )
+        case = self.base / "everywhere.toml"
+        case.write_text(text + "[time]\nstep = 0.125\nend = 0.5\n")
+        one, other = (
+            openings(run(program, case, self.base / f"{Path(program).name}-all", *self.settings, *tight))
+            for program, tight in (
+                (MONOLITHIC, ("monolithic.newton_tolerance=1e-10",)),
+                (PARTITIONED, ("partitioned.tolerance=1e-8",)),
+            )
+        )
+        self.assertAlmostEqual(one["outlet"][-1, 1], 0.45, delta=1e-9)
+        pressure = one["inlet"][:, 2]
+        np.testing.assert_allclose(other["inlet"][:, 2], pressure, atol=1e-4 * np.abs(pressure).max())
+        settings = (*self.settings, "partitioned.scheme=iqn-ils")
+        refused = attempt(PARTITIONED, case, folder=self.base / "refused", settings=settings)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("its pressure is not determined", refused.stderr)
 
 
 class RigidPipe(FolderTest):

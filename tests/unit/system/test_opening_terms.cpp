@@ -74,6 +74,8 @@ TEST(OpeningTerms, PressAsTheirLawSays) {
 /// how the correction was found.
 void expect_exact_corrections(const std::string& solver, bool coupled, double linear_tolerance, double tolerance) {
   OpenFluid open;
+  FastOptions iterative;
+  iterative.direct_below = 0;
   const auto system = std::make_unique<System<3>>("tested", *open.scene,
                                                   coupled ? number_scene(*open.scene) : number_fluid(*open.scene),
                                                   general_solver_factory<3>(solver, iterative));
