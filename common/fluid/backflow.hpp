@@ -13,7 +13,7 @@
 namespace fsi {
 
 /// Fluid that enters through an opening whose velocity is not given brings kinetic energy that nothing limits. The
-/// stabilisation ([Bazilevs2009], [EsmailyMoghadam2011]; docs/theory.md, section 3.6) adds to the momentum equation
+/// stabilisation ([Bazilevs2009], [EsmailyMoghadam2011]; docs/theory.md, section 3.7) adds to the momentum equation
 ///   beta rho <(u . n)_- u, v>,   (x)_- = (|x| - x)/2,
 /// a traction against the fluid that enters. It takes 2 beta of the energy that comes in: with beta = 1/2 all of it.
 /// Where fluid leaves there is nothing. The opening does not move, so that u is the velocity relative to it.

@@ -36,7 +36,7 @@ UnitInflow plug_inflow(const InflowOpening<Element>& opening);
 /// circle about the axis (axisymmetric) or a straight segment (plane) the parabola 1 - (r/R)^2. Else the solution of
 ///   -Laplace w = 1 on the opening, w = 0 where the fluid sticks,
 /// with the velocity's shape functions on the opening's facets, and `instead` says so. Where the fluid sticks nowhere,
-/// a plug (docs/theory.md, section 3.5).
+/// a plug (docs/theory.md, section 3.6).
 /// \throws InputError as plug_inflow()
 template <class Element>
 UnitInflow parabolic_inflow(const InflowOpening<Element>& opening);

@@ -152,7 +152,7 @@ TEST(InflowProfile, EllipticDuct) {
   EXPECT_NEAR(std::log2(ellipse_error<P2P1Tetrahedron>(1) / ellipse_error<P2P1Tetrahedron>(2)), 2, 0.1) << "of the rim";
 }
 
-/// A square duct has 2.09626 times its mean velocity in the middle [White2006, 3-48].
+/// A square duct has 2.09626 times its mean velocity in the middle [White2006, section 3-3].
 TEST(InflowProfile, SquareDuct) {
   const auto opening = flat_opening<P2P1Tetrahedron>(rectangle(1, 1, 8, 8), everywhere);
   const auto inflow = parabolic_inflow(opening);
