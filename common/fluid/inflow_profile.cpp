@@ -44,12 +44,12 @@ UnitInflow plug_inflow(const InflowOpening<Element>& opening) {
 template <class Element>
 UnitInflow parabolic_inflow(const InflowOpening<Element>& opening) {
   const OpeningShape shape = shape_of(opening);
-  if (!shape.walled) return plug(opening, shape, no_rim);
+  if (!shape.walled) return plug(opening, shape, says_no_rim(opening));
   const auto nodes = facet_nodes(opening.facets);
   std::vector<double> w;
   if (shape.kind == OpeningShape::Kind::other) {
     for (const auto& value : developed_flow(opening, nodes, 0.0)) w.push_back(value.real());
-    return unit_inflow(opening, nodes, shape.inward, std::move(w), of_its_own_shape<Element>());
+    return unit_inflow(opening, nodes, shape.inward, std::move(w), says_own_shape(opening));
   }
   for (const int a : nodes) {
     const double s = distance(opening.nodes[a], shape.centre) / shape.radius;

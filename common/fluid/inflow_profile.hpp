@@ -11,10 +11,11 @@ namespace fsi {
 template <class Element>
 struct InflowOpening {
   using Facet = typename SimplexMesh<Element::dim, Element::order>::Facet;
-  std::string name;            ///< in messages
+  std::string name;            ///< the surface's
   std::vector<Point> nodes;    ///< of the part, reference positions, mm
   std::vector<Facet> facets;   ///< of the opening, in the part's numbers, normals outward
   std::vector<char> sticking;  ///< per node of the part: no slip there, as on the opening's rim
+  std::string file{};          ///< that messages name
 };
 
 /// A velocity on an opening whose discrete flow into the fluid is one: its dot product with normal_weights()
@@ -24,7 +25,7 @@ struct InflowOpening {
 /// sticks.
 struct UnitInflow {
   std::vector<double> velocity;  ///< vector layout, 1/mm^2
-  std::string instead;           ///< what was taken in place of what was asked for, and why; empty: nothing
+  std::string instead;           ///< a sentence: what was taken in place of what was asked for; empty: nothing
 };
 
 /// One velocity wherever the fluid does not stick.

@@ -29,7 +29,7 @@ Point mean_inward(const InflowOpening<Element>& opening, const std::vector<int>&
   for (const int a : nodes) area += areas[a];
   const double length = norm(inward);
   if (!(length > 1e-6 * area))
-    throw InputError("", opening.name, "this surface has no mean normal for the flow to follow",
+    throw InputError(opening.file, "opening." + opening.name, "this surface has no mean normal for the flow to follow",
                      "take a flow rate through a surface that does not surround the fluid");
   for (double& component : inward) component = std::abs(component) < 1e-10 * length ? 0.0 : component / length;
   return (1 / norm(inward)) * inward;
@@ -185,7 +185,7 @@ OpeningShape shape_of(const InflowOpening<Element>& opening) {
   const auto nodes = facet_nodes(opening.facets);
   const auto sticking = std::count_if(nodes.begin(), nodes.end(), [&](int a) { return opening.sticking[a] != 0; });
   if (sticking == static_cast<std::ptrdiff_t>(nodes.size()))
-    throw InputError("", opening.name,
+    throw InputError(opening.file, "opening." + opening.name,
                      "the fluid sticks at every node of this surface, so that none can flow through it",
                      "refine the mesh there, so that nodes lie inside the opening");
   shape.walled = sticking > 0;

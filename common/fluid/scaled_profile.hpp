@@ -21,14 +21,20 @@ void scale_to_unit_flow(const InflowOpening<Element>& opening, const std::vector
   for (Number& value : w) value /= flow;
 }
 
-/// Why a profile is not that of the closed form, for UnitInflow::instead.
-inline const char* const no_rim = "the fluid sticks nowhere on its rim: the same velocity is let in everywhere";
+// Sentences for UnitInflow::instead.
+
 template <class Element>
-std::string of_its_own_shape() {
+std::string says_no_rim(const InflowOpening<Element>& opening) {
+  return "the fluid sticks nowhere on the rim of the surface " + opening.name +
+         ": the same velocity is let in everywhere, a plug";
+}
+template <class Element>
+std::string says_own_shape(const InflowOpening<Element>& opening) {
   const char* ideal = Element::dim == 3       ? "no flat circle"
                       : Element::axisymmetric ? "no flat circle about the axis"
                                               : "not straight between walls";
-  return std::string("it is ") + ideal + ": the flow that is fully developed on its own facets is let in";
+  return "the surface " + opening.name + " is " + ideal +
+         ": the flow that is fully developed on its own facets is let in, the discrete solution of -Laplace w = 1";
 }
 
 }  // namespace fsi

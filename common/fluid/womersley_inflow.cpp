@@ -89,9 +89,9 @@ WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const Pe
   WomersleyInflow inflow;
   inflow.flow_ = flow;
   if (!shape.walled)
-    inflow.instead_ = no_rim;
+    inflow.instead_ = says_no_rim(opening);
   else if (shape.kind == OpeningShape::Kind::other)
-    inflow.instead_ = of_its_own_shape<Element>();
+    inflow.instead_ = says_own_shape(opening);
   for (const int a : nodes) inflow.entries_.push_back(VectorLayout<n>::vector(a));
   for (int k = 0; k < n; ++k) inflow.direction_.push_back(shape.inward[Element::axis[k]]);
 

@@ -28,7 +28,7 @@ class WomersleyInflow {
 
   const PeriodicFlow& flow() const { return flow_; }
   int modes() const { return static_cast<int>(profiles_.size()) - 1; }  ///< besides the mean
-  /// What was taken in place of the Bessel functions, and why; empty: nothing.
+  /// A sentence: what was taken in place of the closed forms; empty: nothing.
   const std::string& instead() const { return instead_; }
 
  private:

@@ -113,7 +113,9 @@ TEST(InflowProfile, AnnulusHasItsOwnProfile) {
     const auto opening = line_opening<P2P1AxisymmetricTriangle>({k, 0, 0}, {1, 0, 0}, n, true, true);
     const auto inflow = parabolic_inflow(opening);
     EXPECT_EQ(inflow.instead,
-              "it is no flat circle about the axis: the flow that is fully developed on its own facets is let in");
+              "the surface in is no flat circle about the axis: the flow that is fully developed on its own facets is "
+              "let in, the discrete solution of "
+              "-Laplace w = 1");
     expect_unit_flow(opening, inflow, {0, 0, 1});
     double flow = 0;  // of the exact profile, by Simpson's rule
     constexpr int steps = 400;
@@ -141,7 +143,10 @@ double ellipse_error(int m) {
   for (auto& x : plane.nodes) x[1] *= 0.5;
   const auto opening = flat_opening<Element>(plane, everywhere);
   const auto inflow = parabolic_inflow(opening);
-  EXPECT_EQ(inflow.instead, "it is no flat circle: the flow that is fully developed on its own facets is let in");
+  EXPECT_EQ(inflow.instead,
+            "the surface in is no flat circle: the flow that is fully developed on its own facets is let in, the "
+            "discrete solution of "
+            "-Laplace w = 1");
   const Point inward = tilted_inward();
   expect_unit_flow(opening, inflow, inward);
   return std::abs(along<Element>(inflow.velocity, 0, inward) * pi * 0.5 / 2 - 1);

@@ -102,25 +102,27 @@ TEST(OpeningShape, OfTriangleMeshes) {
 }
 
 TEST(OpeningShape, WithoutAFreeNodeNothingCanFlow) {
-  const auto opening = flat_opening<P1Tetrahedron>(rectangle(1, 1, 1, 1), everywhere);
-  EXPECT_EQ(
-      message_of<InputError>([&] { shape_of(opening); }),
-      "in: the fluid sticks at every node of this surface, so that none can flow through it; refine the mesh there, "
-      "so that nodes lie inside the opening");
+  auto opening = flat_opening<P1Tetrahedron>(rectangle(1, 1, 1, 1), everywhere);
+  opening.file = "case.toml";
+  EXPECT_EQ(message_of<InputError>([&] { shape_of(opening); }),
+            "case.toml: opening.in: the fluid sticks at every node of this surface, so that none can flow through it; "
+            "refine the mesh there, "
+            "so that nodes lie inside the opening");
 }
 
 TEST(OpeningShape, ASurfaceAroundTheFluidHasNoMeanNormal) {
   InflowOpening<P1PlaneTriangle> ring;
   ring.name = "in";
+  ring.file = "case.toml";
   for (int i = 0; i < 12; ++i) {
     ring.nodes.push_back({std::cos(pi * i / 6), std::sin(pi * i / 6), 0});
     ring.facets.push_back({i, (i + 1) % 12});
   }
   ring.sticking.assign(12, 0);
-  EXPECT_EQ(
-      message_of<InputError>([&] { shape_of(ring); }),
-      "in: this surface has no mean normal for the flow to follow; take a flow rate through a surface that does not "
-      "surround the fluid");
+  EXPECT_EQ(message_of<InputError>([&] { shape_of(ring); }),
+            "case.toml: opening.in: this surface has no mean normal for the flow to follow; take a flow rate through a "
+            "surface that does not "
+            "surround the fluid");
 }
 
 }  // namespace
