@@ -86,45 +86,46 @@ WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const Pe
   constexpr int n = Element::components;
   const OpeningShape shape = shape_of(opening);
   const auto nodes = facet_nodes(opening.facets);
-  WomersleyInflow inflow;
-  inflow.flow_ = flow;
+  WomersleyInflow::Modes modes;
+  std::string instead;
   if (!shape.walled)
-    inflow.instead_ = says_no_rim(opening);
+    instead = says_no_rim(opening);
   else if (shape.kind == OpeningShape::Kind::other)
-    inflow.instead_ = says_own_shape(opening);
-  for (const int a : nodes) inflow.entries_.push_back(VectorLayout<n>::vector(a));
-  for (int k = 0; k < n; ++k) inflow.direction_.push_back(shape.inward[Element::axis[k]]);
+    instead = says_own_shape(opening);
+  for (const int a : nodes) modes.entries.push_back(VectorLayout<n>::vector(a));
+  for (int k = 0; k < n; ++k) modes.direction.push_back(shape.inward[Element::axis[k]]);
 
   const double w = 2 * std::acos(-1.0) / flow.period, square = flow.mean_square();
   double left = square;
   for (int k = 0; k <= most_modes; ++k) {
     const Complex q = flow.coefficient(k);
-    inflow.coefficients_.push_back(q);
+    modes.coefficients.push_back(q);
     left -= (k == 0 ? 1.0 : 0.5) * std::norm(q);
     if (left <= left_over * left_over * square) break;
   }
-  for (std::size_t k = 0; k < inflow.coefficients_.size(); ++k) {
-    inflow.profiles_.push_back(
+  for (std::size_t k = 0; k < modes.coefficients.size(); ++k) {
+    modes.profiles.push_back(
         profile(opening, nodes, shape, Complex(0, static_cast<double>(k) * w * density / viscosity)));
-    scale_to_unit_flow(opening, nodes, shape.inward, inflow.profiles_.back());
+    scale_to_unit_flow(opening, nodes, shape.inward, modes.profiles.back());
   }
-  return inflow;
+  return {flow, std::move(modes), std::move(instead)};
 }
 
 void WomersleyInflow::set(double time, double flow_rate, std::vector<double>& velocity) const {
+  const auto& [entries, direction, profiles, coefficients] = modes_;
   const double w = 2 * std::acos(-1.0) / flow_.period;
   std::vector<Complex> rates;
   double left = flow_rate;
-  for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
     // The phase of whole periods is taken off first: it would cost digits.
-    rates.push_back(coefficients_[k] * std::polar(1.0, static_cast<double>(k) * w * std::fmod(time, flow_.period)));
+    rates.push_back(coefficients[k] * std::polar(1.0, static_cast<double>(k) * w * std::fmod(time, flow_.period)));
     left -= rates.back().real();
   }
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    double along = left * profiles_.back()[i].real();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    double along = left * profiles.back()[i].real();
     for (std::size_t k = 0; k < rates.size(); ++k)
-      along += rates[k].real() * profiles_[k][i].real() - rates[k].imag() * profiles_[k][i].imag();
-    for (std::size_t c = 0; c < direction_.size(); ++c) velocity[entries_[i] + c] = along * direction_[c];
+      along += rates[k].real() * profiles[k][i].real() - rates[k].imag() * profiles[k][i].imag();
+    for (std::size_t c = 0; c < direction.size(); ++c) velocity[entries[i] + c] = along * direction[c];
   }
 }
 

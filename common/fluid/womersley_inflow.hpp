@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fluid/inflow_profile.hpp"
@@ -20,6 +21,17 @@ namespace fsi {
 /// mode's profile, so that the discrete flow is that asked for to rounding.
 class WomersleyInflow {
  public:
+  using Complex = std::complex<double>;
+  struct Modes {
+    std::vector<std::size_t> entries;            ///< per node of the opening, of its vector in the vector layout
+    std::vector<double> direction;               ///< components of the inward normal
+    std::vector<std::vector<Complex>> profiles;  ///< per mode and node, of unit flow, 1/mm^2
+    std::vector<Complex> coefficients;           ///< per mode, of the flow rate, mm^3/ms
+  };
+
+  WomersleyInflow(PeriodicFlow flow, Modes modes, std::string instead)
+      : flow_(std::move(flow)), modes_(std::move(modes)), instead_(std::move(instead)) {}
+
   /// Sets the vectors of the opening's nodes, in the vector layout of the part (its other entries stay), to the velocity
   /// in mm/ms at a time in ms. \param flow_rate  that the discrete flow into the fluid shall have, mm^3/ms
   void set(double time, double flow_rate, std::vector<double>& velocity) const;
@@ -27,22 +39,14 @@ class WomersleyInflow {
   void set(double time, std::vector<double>& velocity) const { set(time, flow_.at(time), velocity); }
 
   const PeriodicFlow& flow() const { return flow_; }
-  int modes() const { return static_cast<int>(profiles_.size()) - 1; }  ///< besides the mean
+  int modes() const { return static_cast<int>(modes_.profiles.size()) - 1; }  ///< besides the mean
   /// A sentence: what was taken in place of the closed forms; empty: nothing.
   const std::string& instead() const { return instead_; }
 
  private:
-  using Complex = std::complex<double>;
-  template <class Element>
-  friend WomersleyInflow womersley_inflow(const InflowOpening<Element>& opening, const PeriodicFlow& flow,
-                                          double density, double viscosity);
-
   PeriodicFlow flow_;
+  Modes modes_;
   std::string instead_;
-  std::vector<std::size_t> entries_;            ///< per node of the opening, of its vector in the vector layout
-  std::vector<double> direction_;               ///< components of the inward normal
-  std::vector<std::vector<Complex>> profiles_;  ///< per mode and node, 1/mm^2
-  std::vector<Complex> coefficients_;           ///< per mode, mm^3/ms
 };
 
 /// \param density    mg/mm^3
