@@ -30,7 +30,7 @@ MadeInflow<Element::components> make_inflow(const Case& setup, const MeshOf<Elem
   const OpeningData opening = openings_of(setup).at(where.opening);
   const InflowOpening<Element> place{opening.surface, part.nodes,
                                      in_part<Element>(part, group_facets(mesh, opening.surface)),
-                                     std::move(where.sticking)};
+                                     std::move(where.sticking), setup.path.string()};
   const std::size_t size = VectorLayout<n>::size(part.node_count());
   const FlowRateData& rate = opening.flow_rate.value();
   if (rate.profile == InflowProfile::womersley) {
