@@ -152,7 +152,7 @@ TEST_F(Results, TellOfTheEnergyThatASceneHas) {
                        &energy.inlet_work, &energy.load_work, &energy.inlet_kinetic, &energy.outlet_kinetic,
                        &energy.viscous, &energy.remainder, &energy.fluid_inertia, &energy.fluid_mesh_motion,
                        &energy.fluid_divergence, &energy.fluid_stabilisation, &energy.wall_inertia, &energy.wall_stress,
-                       &energy.wall_stabilisation, &energy.fluid_quadrature})
+                       &energy.wall_stabilisation, &energy.fluid_quadrature, &energy.backflow})
     *term = next++;
   const auto table = [&](const EnergyParts& parts) {
     ResultTables tables;
@@ -181,6 +181,11 @@ TEST_F(Results, TellOfTheEnergyThatASceneHas) {
             "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_divergence_uJ,"
             "fluid_stabilisation_uJ,fluid_quadrature_uJ\n"
             "2,0.25,1,5,7,8,9,116,10,11,13,14,18\n");
+  EXPECT_EQ(table({true, false, true, false, true}),
+            "step,time_ms,fluid_kinetic_energy_uJ,inlet_work_uJ,inlet_kinetic_inflow_uJ,outlet_kinetic_outflow_uJ,"
+            "viscous_dissipation_uJ,numerical_dissipation_uJ,remainder_uJ,fluid_inertia_uJ,fluid_divergence_uJ,"
+            "fluid_stabilisation_uJ,backflow_dissipation_uJ\n"
+            "2,0.25,1,5,7,8,9,116,10,11,13,14,19\n");
   ResultFolder results(run_, {});
   EXPECT_FALSE(fs::exists(run_ / "energy.csv"));
 }
