@@ -23,8 +23,8 @@ struct OpeningShape {
   static constexpr double largest_step = 61 * 3.14159265358979323846 / 180;  ///< between points of the rim, radians
 };
 
-/// Circle: flat, and the points of the rim at which the fluid sticks lie on one, no two neighbours more than 61 degrees
-/// apart; of the rim what is left, on planes of symmetry, points at the centre. Middles of straight edges are no points:
+/// Circle: flat, and the points of the rim at which the fluid sticks lie on one, no two neighbours more than 61
+/// degrees apart; of the rim what is left, on planes of symmetry, points at the centre. Middles of straight edges are no points:
 /// a polygon between points of a circle is one, from six corners on.
 /// \throws InputError when the fluid sticks at every node of the opening, or its mean normal is zero
 template <class Element>

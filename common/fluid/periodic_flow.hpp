@@ -6,7 +6,7 @@
 
 namespace fsi {
 
-/// A flow rate that repeats itself, linear between its points and from the last one to the first one of the next period.
+/// A flow rate that repeats itself, linear between its points and from the last one to the first of the next period.
 struct PeriodicFlow {
   double period = 0;                              ///< ms
   std::vector<std::pair<double, double>> points;  ///< (ms, mm^3/ms), times ascending, over less than a period

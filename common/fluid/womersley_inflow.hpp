@@ -11,8 +11,8 @@
 
 namespace fsi {
 
-/// Velocity on an opening of the fully developed flow of a periodic flow rate (Womersley). The rate's Fourier modes have
-/// a profile each (docs/theory.md, section 3.6):
+/// Velocity on an opening of the fully developed flow of a periodic flow rate (Womersley). The rate's Fourier modes
+/// have a profile each (docs/theory.md, section 3.6):
 ///   circle, circle about the axis   1 - J_0(l r) / J_0(l R),     l^2 = -i k w / nu,
 ///   straight segment                1 - cosh(l s) / cosh(l h),   l^2 = i k w / nu,
 ///   else the solution of i k w f - nu Laplace f = 1, f = 0 where the fluid sticks, on the opening's facets.

@@ -7,8 +7,8 @@ namespace fsi {
 
 /// Bessel functions J_0 and J_1 of a complex argument, times e^(-|Im z|), so that they stay finite. Errors are below
 /// 1e-13 of the larger of the two for |z| up to 1000 (4e-14 against 40 digits). From [Abramowitz1964]:
-/// the power series 9.1.10 below |z| = 1, backward recurrence 9.1.27 with the sum 9.1.41 as its scale up to 25 (Miller),
-/// Hankel's asymptotic expansion 9.2.5 above.
+/// the power series 9.1.10 below |z| = 1, backward recurrence 9.1.27 with the sum 9.1.41 as its scale up to 25
+/// (Miller), Hankel's asymptotic expansion 9.2.5 above.
 struct ScaledBessel {
   std::complex<double> j0, j1;
 

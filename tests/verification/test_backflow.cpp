@@ -1,5 +1,5 @@
-// Backflow at an opening without traction: a flow that feeds on it until it blows up, and its stabilisation, both against
-// a solution of the equations of Navier and Stokes in closed form.
+// Backflow at an opening without traction: a flow that feeds on it until it blows up, and its stabilisation, both
+// against a solution of the equations of Navier and Stokes in closed form.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ namespace {
 /// Radial flow u = q(t)/r between the arcs r1 and r2 of a quarter ring whose straight sides it slides along. It has no
 /// viscous force; with both arcs free of traction, p = -2 mu q/r^2 there, Bernoulli's equation between them gives
 ///   ln(r2/r1) q' = -2 nu (1/r1^2 - 1/r2^2) q + [(1/r1^2 - 1/r2^2)/2 - beta/r1^2] q^2
-/// for q > 0, which enters through the narrow arc. Without stabilisation the energy that enters there exceeds what leaves:
-/// q grows beyond all bounds in a finite time. With beta = 1/2 it falls.
+/// for q > 0, which enters through the narrow arc. Without stabilisation the energy that enters there exceeds what
+/// leaves: q grows beyond all bounds in a finite time. With beta = 1/2 it falls.
 struct RadialFlow {
   double beta;
   static constexpr double r1 = 1, r2 = 2, nu = 0.05, start = 1;
@@ -160,8 +160,8 @@ SimplexMesh<2, Element::order> short_pipe(int across, int along) {
   return in_order<Element>(mesh);
 }
 
-/// A pressure that swings at one end: near the wall the flow turns first, so that both ends have fluid that enters beside
-/// fluid that leaves, at points that change from step to step. Newton's method meets the kink of (u . n)_- each time.
+/// A pressure that swings at one end: near the wall the flow turns first, so that both ends have fluid that enters
+/// beside fluid that leaves, at points that change from step to step. Newton's method meets the kink of (u . n)_- each time.
 template <class Element>
 void check_swinging_flow() {
   constexpr double period = 2;

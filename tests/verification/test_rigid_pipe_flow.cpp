@@ -32,8 +32,8 @@ namespace {
 const double pi = std::acos(-1.0);
 constexpr double radius = 1.2, density = 1.06;  // mm, mg/mm^3
 
-/// A rigid pipe 0 < z < length with groups inlet and outlet: of revolution, cells smaller towards the wall; of tetrahedra
-/// the quarter x, y > 0, quadratic edges on the circle.
+/// A rigid pipe 0 < z < length with groups inlet and outlet: of revolution, cells smaller towards the wall; of
+/// tetrahedra the quarter x, y > 0, quadratic edges on the circle.
 template <class Element>
 SimplexMesh<Element::dim, Element::order> rigid_pipe(int across, int along, double length) {
   const auto groups = [&](auto& mesh, const auto& list) {
@@ -167,7 +167,7 @@ Case rigid_case(double viscosity, double pressure, TimeScheme scheme, double end
   return setup;
 }
 
-// --- Womersley ---------------------------------------------------------------------------------------------------------
+// --- Womersley -----------------------------------------------------------------------------------------------------
 
 /// Flow 1 + 3 cos(w t) mm^3/ms with Womersley number 5 [Womersley1955]; through a quarter pipe a quarter of it.
 struct Oscillation {
@@ -232,7 +232,7 @@ TEST(WomersleyFlow, OfTetrahedraOnACoarseMesh) {
   EXPECT_GT(std::log2(coarse / finer), 2);
 }
 
-// --- start-up ----------------------------------------------------------------------------------------------------------
+// --- start-up ------------------------------------------------------------------------------------------------------
 
 /// Flow from rest under a pressure that is switched on [Szymanski1932]; over its velocity on the axis in the end,
 ///   1 - s^2 - sum over the zeros l of J_0 of 8 J_0(l s) / (l^3 J_1(l)) e^(-l^2 nu t / R^2),   s = r/R.

@@ -127,8 +127,8 @@ TYPED_TEST(Backflow, PowerIsTheTermTestedWithTheVelocity) {
   EXPECT_EQ(only(term, TypeParam::components + 1, TypeParam::components, 1), std::vector<double>(term.size(), 0.0));
 }
 
-// Where its sign stays, the term is quadratic: differences of any step are exact. Where it changes, a step that is small
-// enough changes it at no point.
+// Where its sign stays, the term is quadratic: differences of any step are exact. Where it changes, a step that is
+// small enough changes it at no point.
 TYPED_TEST(Backflow, JacobianIsTheDerivativeOfTheTerm) {
   constexpr int entries = TypeParam::components + 1;
   OpenPiece<TypeParam> piece(true);
