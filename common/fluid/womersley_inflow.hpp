@@ -32,8 +32,8 @@ class WomersleyInflow {
   WomersleyInflow(PeriodicFlow flow, Modes modes, std::string instead)
       : flow_(std::move(flow)), modes_(std::move(modes)), instead_(std::move(instead)) {}
 
-  /// Sets the vectors of the opening's nodes, in the vector layout of the part (its other entries stay), to the velocity
-  /// in mm/ms at a time in ms. \param flow_rate  that the discrete flow into the fluid shall have, mm^3/ms
+  /// Sets the vectors of the opening's nodes, in the vector layout of the part (its other entries stay), to the
+  /// velocity in mm/ms at a time in ms. \param flow_rate  that the discrete flow into the fluid shall have, mm^3/ms
   void set(double time, double flow_rate, std::vector<double>& velocity) const;
   /// The same with the periodic rate itself.
   void set(double time, std::vector<double>& velocity) const { set(time, flow_.at(time), velocity); }

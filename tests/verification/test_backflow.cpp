@@ -161,7 +161,8 @@ SimplexMesh<2, Element::order> short_pipe(int across, int along) {
 }
 
 /// A pressure that swings at one end: near the wall the flow turns first, so that both ends have fluid that enters
-/// beside fluid that leaves, at points that change from step to step. Newton's method meets the kink of (u . n)_- each time.
+/// beside fluid that leaves, at points that change from step to step. Newton's method meets the kink of (u . n)_- each
+/// time.
 template <class Element>
 void check_swinging_flow() {
   constexpr double period = 2;
