@@ -113,9 +113,9 @@ class BackflowFacets {
     Vec3<T> u{{T(0.0), T(0.0), T(0.0)}};
     for (int a = 0; a < facet_nodes; ++a)
       for (int k = 0; k < n; ++k) {
-        Pack at_node;
-        for (int lane = 0; lane < pack_width; ++lane) at_node.set(lane, flow[Mixed::vector(pack.node[a][lane], k)]);
-        u[Element::axis[k]] += Pack(Shapes::shape(q, a)) * at_node;
+        Pack::Lanes at_node = {};
+        for (int lane = 0; lane < pack_width; ++lane) at_node[lane] = flow[Mixed::vector(pack.node[a][lane], k)];
+        u[Element::axis[k]] += Pack(Shapes::shape(q, a)) * Pack(at_node);
       }
     if constexpr (IsDual<T>::value)
       for (int k = 0; k < n; ++k) u[Element::axis[k]].slope[k] = Pack(1.0);
