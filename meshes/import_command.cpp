@@ -32,6 +32,12 @@ struct Request {
   MeshOutput output;
 };
 
+/// What was said of a file, said of the one that the user knows.
+[[noreturn]] void refuse(const std::string& file, const std::string& said_of, std::string said) {
+  if (said.rfind(said_of + ": ", 0) == 0) said.erase(0, said_of.size() + 2);
+  throw InputError(file, "", said, "");
+}
+
 /// meshio is Python's, so fsi-compare reads the file. Returns what it printed.
 std::string convert(const Request& request, const std::vector<std::string>& more) {
   const auto program = beside_this_program("fsi-compare");
@@ -46,7 +52,7 @@ std::string convert(const Request& request, const std::vector<std::string>& more
   if (end.code == 0) return end.output;
   std::string said = end.errors.substr(0, end.errors.find('\n'));
   if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
-  throw InputError("", "", said.empty() ? "fsi-compare ended without a message" : said, "");
+  refuse(request.file, request.file, said.empty() ? "fsi-compare ended without a message" : said);
 }
 
 /// Second-order cells keep their order unless another is asked for.
@@ -75,9 +81,7 @@ AnyMesh read_any(const Request& request, const std::filesystem::path& file) {
     if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
     return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);
   } catch (const InputError& error) {
-    std::string said = error.what();
-    if (const auto name = file.string() + ": "; said.rfind(name, 0) == 0) said.erase(0, name.size());
-    throw InputError(request.file, "", said, "");
+    refuse(request.file, file.string(), error.what());
   }
 }
 
@@ -86,7 +90,8 @@ void make(const Request& request) {
     print(convert(request, {"--list"}));
     return;
   }
-  if (request.output.file.empty()) throw InputError("", "--output", "is not given", "give -o FILE.msh, or --list");
+  if (request.output.file.empty())
+    throw InputError(mesh_program, "--output", "is not given", "give -o FILE.msh, or --list");
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   const TemporaryMesh temporary(regular_output_file(request.output.file), "import-");
