@@ -23,14 +23,19 @@ def keep(folder: Path, docs: Path) -> Path:
         fail(f"{folder}/report.md cannot be read: {error}; run fsi-compare study first")
     sections = re.split(r"(?m)^(?=## )", text)
     text = "".join(section for section in sections if not section.startswith(f"## {LEFT_OUT}\n"))
-    for old in (docs / "pictures").glob(f"{name}-*.png"):
-        old.unlink()
-    for picture in re.findall(r"\]\(([^()/]+\.png)\)", text):
-        shutil.copyfile(folder / picture, docs / "pictures" / f"{name}-{picture}")
-    text = re.sub(r"\]\(([^()/]+\.png)\)", rf"](../pictures/{name}-\1)", text)
+    text = with_pictures(text, folder, docs / "pictures", name, "../pictures")
     path = docs / "studies" / f"{name}.md"
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def with_pictures(text: str, folder: Path, pictures: Path, name: str, link: str) -> str:
+    """Copies the pictures that a page shows, as NAME-*.png, and turns its links to them."""
+    for old in pictures.glob(f"{name}-*.png"):
+        old.unlink()
+    for picture in re.findall(r"\]\(([^()/]+\.png)\)", text):
+        shutil.copyfile(folder / picture, pictures / f"{name}-{picture}")
+    return re.sub(r"\]\(([^()/]+\.png)\)", rf"]({link}/{name}-\1)", text)
 
 
 def main(words) -> int:

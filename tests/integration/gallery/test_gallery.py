@@ -33,7 +33,12 @@ class Gallery(FolderTest):
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertIn("2 of 2 numbers as known", process.stdout)
         text = (self.base / "out" / "report.md").read_text()
-        for part in ("## Static tube", "fsi-mesh geo gallery/static-tube/tube.geo --order 2", "integral over the wall", "static_tube.png"):
+        for part in (
+            "## Static tube",
+            "fsi-mesh geo gallery/static-tube/tube.geo --order 2",
+            "integral over the wall",
+            "static_tube.png",
+        ):
             self.assertIn(part, text)
         self.assertTrue((self.base / "out" / "static_tube.png").is_file())
         self.assertEqual(
