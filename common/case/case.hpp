@@ -46,9 +46,10 @@ struct MaterialData {
 /// [structure]
 struct StructureData {
   double density = 0;                   ///< mg/mm^3
-  double bulk_modulus = 0;              ///< kPa
+  double bulk_modulus = 0;              ///< kPa, of layers whose material has none of its own
   std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
+  FibreFrame fibre_frame = FibreFrame::cylinder;
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
   std::map<std::string, MaterialData> layers;

@@ -66,6 +66,12 @@ const NameTable<ToleranceOf>& tolerance_kinds() {
   return table;
 }
 
+const NameTable<FibreFrame>& fibre_frames() {
+  static const NameTable<FibreFrame> table{"structure.fibre_frame",
+                                           {{"cylinder", FibreFrame::cylinder}, {"laplace", FibreFrame::laplace}}};
+  return table;
+}
+
 const NameTable<LayerPressure>& layer_pressures() {
   static const NameTable<LayerPressure> table{
       "structure.layer_pressure", {{"continuous", LayerPressure::continuous}, {"separate", LayerPressure::separate}}};

@@ -43,6 +43,12 @@ enum class LayerPressure {
   separate  ///< each layer its own: it may jump
 };
 
+/// structure.fibre_frame: the frame that fibre directions are given in (docs/theory.md, section 5.6).
+enum class FibreFrame {
+  cylinder,  ///< of the axis that the case names
+  laplace    ///< of potentials between the wall's surfaces, for a wall of any shape
+};
+
 /// time.scheme (docs/theory.md, section 8).
 enum class TimeScheme { euler, midpoint, bdf2, generalised_alpha, tr_bdf2 };
 
@@ -61,6 +67,7 @@ const NameTable<ToleranceOf>& tolerance_kinds();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();
 const NameTable<LayerPressure>& layer_pressures();
+const NameTable<FibreFrame>& fibre_frames();
 
 std::vector<std::string> general_solver_names();
 std::vector<std::string> linear_solver_names();  ///< of monolithic.linear_solver: general and coupled ones

@@ -89,7 +89,7 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
 std::string about(const Parameter& parameter) {
   const std::string unit = parameter.quantity->unit;
   return parameter.about + (unit.empty() ? "" : " in " + unit) +
-         (parameter.required ? "" : ", default " + text_for_people(parameter.standard));
+         (parameter.required || parameter.of_a_set ? "" : ", default " + text_for_people(parameter.standard));
 }
 
 /// The keys of a layer of this material: its name and its parameters.
@@ -106,6 +106,7 @@ std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
     };
     value.write = [p](const MaterialData& layer) {
       const auto found = layer.values.find(p.name);
+      if (p.of_a_set && found == layer.values.end()) return std::string("not given");
       return fmt::format("{}", found == layer.values.end() ? p.standard : found->second);
     };
     keys.push_back(leaf(p.name, p.required, about(p), value));
@@ -141,6 +142,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer) {
     }
   }
   read_keys(entry, layer_keys(kind), layer);
+  if (const auto wrong = problem_of(kind, layer.values)) entry.refuse(wrong->problem, wrong->remedy);
 }
 
 void read_layers(const CaseEntry& entry, StructureData& structure) {
@@ -168,17 +170,33 @@ std::vector<KeyHelp> layers_help() {
   return help;
 }
 
+/// The structure's bulk modulus is that of layers whose material has none of its own.
+void check_structure(const CaseEntry& entry, const StructureData& structure) {
+  const bool needed = std::any_of(structure.layers.begin(), structure.layers.end(), [](const auto& layer) {
+    return needs_bulk_modulus(make_material(layer.second.material, layer.second.values));
+  });
+  const bool given = entry.has("bulk_modulus");
+  if (needed && !given) entry.refuse_missing("bulk_modulus", "add it (bulk modulus in kPa)");
+  if (given && !needed)
+    entry.child("bulk_modulus")
+        .refuse("belongs to no layer: each has a bulk modulus of its own by its elastic constants", "remove it");
+}
+
 std::vector<CaseKey<StructureData>> structure_keys() {
   return {
       leaf("density", required, "density in {unit}",
            number(at(&StructureData::density), positive, quantity::density())),
-      leaf("bulk_modulus", required, "bulk modulus in {unit}",
+      leaf("bulk_modulus", optional, "bulk modulus in {unit} of layers whose material has none of its own",
            number(at(&StructureData::bulk_modulus), positive, quantity::bulk_modulus())),
       leaf("stabilisation", optional,
            "alpha, factor of the wall's; default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5",
            number(at(&StructureData::stabilisation), positive)),
       leaf("layer_pressure", optional, "the pressure where layers meet: {}",
            name_from(at(&StructureData::layer_pressure), layer_pressures())),
+      leaf("fibre_frame", optional,
+           "frame of the fibre directions: {}; cylinder: about the axis below; laplace: on a wall of any shape, by "
+           "potentials between its inner and outer faces and between its ends",
+           name_from(at(&StructureData::fibre_frame), fibre_frames())),
       leaf("axis_origin", optional,
            "point on the artery's axis in {unit}, default {}; of plane scenes where the upright axis stands",
            point(at(&StructureData::axis_origin), false)),
@@ -372,8 +390,8 @@ std::vector<CaseKey<Case>> physics_keys() {
           [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },
           KeyRole::running, check_mesh),  // a checkpoint knows the mesh by its contents
       scene_section("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid),
-      scene_section("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
-                    &Case::structure),
+      scene_section<StructureData>("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
+                                   &Case::structure, check_structure),
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
       opening_key(),
       pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),

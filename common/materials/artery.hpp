@@ -13,6 +13,7 @@ namespace fsi {
 /// section 5.4):
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
 /// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
+/// With dispersed fibres it is DispersedArtery for the element loops.
 struct Artery {
   using FibreData = Fibres;
   double c10 = 0;          ///< kPa, initial shear modulus without fibres
@@ -20,6 +21,7 @@ struct Artery {
   double k2 = 0;           ///< -
   double fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
   double alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
+  double kappa = 0;        ///< dispersion: 0 all fibres of a family parallel, 1/3 evenly in all directions
 
   static constexpr const char* name = "artery";
   static std::vector<ParameterOf<Artery>> parameters() {
@@ -27,13 +29,23 @@ struct Artery {
             {&Artery::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
             {&Artery::k2, "k2", "fibre exponent", quantity::number(), positive},
             {&Artery::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
-            {&Artery::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false}};
+            {&Artery::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false},
+            {&Artery::kappa,
+             "kappa",
+             "dispersion of the fibres about their directions, at most 1/3",
+             quantity::number(),
+             {0, 1.0 / 3, true, true},
+             false}};
   }
 
   double shear_modulus() const { return c10; }
   double fibre_angle() const { return alpha * (std::acos(-1.0) / 180); }
-  /// Two families of stretched fibres, energy k1/2 (J_i - 1)^2 each with J_i - 1 = 2 eps cos^2(alpha) nearly.
-  double fibre_stiffness() const { return 8 * fibre_scale * k1 * std::pow(std::cos(fibre_angle()), 4); }
+  std::optional<double> own_bulk_modulus() const { return std::nullopt; }
+  /// Two families of stretched fibres, energy k1/2 E_i^2 each with E_i = (1 - 3 kappa) 2 eps cos^2(alpha) nearly.
+  double fibre_stiffness() const {
+    const double aligned = 1 - 3 * kappa;
+    return 8 * fibre_scale * k1 * std::pow(std::cos(fibre_angle()), 4) * (aligned * aligned);
+  }
   std::optional<double> inflation_modulus() const {
     return k1 * fibre_scale > 0 ? std::nullopt : std::optional<double>(c10);
   }

@@ -21,6 +21,7 @@ struct MooneyRivlin {
   }
 
   double shear_modulus() const { return c10 + c01; }
+  std::optional<double> own_bulk_modulus() const { return std::nullopt; }
   double fibre_stiffness() const { return 0; }
   std::optional<double> inflation_modulus() const { return c10 + c01; }
 

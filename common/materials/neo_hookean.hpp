@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "materials/parameter.hpp"
+#include "materials/elastic_constants.hpp"
 #include "materials/strain.hpp"
 
 namespace fsi {
@@ -11,14 +11,28 @@ namespace fsi {
 /// Psi = c10/2 (J_1 - 3), J_1 = I_1 I_3^(-1/3): docs/theory.md, section 5.2. c10 is the shear modulus.
 struct NeoHookean {
   using FibreData = NoFibres;
-  double c10 = 0;  ///< kPa, initial shear modulus
+  double c10 = 0;      ///< kPa, initial shear modulus
+  double young = 0;    ///< or E, kPa, of which c10 = E/(2 (1 + nu)) and a bulk modulus of its own, E/(3 (1 - 2 nu)),
+  double poisson = 0;  ///< and nu
 
   static constexpr const char* name = "neo-hookean";
   static std::vector<ParameterOf<NeoHookean>> parameters() {
-    return {{&NeoHookean::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive}};
+    return {{&NeoHookean::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive, false},
+            ElasticConstants::young_of<NeoHookean>(),
+            ElasticConstants::poisson_of<NeoHookean>()};
+  }
+  static ParameterSets parameter_sets() { return {{"c10"}, {"young", "poisson"}}; }
+
+  /// Makes c10 of E and nu where these are given.
+  void settle() {
+    if (young > 0) c10 = ElasticConstants{young, poisson}.shear_modulus();
   }
 
   double shear_modulus() const { return c10; }
+  std::optional<double> own_bulk_modulus() const {
+    if (young > 0) return ElasticConstants{young, poisson}.compression_modulus();
+    return std::nullopt;
+  }
   double fibre_stiffness() const { return 0; }
   std::optional<double> inflation_modulus() const { return c10; }
 

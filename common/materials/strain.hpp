@@ -37,6 +37,15 @@ inline Strain<T> strain_from(const Sym3<T>& change, const T& i3_change) {
   return s;
 }
 
+/// C - I = H + H^T + H^T H. \param h  H = grad d
+template <class T>
+inline Sym3<T> strain_change(const Mat3<T>& h) {
+  Sym3<T> change = gram(h);
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) change(i, j) += h(i, j) + h(j, i);
+  return change;
+}
+
 /// \param h  grad d
 /// \param f  deformation(h)
 template <class T>
@@ -49,6 +58,20 @@ inline Strain<T> strain_of(const Mat3<T>& h, const Deformation<T>& f) {
 template <class T>
 inline Strain<T> strain_of(const Mat3<T>& h) {
   return strain_of(h, deformation(h));
+}
+
+/// I - C^-1 alone, of A = C - I, as in strain_from().
+template <class T>
+inline Sym3<T> inverse_strain_change(const Sym3<T>& change, const T& i3_change) {
+  const T inverse = Pack(1.0) / (i3_change + 1.0);
+  const T rest = (i3_change - trace(change)) * inverse;
+  const Sym3<T> cof = cofactor(change);
+  Sym3<T> inverse_change;
+  for (int k = 0; k < 6; ++k) {
+    inverse_change.c[k] = (change.c[k] - cof.c[k]) * inverse;
+    if (k < 3) inverse_change.c[k] += rest;
+  }
+  return inverse_change;
 }
 
 /// S' of Psi = (J_1 - 3)/2, J_1 = I_1 I_3^(-1/3): I_3^(-1/3) (I - I_1/3 C^-1).

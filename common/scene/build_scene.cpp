@@ -1,5 +1,6 @@
 #include "scene/build_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
 #include "scene/time_scheme.hpp"
 #include "scene/wave_speed.hpp"
@@ -59,9 +61,14 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     const auto pressurised =
         setup.load ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions)) : FacetsOf<Element>{};
     const auto& s = *setup.structure;
+    FrameFields frame;
+    if (s.fibre_frame == FibreFrame::laplace &&
+        std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return has_fibres(layer.second); }))
+      frame =
+          frame_fields<Element>(wall_part, frame_boundary<Element>(mesh, wall_part, wall_regions, setup.path.string()));
     auto wall = std::make_unique<WallProblem<Element>>(
         wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, layers, cylinder_axis(s),
-        pressurised);
+        pressurised, frame);
     scene->profile.count("structure elements", static_cast<std::int64_t>(wall->element_count()));
     for (const auto& layer : wall->layers())
       if (!layer.fibres.empty())

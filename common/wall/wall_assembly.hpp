@@ -8,6 +8,7 @@
 #include "fem/element_packs.hpp"
 #include "fem/point_tangents.hpp"
 #include "wall/hyperelastic.hpp"
+#include "wall/layer_loops.hpp"
 #include "wall/wall_input.hpp"
 
 namespace fsi {
@@ -131,6 +132,26 @@ AssemblyResult layer_packs_by_points(const Hyperelastic<M>& form,
   return result;
 }
 
+/// One layer's share of assemble_wall().
+template <class Element, class M>
+AssemblyResult assemble_layer(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallInput& in,
+                              std::vector<double>& residual, WallMatrix<Element::components>* jacobian) {
+  std::vector<AssemblyResult> results(layer.packs.thread_count());
+  const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
+  for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
+    const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
+    double* rows = residual.data();
+    if (!jacobian) {
+      results[t] = layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
+    } else if constexpr (Element::stabilised) {
+      results[t] = layer_packs<Element, true>(form, mine, fibres, in, rows, jacobian->values.data());
+    } else {
+      results[t] = layer_packs_by_points<Element>(form, mine, fibres, in, rows, jacobian->values.data());
+    }
+  });
+  return reduced(results);
+}
+
 }  // namespace detail
 
 /// Adds the wall's residual (momentum, volume) in the mixed layout, without boundary conditions, and overwrites the
@@ -143,27 +164,17 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
   AssemblyResult all;
   for (const auto& layer : layers)
     std::visit(
-        [&](const auto& material) {
-          using M = std::decay_t<decltype(material)>;
-          const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0, wall.bulk_modulus,
-                                     wall.stabilisation, material, wall.wave_speed};
-          std::vector<AssemblyResult> results(layer.packs.thread_count());
-          const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
-          for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
-            const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
-            double* rows = residual.data();
-            if (!jacobian) {
-              results[t] = detail::layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
-            } else if constexpr (Element::stabilised) {
-              results[t] = detail::layer_packs<Element, true>(form, mine, fibres, in, rows, jacobian->values.data());
-            } else {
-              results[t] =
-                  detail::layer_packs_by_points<Element>(form, mine, fibres, in, rows, jacobian->values.data());
-            }
-          });
-          all.include(reduced(results));
+        [&](const auto& law) {
+          using M = std::decay_t<decltype(law)>;
+          const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0,
+                                     bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation, law,
+                                     wall.wave_speed};
+          if constexpr (compiled_apart<M>)
+            all.include(LayerLoops<Element, M>::assemble(form, layer, in, residual, jacobian));
+          else
+            all.include(detail::assemble_layer(form, layer, in, residual, jacobian));
         },
-        layer.material);
+        element_law(layer.material));
   return all;
 }
 

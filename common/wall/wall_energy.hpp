@@ -19,7 +19,7 @@ template <class Element, class M>
 WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const double* wall,
                         const double* velocity, const double* balance) {
   constexpr int n = Element::components;
-  constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
     const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
     NodalVector<Element> d{}, v{};
@@ -35,8 +35,12 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
         pack.geometry,
         [&](const auto& g) {
           Prepared k;
-          k.strain = strain_of(gradient_of(d, g));
-          if constexpr (!has_fibres) k.isotropic = form.material.energy(k.strain, {});
+          if constexpr (is_compressible) {
+            k.isotropic = form.material.energy(gradient_of(d, g));
+          } else {
+            k.strain = strain_of(gradient_of(d, g));
+            if constexpr (!has_fibres) k.isotropic = form.material.energy(k.strain, {});
+          }
           return k;
         },
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
@@ -58,7 +62,7 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
 template <class Element, class M>
 WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& step) {
   constexpr int n = Element::components;
-  constexpr bool has_fibres = Hyperelastic<M>::has_fibres;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   const Pack duration(step.duration), weight(step.weight);
@@ -87,13 +91,16 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
       Mat3<Pack> moved;       ///< W grad v
       Mat3<Pack> start, way;  ///< grad d_0, grad(d_1 - d_0)
       Pack isotropic;         ///< of materials without fibres: what the stress does beyond the change of energy
-      Pack defect;            ///< W cof F : grad v - (J - J_b)
+      Pack defect;            ///< W G : grad v - (g - g_b)
       Pack stabilisation;
     };
-    const auto stress = [&](const Prepared& k, const typename M::FibreData& fibre) {
+    const auto stress = [&](const Prepared& k, [[maybe_unused]] const typename M::FibreData& fibre) {
       const auto flux_at = [&](const Mat3<Pack>& h) {
         const auto f = deformation(h);
-        return form.isochoric_flux(f, strain_of(h, f), fibre);
+        if constexpr (is_compressible)
+          return form.material.response(h, f).flux;
+        else
+          return form.isochoric_flux(f, strain_of(h, f), fibre);
       };
       const Mat3<Pack> flux = flux_at(k.now);
       Pack beyond = contract(flux, k.moved - weight * k.way);
@@ -112,11 +119,19 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
           k.way = gradient_of(d_end, g) - k.start;
           if constexpr (!has_fibres) k.isotropic = stress(k, {});
           const auto f = deformation(k.now);
-          k.defect = contract(f.cofactor_gradient, k.moved);
+          if constexpr (is_compressible)
+            k.defect = contract(form.material.response(k.now, f).volume_gradient, k.moved);
+          else
+            k.defect = contract(f.cofactor_gradient, k.moved);
           k.stabilisation = Pack(0.0);
           if (step.wall_before) {
-            const auto before = deformation(gradient_of(d_before, g));
-            k.defect = k.defect - (f.volume_change - before.volume_change);
+            const Mat3<Pack> h_before = gradient_of(d_before, g);
+            const auto before = deformation(h_before);
+            if constexpr (is_compressible)
+              k.defect = k.defect - (form.material.response(k.now, f).volume_measure -
+                                     form.material.response(h_before, before).volume_measure);
+            else
+              k.defect = k.defect - (f.volume_change - before.volume_change);
             if constexpr (Element::stabilised) {
               const auto grad_p = gradient_of(at.p, g);
               k.stabilisation =
@@ -153,11 +168,13 @@ template <class Element, class Visit>
 void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers, Visit visit) {
   for (const auto& layer : layers)
     std::visit(
-        [&](const auto& material) {
-          using M = std::decay_t<decltype(material)>;
-          visit(Hyperelastic<M>{wall.density, wall.bulk_modulus, wall.stabilisation, material, wall.wave_speed}, layer);
+        [&](const auto& law) {
+          using M = std::decay_t<decltype(law)>;
+          visit(Hyperelastic<M>{wall.density, bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation, law,
+                                wall.wave_speed},
+                layer);
         },
-        layer.material);
+        element_law(layer.material));
 }
 
 }  // namespace detail
@@ -170,7 +187,11 @@ WallEnergy wall_energy(const WallConstants& constants, const std::vector<WallLay
                        const double* wall, const double* velocity, const double* balance) {
   WallEnergy all;
   detail::for_each_layer(constants, layers, [&](const auto& form, const auto& layer) {
-    all += detail::layer_energy(form, layer, wall, velocity, balance);
+    using M = std::decay_t<decltype(form.material)>;
+    if constexpr (compiled_apart<M>)
+      all += LayerLoops<Element, M>::energy(form, layer, wall, velocity, balance);
+    else
+      all += detail::layer_energy(form, layer, wall, velocity, balance);
   });
   return all;
 }
@@ -180,8 +201,13 @@ template <class Element>
 WallWork wall_work(const WallConstants& constants, const std::vector<WallLayer<Element>>& layers,
                    const WallStep& step) {
   WallWork all;
-  detail::for_each_layer(constants, layers,
-                         [&](const auto& form, const auto& layer) { all += detail::layer_work(form, layer, step); });
+  detail::for_each_layer(constants, layers, [&](const auto& form, const auto& layer) {
+    using M = std::decay_t<decltype(form.material)>;
+    if constexpr (compiled_apart<M>)
+      all += LayerLoops<Element, M>::work(form, layer, step);
+    else
+      all += detail::layer_work(form, layer, step);
+  });
   return all;
 }
 

@@ -33,7 +33,7 @@ using WallMatrix = BlockMatrix<MixedLayout<n>::entries, MixedLayout<n>::entries>
 /// What the layers of a wall have in common.
 struct WallConstants {
   double density;         ///< mg/mm^3
-  double bulk_modulus;    ///< kPa
+  double bulk_modulus;    ///< kPa, of layers whose material has none of its own
   double stabilisation;   ///< alpha
   double wave_speed = 0;  ///< c_w of the stabilisation, mm/ms; 0: statics, no fluid, or not asked for
 };
@@ -57,7 +57,7 @@ struct WallStep {
 /// Energy of the wall, uJ = mm^3 kPa.
 struct WallEnergy {
   double kinetic = 0;     ///< rho/2 (v, v)
-  double isochoric = 0;   ///< (Psi, 1), the materials' energy
+  double isochoric = 0;   ///< (Psi', 1), the materials' energy
   double volumetric = 0;  ///< (p / kappa, p) / 2
 
   WallEnergy& operator+=(const WallEnergy& b) {
@@ -79,7 +79,7 @@ struct WallEnergy {
 struct WallWork {
   double inertia = 0;  ///< rho (W a, v) - omega rho/2 (|v_1|^2 - |v_0|^2, 1): the scheme in time
   /// W (F S', grad v) - omega (mean of F S' on the straight way from d_0 to d_1, grad(d_1 - d_0))
-  /// - (p, W cof F : grad v - (J - J_b)) + (p - p_b, p - p_b) / (2 kappa): stress and pressure of the balance, not along
+  /// - (p, W G : grad v - (g - g_b)) + (p - p_b, p - p_b) / (2 kappa): stress and pressure of the balance, not along
   /// the step
   double stress = 0;
   double stabilisation = 0;  ///< S(d, p, p) - S(d_b, p_b, p)

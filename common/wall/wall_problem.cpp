@@ -38,7 +38,7 @@ LayerData measured_layer(const Part& part, const std::vector<int>& cells, const 
 template <class Element>
 WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
                                   const std::vector<std::pair<int, Material>>& layers, const CylinderAxis& axis,
-                                  Facets pressurised)
+                                  Facets pressurised, const FrameFields& frame)
     : part_(std::move(part)),
       constants_(constants),
       pressurised_(std::move(pressurised)),
@@ -49,9 +49,10 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
     layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph()), material, {}});
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
-    if (has_fibres(material))
-      layers_.back().fibres =
-          fibre_directions(layers_.back().packs, part_.nodes, part_.cells, axis, fibre_angle(material));
+    if (!has_fibres(material)) continue;
+    auto& layer = layers_.back();
+    layer.fibres = frame.empty() ? fibre_directions(layer.packs, part_.nodes, part_.cells, axis, fibre_angle(material))
+                                 : fibre_directions(layer.packs, frame, part_.cells, fibre_angle(material));
   }
 }
 

@@ -17,9 +17,11 @@ class WallProblem : public Wall<Element::components> {
   using Facets = std::vector<typename Part::Facet>;
 
   /// \param layers       region of the mesh and material of each layer
+  /// \param axis         of the fibres' cylindrical frame
   /// \param pressurised  facets in the part's node numbers, normals outward from the wall; may be empty
+  /// \param frame        of the fibres in place of the cylindrical one; empty: that
   WallProblem(Part part, const WallConstants& constants, const std::vector<std::pair<int, Material>>& layers,
-              const CylinderAxis& axis, Facets pressurised = {});
+              const CylinderAxis& axis, Facets pressurised = {}, const FrameFields& frame = {});
 
   const Part& part() const { return part_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }

@@ -45,6 +45,14 @@ TYPED_TEST(EveryElement, FluidJacobianIsTheDerivativeOfTheResidual) {
   check_fluid_blocks(fluid, FluidState<Element>(mesh.nodes), "fluid", {1});
 }
 
+template <class Law>
+Material with_lame() {
+  Law law;
+  law.lame_lambda = 20;
+  law.lame_mu = 3;
+  return law;
+}
+
 TYPED_TEST(EveryElement, WallJacobianIsTheDerivativeOfTheResidualForEveryMaterial) {
   using Element = TypeParam;
   constexpr int n = Element::components;
@@ -53,7 +61,12 @@ TYPED_TEST(EveryElement, WallJacobianIsTheDerivativeOfTheResidualForEveryMateria
   for (const auto& [name, layer, stretch] :
        {std::tuple{"neo-Hookean", Material{NeoHookean{3}}, 1.2},
         std::tuple{"Mooney-Rivlin", Material{MooneyRivlin{3, 0.3}}, 1.2},
-        std::tuple{"artery, tight", Material{Artery{3, 2.3632, 0.8393, 1, 29}}, Element::axisymmetric ? 1.3 : 0.7}}) {
+        std::tuple{"artery, tight", Material{Artery{3, 2.3632, 0.8393, 1, 29}}, Element::axisymmetric ? 1.3 : 0.7},
+        std::tuple{"artery, dispersed", Material{Artery{3, 2.3632, 0.8393, 1, 29, 0.2}},
+                   Element::axisymmetric ? 1.3 : 0.7},
+        std::tuple{"Saint Venant-Kirchhoff", with_lame<SaintVenantKirchhoff>(), 1.2},
+        std::tuple{"linear elastic", with_lame<LinearElastic>(), 1.2},
+        std::tuple{"compressible neo-Hookean", with_lame<CompressibleNeoHookean>(), 1.2}}) {
     const auto mesh = this->mesh("media");
     WallProblem<Element> wall(whole(mesh), {1.2, 50.0, 0.5}, {{0, layer}}, {{{-2, 0.5, 0}}, {{0, 0, 1}}});
     auto solution = random_field(mesh.nodes, n + 1, 0.05, 0.01, 21);

@@ -45,31 +45,76 @@ using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTr
                                 P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
 TYPED_TEST_SUITE(EveryElement, Elements);
 
-// A homogeneous deformation (in a body of revolution with equal radial and hoop stretch) with p = -kappa (J - 1).
+/// The law's pressure at a homogeneous deformation over -kappa: J - 1, tr E, tr eps or ln J.
+double volume_measure(const Material& layer, const Mat3<Pack>& h) {
+  return std::visit(
+      [&](const auto& law) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, CompressibleLaw>)
+          return law.response(h, deformation(h)).volume_measure[0];
+        else
+          return volume_change(h)[0];
+      },
+      element_law(layer));
+}
+
+template <class Law>
+Material with_lame() {
+  Law law;
+  law.lame_lambda = 4;
+  law.lame_mu = 3;
+  return law;
+}
+
+// A homogeneous deformation (in a body of revolution with equal radial and hoop stretch) with p = -kappa g. The energy
+// of the wall is that of a point times the volume.
 TYPED_TEST(EveryElement, WallIsInEquilibriumInHomogeneousStretch) {
   using Element = TypeParam;
   constexpr int n = Element::components;
   const auto straight = irregular_mesh<Element>(this->side, "media");
   auto mesh = straight;
   curve<Element>(mesh, 0.05);
-  const double kappa = 50, stretch[3] = {1.2, 0.9, 1.05}, shear = Element::axisymmetric ? 0 : 0.15;
-  double ratio = Element::axisymmetric ? stretch[0] : 1;
-  for (int k = 0; k < n; ++k) ratio *= stretch[k];
-  for (const Material& layer : {Material{NeoHookean{3}}, Material{MooneyRivlin{3, 0.3}}}) {
-    WallProblem<Element> wall(whole(mesh), {1.2, kappa, 0.5}, {{0, layer}}, {});
+  const double stretch[3] = {1.2, 0.9, 1.05}, shear = Element::axisymmetric ? 0 : 0.15;
+  Mat3<Pack> h;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) h(i, j) = Pack(0.0);
+  for (int k = 0; k < n; ++k) h(Element::axis[k], Element::axis[k]) = Pack(stretch[k] - 1);
+  if (Element::axisymmetric)
+    h(1, 1) = h(0, 0);
+  else
+    h(0, 1) = Pack(shear);
+  for (const Material& layer :
+       {Material{NeoHookean{3}}, Material{MooneyRivlin{3, 0.3}}, with_lame<SaintVenantKirchhoff>(),
+        with_lame<LinearElastic>(), with_lame<CompressibleNeoHookean>()}) {
+    WallProblem<Element> wall(whole(mesh), {1.2, 50, 0.5}, {{0, layer}}, {});
+    const double kappa = bulk_modulus(layer, 50), pressure = -kappa * volume_measure(layer, h);
     std::vector<double> state(MixedLayout<n>::size(wall.node_count()), 0.0), residual;
     for (int a = 0; a < wall.node_count(); ++a) {
       const Point& x = mesh.nodes[a];
       for (int k = 0; k < n; ++k)
         state[MixedLayout<n>::vector(a, k)] =
             (stretch[k] - 1) * x[Element::axis[k]] + (k == 0 ? shear * x[Element::axis[1]] : 0.1);
-      state[MixedLayout<n>::scalar(a)] = -kappa * (ratio - 1);
+      state[MixedLayout<n>::scalar(a)] = pressure;
     }
     wall.assemble({state.data(), nullptr, 0.0}, 0.0, state, residual);
     const auto [inside, outside] = inside_and_outside<Element>(straight, residual);
     EXPECT_LT(inside, 1e-13 * outside);
     EXPECT_GT(outside, 0.1);
     EXPECT_LT(largest(only(residual, n + 1, n, 1)), 1e-13) << "volume";
+
+    const WallEnergy energy = wall.energy(state, {}, state);
+    const double volume = wall.layer_data()[0].volume;
+    const double per_volume = std::visit(
+        [&](const auto& law) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(law)>, CompressibleLaw>)
+            return law.energy(h)[0];
+          else if constexpr (std::is_same_v<typename std::decay_t<decltype(law)>::FibreData, Fibres>)
+            return 0.0;
+          else
+            return law.energy(strain_of(h), {})[0];
+        },
+        element_law(layer));
+    EXPECT_NEAR(energy.isochoric, volume * per_volume, 1e-13 * volume);
+    EXPECT_NEAR(energy.volumetric, volume * pressure * pressure / (2 * kappa), 1e-13 * energy.volumetric);
   }
 }
 

@@ -104,9 +104,7 @@ class PipeAt {
     const auto* m = std::get_if<MooneyRivlin>(&pipe_.tube().layers[layer].material);
     return m ? m->c01 : 0.0;
   }
-  double c10(int layer) const {
-    return std::visit([](const auto& m) { return m.c10; }, pipe_.tube().layers[layer].material);
-  }
+  double c10(int layer) const { return shear_modulus(pipe_.tube().layers[layer].material) - c01(layer); }
 
   const OscillatingPipe& pipe_;
   double time_, length_;

@@ -76,7 +76,39 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:7: fluid.zeta: unknown key; did you mean fluid.density?"},
       {"ParameterOfAnotherMaterial", static_case, "c10 = 3", "c10 = 3\nk1 = 2",
        "case.toml:10: structure.layers.wall.k1: is no parameter of neo-hookean but of artery; remove it (neo-hookean "
-       "takes c10)"},
+       "takes c10, young or poisson)"},
+      {"BulkModulusMissing", static_case, "bulk_modulus = 1e5\n", "",
+       "case.toml:4: structure.bulk_modulus: missing; add it (bulk modulus in kPa)"},
+      {"BulkModulusOfNoLayer", static_case, "c10 = 3", "young = 9\npoisson = 0.49",
+       "case.toml:6: structure.bulk_modulus: belongs to no layer: each has a bulk modulus of its own by its elastic "
+       "constants; remove it"},
+      {"ConstantsMissing", static_case, "c10 = 3", "",
+       "case.toml:7: structure.layers.wall: has no elastic constants; give c10, or young and poisson"},
+      {"ConstantsHalf", static_case, "\"neo-hookean\"\nc10 = 3", "\"linear-elastic\"\nyoung = 3",
+       "case.toml:7: structure.layers.wall: young alone does not make its elastic constants; give young and poisson, "
+       "or "
+       "lame_lambda and lame_mu"},
+      {"ConstantsOfTwoPairs", static_case, "\"neo-hookean\"\nc10 = 3",
+       "\"saint-venant-kirchhoff\"\nyoung = 3\npoisson = 0.3\nlame_mu = 1",
+       "case.toml:7: structure.layers.wall: young, poisson and lame_mu together do not make its elastic constants; "
+       "give "
+       "young and poisson, or lame_lambda and lame_mu"},
+      {"PoissonIncompressible", static_case, "\"neo-hookean\"\nc10 = 3", "\"linear-elastic\"\nyoung = 3\npoisson = 0.5",
+       "case.toml:10: structure.layers.wall.poisson: 0.5 is out of range; give a number > -1 and < 0.5 (Poisson's "
+       "ratio)"},
+      {"PoissonMinusOne", static_case, "\"neo-hookean\"\nc10 = 3", "\"linear-elastic\"\nyoung = 3\npoisson = -1",
+       "case.toml:10: structure.layers.wall.poisson: -1 is out of range; give a number > -1 and < 0.5 (Poisson's "
+       "ratio)"},
+      {"CompressionNotResisted", static_case, "\"neo-hookean\"\nc10 = 3",
+       "\"compressible-neo-hookean\"\nlame_lambda = -3\nlame_mu = 3",
+       "case.toml:7: structure.layers.wall: lame_lambda + 2/3 lame_mu, the bulk modulus, is not positive; give a "
+       "lame_lambda of more than -2/3 lame_mu"},
+      {"DispersionTooLarge", coupled_case, "alpha = 29.0", "alpha = 29.0\nkappa = 0.34",
+       "case.toml:17: structure.layers.media.kappa: 0.34 is out of range; give a number >= 0 and <= 0.3333333333333333 "
+       "(dispersion of the fibres about their directions, at most 1/3, default 0)"},
+      {"FibreFrameUnknown", static_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\nfibre_frame = \"laplac\"",
+       "case.toml:7: structure.fibre_frame: \"laplac\" is unknown; did you mean laplace? There are cylinder "
+       "or laplace"},
       {"SectionIsNumber", static_case, "title = \"a wall under pressure\"", "output = 3",
        "case.toml:1: output: 3 is a whole number; make it a section [output]"},
       {"SectionIsArray", static_case, "[static]", "[[static]]",
@@ -97,7 +129,9 @@ const std::vector<BadCase>& bad_cases() {
       {"NumberIsDate", coupled_case, "step = 0.125", "step = 2020-01-01",
        "case.toml:25: time.step: 2020-01-01 is a date or time; give a number (time step in ms, or \"adaptive\")"},
       {"NumberIsArray", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = [1e5, 2e5]",
-       "case.toml:10: structure.bulk_modulus: [100000, 200000] is an array; give a number (bulk modulus in kPa)"},
+       "case.toml:10: structure.bulk_modulus: [100000, 200000] is an array; give a number (bulk modulus in kPa of "
+       "layers whose "
+       "material has none of its own)"},
       {"NumberIsNan", coupled_case, "viscosity = 3.5e-3", "viscosity = nan",
        "case.toml:7: fluid.viscosity: nan is not finite; give a finite number (dynamic viscosity in kPa ms)"},
       {"NumberIsInfinite", coupled_case, "end = 12.0", "end = inf",
@@ -165,7 +199,8 @@ const std::vector<BadCase>& bad_cases() {
       {"WallDensityZero", coupled_case, "density = 1.2", "density = 0.0",
        "case.toml:9: structure.density: 0 is not positive; give a number > 0 (density in mg/mm^3)"},
       {"BulkModulusNegative", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = -1e5",
-       "case.toml:10: structure.bulk_modulus: -100000 is not positive; give a number > 0 (bulk modulus in kPa)"},
+       "case.toml:10: structure.bulk_modulus: -100000 is not positive; give a number > 0 (bulk modulus in kPa of "
+       "layers whose material has none of its own)"},
       {"StabilisationZero", coupled_case, "bulk_modulus = 1e5", "bulk_modulus = 1e5\nstabilisation = 0",
        "case.toml:11: structure.stabilisation: 0 is not positive; give a number > 0 (alpha, factor of the wall's; "
        "default 0.05 with \"projected\" and a continuous layer_pressure, else 0.5)"},

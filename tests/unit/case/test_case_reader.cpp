@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "case/choices.hpp"
@@ -308,21 +309,23 @@ TEST(CaseReader, HelpHasUnitsNamesAndDefaultsFromWhereTheyAreOwned) {
 }
 
 TEST(CaseReader, EveryMaterialIsReadFromItsDeclaration) {
-  for (const auto& [name, kind] : materials().rows()) {
-    std::string layer = "structure.layers.w.material = '" + name + "'\n";
-    ParameterValues given;
-    for (const auto& parameter : kind.parameters) {
-      given[parameter.name] = 2.5 + 0.5 * static_cast<double>(given.size());
-      layer += fmt::format("structure.layers.w.{} = {}\n", parameter.name, given[parameter.name]);
+  for (const auto& [name, kind] : materials().rows())
+    for (const auto& set : kind.sets.empty() ? ParameterSets{{}} : kind.sets) {
+      std::string layer = "structure.layers.w.material = '" + name + "'\n";
+      ParameterValues given;
+      for (const auto& parameter : kind.parameters) {
+        if (parameter.of_a_set && std::find(set.begin(), set.end(), parameter.name) == set.end()) continue;
+        const double free = 2.5 + 0.5 * static_cast<double>(given.size());
+        given[parameter.name] = parameter.bounds.contains(free) ? free : 0.25;
+        layer += fmt::format("structure.layers.w.{} = {}\n", parameter.name, given[parameter.name]);
+      }
+      if (needs_bulk_modulus(make_material(name, given))) layer += "structure.bulk_modulus = 10\n";
+      const auto scene = parse_case(
+          "mesh.level = 'coarse'\nload.pressure = 2.0\nstatic.load_steps = 5\nstructure.density = 1\n" + layer,
+          "case.toml");
+      EXPECT_EQ(scene.structure->layers.at("w").material, name);
+      EXPECT_EQ(scene.structure->layers.at("w").values, given) << name;
     }
-    const auto scene = parse_case(
-        "mesh.level = 'coarse'\nload.pressure = 2.0\nstatic.load_steps = 5\nstructure.density = 1\n"
-        "structure.bulk_modulus = 10\n" +
-            layer,
-        "case.toml");
-    EXPECT_EQ(scene.structure->layers.at("w").material, name);
-    EXPECT_EQ(scene.structure->layers.at("w").values, given) << name;
-  }
 }
 
 }  // namespace

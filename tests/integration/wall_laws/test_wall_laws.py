@@ -1,0 +1,87 @@
+"""Walls of laws with a finite bulk modulus in both drivers, and fibre frames of the wall's own potentials."""
+
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import CASES, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, run, summary, wall
+
+CASE = Path(__file__).with_name("compressible_walls.toml")
+ARTERY = CASES / "artery.toml"
+LAPLACE = "structure.fibre_frame=laplace"
+
+
+class CompressibleWalls(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.folder = run(MONOLITHIC, CASE, cls.base / "monolithic")
+
+    def test_drivers_agree(self):
+        other = run(PARTITIONED, CASE, self.base / "partitioned", "partitioned.tolerance=1e-9")
+        newton = "monolithic.newton_tolerance=1e-9"
+        exact = run(MONOLITHIC, CASE, self.base / "exact", newton, "monolithic.mode=full")
+        expected, found = wall(exact)[-1], wall(other)[-1]
+        largest = np.abs(expected[:, 2]).max()
+        self.assertGreater(largest, 0.01)
+        self.assertLess(np.abs(found - expected)[:, 2].max(), 1e-6 * largest)
+
+    def test_energy_balance_closes(self):
+        rows = energy(self.folder)
+        self.assertGreater(rows["wall_volumetric_energy"].max(), 1e-4)
+        stored = (rows["wall_isochoric_energy"] + rows["wall_volumetric_energy"]).max()
+        self.assertLess(np.abs(rows["remainder"]).max(), 1e-3 * stored)
+
+    def test_a_checkpoint_knows_the_constants(self):
+        """Other constants are another case."""
+        refused = attempt(
+            MONOLITHIC,
+            CASE,
+            "-q",
+            "--restart",
+            self.folder,
+            folder=self.base / "other",
+            settings=("structure.layers.media.poisson=0.31", "time.end=1.25"),
+        )
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("structure.layers.media.poisson", refused.stderr)
+
+
+class FibreFrames(FolderTest):
+    def displacement(self, name, *settings):
+        folder = run(MONOLITHIC, ARTERY, self.base / name, "time.end=0.5", *settings)
+        counters = summary(folder)["counters"]
+        return wall(folder)[-1][:, 2], counters.get("elements with fibres")
+
+    def test_of_a_tube_are_the_cylinders(self):
+        expected, fibres = self.displacement("cylinder")
+        found, same = self.displacement("laplace", LAPLACE)
+        self.assertEqual(fibres, same)
+        error = np.abs(found - expected).max() / np.abs(expected).max()
+        print(f"displacement by the wall's potentials, relative to that by the axis: {error:.1e}")
+        self.assertLess(error, 3e-3)
+        self.assertGreater(error, 0, "two ways of finding directions")
+
+    def test_lie_right_in_a_sector(self):
+        """Planes of symmetry carry no condition of the potentials."""
+        mesh = make_mesh(self.base / "quarter.msh", "--sector", 90)
+        quarter = self.base / "quarter.toml"
+        quarter.write_text(ARTERY.read_text().replace('level = "coarse"', f'file = "{mesh}"'))
+        folders = [
+            run(MONOLITHIC, quarter, self.base / name, "time.end=0.5", f"structure.fibre_frame={name}")
+            for name in ("cylinder", "laplace")
+        ]
+        expected, found = (wall(folder)[-1][:, 2] for folder in folders)
+        self.assertLess(np.abs(found - expected).max(), 3e-3 * np.abs(expected).max())
+
+    def test_without_fibres_nothing_is_asked_of_the_wall(self):
+        plain = CASES / "neo-hookean.toml"
+        ways = [
+            run(MONOLITHIC, plain, self.base / f"plain{k}", "time.end=0.125", *s)
+            for k, s in enumerate(((), (LAPLACE,)))
+        ]
+        self.assertEqual(*((folder / "wall_displacement.csv").read_bytes() for folder in ways))
+
+
+if __name__ == "__main__":
+    unittest.main()
