@@ -201,7 +201,11 @@ void CouplingStepper<n>::start(State& state, StepData& data) {
 template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = norm(pass.residual);
-  const double size = norm(pass.displacement);
+  double size = norm(pass.displacement);
+  if (scene_.initial_load &&
+      !pass.displacement.empty())  // displacements count from a loaded shape, also where none move
+    size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
+                              std::sqrt(static_cast<double>(pass.displacement.size())));
   coupling_.displacement_residual = size > 0
                                         ? coupling_.displacement_gap / size
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
@@ -261,15 +265,20 @@ double CouplingStepper<n>::added_mass(const State& state, const StepData& data) 
           pressure - (law != nullptr ? law->pressure(push.rates.fluid_factor, reference, 0) : 0);
     }
   };
+  const double at_rest = scene_.initial_load ? scene_.initial_load->pressure : 0.0;
+  if (scene_.initial_load)
+    push.support_loads = scene_.initial_load->support_loads;
+  else
+    std::fill(push.support_loads.begin(), push.support_loads.end(), 0.0);
   double growth = 0;
   try {
     // Pushed by one pressure at all openings the wall moves outward everywhere, as its supports allow.
     start(rest, push);
-    push_all(amplitude * problem_->pressure_of_thickness());
+    push_all(at_rest + amplitude * problem_->pressure_of_thickness());
     std::vector<double> x = problem_->first_guess(0);
     set_zero(x);
     Pass pass = problem_->pass(x, accuracy);
-    push_all(0);
+    push_all(at_rest);
     for (int k = 0; k < passes; ++k) {
       const double before = norm(x), length = norm(pass.displacement);
       if (!(length > 0)) break;

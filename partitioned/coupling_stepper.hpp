@@ -53,6 +53,9 @@ class CouplingStepper : public Stepper {
   /// Relative interface residual that is rounding of the displacements: no pass makes it smaller, also where steps are so
   /// short that it is worth a pressure.
   static constexpr double displacement_rounding = 1e-13;
+  /// Of the wall's thickness: how small motions of a wall under prestress still have a relative error, each component's
+  /// root mean square. Below that they are compared with this.
+  static constexpr double smallest_motion = 1e-5;
 
   /// Iterations are the fewer the closer they start. Without them a step is its extrapolation, and the second order
   /// makes it unstable at three times the wall's mass (docs/coupling.md).

@@ -96,6 +96,16 @@ const Quantity& rate() {
   return q;
 }
 
+const Quantity& bedding() {
+  static const Quantity q{"kPa/mm", {}};
+  return q;
+}
+
+const Quantity& bedding_damping() {
+  static const Quantity q{"kPa ms/mm", {}};
+  return q;
+}
+
 const Quantity& length() {
   static const Quantity q{"mm", {}};
   return q;

@@ -56,6 +56,8 @@ const Quantity& bulk_modulus();
 const Quantity& time();
 const Quantity& time_step();
 const Quantity& rate();  ///< 1/ms
+const Quantity& bedding();  ///< of a spring per area
+const Quantity& bedding_damping();
 const Quantity& length();
 const Quantity& angle();
 const Quantity& flow_rate();   ///< mm^3/ms

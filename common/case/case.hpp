@@ -21,6 +21,24 @@
 
 namespace fsi {
 
+/// [support.SURFACE]: what holds a surface of the wall from outside, and loads it (docs/theory.md, section 4.5).
+struct SupportData {
+  double spring = 0, normal_spring = 0;   ///< kPa/mm, of the displacement and of its part along the normal at rest
+  double damper = 0, normal_damper = 0;   ///< kPa ms/mm, of the velocity likewise
+  std::optional<PressureTable> pressure;  ///< from outside, follows the surface
+  std::vector<PressureTable> traction;    ///< kPa of area at rest, a table per direction of the scene; empty: none
+  std::optional<std::vector<std::string>> fixed;  ///< components that do not move: "x", "y", "z", "r" or "normal"
+
+  bool holds() const { return spring > 0 || normal_spring > 0 || (fixed && !fixed->empty()); }
+  bool loads() const { return pressure.has_value() || !traction.empty(); }
+};
+
+/// [prestress]: the load that the wall carries in the shape of its mesh (docs/theory.md, section 4.6).
+struct PrestressData {
+  double pressure = 0;         ///< kPa, on the inner face
+  std::filesystem::path file;  ///< of an earlier run, read in place of finding it again; empty: none
+};
+
 /// [mesh]: `file`, or `level` made on demand beside the case file.
 struct MeshData {
   std::filesystem::path file;  ///< absolute, or relative to the working directory once read
@@ -144,6 +162,8 @@ struct Case {
   std::optional<PressureTable> inlet;                   ///< [inlet]: pressure on the fluid's inlet
   std::optional<PressureTable> load;                    ///< [load]: pressure on the inner face of a wall without fluid
   std::map<std::string, OpeningConditions> openings{};  ///< [[opening]], by surface
+  std::map<std::string, SupportData> supports;          ///< [support.SURFACE] by surface group
+  std::optional<PrestressData> prestress;
   std::optional<TimeData> time;
   std::optional<StaticData> static_load;
   MonolithicData monolithic;

@@ -13,6 +13,7 @@
 #include "case/key_depth.hpp"
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
+#include "case/support_keys.hpp"
 
 namespace fsi {
 
@@ -38,7 +39,8 @@ void check_sections(const CaseEntry& whole_case, const Case& scene) {
       {fluid && !scene.inlet && scene.openings.empty(), "", "no [inlet]",
        "add [inlet] with pressure, since there is a fluid, or [[opening]]"},
       {!fluid && scene.inlet, "inlet", "stands in a case without fluid", "rename it to [load], or add [fluid]"},
-      {!fluid && !scene.load, "", "no [load]", "add [load] with pressure, since there is no fluid"},
+      {!fluid && !scene.load && support_loads_of(scene).empty(), "", "no [load]",
+       "add [load] with pressure, since there is no fluid"},
       {fluid && scene.load, "load", "is for a wall without fluid", "rename it to [inlet], or remove it"},
       {in_static && scene.load && scene.load->points.size() > 1, "load", "changes in time, but the case is static",
        "give one pressure, without until"},
@@ -151,6 +153,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_openings(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
+  check_supports(whole_case, scene);
   check_output_times(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);

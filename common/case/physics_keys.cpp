@@ -9,6 +9,7 @@
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
 #include "case/opening_keys.hpp"
+#include "case/support_keys.hpp"
 #include "case/table_input.hpp"
 #include "materials/material.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
@@ -395,6 +396,8 @@ std::vector<CaseKey<Case>> physics_keys() {
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
       opening_key(),
       pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),
+      support_section(),
+      prestress_section(),
       scene_section<TimeData>("time", "a run in time", time_keys(), &Case::time, check_time),
       scene_section("static", "a wall without inertia, instead of [time]", static_keys(), &Case::static_load),
   };

@@ -22,8 +22,14 @@ class EnergyBalance {
 
   /// What of it a scene has.
   static EnergyParts parts_of(const Scene<n>& scene) {
-    return {scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene),
-            scene.fluid && scene.fluid->stabilises_backflow()};
+    EnergyParts parts{scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene),
+                      scene.fluid && scene.fluid->stabilises_backflow()};
+    if (const auto* supports = scene.wall ? scene.wall->supports() : nullptr) {
+      parts.springs = supports->has_springs();
+      parts.dampers = supports->has_dampers();
+      parts.support_loads = supports->load_count() > 0;
+    }
+    return parts;
   }
 
   /// The balance of energy of the step that led to `state`, the successor of the last one seen.
@@ -39,7 +45,8 @@ class EnergyBalance {
       wall_before = &balance.at.wall;
     }
     if (quadratic(scene_)) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
-    record.remainder = record.supply() - (record.energy() - energy_) - record.viscous - record.numerical();
+    record.remainder =
+        record.supply() - (record.energy() - energy_) - record.viscous - record.damping - record.numerical();
     record.remainder -= record.backflow;
     energy_ = record.energy();
     keep(state);
@@ -71,6 +78,7 @@ class EnergyBalance {
       record.wall_kinetic = wall.kinetic;
       record.wall_isochoric = wall.isochoric;
       record.wall_volumetric = wall.volumetric;
+      if (const auto* supports = scene_.wall->supports()) record.springs = supports->stored(level.wall);
     }
     return record;
   }
@@ -141,7 +149,7 @@ class EnergyBalance {
     // Without time the way of the step stands for a velocity.
     const std::vector<double>& reference = rates.is_static() ? start.wall : rates.wall_reference;
     WallStep in;
-    in.balance = scene_.wall_input(balance.at, rates);
+    in.balance = scene_.wall_input(balance.at, balance.data);
     in.reference = reference.data();
     in.weight = weight;
     in.start = start.wall.data();
@@ -157,6 +165,12 @@ class EnergyBalance {
     record.wall_inertia += work.inertia;
     record.wall_stress += work.stress;
     record.wall_stabilisation += work.stabilisation;
+    if (const auto* supports = scene_.wall->supports()) {
+      const SupportWork of_supports = supports->work(in);
+      record.support_work += of_supports.loads;
+      record.damping += of_supports.damping;
+      record.support_springs += of_supports.springs;
+    }
     record.load_work +=
         in.duration * in.rate * scene_.wall->pressure_work(balance.data.wall_pressure, reference, balance.at.wall);
   }

@@ -9,8 +9,12 @@ struct EnergyRecord {
   double fluid_kinetic = 0, wall_kinetic = 0;
   double wall_isochoric = 0, wall_volumetric = 0;  ///< elastic energy of the wall
 
+  double springs = 0;  ///< stored in the springs of the wall's supports
+
   double inlet_work = 0;                         ///< of the inlet's pressure on the fluid
   double load_work = 0;                          ///< of the pressure on a wall without fluid
+  double support_work = 0;                       ///< of pressure and traction of the wall's supports
+  double damping = 0;                            ///< dissipation in their dampers
   double inlet_kinetic = 0, outlet_kinetic = 0;  ///< kinetic energy that flows in, and out
   double viscous = 0;                            ///< dissipation
   double backflow = 0;                           ///< taken by the stabilisation of backflow at openings
@@ -19,14 +23,15 @@ struct EnergyRecord {
   double fluid_inertia = 0, fluid_mesh_motion = 0, fluid_divergence = 0, fluid_stabilisation = 0;
   double fluid_quadrature = 0;
   double wall_inertia = 0, wall_stress = 0, wall_stabilisation = 0;
+  double support_springs = 0;  ///< their forces are those of the balance, not along the step
 
-  double remainder = 0;  ///< supply() - change of energy() - viscous - backflow - numerical()
+  double remainder = 0;  ///< supply() - change of energy() - viscous - damping - backflow - numerical()
 
-  double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric; }
-  double supply() const { return inlet_work + load_work + inlet_kinetic - outlet_kinetic; }
+  double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric + springs; }
+  double supply() const { return inlet_work + load_work + support_work + inlet_kinetic - outlet_kinetic; }
   double numerical() const {
     return fluid_inertia + fluid_mesh_motion + fluid_divergence + fluid_stabilisation + fluid_quadrature +
-           wall_inertia + wall_stress + wall_stabilisation;
+           wall_inertia + wall_stress + wall_stabilisation + support_springs;
   }
 };
 
@@ -36,6 +41,7 @@ struct EnergyParts {
   bool in_time = true;     ///< not static
   bool quadratic = false;  ///< elements whose rule does not integrate convection exactly
   bool backflow = false;   ///< openings with stabilisation of backflow
+  bool springs = false, dampers = false, support_loads = false;  ///< of the wall's supports
 };
 
 }  // namespace fsi

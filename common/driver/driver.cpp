@@ -33,6 +33,7 @@
 #include "driver/march.hpp"
 #include "driver/observables.hpp"
 #include "driver/opening_observer.hpp"
+#include "driver/prestress.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
 #include "io/earlier_fields.hpp"
@@ -175,6 +176,7 @@ class Run {
     earlier.reset();
     RunLog log(line_.output, in_place(line_));
     log_ = &log;
+    if (loaded_.prestress) write_checkpoint(prestress_file(line_.output), *loaded_.prestress);
     FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
                           restarted ? observed_until() : 0);
     Console console(loads_.steps(), Console::style_for(line_.quiet));

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "driver/prestress.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/artery/curved_edges.hpp"
@@ -26,6 +27,7 @@
 #include "scene/boundary_conditions.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/required_openings.hpp"
+#include "scene/support_needs.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
@@ -112,9 +114,9 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
                        "the mesh " + mesh_name(setup) + " has no such volume", "its volumes are " + one_of(available));
   auto wanted = layers;
   // Under a wall alone the fluid volume, where there is one, shows the wall's inner face.
-  const bool fluid_shows_inner_face = !setup.fluid && setup.load && contains(available, "fluid");
+  const bool fluid_shows_inner_face = !setup.fluid && (setup.load || setup.prestress) && contains(available, "fluid");
   if (setup.fluid || fluid_shows_inner_face) wanted.push_back("fluid");
-  needs.inner_surface = !setup.fluid && setup.load && !fluid_shows_inner_face;
+  needs.inner_surface = !setup.fluid && (setup.load || setup.prestress) && !fluid_shows_inner_face;
   if (!setup.mesh.file.empty())
     return read_gmsh<Element::dim, Element::order>(setup.mesh.file, wanted, triangle_geometry<Element>);
   return made;
@@ -143,6 +145,7 @@ MeshOf<Element> load_mesh(const Case& setup) {
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
   if (!setup.openings.empty()) needs.openings = required_openings(setup, surfaces_of(mesh), mesh_name(setup));
+  need_supports(setup, mesh, mesh_name(setup), needs);
   check_scene_mesh(mesh, needs, mesh_source(setup));
   // Made meshes come in a good order already.
   auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
@@ -257,6 +260,7 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   loaded.mesh = {mesh_name(setup), hash_of_mesh(mesh), mesh.nodes.size(), mesh.cells.size(),
                  Element::dim == 3 ? "tetrahedra" : "triangles"};
   loaded.scene = build_scene<Element>(setup, mesh);
+  if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
   loaded.points = observation_points<Element>(setup, mesh, *loaded.scene);
   const auto& scene = *loaded.scene;
   if (scene.fluid) loaded.grids.push_back(grid_of("fluid", static_cast<FluidProblem<Element>&>(*scene.fluid).part()));

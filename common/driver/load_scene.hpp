@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "case/case.hpp"
 #include "driver/observation.hpp"
+#include "io/checkpoint.hpp"
 #include "io/fields_writer.hpp"
 #include "scene/scene.hpp"
 
@@ -26,7 +28,8 @@ struct LoadedScene {
   MeshFacts mesh;
   std::unique_ptr<Scene<n>> scene;
   ObservationPoints points;
-  std::vector<FieldGrid> grids;  ///< of fluid and wall, where they are, without fields
+  std::vector<FieldGrid> grids;         ///< of fluid and wall, where they are, without fields
+  std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };
 
 /// Reads or makes the mesh of a case, checks it and builds the scene on it.

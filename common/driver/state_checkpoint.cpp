@@ -121,6 +121,8 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
       require(name, array.size(), state.now.fluid.size());
     } else if (ends_with(name, ".wall")) {
       require(name, array.size(), state.now.wall.size());
+    } else if (ends_with(name, ".support_loads")) {
+      require(name, array.size(), state.support_loads);
     } else if (begins_with(name, std::string(memory_prefix) + "load")) {
       require(name, array.size(), interface_values);
       for (const char* load : {"load0", "load1", "load2"}) size_of(std::string(memory_prefix) + load);

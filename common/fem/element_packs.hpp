@@ -69,6 +69,14 @@ class ElementPacks {
   int thread_count() const { return static_cast<int>(packs_of_thread_.size()); }
   const std::vector<ElementPack>& of_thread(int t) const { return packs_of_thread_[t]; }
 
+  /// Takes the elements' sizes h, where they have one, from packs of the same elements in another shape.
+  void keep_sizes_of(const ElementPacks& others) {
+    if constexpr (Element::stabilised)
+      for (std::size_t t = 0; t < packs_of_thread_.size(); ++t)
+        for (std::size_t i = 0; i < packs_of_thread_[t].size(); ++i)
+          packs_of_thread_[t][i].geometry.size_squared = others.packs_of_thread_[t][i].geometry.size_squared;
+  }
+
  private:
   template <class Point, class Cell>
   static void fill(ElementPack& pack, const std::vector<int>& elements, const std::vector<Point>& x,

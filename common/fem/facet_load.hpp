@@ -110,12 +110,29 @@ double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facet
   return flux;
 }
 
+/// Integrals of the vectors' shape functions over reference facets, one number per node, mm^2.
+template <class Element, class Point, class Facet>
+std::vector<double> vector_shape_integrals(const std::vector<Point>& x, const std::vector<Facet>& facets) {
+  using F = typename Element::Facet;
+  std::vector<double> integrals(x.size(), 0.0);
+  for (const auto& facet : facets) {
+    Vec3<Pack> corner[F::nodes];
+    facet_corners<F>(x, facet, corner);
+    for (int q = 0; q < F::points; ++q) {
+      const auto normal = F::weighted_normal(corner, q);
+      const double area = sqrt(dot(normal, normal))[0];
+      for (int a = 0; a < F::nodes; ++a) integrals[facet[a]] += F::shape(q, a) * area;
+    }
+  }
+  return integrals;
+}
+
 /// Adds the load of a pressure that follows the surface, (p n, v) over the current facets (outward normals), and, if
 /// blocks are passed, its derivative with respect to the nodes' displacement. \param solution  displacements, the
 /// vectors of a mixed layout
 template <class Element, class Point, class Facet>
 void add_follower_pressure(
-    const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const std::vector<double>& solution,
+    const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const double* solution,
     std::vector<double>& residual,
     BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>* jacobian) {
   using F = typename Element::Facet;
@@ -151,6 +168,11 @@ void add_follower_pressure(
         }
       }
     }
+}
+template <class Element, class Point, class Facet, class Matrix>
+void add_follower_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure,
+                           const std::vector<double>& solution, std::vector<double>& residual, Matrix* jacobian) {
+  add_follower_pressure<Element>(x, facets, pressure, solution.data(), residual, jacobian);
 }
 
 }  // namespace fsi

@@ -51,6 +51,13 @@ constexpr Column columns[] = {
      [](const EnergyParts& parts) { return parts.fluid && parts.quadratic; }},
     {"backflow_dissipation_uJ", [](const R& r) { return r.backflow; },
      [](const EnergyParts& parts) { return parts.fluid && parts.backflow; }},
+    {"support_work_uJ", [](const R& r) { return r.support_work; },
+     [](const EnergyParts& parts) { return parts.support_loads; }},
+    {"spring_energy_uJ", [](const R& r) { return r.springs; }, [](const EnergyParts& parts) { return parts.springs; }},
+    {"damper_dissipation_uJ", [](const R& r) { return r.damping; },
+     [](const EnergyParts& parts) { return parts.dampers; }},
+    {"spring_force_uJ", [](const R& r) { return r.support_springs; },
+     [](const EnergyParts& parts) { return parts.springs; }},
 };
 
 }  // namespace

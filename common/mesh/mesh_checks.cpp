@@ -241,9 +241,10 @@ class Checks {
       for (std::size_t j = 0; j < i; ++j) disjoint(needs_.openings[j].c_str(), needs_.openings[i].c_str());
     }
     if (!layers_.empty()) {
-      surface(group::wall_ends, layers_, wall, !supported_by_symmetry());
+      surface(group::wall_ends, layers_, wall, held_by_wall_ends_alone() && !supported_by_symmetry());
       surface(group::outer, layers_, wall, false);
       if (needs_.inner_surface) surface(group::inner, layers_, wall, true);
+      for (const auto& name : needs_.supports) surface(name, layers_, wall, true);
     }
     symmetry();
     straight_axis();
@@ -261,6 +262,9 @@ class Checks {
              fmt::format("put every {} into one of the two groups only", Dim == 3 ? "face" : "side"));
   }
 
+  bool held_by_wall_ends_alone() const {
+    return needs_.holding.size() == 1 && needs_.holding.front() == group::wall_ends;
+  }
   /// What can hold a wall whose ends are clamped nowhere: an axis or planes of symmetry.
   bool supported_by_symmetry() const {
     if (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric) return true;
@@ -391,10 +395,11 @@ class Checks {
     return std::find(layers_.begin(), layers_.end(), mesh_.cell_region[cell]) != layers_.end();
   }
 
-  /// Calls visit(facets) for the facets of the named group and of the planes of symmetry.
+  /// Calls visit(facets) for the facets of the named groups and of the planes of symmetry.
   template <class Visit>
-  void for_group_and_planes(const char* name, Visit visit) const {
-    if (const auto* facets = mesh_.facets(name)) visit(*facets);
+  void for_groups_and_planes(const std::vector<std::string>& names, Visit visit) const {
+    for (const auto& name : names)
+      if (const auto* facets = mesh_.facets(name)) visit(*facets);
     for (const auto& plane : planes_) visit(plane.group->facets);
   }
 
@@ -403,7 +408,7 @@ class Checks {
     if (layers_.empty() || (Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric)) return;
     const auto roots = pieces([&](int cell) { return is_wall(cell); });
     std::vector<char> held(mesh_.cells.size(), 0);
-    for_group_and_planes(group::wall_ends, [&](const auto& facets) {
+    for_groups_and_planes(needs_.holding, [&](const auto& facets) {
       for (const auto& facet : facets) {
         const auto [a, b] = cells_of_.at(facet_key<Dim>(facet));
         for (const int cell : {a, b})
@@ -413,8 +418,9 @@ class Checks {
     for (std::size_t c = 0; c < roots.size(); ++c)
       if (is_wall(static_cast<int>(c)) && !held[roots[c]])
         fail(group::wall_ends,
-             fmt::format("a piece of {} with {} {} has no face in this group", region_of(static_cast<int>(c)),
-                         std::count(roots.begin(), roots.end(), roots[c]), Words::cells),
+             fmt::format("a piece of {} with {} {} has no face {}", region_of(static_cast<int>(c)),
+                         std::count(roots.begin(), roots.end(), roots[c]), Words::cells,
+                         held_by_wall_ends_alone() ? "in this group" : "that is held"),
              "connect it to the rest of the wall by shared facets, or clamp it");
   }
 
@@ -424,8 +430,8 @@ class Checks {
     faces_that_meet_unshared();
 
     std::vector<Facet> held;
-    for_group_and_planes(group::wall_ends,
-                         [&](const auto& facets) { held.insert(held.end(), facets.begin(), facets.end()); });
+    for_groups_and_planes(needs_.clamping,
+                          [&](const auto& facets) { held.insert(held.end(), facets.begin(), facets.end()); });
     const auto clamped = facet_nodes(held);
     // An interface that ends on the axis is closed there.
     const auto on_axis = [&](int node) {
@@ -443,8 +449,12 @@ class Checks {
           group::wall_ends,
           fmt::format("the rim of the interface is not clamped: {} of its nodes are not in this group, the first at {}",
                       loose, text(mesh_.nodes[first])),
-          "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
-          "symmetry_z, or symmetry_1 and so on");
+          std::string(
+              std::find(needs_.clamping.begin(), needs_.clamping.end(), group::wall_ends) != needs_.clamping.end()
+                  ? ""
+                  : "fix all components of its support (with a fluid ends can neither slide nor be free), or ") +
+              "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
+              "symmetry_z, or symmetry_1 and so on");
   }
 
   /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.
@@ -452,7 +462,7 @@ class Checks {
     const auto free_faces = [&](const std::vector<int>& regions, const std::vector<const char*>& named) {
       FacetSet skip;
       for (const char* name : named)
-        for_group_and_planes(name, [&](const auto& facets) {
+        for_groups_and_planes({name}, [&](const auto& facets) {
           for (const auto& facet : facets) skip.insert(facet_key<Dim>(facet));
         });
       std::vector<Facet> faces;

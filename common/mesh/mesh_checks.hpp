@@ -15,6 +15,9 @@ struct SceneMeshNeeds {
   bool outlet = false;                  ///< a surface `outlet` on the fluid
   std::vector<std::string> openings{};  ///< further surfaces on the fluid, that it passes through
   bool inner_surface = false;           ///< a surface `inner` on the wall (a wall without fluid)
+  std::vector<std::string> supports;    ///< surfaces on the outside of the wall that something holds or loads
+  std::vector<std::string> holding = {"wall_ends"};   ///< of all surfaces, those that hold the wall
+  std::vector<std::string> clamping = {"wall_ends"};  ///< those where it cannot move at all
   /// Of triangle meshes: what is there called a volume is a physical surface, and what is called a surface a curve.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;
 };
@@ -24,8 +27,8 @@ struct SceneMeshNeeds {
 /// (folded mesh); nodes in the same place; quadratic cells whose Jacobian is not positive everywhere; surface facets
 /// that are no facets of the volumes they belong to, or that lie between two cells; a surface `symmetry_x` (y, z) that
 /// is not normal to x (y, z) everywhere; fluid in several pieces; wall pieces that nothing supports: no face in
-/// `wall_ends` or a symmetry plane, nor an axis of symmetry; with fluid and wall: no shared facet, faces that meet
-/// without sharing nodes, or a node of the interface's rim that is neither in `wall_ends`, nor in a symmetry plane, nor
+/// a surface that holds the wall or a symmetry plane, nor an axis of symmetry; with fluid and wall: no shared facet, faces that meet
+/// without sharing nodes, or a node of the interface's rim that is neither in a surface that clamps it, nor in a symmetry plane, nor
 /// on the axis of an axisymmetric mesh.
 template <int Dim, int Order>
 void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);

@@ -11,6 +11,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/symmetry_planes.hpp"
+#include "scene/wall_supports.hpp"
 
 namespace fsi {
 
@@ -34,17 +35,6 @@ typename MeshOf<Element>::Facet reversed(typename MeshOf<Element>::Facet facet) 
   std::swap(facet[first], facet[first + 1]);
   if constexpr (Element::dim == 3 && Element::order == 2) std::swap(facet[3], facet[5]);
   return facet;
-}
-
-/// One flag per node of a part: on these facets of the whole mesh.
-template <class Element>
-std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets) {
-  std::vector<char> marks(part.nodes.size(), 0);
-  for (const auto& facet : facets)
-    for (int node : facet)
-      if (part.local_node[node] >= 0) marks[part.local_node[node]] = 1;
-  part.spread_to_copies(marks);
-  return marks;
 }
 
 /// Fixes these components of fields.
@@ -75,6 +65,16 @@ FacetsOf<Element> closed_facets(const MeshOf<Element>& mesh, const std::vector<F
 }  // namespace
 
 template <class Element>
+std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets) {
+  std::vector<char> marks(part.nodes.size(), 0);
+  for (const auto& facet : facets)
+    for (int node : facet)
+      if (part.local_node[node] >= 0) marks[part.local_node[node]] = 1;
+  part.spread_to_copies(marks);
+  return marks;
+}
+
+template <class Element>
 FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& facets) {
   FacetsOf<Element> local;
   local.reserve(facets.size());
@@ -93,7 +93,9 @@ FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<i
 }
 
 template <class Element>
-VanishingComponents<Element::components> mirrored_components(const MeshOf<Element>& mesh, const PartOf<Element>& part) {
+VanishingComponents<Element::components> mirrored_components(
+    const MeshOf<Element>& mesh, const PartOf<Element>& part,
+    const std::vector<HeldSurface<Element::components>>& surfaces) {
   constexpr int n = Element::components;
   struct Plane {
     std::vector<char> on;  ///< per node of the part
@@ -111,6 +113,8 @@ VanishingComponents<Element::components> mirrored_components(const MeshOf<Elemen
     normals.clear();
     for (const auto& plane : planes)
       if (plane.on[a]) normals.push_back(plane.normal);
+    for (const auto& surface : surfaces)
+      if (surface.on[a]) normals.push_back(surface.direction);
     if (Element::axisymmetric && part.nodes[a][0] == 0) {
       normals.emplace_back();
       normals.back()[0] = 1;
@@ -125,13 +129,18 @@ VanishingComponents<Element::components> mirrored_components(const MeshOf<Elemen
 }
 
 template <class Element>
-DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall) {
-  DirichletConditions<Element::components> conditions(wall.node_count());
-  const auto ends = nodes_on<Element>(wall, group_facets(mesh, group::wall_ends));
-  for (int a = 0; a < wall.node_count(); ++a)
-    if (ends[a]) conditions.fix(a);
-  fix<Element::components>(mirrored_components<Element>(mesh, wall), {&conditions});
-  return conditions;
+WallConditions<Element::components> wall_conditions(const Case& setup, const MeshOf<Element>& mesh,
+                                                    const PartOf<Element>& wall) {
+  WallConditions<Element::components> held{DirichletConditions<Element::components>(wall.node_count()), {}};
+  if (setup.supports.count(group::wall_ends) == 0) {
+    const auto ends = nodes_on<Element>(wall, group_facets(mesh, group::wall_ends));
+    for (int a = 0; a < wall.node_count(); ++a)
+      if (ends[a]) held.conditions.fix(a);
+  }
+  auto components = mirrored_components<Element>(mesh, wall, surfaces_held_by_supports<Element>(setup, mesh, wall));
+  fix<Element::components>(components, {&held.conditions});
+  held.frames = std::move(components.frames);
+  return held;
 }
 
 template <class Element>
@@ -194,12 +203,13 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
 }
 
 #define FSI_INSTANTIATE(Element)                                                                                 \
-  template VanishingComponents<Element::components> mirrored_components<Element>(const MeshOf<Element>&,         \
-                                                                                 const PartOf<Element>&);        \
+  template std::vector<char> nodes_on<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                \
+  template VanishingComponents<Element::components> mirrored_components<Element>(                                \
+      const MeshOf<Element>&, const PartOf<Element>&, const std::vector<HeldSurface<Element::components>>&);     \
   template FacetsOf<Element> in_part<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                 \
   template FacetsOf<Element> inner_surface<Element>(const MeshOf<Element>&, const std::vector<int>&);            \
-  template DirichletConditions<Element::components> wall_conditions<Element>(const MeshOf<Element>&,             \
-                                                                             const PartOf<Element>&);            \
+  template WallConditions<Element::components> wall_conditions<Element>(const Case&, const MeshOf<Element>&,     \
+                                                                        const PartOf<Element>&);                 \
   template FluidBoundary<Element> fluid_boundary<Element>(                                                       \
       const std::vector<OpeningData>&, const MeshOf<Element>&, const PartOf<Element>&, const FacetsOf<Element>&, \
       const PartOf<Element>*, const DirichletConditions<Element::components>*);

@@ -34,14 +34,35 @@ FacetsOf<Element> in_part(const PartOf<Element>& part, const FacetsOf<Element>& 
 template <class Element>
 FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<int>& wall_regions);
 
+/// Nodes of a part that cannot move in one direction.
+template <int n>
+struct HeldSurface {
+  std::vector<char> on;    ///< per node of the part
+  Direction<n> direction;  ///< unit vector
+};
+
 /// The components normal to symmetry planes at the nodes of a part on them, and of an axisymmetric part the radial ones
 /// on the axis. Where the normals, or what is free between two planes, are along no axis of space, nodes get a frame.
+/// \param held  surfaces held by something else besides
 template <class Element>
-VanishingComponents<Element::components> mirrored_components(const MeshOf<Element>& mesh, const PartOf<Element>& part);
+VanishingComponents<Element::components> mirrored_components(
+    const MeshOf<Element>& mesh, const PartOf<Element>& part,
+    const std::vector<HeldSurface<Element::components>>& held = {});
 
-/// The wall's displacement is zero on the clamped ends; on symmetry planes and on the axis its normal component is.
+/// One flag per node of a part: on these facets of the whole mesh.
 template <class Element>
-DirichletConditions<Element::components> wall_conditions(const MeshOf<Element>& mesh, const PartOf<Element>& wall);
+std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets);
+
+/// The wall's displacement, as far as it is zero: on clamped ends, components on symmetry planes, on the axis and where
+/// supports hold it.
+template <int n>
+struct WallConditions {
+  DirichletConditions<n> conditions;
+  NodalFrames<n> frames;
+};
+template <class Element>
+WallConditions<Element::components> wall_conditions(const Case& setup, const MeshOf<Element>& mesh,
+                                                    const PartOf<Element>& wall);
 
 /// Where the velocity of an opening is prescribed by its flow.
 struct InflowNodes {

@@ -12,7 +12,9 @@
 #include "scene/boundary_conditions.hpp"
 #include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
+#include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
+#include "scene/wall_supports.hpp"
 #include "scene/wave_speed.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -53,13 +55,15 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (setup.structure) {
     wall_part = submesh(mesh, wall_regions);
     if (setup.structure->layer_pressure == LayerPressure::separate) wall_part = split_between_regions(wall_part);
-    scene->wall_conditions = wall_conditions<Element>(mesh, wall_part);
-    scene->wall_frames = mirrored_components<Element>(mesh, wall_part).frames;
+    auto held = wall_conditions<Element>(setup, mesh, wall_part);
+    scene->wall_conditions = std::move(held.conditions);
+    scene->wall_frames = std::move(held.frames);
     std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
       layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
-    const auto pressurised =
-        setup.load ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions)) : FacetsOf<Element>{};
+    const auto pressurised = setup.load || setup.prestress
+                                 ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions))
+                                 : FacetsOf<Element>{};
     const auto& s = *setup.structure;
     FrameFields frame;
     if (s.fibre_frame == FibreFrame::laplace &&
@@ -74,6 +78,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
       if (!layer.fibres.empty())
         scene->profile.count("elements with fibres", static_cast<std::int64_t>(layer.packs.element_count()));
     scene->wall = std::move(wall);
+    support_wall<Element>(setup, mesh, wall_part, *scene->wall);
   }
 
   if (setup.fluid) {
@@ -103,6 +108,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->fluid = std::move(fluid);
   }
 
+  if (!setup.supports.empty()) require_common_frames(setup, *scene);
+
   if (setup.time) {
     scene->integrator = make_time_scheme(setup, *scene);
     const bool first_order =
@@ -110,6 +117,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->predictor = setup.time->predictor.value_or(first_order ? 1 : 2);
   }
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
+  if (!setup.supports.empty()) require_no_rigid_motion(setup, *scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;
   if (scene->coupled()) scene->assemble_mesh_motion();
   return scene;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +50,13 @@ class Scene {
   NodalFrames<n> fluid_frames;               ///< of nodes whose conditions are along no axis of space; for both above
   NodalFrames<n> wall_frames;                ///< on the interface those of the fluid
   std::unique_ptr<const TimeIntegrator> integrator = std::make_unique<QuasiStatic>();
+  /// The load under which the scene is at rest; none: no load.
+  struct InitialLoad {
+    double pressure = 0;                ///< kPa, of the fluid, at all openings and on the inner face of a wall alone
+    std::vector<double> support_loads;  ///< kPa
+    std::vector<double> wall;           ///< (0, p) in the wall, mixed layout
+  };
+  std::optional<InitialLoad> initial_load;
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
   int predictor = 1;                 ///< order of the extrapolated start of each step
   mutable Profile profile;           ///< also of those who only read the scene
@@ -78,6 +88,12 @@ class Scene {
       state.wall_acceleration = state.wall_velocity;
     }
     state.now = zero;
+    if (wall && wall->supports()) state.support_loads = wall->supports()->load_count();
+    if (initial_load) {
+      for (int a = 0; fluid && a < fluid->node_count(); ++a)
+        if (fluid->space().carries_scalar(a)) state.now.fluid[Mixed::scalar(a)] = initial_load->pressure;
+      if (wall) state.now.wall = initial_load->wall;
+    }
     impose_conditions(state.now);
     for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
       if (law.stores()) state.now.windkessel.push_back(law.initial_pressure);
@@ -89,13 +105,24 @@ class Scene {
         state.rate.windkessel[open.place()] = law.rate(law.initial_pressure, open.outflow(state.now.fluid));
     });
     if (!state.velocity_rate.empty() || !state.rate.fluid.empty())
-      state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + 1, 0.0);
+      state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + state.support_loads + 1, 0.0);
+    if (initial_load && !state.load_rates.empty()) {
+      const auto& loads = initial_load->support_loads;
+      std::fill(state.load_rates.begin(), state.load_rates.end(), initial_load->pressure);
+      std::copy(loads.begin(), loads.end(), state.load_rates.end() - 1 - static_cast<std::ptrdiff_t>(loads.size()));
+    }
     return state;
   }
 
   /// What the element loops read of a state, or solution, in a step with these rates.
   FluidInput fluid_input(const State& state, const StepRates& rates) const { return fluid_input(state.now, rates); }
   WallInput wall_input(const State& state, const StepRates& rates) const { return wall_input(state.now, rates); }
+  /// With the loads of the wall's supports, too, which `data` must outlive.
+  WallInput wall_input(const Solution& now, const StepData& data) const {
+    WallInput in = wall_input(now, data.rates);
+    if (!data.support_loads.empty()) in.support_loads = data.support_loads.data();
+    return in;
+  }
   FluidInput fluid_input(const Solution& now, const StepRates& rates) const {
     FluidInput in;
     if (coupled()) {
@@ -116,6 +143,8 @@ class Scene {
     if (!rates.is_static()) {
       in.acceleration_history = rates.acceleration_history.data();
       in.acceleration_factor = rates.acceleration_factor;
+      in.velocity_rate = rates.interface.rate();
+      if (!rates.wall_reference.empty()) in.velocity_reference = rates.wall_reference.data();
     }
     return in;
   }

@@ -32,6 +32,7 @@ void remember(const std::string& name, const LinearisationPoint& point, Memory& 
   memory.arrays[name + ".wall"] = point.now.wall;
   memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
   memory.arrays[name + ".flow_reference"] = point.rates.fluid_reference;
+  if (!point.support_loads.empty()) memory.arrays[name + ".support_loads"] = point.support_loads;
   memory.numbers[name + ".step"] = point.rates.step;
   memory.numbers[name + ".period"] = point.rates.interface.period;
   memory.numbers[name + ".flow_factor"] = point.rates.fluid_factor;
@@ -49,6 +50,7 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   point.now = {array(".mesh"), array(".flow"), array(".wall")};
   point.rates.mesh_reference = array(".mesh_reference");
   point.rates.fluid_reference = array(".flow_reference");
+  point.support_loads = array(".support_loads");
   point.rates.step = number(".step");
   point.rates.interface.period = number(".period");
   point.rates.fluid_factor = number(".flow_factor");

@@ -102,6 +102,7 @@ void System<n>::linearise() {
   point_.rates = data_->rates;
   point_.rates.wall_reference.clear();
   point_.wall_pressure = data_->wall_pressure;
+  point_.support_loads = data_->support_loads;
   usable_ = true;
 }
 
@@ -115,6 +116,7 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {  // no derivative depends on these
     if (law.stores()) data.rates.windkessel_reference.push_back(0);
   });
+  data.support_loads = point.support_loads;
   if (!point.rates.is_static() && scene_.wall)
     data.rates.acceleration_history.assign(scene_.wall->space().vector_size(), 0.0);
   work_on(state, data);
@@ -195,7 +197,17 @@ bool System<n>::negligible(double, double share) const {
   };
   return small(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries) &&
          small(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries) &&
-         small(numbering_.wall, wall_volumes_, state_->now.wall, Mixed::entries);
+         small(numbering_.wall, wall_volumes_, wall_from_unloaded(), Mixed::entries);
+}
+
+template <int n>
+std::vector<double> System<n>::wall_from_unloaded() const {
+  std::vector<double> wall = state_->now.wall;
+  if (numbering_.wall.empty()) return wall;
+  const std::vector<double>& prestress = scene_.wall->prestress();
+  for (std::size_t i = 0; i < prestress.size(); ++i)
+    wall[Mixed::vector(static_cast<int>(i) / n, static_cast<int>(i) % n)] += prestress[i];
+  return wall;
 }
 
 template <int n>
@@ -238,7 +250,7 @@ double System<n>::rounding() {
   };
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
-  values(numbering_.wall, state_->now.wall);
+  values(numbering_.wall, wall_from_unloaded());
   add_absolute_products(x, terms);
   double sum = 0;
   for (double t : terms) sum += t * t;
@@ -282,8 +294,8 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   }
   if (!numbering_.wall_rows.empty()) {
     assert(scene_.wall);
-    result.include(scene_.wall->assemble(scene_.wall_input(*state_, data_->rates), data_->wall_pressure,
-                                         state_->now.wall, wall_residual_, derivatives));
+    result.include(scene_.wall->assemble(scene_.wall_input(state_->now, *data_), data_->wall_pressure, state_->now.wall,
+                                         wall_residual_, derivatives));
     if (!data_->interface_load.empty())
       for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
     add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_);

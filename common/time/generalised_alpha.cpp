@@ -50,6 +50,7 @@ void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solutio
   const Weights weight = weights(state, step);
   const double a_m = weight.a_m, g = weight.g;
   std::vector<double> loads = data.opening_pressures;
+  loads.insert(loads.end(), data.support_loads.begin(), data.support_loads.end());
   loads.push_back(data.wall_pressure);
   // y'^(n+1) = (y^(n+1) - y^n) / (g dt) - (1 - g) / g y'^n
   const auto follow = [&](std::vector<double>& rate, const std::vector<double>& y, const std::vector<double>& old) {

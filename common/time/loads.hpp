@@ -1,6 +1,7 @@
 #pragma once
 
 #include "case/openings.hpp"
+#include "case/support_loads.hpp"
 #include "time/state.hpp"
 #include "time/time_axis.hpp"
 #include "time/time_integrator.hpp"
@@ -11,7 +12,8 @@ namespace fsi {
 /// depend on the time step; a static load rises in equal steps to the table's last value.
 class Loads {
  public:
-  explicit Loads(const Case& setup) : setup_(setup), openings_(openings_of(setup)), axis_(setup) {}
+  explicit Loads(const Case& setup)
+      : setup_(setup), openings_(openings_of(setup)), supports_(support_loads_of(setup)), axis_(setup) {}
 
   /// When the steps are.
   const TimeAxis& axis() const { return axis_; }
@@ -32,7 +34,17 @@ class Loads {
   /// kPa, of a step: on the inner face of a wall without fluid.
   double wall_pressure(int step) const {
     if (!setup_.load) return 0.0;
-    return setup_.time ? setup_.load->mean(time_of(step - 1), time_of(step)) : time_of(step) * setup_.load->at_end();
+    if (setup_.time) return setup_.load->mean(time_of(step - 1), time_of(step));
+    const double first = setup_.prestress ? setup_.prestress->pressure : 0.0;
+    return first + time_of(step) * (setup_.load->at_end() - first);
+  }
+  /// kPa, of a load step: the loads of the wall's supports, in the order of support_loads_of(case). A wall under prestress
+  /// carries them from the start.
+  std::vector<double> static_support_loads(int step) const {
+    std::vector<double> loads;
+    for (const SupportLoad& load : supports_)
+      loads.push_back((setup_.prestress ? 1.0 : time_of(step)) * load.course.at_end());
+    return loads;
   }
 
   /// Data of the step that follows the state's last one, or of one stage of it.
@@ -44,6 +56,7 @@ class Loads {
     if (data.rates.is_static()) {
       data.opening_pressures = opening_pressures(step);
       data.wall_pressure = wall_pressure(step);
+      data.support_loads = static_support_loads(step);
       return data;
     }
     data.rates.end = data.rates.last_stage ? data.time : data.rates.end;
@@ -52,7 +65,9 @@ class Loads {
       data.opening_pressures.push_back(openings_[i].pressure ? of_balance(*openings_[i].pressure, data, state, i)
                                                              : 0.0);
     set_flows(data);
-    if (setup_.load) data.wall_pressure = of_balance(*setup_.load, data, state, openings_.size());
+    for (const SupportLoad& load : supports_)
+      data.support_loads.push_back(of_balance(load.course, data, state, openings_.size() + data.support_loads.size()));
+    if (setup_.load) data.wall_pressure = of_balance(*setup_.load, data, state, openings_.size() + supports_.size());
     return data;
   }
 
@@ -78,6 +93,7 @@ class Loads {
 
   const Case& setup_;
   std::vector<OpeningData> openings_;
+  std::vector<SupportLoad> supports_;
   TimeAxis axis_;
 };
 

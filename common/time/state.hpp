@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,9 @@ struct State {
   std::vector<double> wall_velocity_before;  ///< at before[1]
   Solution rate;                             ///< d/dt of displacements and velocities at before[0] (generalised-alpha)
   std::vector<double> velocity_rate;         ///< of the wall's velocity, mm/ms^2 (generalised-alpha)
-  std::vector<double> load_rates;            ///< what stands for the loads' values there, kPa (generalised-alpha)
+  /// What stands for the loads' values there, kPa (generalised-alpha): of openings, supports and the wall's inner face.
+  std::vector<double> load_rates;
+  std::size_t support_loads = 0;  ///< how many of them are those of supports
 
   // A first stage of the step in progress, of schemes with two.
   Solution stage, stage_balance;         ///< the level at its end, the solution of its equations

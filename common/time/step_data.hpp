@@ -49,6 +49,7 @@ struct StepData {
   /// Into the fluid at the stage's end, mm^3/ms, of the same boundaries; 0 where no flow is prescribed. Empty: nowhere.
   std::vector<double> opening_flows{};
   double wall_pressure = 0;            ///< kPa, on the inner face of a wall without fluid
+  std::vector<double> support_loads;   ///< kPa, of the wall's supports, in the order of support_loads_of(case)
   std::vector<double> interface_load;  ///< added to the wall's residual, as Solution::wall; empty: none
   bool ends_at_jump = false;           ///< the load jumps at the step's end
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "case/openings.hpp"
+#include "case/support_loads.hpp"
 
 namespace fsi {
 
@@ -20,6 +21,10 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
     for (const auto& [key, table] : tables_over_time(setup))
       for (double jump : table->jumps(time_->end))
         if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);  // at the end, too: a restart goes on from it
+  if (time_ != nullptr)
+    for (const SupportLoad& load : support_loads_of(setup))
+      for (double jump : load.course.jumps(time_->end))
+        if (jump > 0 && jump <= time_->end) jumps_.push_back(jump);
   std::sort(jumps_.begin(), jumps_.end());
   jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
   stops_ = jumps_;

@@ -70,7 +70,9 @@ std::optional<Balance> TrBdf2<n>::balance_again(const State& state) const {
   data.rates.stage = 1;
   data.rates.time = data.rates.end = state.time;
   data.rates.start = state.time - (1 - g) * step;
-  data.opening_pressures.assign(state.load_rates.begin(), state.load_rates.end() - 1);
+  const auto supports = state.load_rates.end() - 1 - static_cast<std::ptrdiff_t>(state.support_loads);
+  data.opening_pressures.assign(state.load_rates.begin(), supports);
+  data.support_loads.assign(supports, state.load_rates.end() - 1);
   data.wall_pressure = state.load_rates.back();
   return balance;
 }
@@ -90,6 +92,7 @@ void TrBdf2<n>::keep(State& state, const StepData& data, const Solution&, const 
   state.rate.windkessel = differenced(rates.fluid_factor, state.now.windkessel, rates.windkessel_reference);
   state.velocity_rate = state.wall_acceleration;
   state.load_rates = data.opening_pressures;
+  state.load_rates.insert(state.load_rates.end(), data.support_loads.begin(), data.support_loads.end());
   state.load_rates.push_back(data.wall_pressure);
 }
 

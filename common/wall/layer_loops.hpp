@@ -21,8 +21,16 @@ struct LayerLoops {
   static AssemblyResult assemble(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallInput& in,
                                  std::vector<double>& residual, WallMatrix<Element::components>* jacobian);
   static WallEnergy energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const double* wall,
-                           const double* velocity, const double* balance);
+                           const double* velocity, const double* balance, const double* prestress);
   static WallWork work(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& step);
+};
+
+/// The loops that find the unloaded shape (wall/unloaded_shape.hpp), of every law; a Jacobian is always passed. In
+/// unloaded_loops.cpp.
+template <class Element, class M>
+struct UnloadedLoops {
+  static AssemblyResult assemble(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallInput& in,
+                                 std::vector<double>& residual, WallMatrix<Element::components>* jacobian);
 };
 
 }  // namespace fsi

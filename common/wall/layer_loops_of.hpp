@@ -16,8 +16,9 @@ AssemblyResult LayerLoops<Element, M>::assemble(const Hyperelastic<M>& form, con
 
 template <class Element, class M>
 WallEnergy LayerLoops<Element, M>::energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer,
-                                          const double* wall, const double* velocity, const double* balance) {
-  return detail::layer_energy(form, layer, wall, velocity, balance);
+                                          const double* wall, const double* velocity, const double* balance,
+                                          const double* prestress) {
+  return detail::layer_energy(form, layer, wall, velocity, balance, prestress);
 }
 
 template <class Element, class M>

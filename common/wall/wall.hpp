@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem/assembly_result.hpp"
 #include "fem/function_space.hpp"
 #include "mesh/submesh.hpp"
+#include "wall/supports.hpp"
 #include "wall/wall_input.hpp"
 
 namespace fsi {
@@ -52,9 +54,24 @@ class Wall {
   /// The Jacobian last assembled; storage appears with the first request.
   virtual WallMatrix<n>& jacobian() = 0;
 
+  /// While it does, assemble() makes the equations of the unloaded shape (wall/unloaded_shape.hpp): d is the displacement
+  /// from there to the mesh, under loads on the mesh as it is.
+  virtual void find_unloaded_shape(bool find) = 0;
+  /// From now on the wall is unloaded where the mesh less this displacement (vector layout, mm) is, and displacements
+  /// count from the mesh.
+  virtual void set_prestress(std::vector<double> displacement) = 0;
+  virtual const std::vector<double>& prestress() const = 0;  ///< that displacement; empty: none
+
+  /// What holds and loads the wall from outside, part of what assemble() makes from then on.
+  void support_by(std::unique_ptr<const WallSupports<n>> supports) { supports_ = std::move(supports); }
+  const WallSupports<n>* supports() const { return supports_.get(); }  ///< null: nothing
+
   virtual std::size_t element_count() const = 0;
   /// The elements as vertices, n + 1 numbers each.
   virtual std::vector<int> cell_vertices() const = 0;
+
+ private:
+  std::unique_ptr<const WallSupports<n>> supports_;
 };
 
 }  // namespace fsi

@@ -15,15 +15,28 @@ namespace fsi {
 
 namespace detail {
 
-/// A material's fibres at point q of a pack.
-template <class Element, class M>
-typename M::FibreData fibres_at(const std::vector<std::array<Fibres, Element::points>>* fibres, std::size_t pack,
-                                int q) {
-  if constexpr (std::is_same_v<typename M::FibreData, Fibres>) {
+/// A form's fibres at point q of a pack.
+template <class Element, class Form>
+typename Form::FibreData fibres_at(const std::vector<std::array<Fibres, Element::points>>* fibres, std::size_t pack,
+                                   int q) {
+  if constexpr (std::is_same_v<typename Form::FibreData, Fibres>) {
     return (*fibres)[pack][q];
   } else {
     return {};
   }
+}
+
+/// Displacements of one pack from the shape that its elements have at rest without load.
+template <class Element>
+void gather_displacement(NodalVector<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,
+                         const double* wall, const double* prestress) {
+  constexpr int n = Element::components;
+  gather<MixedLayout<n>>(to, pack, wall);
+  if (!prestress) return;
+  NodalVector<Element> first{};
+  gather<VectorLayout<n>>(first, pack, prestress);
+  for (int a = 0; a < Element::nodes; ++a)
+    for (int k = 0; k < n; ++k) to.at[a][k] += first.at[a][k];
 }
 
 /// The fields that the wall's weak form sees, in one pack.
@@ -36,17 +49,18 @@ struct WallPack {
     constexpr int n = Element::components;
     gather<MixedLayout<n>>(d, pack, in.wall);
     gather<MixedLayout<n>>(p, pack, in.wall);
-    if (!in.acceleration_history) return;
-    gather<VectorLayout<n>>(acceleration, pack, in.acceleration_history);
-    for (int a = 0; a < Element::nodes; ++a)
-      for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
+    if (in.acceleration_history) {
+      gather<VectorLayout<n>>(acceleration, pack, in.acceleration_history);
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int k = 0; k < n; ++k) acceleration.at[a][k] += Pack(in.acceleration_factor) * d.at[a][k];
+    }
+    if (in.prestress) gather_displacement<Element>(d, pack, in.wall, in.prestress);
   }
 };
 
 /// Residual and, by seeding one node after the other, derivatives.
-template <class Element, bool Derivatives, class M>
-AssemblyResult layer_packs(const Hyperelastic<M>& form,
-                           const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+template <class Element, bool Derivatives, class Form>
+AssemblyResult layer_packs(const Form& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                            const std::vector<std::array<Fibres, Element::points>>* fibres, const WallInput& in,
                            double* residual, double* blocks) {
   constexpr int n = Element::components;
@@ -75,7 +89,7 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
           [&](const auto& k, const auto& g, int q) {
             return form.integrand(
                 k, seed_value<Element, seeds, 0>(value_of(acceleration, g), g, b, in.acceleration_factor),
-                seed_value<Element, seeds, n>(value_of(p, g), g, b), fibres_at<Element, M>(fibres, index, q));
+                seed_value<Element, seeds, n>(value_of(p, g), g, b), fibres_at<Element, Form>(fibres, index, q));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (Derivatives) scatter_blocks<Element, seeds, 0, Mixed::entries>(rows, pack, b, blocks);
@@ -86,8 +100,8 @@ AssemblyResult layer_packs(const Hyperelastic<M>& form,
 
 /// Residual and derivatives by way of the points' tangents (fem/point_tangents.hpp), for elements without
 /// stabilisation.
-template <class Element, class M>
-AssemblyResult layer_packs_by_points(const Hyperelastic<M>& form,
+template <class Element, class Form>
+AssemblyResult layer_packs_by_points(const Form& form,
                                      const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                                      const std::vector<std::array<Fibres, Element::points>>* fibres,
                                      const WallInput& in, double* residual, double* blocks) {
@@ -114,7 +128,7 @@ AssemblyResult layer_packs_by_points(const Hyperelastic<M>& form,
       result.include(value_of(k.volume_ratio), pack.cell.data());
       const auto f = form.integrand(
           k, seed_point_value<Element, seeds, 0>(value_of(fields.acceleration, g), in.acceleration_factor),
-          seed_point_value<seeds, p_seed>(value_of(fields.p, g)), fibres_at<Element, M>(fibres, index, q));
+          seed_point_value<seeds, p_seed>(value_of(fields.p, g)), fibres_at<Element, Form>(fibres, index, q));
       tangent.set(f, g.weight);
       values.add_sources(value_of(f), g);
       values.add_fluxes(value_of(f), g, g.weight);
@@ -132,18 +146,21 @@ AssemblyResult layer_packs_by_points(const Hyperelastic<M>& form,
   return result;
 }
 
-/// One layer's share of assemble_wall().
-template <class Element, class M>
-AssemblyResult assemble_layer(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallInput& in,
+/// One layer's share of assemble_wall(). \tparam WithResidualLoop  false: there is always a Jacobian
+template <class Element, bool WithResidualLoop = true, class Form>
+AssemblyResult assemble_layer(const Form& form, const WallLayer<Element>& layer, const WallInput& in,
                               std::vector<double>& residual, WallMatrix<Element::components>* jacobian) {
   std::vector<AssemblyResult> results(layer.packs.thread_count());
   const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
   for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
     const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
     double* rows = residual.data();
-    if (!jacobian) {
-      results[t] = layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
-    } else if constexpr (Element::stabilised) {
+    if constexpr (WithResidualLoop)
+      if (!jacobian) {
+        results[t] = layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
+        return;
+      }
+    if constexpr (Element::stabilised) {
       results[t] = layer_packs<Element, true>(form, mine, fibres, in, rows, jacobian->values.data());
     } else {
       results[t] = layer_packs_by_points<Element>(form, mine, fibres, in, rows, jacobian->values.data());
@@ -155,7 +172,7 @@ AssemblyResult assemble_layer(const Hyperelastic<M>& form, const WallLayer<Eleme
 }  // namespace detail
 
 /// Adds the wall's residual (momentum, volume) in the mixed layout, without boundary conditions, and overwrites the
-/// Jacobian if one is passed.
+/// Jacobian if one is passed, which it must be for the unloaded shape.
 template <class Element>
 AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers,
                              const WallInput& in, std::vector<double>& residual,
@@ -169,7 +186,9 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
           const Hyperelastic<M> form{in.acceleration_history ? wall.density : 0.0,
                                      bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation, law,
                                      wall.wave_speed};
-          if constexpr (compiled_apart<M>)
+          if (in.finds_unloaded_shape)
+            all.include(UnloadedLoops<Element, M>::assemble(form, layer, in, residual, jacobian));
+          else if constexpr (compiled_apart<M>)
             all.include(LayerLoops<Element, M>::assemble(form, layer, in, residual, jacobian));
           else
             all.include(detail::assemble_layer(form, layer, in, residual, jacobian));

@@ -17,14 +17,14 @@ using LayerFibres = const std::vector<std::array<Fibres, Element::points>>*;
 
 template <class Element, class M>
 WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const double* wall,
-                        const double* velocity, const double* balance) {
+                        const double* velocity, const double* balance, const double* prestress) {
   constexpr int n = Element::components;
   constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
     const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
     NodalVector<Element> d{}, v{};
     NodalScalar<Element> p{};
-    gather<MixedLayout<n>>(d, pack, wall);
+    gather_displacement<Element>(d, pack, wall, prestress);
     gather<MixedLayout<n>>(p, pack, balance);
     if (velocity) gather<VectorLayout<n>>(v, pack, velocity);
     struct Prepared {
@@ -47,7 +47,8 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
           const Vec3<Pack> v_here = value_of(v, g);
           const Pack pressure = value_of(p, g);
           Pack isochoric = k.isotropic;
-          if constexpr (has_fibres) isochoric = form.material.energy(k.strain, fibres_at<Element, M>(fibres, index, q));
+          if constexpr (has_fibres)
+            isochoric = form.material.energy(k.strain, fibres_at<Element, Hyperelastic<M>>(fibres, index, q));
           return std::array<Pack, 3>{
               Pack(0.5 * form.density) * dot(v_here, v_here),
               isochoric,
@@ -72,11 +73,11 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
     NodalVector<Element> reference{}, d_before{}, d_start{}, d_end{}, v_start{}, v_end{}, moved;
     NodalScalar<Element> p_before{};
     at.gather_from(step.balance, pack);
-    gather<Mixed>(reference, pack, step.reference);
-    gather<Mixed>(d_start, pack, step.start);
-    gather<Mixed>(d_end, pack, step.end);
+    gather_displacement<Element>(reference, pack, step.reference, step.balance.prestress);
+    gather_displacement<Element>(d_start, pack, step.start, step.balance.prestress);
+    gather_displacement<Element>(d_end, pack, step.end, step.balance.prestress);
     if (step.wall_before) {
-      gather<Mixed>(d_before, pack, step.wall_before);
+      gather_displacement<Element>(d_before, pack, step.wall_before, step.balance.prestress);
       gather<Mixed>(p_before, pack, step.wall_before);
     }
     if (step.velocity_end) {
@@ -144,7 +145,7 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
         },
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
           Pack beyond = k.isotropic;
-          if constexpr (has_fibres) beyond = stress(k, fibres_at<Element, M>(fibres, index, q));
+          if constexpr (has_fibres) beyond = stress(k, fibres_at<Element, Hyperelastic<M>>(fibres, index, q));
           const Pack pressure = value_of(at.p, g);
           beyond = beyond - pressure * k.defect;
           if (step.wall_before) {
@@ -182,16 +183,18 @@ void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Eleme
 /// \param wall      (d, .) of a level
 /// \param velocity  of the level, vector layout; null in statics
 /// \param balance   (., p) of the balance whose pressures are to count
+/// \param prestress  as in WallInput
 template <class Element>
 WallEnergy wall_energy(const WallConstants& constants, const std::vector<WallLayer<Element>>& layers,
-                       const double* wall, const double* velocity, const double* balance) {
+                       const double* wall, const double* velocity, const double* balance,
+                       const double* prestress = nullptr) {
   WallEnergy all;
   detail::for_each_layer(constants, layers, [&](const auto& form, const auto& layer) {
     using M = std::decay_t<decltype(form.material)>;
     if constexpr (compiled_apart<M>)
-      all += LayerLoops<Element, M>::energy(form, layer, wall, velocity, balance);
+      all += LayerLoops<Element, M>::energy(form, layer, wall, velocity, balance, prestress);
     else
-      all += detail::layer_energy(form, layer, wall, velocity, balance);
+      all += detail::layer_energy(form, layer, wall, velocity, balance, prestress);
   });
   return all;
 }

@@ -16,6 +16,14 @@ struct WallInput {
   const double* wall = nullptr;                  ///< (d_s, p_s), mixed layout, mm and kPa
   const double* acceleration_history = nullptr;  ///< vector layout, mm/ms^2
   double acceleration_factor = 0;                ///< 1/ms^2
+
+  const double* prestress = nullptr;  ///< displacement from the unloaded shape to the mesh, vector layout, mm
+  bool finds_unloaded_shape = false;  ///< d is that displacement itself, and the equations hold on the mesh
+
+  // What supports ask besides (wall/supports.hpp).
+  const double* velocity_reference = nullptr;  ///< r of v = velocity_rate (d - r), mixed layout, mm; null: not known
+  double velocity_rate = 0;                    ///< 1/ms; 0 in statics
+  const double* support_loads = nullptr;       ///< kPa, in the order of the supports' loads; null: none
 };
 
 /// One layer of the wall: its elements and its material, with fibre directions where the material has fibres.

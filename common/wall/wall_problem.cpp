@@ -48,6 +48,7 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
     layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph()), material, {}});
+    layer_cells_.push_back(cells);
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
     if (!has_fibres(material)) continue;
     auto& layer = layers_.back();
@@ -60,21 +61,70 @@ template <class Element>
 AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                                               std::vector<double>& residual, bool derivatives) {
   residual.assign(space_.mixed_size(), 0.0);
+  if (finds_unloaded_shape_) return assemble_unloaded_shape(in, pressure, residual, derivatives);
   WallMatrix<n>* matrix = derivatives ? &jacobian() : nullptr;
-  const auto result = assemble_wall(constants_, layers_, in, residual, matrix);
+  const auto result = assemble_wall(constants_, layers_, prestressed(in), residual, matrix);
   if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
+  if (this->supports()) this->supports()->add(in, residual, matrix);
   return result;
+}
+
+template <class Element>
+WallInput WallProblem<Element>::prestressed(WallInput in) const {
+  if (!prestress_.empty()) in.prestress = prestress_.data();
+  return in;
+}
+
+template <class Element>
+AssemblyResult WallProblem<Element>::assemble_unloaded_shape(WallInput in, double pressure,
+                                                             std::vector<double>& residual, bool derivatives) {
+  WallMatrix<n> not_asked_for;
+  if (!derivatives) not_asked_for = WallMatrix<n>(space_.graph());
+  WallMatrix<n>* matrix = derivatives ? &jacobian() : &not_asked_for;
+  in.finds_unloaded_shape = true;
+  std::vector<double> still;
+  if (constants_.wave_speed > 0) {  // the stabilisation is then that of a wall with inertia
+    still.assign(space_.vector_size(), 0.0);
+    in.acceleration_history = still.data();
+    in.acceleration_factor = 0;
+  }
+  const auto result = assemble_wall(constants_, layers_, in, residual, matrix);
+  // Loads act on the mesh: with displacements of zero, and no derivative.
+  const std::vector<double> mesh(residual.size(), 0.0);
+  if (pressure != 0)
+    add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, mesh.data(), residual, nullptr);
+  WallInput loads;
+  loads.wall = mesh.data();
+  loads.support_loads = in.support_loads;
+  if (this->supports()) this->supports()->add(loads, residual, nullptr);
+  return result;
+}
+
+template <class Element>
+void WallProblem<Element>::set_prestress(std::vector<double> displacement) {
+  prestress_ = std::move(displacement);
+  std::vector<Point> unloaded = part_.nodes;
+  for (int a = 0; a < part_.node_count(); ++a)
+    for (int k = 0; k < n; ++k) unloaded[a][Element::axis[k]] -= prestress_[VectorLayout<n>::vector(a, k)];
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    ElementPacks<Element> packs(unloaded, part_.cells, layer_cells_[i], *space_.graph());
+    packs.keep_sizes_of(layers_[i].packs);
+    layers_[i].packs = std::move(packs);
+  }
 }
 
 template <class Element>
 WallEnergy WallProblem<Element>::energy(const std::vector<double>& wall, const std::vector<double>& velocity,
                                         const std::vector<double>& balance) const {
-  return wall_energy(constants_, layers_, wall.data(), velocity.empty() ? nullptr : velocity.data(), balance.data());
+  return wall_energy(constants_, layers_, wall.data(), velocity.empty() ? nullptr : velocity.data(), balance.data(),
+                     prestress_.empty() ? nullptr : prestress_.data());
 }
 
 template <class Element>
 WallWork WallProblem<Element>::work(const WallStep& step) const {
-  return wall_work(constants_, layers_, step);
+  WallStep here = step;
+  here.balance = prestressed(step.balance);
+  return wall_work(constants_, layers_, here);
 }
 
 template <class Element>
@@ -82,7 +132,7 @@ double WallProblem<Element>::pressure_work(double pressure, const std::vector<do
                                            const std::vector<double>& now) const {
   if (pressure == 0) return 0;
   std::vector<double> load(now.size(), 0.0);
-  add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now, load, nullptr);
+  add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now.data(), load, nullptr);
   double work = 0;
   for (std::size_t i = 0; i < load.size(); ++i) work -= load[i] * (now[i] - old[i]);
   return work;

@@ -39,18 +39,28 @@ class WallProblem : public Wall<Element::components> {
   WallWork work(const WallStep& step) const override;
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
   WallMatrix<n>& jacobian() override;
+  void find_unloaded_shape(bool find) override { finds_unloaded_shape_ = find; }
+  void set_prestress(std::vector<double> displacement) override;
+  const std::vector<double>& prestress() const override { return prestress_; }
 
   std::size_t element_count() const override { return part_.cells.size(); }
   std::vector<int> cell_vertices() const override;
 
  private:
+  WallInput prestressed(WallInput in) const;
+  AssemblyResult assemble_unloaded_shape(WallInput in, double pressure, std::vector<double>& residual,
+                                         bool derivatives);
+
   Part part_;
   WallConstants constants_;
   Facets pressurised_;
   FunctionSpace<n> space_;
   std::vector<WallLayer<Element>> layers_;
   std::vector<LayerData> layer_data_;
+  std::vector<std::vector<int>> layer_cells_;  ///< of the part
   WallMatrix<n> jacobian_;
+  bool finds_unloaded_shape_ = false;
+  std::vector<double> prestress_;  ///< displacement from the unloaded shape, vector layout, mm; empty: none
 };
 
 }  // namespace fsi

@@ -43,6 +43,38 @@ TEST(Loads, ImpulseDoesNotDependOnTheTimeStep) {
   }
 }
 
+// Of supports: pressure and traction components, by surface in the order of their names.
+TEST(Loads, OfSupportsKeepTheirImpulse) {
+  Case setup;
+  setup.time = TimeData{};
+  setup.time->end = 1.2;
+  setup.supports["outer"].pressure = PressureTable{{{0, 0}, {0.3, 2}, {0.7, 2}, {0.9, 0}}};
+  setup.supports["end"].traction = {PressureTable{{{0, 3}}}, PressureTable{{{0, 1}, {0.125, 1}, {0.125, 0}}}};
+  const double expected[] = {3 * 1.2, 0.125, 1.3};
+  for (double step : {0.05, 0.3, 1.2})
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(impulse(setup, step, [i](const StepData& data) { return data.support_loads.at(i); }), expected[i],
+                  1e-14)
+          << step;
+  EXPECT_TRUE(Loads(setup).axis().jumps_at(0.125));
+  EXPECT_EQ(support_loads_at_rest(setup), (std::vector<double>{3, 1, 0})) << "as the run begins";
+}
+
+TEST(Loads, StaticLoadsOfSupportsAreThereFromTheStartUnderPrestress) {
+  Case setup;
+  setup.static_load = StaticData{4};
+  setup.load = PressureTable{{{0, 0.8}}};
+  setup.supports["outer"].pressure = PressureTable{{{0, 0.4}}};
+  State state;
+  state.step = 1;
+  EXPECT_DOUBLE_EQ(Loads(setup).next(state, QuasiStatic()).support_loads.at(0), 0.2);
+  EXPECT_DOUBLE_EQ(Loads(setup).next(state, QuasiStatic()).wall_pressure, 0.4);
+  setup.prestress.emplace().pressure = 0.6;
+  EXPECT_DOUBLE_EQ(Loads(setup).next(state, QuasiStatic()).support_loads.at(0), 0.4);
+  EXPECT_DOUBLE_EQ(Loads(setup).next(state, QuasiStatic()).wall_pressure, 0.7) << "from the prestress on";
+  EXPECT_EQ(support_loads_at_rest(setup), std::vector<double>{0.4});
+}
+
 TEST(Loads, OfAStepIsTheMeanOverItNotTheValueAtItsEnd) {
   Case setup;
   setup.time = TimeData{};

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace fsi {
+
+/// One of the loads that supports put on the wall: a number in time on a surface.
+struct SupportLoad {
+  std::string surface;   ///< name of the facet group
+  int component = -1;    ///< of a traction; -1: a pressure that follows the surface
+  PressureTable course;  ///< kPa
+};
+
+/// The loads of a case's supports, in the order in which scenes and loads hold them.
+inline std::vector<SupportLoad> support_loads_of(const Case& setup) {
+  std::vector<SupportLoad> loads;
+  for (const auto& [surface, support] : setup.supports) {
+    if (support.pressure) loads.push_back({surface, -1, *support.pressure});
+    for (std::size_t k = 0; k < support.traction.size(); ++k)
+      loads.push_back({surface, static_cast<int>(k), support.traction[k]});
+  }
+  return loads;
+}
+
+/// kPa, with which a run in time begins.
+inline double first_value(const PressureTable& table) {
+  double value = table.points.empty() ? 0.0 : table.points.front().second;
+  for (const auto& [time, at_time] : table.points)
+    if (time <= 0) value = at_time;
+  return value;
+}
+
+/// What the supports' loads are while a wall under prestress is at rest: as a run in time begins, the whole in statics.
+inline std::vector<double> support_loads_at_rest(const Case& setup) {
+  std::vector<double> loads;
+  for (const SupportLoad& load : support_loads_of(setup))
+    loads.push_back(setup.time ? first_value(load.course) : load.course.at_end());
+  return loads;
+}
+
+}  // namespace fsi

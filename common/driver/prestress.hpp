@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "case/case.hpp"
+#include "io/checkpoint.hpp"
+#include "scene/scene.hpp"
+
+namespace fsi {
+
+/// Puts the scene's wall under the case's prestress: that of an earlier run where the case names its file, else it is
+/// found. Returns what a run keeps of it.
+/// \throws InputError for a file that belongs to another wall, mesh or load; ConvergenceError
+template <int n>
+Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scene<n>& scene);
+
+/// FOLDER/prestress.h5
+std::filesystem::path prestress_file(const std::filesystem::path& folder);
+
+}  // namespace fsi

@@ -1,0 +1,103 @@
+#include "system/prestress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "fem/dimensions.hpp"
+#include "system/system.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double smallest_increment = 1.0 / 256;  // of the load
+
+/// Leaves a rest below a millionth of a millimetre at any load: the increment that follows is below rounding.
+NewtonOptions tight_newton() {
+  NewtonOptions options;
+  options.mode = NewtonMode::full;
+  options.tolerance = 1e-10;
+  options.residual_tolerance = 1e-10;
+  options.linear_tolerance = 1e-8;
+  options.max_iterations = 25;
+  return options;
+}
+
+/// Makes the wall's equations those of its unloaded shape as long as it lives.
+template <int n>
+class Search {
+ public:
+  explicit Search(Wall<n>& wall) : wall_(wall) { wall_.find_unloaded_shape(true); }
+  ~Search() { wall_.find_unloaded_shape(false); }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+ private:
+  Wall<n>& wall_;
+};
+
+}  // namespace
+
+template <int n>
+WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector<double>& support_loads,
+                             const LinearSolverFactory<n>& make_solver) {
+  using Mixed = MixedLayout<n>;
+  WallPrestress found;
+  State state = scene.at_rest();
+  {
+    const Search<n> search(*scene.wall);
+    System<n> system("prestress", scene, number_wall(scene), make_solver);
+    double reached = 0, increment = 1;
+    while (reached < 1) {
+      const double next = std::min(1.0, reached + increment);
+      StepData data;
+      data.wall_pressure = next * pressure;
+      data.support_loads = support_loads;
+      for (double& load : data.support_loads) load *= next;
+      const auto before = state.now.wall;
+      system.work_on(state, data);
+      const NewtonReport report = newton(system, tight_newton());
+      found.newton_iterations += report.count();
+      if (report.converged) {
+        reached = next;
+        increment = std::min(2 * increment, 1 - reached);
+        continue;
+      }
+      state.now.wall = before;
+      increment /= 2;
+      if (increment < smallest_increment)
+        throw ConvergenceError(
+            fmt::format("prestress: no unloaded shape found for more than {:.3g} of the load, {:.4g} kPa: {}", reached,
+                        reached * pressure, report.failure),
+            "a stiffer wall, or a smaller prestress.pressure: a wall this soft has hardly a shape that inflates to the "
+            "mesh");
+    }
+  }
+  const int nodes = scene.wall->node_count();
+  found.displacement.assign(VectorLayout<n>::size(nodes), 0.0);
+  found.wall.assign(Mixed::size(nodes), 0.0);
+  for (int a = 0; a < nodes; ++a) {
+    for (int k = 0; k < n; ++k) found.displacement[VectorLayout<n>::vector(a, k)] = state.now.wall[Mixed::vector(a, k)];
+    found.wall[Mixed::scalar(a)] = state.now.wall[Mixed::scalar(a)];
+  }
+  return found;
+}
+
+template <int n>
+void start_from(const WallPrestress& prestress, double pressure, const std::vector<double>& support_loads,
+                Scene<n>& scene) {
+  scene.wall->set_prestress(prestress.displacement);
+  scene.initial_load = typename Scene<n>::InitialLoad{pressure, support_loads, prestress.wall};
+}
+
+#define FSI_INSTANTIATE(n)                                                                \
+  template WallPrestress find_prestress<n>(Scene<n>&, double, const std::vector<double>&, \
+                                           const LinearSolverFactory<n>&);                \
+  template void start_from<n>(const WallPrestress&, double, const std::vector<double>&, Scene<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "system/linear_solver.hpp"
+
+namespace fsi {
+
+/// A wall under load in the shape of its mesh (docs/theory.md, section 4.6).
+struct WallPrestress {
+  std::vector<double> displacement;  ///< from the unloaded shape to the mesh, vector layout, mm
+  std::vector<double> wall;          ///< (0, p) under that load, mixed layout, kPa
+  int newton_iterations = 0;         ///< that it took to find them; 0: they were known
+};
+
+/// Finds the shape that the scene's wall has without load, given that under the load it has the one of its mesh. The wall
+/// is as before afterwards.
+/// \param pressure       kPa, on the wall's pressurised facets
+/// \param support_loads  kPa, in the order of the wall's supports
+/// \param make_solver    of the linearised equations; none: the direct one
+/// \throws ConvergenceError where none is found, as for walls that no unloaded shape can make bear the load
+template <int n>
+WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector<double>& support_loads,
+                             const LinearSolverFactory<n>& make_solver = {});
+
+/// Puts the wall under this prestress, and the scene at rest under the load that belongs to it: the fluid under the same
+/// pressure everywhere.
+template <int n>
+void start_from(const WallPrestress& prestress, double pressure, const std::vector<double>& support_loads,
+                Scene<n>& scene);
+
+}  // namespace fsi

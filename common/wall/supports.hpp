@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "fem/facet_load.hpp"
+#include "mesh/simplex_mesh.hpp"
+#include "wall/wall_input.hpp"
+
+namespace fsi {
+
+/// Stiffnesses of a bedding per area of a surface at rest, isotropic and along the normal at rest alone.
+struct Bedding {
+  double full = 0, normal = 0;
+  bool is_none() const { return full == 0 && normal == 0; }
+};
+
+/// What the supports do in one balance of a step, tested with its velocity for its duration; uJ (docs/energy.md).
+struct SupportWork {
+  double loads = 0;    ///< of pressures and tractions
+  double damping = 0;  ///< (C v, v) of the dampers
+  double springs = 0;  ///< (K d, v) of the springs beyond the change of what they store
+};
+
+/// What holds and loads surfaces of the wall from outside, vectors with n components (docs/theory.md, section 4.5). With
+/// the displacement d, its velocity v, normals N and n at rest and now (out of the wall) the wall's residual gets
+///   (k d + k_n (d . N) N + c v + c_n (v . N) N - t, w) on the surface at rest + (p n, w) on the current one.
+template <int n>
+class WallSupports {
+ public:
+  using Mixed = MixedLayout<n>;
+  using Matrix = WallMatrix<n>;
+  /// A load of strength p kPa: adds to the residual and, if there is one, to the Jacobian. \param solution  (d, .)
+  using Load = std::function<void(double p, const double* solution, std::vector<double>& residual, Matrix* jacobian)>;
+
+  /// \param graph  that of the wall's matrices
+  explicit WallSupports(const NodeGraph& graph) : graph_(graph) {}
+
+  /// Facets in the wall's node numbers, normals out of it. \param x  the nodes at rest, mm
+  template <class Element, class Facet>
+  void add_springs(const std::vector<Point>& x, const std::vector<Facet>& facets, const Bedding& stiffness) {
+    springs_.template add<Element>(graph_, x, facets, stiffness);
+  }
+  template <class Element, class Facet>
+  void add_dampers(const std::vector<Point>& x, const std::vector<Facet>& facets, const Bedding& damping) {
+    dampers_.template add<Element>(graph_, x, facets, damping);
+  }
+  /// A load whose strength is the next of WallInput::support_loads: a pressure that follows the surface.
+  template <class Element, class Facet>
+  void add_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets) {
+    loads_.push_back([x, facets](double p, const double* solution, std::vector<double>& residual, Matrix* jacobian) {
+      add_follower_pressure<Element>(x, facets, p, solution, residual, jacobian);
+    });
+  }
+  /// Likewise, a component of a traction per area at rest.
+  template <class Element, class Facet>
+  void add_traction(const std::vector<Point>& x, const std::vector<Facet>& facets, int component) {
+    struct Share {
+      std::size_t entry;
+      double area;  ///< mm^2
+    };
+    std::vector<Share> shares;
+    const std::vector<double> areas = vector_shape_integrals<Element>(x, facets);
+    for (std::size_t a = 0; a < areas.size(); ++a)
+      if (areas[a] != 0) shares.push_back({Mixed::vector(static_cast<int>(a), component), areas[a]});
+    loads_.push_back([shares](double p, const double*, std::vector<double>& residual, Matrix*) {
+      for (const Share& share : shares) residual[share.entry] -= p * share.area;
+    });
+  }
+
+  std::size_t load_count() const { return loads_.size(); }
+  bool has_springs() const { return !springs_.entries.empty(); }
+  bool has_dampers() const { return !dampers_.entries.empty(); }
+
+  /// Adds to the wall's residual and, if there is one, to its Jacobian.
+  void add(const WallInput& in, std::vector<double>& residual, Matrix* jacobian) const;
+  /// Energy in the springs, uJ. \param wall  (d, .)
+  double stored(const std::vector<double>& wall) const;
+  /// a . K b of the springs' matrix, arrays as (d, .)
+  double spring_product(const std::vector<double>& a, const std::vector<double>& b) const {
+    return springs_.product(a.data(), b.data());
+  }
+  SupportWork work(const WallStep& step) const;
+
+ private:
+  /// A matrix of the nodes of some surfaces, one block for each pair that shares a facet.
+  struct SurfaceMatrix {
+    struct Entry {
+      int row, column;
+      int position;  ///< of the block in the wall's matrices
+      double block[n][n];
+    };
+    std::vector<Entry> entries;  ///< ascending in row and column
+
+    template <class Element, class Facet>
+    void add(const NodeGraph& graph, const std::vector<Point>& x, const std::vector<Facet>& facets,
+             const Bedding& bedding);
+    /// Sum of y . A d, arrays in the mixed layout.
+    double product(const double* y, const double* d) const;
+    /// Makes one entry of those that share a place.
+    void merge();
+  };
+
+  static std::vector<double> difference(const double* a, const double* b, double factor, std::size_t size);
+
+  const NodeGraph& graph_;
+  SurfaceMatrix springs_, dampers_;
+  std::vector<Load> loads_;
+};
+
+template <int n>
+template <class Element, class Facet>
+void WallSupports<n>::SurfaceMatrix::add(const NodeGraph& graph, const std::vector<Point>& x,
+                                         const std::vector<Facet>& facets, const Bedding& bedding) {
+  using F = typename Element::Facet;
+  for (const auto& facet : facets) {
+    Vec3<Pack> corner[F::nodes];
+    facet_corners<F>(x, facet, corner);
+    for (int a = 0; a < F::nodes; ++a)
+      for (int b = 0; b < F::nodes; ++b) {
+        double block[n][n] = {};
+        for (int q = 0; q < F::points; ++q) {
+          const auto normal = F::weighted_normal(corner, q);
+          const double area = sqrt(dot(normal, normal))[0], scale = area * F::shape(q, a) * F::shape(q, b);
+          for (int i = 0; i < n; ++i) {
+            block[i][i] += bedding.full * scale;
+            for (int j = 0; j < n; ++j)
+              block[i][j] +=
+                  bedding.normal * scale * (normal[Element::axis[i]][0] / area) * (normal[Element::axis[j]][0] / area);
+          }
+        }
+        Entry entry{facet[a], facet[b], graph.find(facet[a], facet[b]), {}};
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j) entry.block[i][j] = block[i][j];
+        entries.push_back(entry);
+      }
+  }
+  merge();
+}
+
+extern template class WallSupports<2>;
+extern template class WallSupports<3>;
+
+}  // namespace fsi

@@ -1,0 +1,179 @@
+"""Supports and prestress of the wall as users ask for them: both drivers, at rest and moving, restarted and refused."""
+
+import unittest
+
+import numpy as np
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    attempt,
+    difference,
+    differing_arrays,
+    pressure,
+    restart,
+    run,
+    table,
+    wall,
+)
+from scenes import scene
+
+CASE = """title = "a vessel in tissue"
+stabilisation = "projected"
+[mesh]
+file = "tube.msh"
+[fluid]
+density = 1.0
+viscosity = 3.5e-3
+outlet = false                     # closed: it holds the pressure
+[structure]
+density = 1.2
+bulk_modulus = 1e5
+[structure.layers.media]
+material = "artery"
+c10 = 3.0
+k1 = 2.3632
+k2 = 0.8393
+alpha = 29
+[structure.layers.adventitia]
+material = "neo-hookean"
+c10 = 0.3
+[inlet]
+pressure = {inlet}
+{more}
+[time]
+step = 0.125
+end = {end}
+scheme = "{scheme}"
+[monolithic]
+newton_tolerance = 1e-9
+[partitioned]
+tolerance = 1e-8
+[output]
+every = 0
+"""
+PRESTRESS = "[prestress]\npressure = 0.2"
+TISSUE = """[[support]]
+surface = "outer"
+normal_spring = 2.0
+damper = 0.5
+pressure = [[0, 0.05], [0.25, 0.05], [0.25, 0.1]]
+"""
+
+
+class Supports(FolderTest):
+    def case(self, name, inlet=0.2, more="", end=0.375, scheme="midpoint"):
+        file = self.base / f"{name}.toml"
+        file.write_text(CASE.format(inlet=inlet, more=more, end=end, scheme=scheme))
+        return file
+
+    def test_vessel_under_prestress_is_at_rest(self):
+        for element, geometry, scheme in (
+            ("p2p1", "axisymmetric", "midpoint"),
+            ("p2p1", "axisymmetric", "generalised-alpha"),
+            ("p2p1", "axisymmetric", "tr-bdf2"),
+            ("p1", "axisymmetric", "euler"),
+            ("p1", "3d", "bdf2"),
+        ):
+            settings = scene(self.base, element, geometry)
+            case = self.case(
+                "rest", more=PRESTRESS + "\n" + TISSUE.replace("[0.25, 0.1]", "[0.25, 0.05]"), scheme=scheme
+            )
+            for program in DRIVERS:
+                with self.subTest(program=program, element=element, geometry=geometry, scheme=scheme):
+                    folder = run(program, case, self.base / "rest", *settings)
+                    moved = np.abs(wall(folder)[..., 2:]).max()
+                    off = np.abs(pressure(folder) - 200).max()
+                    print(f"{element} {geometry} {scheme}: moves {moved:.1e} mm, pressure off by {off:.1e} Pa")
+                    self.assertLess(moved, 1e-9)
+                    self.assertLess(off, 1e-5)
+                    self.assertTrue((folder / "prestress.h5").exists())
+
+    def test_wall_alone_under_prestress_is_at_rest(self):
+        text = CASE.format(inlet=0.1, more="[prestress]\npressure = 0.1\n" + TISSUE, end=0.25, scheme="euler")
+        for section, following, put in (("[fluid]", "[structure]", ""), ("[time]", "[monolithic]", "")):
+            text = text.replace(text[text.index(section) : text.index(following)], put)
+        text = text.replace("[inlet]", "[load]").replace("damper = 0.5\n", "")
+        text = text.replace("[[0, 0.05], [0.25, 0.05], [0.25, 0.1]]", "0.05") + "[static]\nload_steps = 2\n"
+        case = self.base / "alone.toml"
+        case.write_text(text)
+        for element, geometry, components in (("p1", "3d", 3), ("p2p1", "axisymmetric", 2)):
+            with self.subTest(element=element, geometry=geometry):
+
+                def moved(*settings):
+                    here = scene(self.base, element, geometry)
+                    folder = run(MONOLITHIC, case, self.base / "alone", *here, *settings)
+                    level = arrays(folder / "checkpoint.h5")["arrays/level0.wall"].reshape(-1, components + 1)
+                    return np.abs(level[:, :components]).max()
+
+                print(f"wall alone, {element} {geometry}: moves {moved():.1e} mm")
+                self.assertLess(moved(), 1e-9)
+                self.assertGreater(moved("load.pressure=0.12"), 1e-3)
+
+    def test_both_drivers_agree_from_prestress_on(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        case = self.case("pulse", inlet=0.3, more=PRESTRESS + "\n" + TISSUE)
+        folders = [run(program, case, self.base / f"pulse{i}", *settings) for i, program in enumerate(DRIVERS)]
+        self.assertGreater(np.abs(wall(folders[0])[..., 2]).max(), 1e-4)
+        for k in (2, 3):
+            self.assertLess(difference(wall(folders[0])[..., k], wall(folders[1])[..., k]).max(), 1e-6)
+        self.assertLess(difference(pressure(folders[0]), pressure(folders[1])).max(), 1e-6)
+        for folder in folders:
+            rows = np.genfromtxt(folder / "energy.csv", delimiter=",", names=True)
+            self.assertEqual(
+                list(rows.dtype.names[-4:]),
+                ["support_work_uJ", "spring_energy_uJ", "damper_dissipation_uJ", "spring_force_uJ"],
+            )
+            scale = np.abs(rows["inlet_work_uJ"]).sum()
+            self.assertLess(np.abs(rows["remainder_uJ"]).max(), 1e-6 * scale)
+            self.assertGreater(rows["damper_dissipation_uJ"].sum(), 0)
+
+    def test_prestress_is_kept_and_used_again(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        for scheme in ("midpoint", "generalised-alpha"):
+            case = self.case("kept", inlet=0.3, more=PRESTRESS + "\n" + TISSUE, scheme=scheme)
+            for program in DRIVERS:
+                with self.subTest(program=program, scheme=scheme):
+                    whole = run(program, case, self.base / "whole", *settings)
+                    begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+                    self.assertEqual(restart(program, case, begun, *settings), begun)
+                    self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+                    again = run(program, case, self.base / "again", *settings, f"prestress.file={whole}/prestress.h5")
+                    self.assertEqual(differing_arrays(whole / "checkpoint.h5", again / "checkpoint.h5"), [])
+        kept = f"prestress.file={self.base}/whole/prestress.h5"
+        for changes, said in (
+            ((*settings, "prestress.pressure=0.1"), "belongs to another wall or load"),
+            ((*settings, "structure.layers.media.c10=4"), "belongs to another wall or load"),
+            (scene(self.base, "p1", "axisymmetric"), "belongs to another mesh"),
+            ((*settings, f"prestress.file={self.base}/whole/checkpoint.h5"), "is no prestress but a checkpoint of"),
+            ((*settings, f"prestress.file={self.base}/none.h5"), "there is no file"),
+        ):
+            process = attempt(MONOLITHIC, case, "-q", folder=self.base / "refused", settings=(kept, *changes))
+            self.assertEqual(process.returncode, 1, process.stderr)
+            self.assertIn(said, process.stderr)
+            self.assertEqual(process.stderr.count("\n"), 1)
+
+    def test_surfaces_that_cannot_be_supported(self):
+        settings = scene(self.base, "p1", "axisymmetric")
+        for more, said in (
+            ('[[support]]\nsurface = "outter"\nspring = 1', "has no such surface; did you mean outer?"),
+            ('[[support]]\nsurface = "inlet"\nspring = 1', "do not bound the wall"),
+            ('[[support]]\nsurface = "wall_ends"\nfixed = ["z"]', "with a fluid ends can neither slide nor be free"),
+        ):
+            case = self.case("refused", more=more)
+            process = attempt(MONOLITHIC, case, "-q", folder=self.base / "refused", settings=settings)
+            self.assertEqual(process.returncode, 1, process.stderr)
+            self.assertIn(said, process.stderr)
+            self.assertEqual(process.stderr.count("\n"), 1)
+
+    def test_wall_too_soft_for_its_prestress(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        case = self.case("soft", more="[prestress]\npressure = 1000")
+        process = attempt(MONOLITHIC, case, "-q", folder=self.base / "soft", settings=settings)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn("prestress: no unloaded shape found for more than", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
