@@ -142,7 +142,9 @@ std::string failure_hint(const Case& setup, const Scene<n>& scene, const Loads& 
     wall.axial = frame.axial(wall.stretch.where);
     const bool is_static = setup.static_load.has_value();
     add_load(wall, loads, state.step + 1, is_static);
-    const auto text = wall_hint(wall, tube_limit_load(*setup.structure, *scene.wall), is_static);
+    const bool bare = !setup.prestress && !scene.wall->supports();  // of others the limit is not known
+    const auto limit = bare ? tube_limit_load(*setup.structure, *scene.wall) : std::nullopt;
+    const auto text = wall_hint(wall, limit, is_static);
     if (!text.empty()) found.push_back(text);
   }
   if (scene.coupled()) {

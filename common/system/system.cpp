@@ -197,17 +197,8 @@ bool System<n>::negligible(double, double share) const {
   };
   return small(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries) &&
          small(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries) &&
-         small(numbering_.wall, wall_volumes_, wall_from_unloaded(), Mixed::entries);
-}
-
-template <int n>
-std::vector<double> System<n>::wall_from_unloaded() const {
-  std::vector<double> wall = state_->now.wall;
-  if (numbering_.wall.empty()) return wall;
-  const std::vector<double>& prestress = scene_.wall->prestress();
-  for (std::size_t i = 0; i < prestress.size(); ++i)
-    wall[Mixed::vector(static_cast<int>(i) / n, static_cast<int>(i) % n)] += prestress[i];
-  return wall;
+         (numbering_.wall.empty() ||
+          small(numbering_.wall, wall_volumes_, scene_.wall->from_unloaded(state_->now.wall), Mixed::entries));
 }
 
 template <int n>
@@ -250,7 +241,7 @@ double System<n>::rounding() {
   };
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
-  values(numbering_.wall, wall_from_unloaded());
+  if (!numbering_.wall.empty()) values(numbering_.wall, scene_.wall->from_unloaded(state_->now.wall));
   add_absolute_products(x, terms);
   double sum = 0;
   for (double t : terms) sum += t * t;

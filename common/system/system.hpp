@@ -95,8 +95,6 @@ class System : public NewtonProblem {
 
   /// The asked-for solver, which knows the openings' pressures that answer the flow where the equations have such.
   std::unique_ptr<LinearSolver> solver_by(const LinearSolverFactory<n>& make_solver);
-  /// (d, p) of the wall, d from its unloaded shape: what terms that cancel are made of.
-  std::vector<double> wall_from_unloaded() const;
 
   AssemblyResult assemble(bool derivatives);
 

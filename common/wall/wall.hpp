@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -61,6 +63,20 @@ class Wall {
   /// count from the mesh.
   virtual void set_prestress(std::vector<double> displacement) = 0;
   virtual const std::vector<double>& prestress() const = 0;  ///< that displacement; empty: none
+  /// (d, p) with displacements from the unloaded shape: what strains and stresses are made of, on unloaded_nodes().
+  std::vector<double> from_unloaded(std::vector<double> wall) const {
+    const std::vector<double>& first = prestress();
+    for (std::size_t i = 0; i < first.size(); ++i)
+      wall[MixedLayout<n>::vector(static_cast<int>(i) / n, static_cast<int>(i) % n)] += first[i];
+    return wall;
+  }
+  /// Where the nodes are without load, mm. \param axes  of space, that the components of vectors lie along
+  std::vector<Point> unloaded_nodes(const std::array<int, n>& axes) const {
+    std::vector<Point> unloaded = nodes().nodes;
+    const std::vector<double>& first = prestress();
+    for (std::size_t i = 0; i < first.size(); ++i) unloaded[i / n][axes[i % n]] -= first[i];
+    return unloaded;
+  }
 
   /// What holds and loads the wall from outside, part of what assemble() makes from then on.
   void support_by(std::unique_ptr<const WallSupports<n>> supports) { supports_ = std::move(supports); }

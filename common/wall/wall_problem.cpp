@@ -103,9 +103,9 @@ AssemblyResult WallProblem<Element>::assemble_unloaded_shape(WallInput in, doubl
 template <class Element>
 void WallProblem<Element>::set_prestress(std::vector<double> displacement) {
   prestress_ = std::move(displacement);
-  std::vector<Point> unloaded = part_.nodes;
-  for (int a = 0; a < part_.node_count(); ++a)
-    for (int k = 0; k < n; ++k) unloaded[a][Element::axis[k]] -= prestress_[VectorLayout<n>::vector(a, k)];
+  std::array<int, n> axes;
+  std::copy_n(Element::axis, n, axes.begin());
+  const std::vector<Point> unloaded = this->unloaded_nodes(axes);
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     ElementPacks<Element> packs(unloaded, part_.cells, layer_cells_[i], *space_.graph());
     packs.keep_sizes_of(layers_[i].packs);
