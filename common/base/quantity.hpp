@@ -55,7 +55,7 @@ const Quantity& stiffness();
 const Quantity& bulk_modulus();
 const Quantity& time();
 const Quantity& time_step();
-const Quantity& rate();  ///< 1/ms
+const Quantity& rate();     ///< 1/ms
 const Quantity& bedding();  ///< of a spring per area
 const Quantity& bedding_damping();
 const Quantity& length();
