@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "derived/derived_quantities.hpp"
 #include "driver/observation.hpp"
 #include "io/fields_writer.hpp"
 #include "scene/scene.hpp"
@@ -26,6 +27,7 @@ struct LoadedScene {
   MeshFacts mesh;
   std::unique_ptr<Scene<n>> scene;
   ObservationPoints points;
+  DerivedQuantities<n> derived;  ///< refers to the scene
   std::vector<FieldGrid> grids;  ///< of fluid and wall, where they are, without fields
 };
 
