@@ -15,7 +15,7 @@ namespace fsi {
 
 namespace {
 
-/// The first Piola-Kirchhoff stress of the wall's weak form at a point of every lane, kPa.
+/// The first Piola-Kirchhoff stress P of the wall's weak form at a point of every lane, kPa.
 template <class Law>
 Mat3<Pack> piola_stress(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
                         const Fibres& fibres) {
@@ -32,7 +32,8 @@ Mat3<Pack> piola_stress(const Law& law, double bulk_modulus, const Mat3<Pack>& g
 
 /// A layer: its vertices with recovered gradients, and the fibres there.
 struct StressLayer {
-  Material material;
+  ElementLaw law;
+  double bulk_modulus;  ///< kPa
   GradientRecovery gradients;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
 };
@@ -81,7 +82,7 @@ class WallStressOf : public WallStress<Element::components> {
   using Mixed = MixedLayout<n>;
 
   WallStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
-      : node_count_(scene.wall->node_count()), bulk_modulus_(scene.wall->constants().bulk_modulus) {
+      : node_count_(scene.wall->node_count()) {
     const auto& problem = static_cast<const WallProblem<Element>&>(*scene.wall);
     const auto& part = problem.part();
     share_.assign(static_cast<std::size_t>(node_count_), 0.0);
@@ -109,7 +110,10 @@ class WallStressOf : public WallStress<Element::components> {
         ++share_[node];
         if (!layer.fibres.empty()) ++fibre_share_[node];
       }
-      StressLayer stress{layer.material, GradientRecovery(cells, std::move(vertices)), {}};
+      StressLayer stress{element_law(layer.material),
+                         bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
+                         GradientRecovery(cells, std::move(vertices)),
+                         {}};
       if (!layer.fibres.empty()) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
       layers_.push_back(std::move(stress));
     }
@@ -126,7 +130,7 @@ class WallStressOf : public WallStress<Element::components> {
     all.cauchy.assign(static_cast<std::size_t>(node_count_), Mat3<double>{});
     if (has_fibres())
       for (auto& family : all.of_fibres) family.assign(static_cast<std::size_t>(node_count_), 0.0);
-    for (const auto& layer : layers_) std::visit([&](const auto& law) { add(law, layer, wall, all); }, layer.material);
+    for (const auto& layer : layers_) std::visit([&](const auto& law) { add(law, layer, wall, all); }, layer.law);
     return all;
   }
 
@@ -150,9 +154,11 @@ class WallStressOf : public WallStress<Element::components> {
           for (int k = 0; k < 3; ++k)
             fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
       }
-      const Mat3<Pack> piola = piola_stress(law, bulk_modulus_, grad_d, pressure, fibres);
+      const Mat3<Pack> piola = piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
       const Deformation<Pack> f = deformation(grad_d);
-      const Mat3<Pack> cauchy = (Pack(1.0) / f.volume_ratio) * times_transposed(piola, f.gradient);
+      Mat3<Pack> cauchy = (Pack(1.0) / f.volume_ratio) * times_transposed(piola, f.gradient);
+      if constexpr (Hyperelastic<Law>::is_compressible)
+        if (law.on_reference()) cauchy = piola;  // small strains: one stress for both configurations
       for (std::size_t lane = 0; lane < filled; ++lane) {
         const auto l = static_cast<int>(lane);
         const int node = nodes[first + lane];
@@ -172,7 +178,6 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
   int node_count_;
-  double bulk_modulus_;  ///< kPa
   std::vector<StressLayer> layers_;
   std::vector<double> share_;        ///< per node: one over the layers that have it
   std::vector<double> fibre_share_;  ///< likewise over those with fibres
