@@ -9,6 +9,7 @@
 
 #include "case/choices.hpp"
 #include "case/coupled_multigrid_options.hpp"
+#include "case/derived_output.hpp"
 #include "case/fast_options.hpp"
 #include "case/opening_conditions.hpp"
 #include "case/pressure_table.hpp"
@@ -137,11 +138,12 @@ struct PartitionedData {
 
 /// [output]
 struct OutputData {
-  std::vector<std::string> fields = output_field_names();
+  std::vector<std::string> fields = standard_output_fields();
   int every = 8;                     ///< steps between entries of fields.h5; 0: no fields
   std::optional<double> interval{};  ///< ms between entries of fields.h5, in place of `every`; steps end there
   int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
   bool energy = true;                ///< energy.csv
+  DerivedOutput derived{};
 };
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.

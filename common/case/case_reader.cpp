@@ -10,6 +10,7 @@
 #include "case/case_entry.hpp"
 #include "case/case_keys.hpp"
 #include "case/case_overrides.hpp"
+#include "case/derived_keys.hpp"
 #include "case/key_depth.hpp"
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
@@ -155,6 +156,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
   check_output_times(whole_case, scene);
+  check_derived_output(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);
   warn_of_damped_mesh(whole_case, scene);

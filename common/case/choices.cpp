@@ -31,6 +31,12 @@ std::vector<std::string> output_field_names() {
   return strings(output_field_list);
 }
 
+std::vector<std::string> standard_output_fields() {
+  auto names = output_field_names();
+  names.resize(standard_fields);
+  return names;
+}
+
 const NameTable<ElementPair>& element_pairs() {
   static const NameTable<ElementPair> table{"element", {{"p1", ElementPair::p1}, {"p2p1", ElementPair::p2p1}}};
   return table;

@@ -28,7 +28,11 @@ inline constexpr std::array<std::string_view, 9> coupling_scheme_list{
     "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
 
 /// Fields of output.fields. Their table: driver/field_output.cpp.
-inline constexpr std::array<std::string_view, 3> output_field_list{"displacement", "velocity", "pressure"};
+inline constexpr std::array<std::string_view, 8> output_field_list{
+    "displacement",  "velocity",         "pressure",         "wall_shear_stress",
+    "cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"};
+/// Those of its beginning that a case has unless it names others: the solution itself.
+inline constexpr std::size_t standard_fields = 3;
 
 /// element: the fields' shape functions.
 enum class ElementPair {
@@ -73,6 +77,7 @@ std::vector<std::string> general_solver_names();
 std::vector<std::string> linear_solver_names();  ///< of monolithic.linear_solver: general and coupled ones
 std::vector<std::string> coupling_scheme_names();
 std::vector<std::string> output_field_names();
+std::vector<std::string> standard_output_fields();
 
 /// Kinds of stabilisation of equal-order elements (docs/theory.md, sections 3.2 and 4.2).
 enum class Stabilisation {

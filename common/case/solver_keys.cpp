@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "case/case_keys.hpp"
+#include "case/derived_keys.hpp"
 #include "case/key_values.hpp"
 
 namespace fsi {
@@ -143,8 +144,9 @@ void read_fields(const CaseEntry& entry, OutputData& output) {
 
 std::vector<CaseKey<OutputData>> output_keys() {
   const auto listed = [](const OutputData& output) { return fmt::format("{}", fmt::join(output.fields, ", ")); };
-  return {
-      leaf<OutputData>("fields", optional, "fields in fields.h5: any of {}; default all",
+  std::vector<CaseKey<OutputData>> keys{
+      leaf<OutputData>("fields", optional,
+                       fmt::format("fields in fields.h5: any of {}; default {{}}", fmt::join(output_field_list, ", ")),
                        {read_fields, listed, listed(OutputData())}),
       leaf("every", optional, "steps between entries of fields.h5, default {}; 0: no fields",
            whole(at(&OutputData::every), 0, most_steps_between)),
@@ -156,6 +158,8 @@ std::vector<CaseKey<OutputData>> output_keys() {
            whole(at(&OutputData::checkpoint_every), 0, most_steps_between)),
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
   };
+  for (auto& key : derived_output_keys()) keys.push_back(std::move(key));
+  return keys;
 }
 
 std::vector<CaseKey<EconomyData>> economy_keys() {

@@ -163,21 +163,22 @@ class Run {
     tables.openings = openings_.names();
     tables.coupling = stepper_->reports_coupling();
     if (setup_.output.energy) tables.energy = EnergyBalance<n>::parts_of(*scene_);
+    if (loaded_.derived.forces) tables.surfaces = loaded_.derived.forces->names();
     // All that a restart reads is checked before anything is written.
     std::optional<EarlierTables> earlier;
     if (restarted) earlier = recall(tables);
     if (setup_.output.energy) {
       const auto phase = scene_->profile.phase("energy balance");
       energy_.emplace(*scene_, state_);
-      stepper_->keep_balances(true);
     }
+    stepper_->keep_balances(energy_ || loaded_.derived.forces);
     note_signals();  // until here nothing has been written
     ResultFolder folder = earlier ? ResultFolder(line_.output, tables, *earlier) : ResultFolder(line_.output, tables);
     earlier.reset();
     RunLog log(line_.output, in_place(line_));
     log_ = &log;
     if (loaded_.prestress) write_checkpoint(prestress_file(line_.output), *loaded_.prestress);
-    FieldOutput<n> fields(setup_, *scene_, loaded_.grids, loads_.axis(), line_.output, line_.restart,
+    FieldOutput<n> fields(setup_, *scene_, loaded_.derived, loaded_.grids, loads_.axis(), line_.output, line_.restart,
                           restarted ? observed_until() : 0);
     Console console(loads_.steps(), Console::style_for(line_.quiet));
 
@@ -187,6 +188,7 @@ class Run {
     write("running");
     announce(console, log);
     watch_console(console, log);
+    if (!restarted) take_in(state_);
     if (!restarted && fields.write(state_)) field_entries_ = 1;
     if (restarted) vouch(folder);
     if (restarted && wants_fields())
@@ -289,6 +291,7 @@ class Run {
       const auto phase = scene_->profile.phase("output");
       folder.write_iterations(record);
       if (report.coupling) folder.write_coupling(record, *report.coupling);
+      if (loaded_.derived.forces) write_forces(report.balances.back(), folder);
       if (lagging() && state_.step > 1) observe(level_before(), folder, fields);
       if (lagging()) vouch(folder);
       if (!lagging() || state_.step == loads_.steps()) observe(state_, folder, fields);
@@ -367,7 +370,27 @@ class Run {
   void observe(const State& level, ResultFolder& folder, FieldOutput<n>& fields) {
     observables_.write(level, folder);
     openings_.write(level, folder);
+    take_in(level);
     if (fields.write(level) && level.time <= observed_until()) ++field_entries_;
+  }
+  /// Into the statistics over periods, if there are any.
+  void take_in(const State& level) {
+    auto& statistics = loaded_.derived.statistics;
+    if (!statistics) return;
+    const auto phase = scene_->profile.phase("wall shear stress");
+    statistics->add(level.time, loaded_.derived.shear->at_nodes(level.now));
+  }
+  /// The forces of a balance, at its time.
+  void write_forces(const Balance& balance, ResultFolder& folder) {
+    const auto phase = scene_->profile.phase("surface forces");
+    const auto& forces = *loaded_.derived.forces;
+    const auto found = forces.at(balance);
+    std::vector<SurfaceRecord> records;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto &f = found[i].force, &p = found[i].pressure;
+      records.push_back({forces.names()[i], found[i].area, {f[0], f[1], f[2]}, {p[0], p[1], p[2]}});
+    }
+    folder.write_surfaces(balance.data.rates.time, records);
   }
   /// The tables hold what a restart from this step goes on from.
   void vouch(ResultFolder& folder) {
@@ -402,6 +425,7 @@ class Run {
     if (!lock_.said().empty()) log.warning(lock_.said());
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
+    if (!statistics_begin_.empty()) log.warning(statistics_begin_);
     if (!step_change_.empty()) {
       console.line(step_change_);
       log.info(step_change_);
@@ -416,6 +440,9 @@ class Run {
     checkpoint.mesh_hash = loaded_.mesh.hash;
     store(state_, stepper_->memory(), loads_.axis(), checkpoint);
     for (const auto& [name, numbers] : march_.memory()) checkpoint.arrays[march_prefix + name] = numbers;
+    if (loaded_.derived.statistics)
+      for (const auto& [name, numbers] : loaded_.derived.statistics->memory())
+        checkpoint.arrays[statistics_prefix + name] = numbers;
     store(digests_, checkpoint);
     if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
     for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
@@ -450,10 +477,23 @@ class Run {
     for (const auto& [name, numbers] : checkpoint.arrays)
       if (name.rfind(march_prefix, 0) == 0) of_march[name.substr(std::string(march_prefix).size())] = numbers;
     march_.recall(of_march);
+    recall_statistics(checkpoint);
     if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
     complete_ = state_.step;
     return earlier;
+  }
+
+  /// The averages in progress. Those of an earlier run without, or of another period, do not serve: then the period that
+  /// the restart falls into has none.
+  void recall_statistics(const Checkpoint& checkpoint) {
+    if (!loaded_.derived.statistics) return;
+    std::map<std::string, std::vector<double>> memory;
+    const std::string prefix = statistics_prefix;
+    for (const auto& [name, numbers] : checkpoint.arrays)
+      if (name.rfind(prefix, 0) == 0) memory[name.substr(prefix.size())] = numbers;
+    if (!loaded_.derived.statistics->recall(memory, loaded_.derived.shear->nodes().size()))
+      statistics_begin_ = "the statistics begin anew: the earlier run had none of this period";
   }
 
   /// The fields of the earlier run, as far as this one goes on with them.
@@ -468,7 +508,9 @@ class Run {
                                    field_entries_ - found, field_entries_, observed_until(), file.string()),
                        "bring the file back, or continue without fields by --set output.every=0");
   }
-  bool wants_fields() const { return setup_.output.every > 0 && !setup_.output.fields.empty(); }
+  bool wants_fields() const {
+    return setup_.output.every > 0 && (!setup_.output.fields.empty() || loaded_.derived.statistics);
+  }
 
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
   std::string text_of_change(const Stretch& before) const {
@@ -525,7 +567,8 @@ class Run {
   OpeningObserver<n> openings_;
   std::optional<EnergyBalance<n>> energy_;
   StepRecord total_;
-  std::string step_change_;  ///< said when the run goes on with another step
+  std::string statistics_begin_;  ///< said when they could not be taken over
+  std::string step_change_;       ///< said when the run goes on with another step
   nlohmann::json summary_;
 };
 

@@ -262,6 +262,7 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   loaded.scene = build_scene<Element>(setup, mesh);
   if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
   loaded.points = observation_points<Element>(setup, mesh, *loaded.scene);
+  loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene);
   const auto& scene = *loaded.scene;
   if (scene.fluid) loaded.grids.push_back(grid_of("fluid", static_cast<FluidProblem<Element>&>(*scene.fluid).part()));
   if (scene.wall) loaded.grids.push_back(grid_of("wall", static_cast<WallProblem<Element>&>(*scene.wall).part()));

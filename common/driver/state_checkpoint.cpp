@@ -166,7 +166,7 @@ void require_known(const fs::path& file, const Checkpoint& checkpoint, const Sta
   for_each_array(state, [&](const std::string& name, const std::vector<double>&) { known.insert(name); });
   for (const auto& [name, array] : checkpoint.arrays)
     if (known.count(name) == 0 && !begins_with(name, memory_prefix) && !begins_with(name, march_prefix) &&
-        !begins_with(name, digest_prefix))
+        !begins_with(name, digest_prefix) && !begins_with(name, statistics_prefix))
       refuse(file, name, "is unknown", another_version);
 }
 

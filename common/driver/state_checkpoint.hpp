@@ -11,6 +11,9 @@
 
 namespace fsi {
 
+/// Before the names of the numbers of the statistics over periods, which have a check of their own.
+inline constexpr const char* statistics_prefix = "statistics.";
+
 /// Adds the finished levels of a state, what the stepper keeps between steps, and the steps that led there.
 void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint);
 

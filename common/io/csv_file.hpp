@@ -19,9 +19,10 @@ class CsvFile {
   /// when the disk is full, or when the file has been deleted or changed by somebody else; no part of a row stays then,
   /// if the file can be cut
   void write(const std::vector<std::vector<double>>& rows);
-  /// The same with a name as the second column of each row. \param names  without commas
-  void write(const std::vector<std::vector<double>>& rows, const std::vector<std::string>& names);
   void write(const std::vector<double>& row) { write(std::vector<std::vector<double>>{row}); }
+  /// The same with a name behind the first number of each row.
+  /// \param names  one per row, without commas, quotes and line ends
+  void write(const std::vector<std::vector<double>>& rows, const std::vector<std::string>& names);
 
   /// Onto the disk, and closes. \throws WriteError
   void close();

@@ -71,7 +71,8 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
         const auto dataset = fmt::format("/{}/{}/{:08}", grid, name.substr(dot + 1), numbers[i]);
         if (!h5.has(dataset)) refuse(file, dataset, "missing, though marked as written");
         const auto shape = h5.shape(dataset);
-        if (shape.empty() || shape.size() > 2 || shape[0] != nodes || (shape.size() == 2 && shape[1] != 3))
+        if (shape.empty() || shape.size() > 2 || shape[0] != nodes ||
+            (shape.size() == 2 && shape[1] != 3 && shape[1] != 6))
           refuse(file, dataset, "has another shape than the grid's points");
       }
     }

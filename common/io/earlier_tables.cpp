@@ -85,6 +85,9 @@ EarlierTables::EarlierTables(const fs::path& folder, const ResultTables& wanted,
     if (wanted.energy && table.file == energy_table(*wanted.energy).file && !fs::exists(folder / table.file, error))
       throw InputError((folder / table.file).string(), "output.energy", "is wanted, but the earlier run wrote none",
                        "continue with --set output.energy=false");
+    if (table.within_steps && !fs::exists(folder / table.file, error))
+      throw InputError((folder / table.file).string(), "output.surfaces", "are wanted, but the earlier run wrote none",
+                       "continue without output.surfaces and output.forces, or run from the start");
     parts_.push_back(checked(table, steps));
   }
 }
@@ -100,7 +103,9 @@ void EarlierTables::copy_to(const fs::path& folder) const {
 }
 
 EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
-  Part part = table.of_steps ? checked_steps(table, steps) : checked_levels(table, steps);
+  Part part = table.of_steps       ? checked_steps(table, steps)
+              : table.within_steps ? checked_within_steps(table, steps)
+                                   : checked_levels(table, steps);
   const auto known = steps.digests.find(table.file);
   if (known == steps.digests.end()) return part;
   TableDigest digest(folder_ / table.file);
@@ -166,6 +171,30 @@ EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, cons
   }
   part.bytes = reader.bytes();
   check_rest(reader, 0, time);
+  return part;
+}
+
+/// A row for each name and step, all at one time in the step.
+EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const {
+  TableReader reader(folder_ / table.file, table.header, true);
+  double before = 0;
+  for (std::int64_t step = 1; step <= steps.step; ++step) {
+    const double end = times_[static_cast<std::size_t>(step - 1)];
+    double time = 0;
+    for (std::size_t i = 0; i < table.names.size(); ++i) {
+      read_row(reader, step, steps.step);
+      const auto& row = reader.row();
+      if (i == 0) time = row[0];
+      if (row[0] != time || reader.name() != table.names[i] || !(time > before + rounding * before) ||
+          !(time <= end + rounding * end))
+        reader.refuse_line(
+            fmt::format("is no row of \"{}\" in step {}, from {:g} to {:g}: rows are missing, doubled or out of order",
+                        table.names[i], step, before, end));
+    }
+    before = end;
+  }
+  Part part{table.file, reader.bytes()};
+  check_rest(reader, 0, before);
   return part;
 }
 

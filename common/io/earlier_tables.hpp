@@ -48,6 +48,7 @@ class EarlierTables {
   Part checked(const ResultTable& table, const EarlierSteps& steps);
   Part checked_steps(const ResultTable& table, const EarlierSteps& steps);
   Part checked_levels(const ResultTable& table, const EarlierSteps& steps) const;
+  Part checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const;
 
   std::filesystem::path folder_;
   std::vector<double> times_;

@@ -11,8 +11,8 @@ namespace fsi {
 
 /// A nodal field of a grid.
 struct FieldDescription {
-  std::string name;    ///< "displacement", "velocity" or "pressure"
-  int components = 1;  ///< 1 or 3
+  std::string name;    ///< "displacement", "velocity", "pressure", ...
+  int components = 1;  ///< 1: scalar; 3: vector of space; 6: symmetric tensor xx, xy, xz, yy, yz, zz
   std::string unit;    ///< "mm", "mm/ms", "kPa"
 };
 

@@ -28,7 +28,7 @@ const std::vector<std::string>& result_files() {
   static const std::vector<std::string> files = [] {
     std::vector<std::string> names{"summary.json",  "fields.h5",    "fields.xdmf",
                                    "checkpoint.h5", "prestress.h5", "run.log"};
-    for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts(), {"any"}}))
+    for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts(), {"any"}, {"any"}}))
       names.push_back(table.file);
     return names;
   }();
@@ -182,6 +182,7 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   if (tables.coupling) open(coupling_, coupling_table());
   energy_parts_ = tables.energy;
   if (energy_parts_) open(energy_, energy_table(*energy_parts_));
+  if (!tables.surfaces.empty()) open(surfaces_, surfaces_table(tables.surfaces));
   for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
 }
 
@@ -249,8 +250,20 @@ void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& en
              {energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy)});
 }
 
+void ResultFolder::write_surfaces(double time, const std::vector<SurfaceRecord>& surfaces) {
+  std::vector<std::vector<double>> rows;
+  std::vector<std::string> names;
+  for (const SurfaceRecord& s : surfaces) {
+    const auto &f = s.force, &p = s.pressure;
+    rows.push_back({time, s.area, f[0], f[1], f[2], p[0], p[1], p[2], f[0] - p[0], f[1] - p[1], f[2] - p[2]});
+    require_finite(rows.back(), "a number of surfaces.csv");
+    names.push_back(s.surface);
+  }
+  surfaces_->write(rows, names);
+}
+
 void ResultFolder::close() {
-  for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_})
+  for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_, &surfaces_})
     if (*table) (*table)->close();
 }
 

@@ -11,6 +11,7 @@
 #include "io/earlier_tables.hpp"
 #include "io/result_tables.hpp"
 #include "io/step_record.hpp"
+#include "io/surface_record.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -70,6 +71,7 @@ class ResultFolder {
   void write_iterations(const StepRecord& record);
   void write_coupling(const StepRecord& record, const CouplingReport& coupling);
   void write_energy(const StepRecord& record, const EnergyRecord& energy);
+  void write_surfaces(double time, const std::vector<SurfaceRecord>& surfaces);
 
   /// Takes in what the tables hold now as what a restart goes on from.
   void take_digests();
@@ -84,7 +86,7 @@ class ResultFolder {
   std::optional<EnergyParts> energy_parts_;
   std::map<std::string, TableDigest> digests_;
   std::vector<std::string> opening_names_;
-  std::optional<CsvFile> centerline_, wall_, flow_, openings_, iterations_, coupling_, energy_;
+  std::optional<CsvFile> centerline_, wall_, flow_, openings_, iterations_, coupling_, energy_, surfaces_;
 };
 
 }  // namespace fsi

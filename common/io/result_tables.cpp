@@ -40,6 +40,13 @@ ResultTable energy_table(const EnergyParts& parts) {
   return {"energy.csv", energy_header(parts), true};
 }
 
+ResultTable surfaces_table(const std::vector<std::string>& names) {
+  return {"surfaces.csv",
+          "time_ms,surface,area_mm2,force_x_mN,force_y_mN,force_z_mN,pressure_force_x_mN,pressure_force_y_mN,"
+          "pressure_force_z_mN,viscous_force_x_mN,viscous_force_y_mN,viscous_force_z_mN",
+          false, names, true};
+}
+
 std::vector<ResultTable> tables_of(const ResultTables& wanted) {
   std::vector<ResultTable> tables{iterations_table()};
   if (wanted.centerline_pressure) tables.push_back(centerline_table());
@@ -48,6 +55,7 @@ std::vector<ResultTable> tables_of(const ResultTables& wanted) {
   if (!wanted.openings.empty()) tables.push_back(openings_table(wanted.openings));
   if (wanted.coupling) tables.push_back(coupling_table());
   if (wanted.energy) tables.push_back(energy_table(*wanted.energy));
+  if (!wanted.surfaces.empty()) tables.push_back(surfaces_table(wanted.surfaces));
   return tables;
 }
 

@@ -95,13 +95,17 @@ std::string grid_text(const FieldGrid& grid, std::size_t cells, bool layered, co
   for (std::size_t f = 0; f < grid.fields.size(); ++f) {
     const FieldDescription& field = grid.fields[f];
     if (listed.entry.fields.at(place).at(f) == 0) continue;
-    assert(field.components == 1 || field.components == 3);
+    assert(field.components == 1 || field.components == 3 || field.components == 6);
     text += fmt::format(
         "          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\"><Information Name=\"unit\" "
         "Value=\"{}\"/>{}</Attribute>\n",
-        escaped(field.name), field.components == 3 ? "Vector" : "Scalar", escaped(field.unit),
-        data_item(field.components == 3 ? fmt::format("{} 3", nodes) : fmt::format("{}", nodes), true, file,
-                  field_dataset(grid.name, field.name, step.step)));
+        escaped(field.name),
+        field.components == 6   ? "Tensor6"
+        : field.components == 3 ? "Vector"
+                                : "Scalar",
+        escaped(field.unit),
+        data_item(field.components > 1 ? fmt::format("{} {}", nodes, field.components) : fmt::format("{}", nodes), true,
+                  file, field_dataset(grid.name, field.name, step.step)));
   }
   return text + "        </Grid>\n";
 }

@@ -26,6 +26,7 @@ FLOORS = (
     ("common/system",),
     ("common/condensed_solver",),
     ("common/diagnostics",),
+    ("common/derived",),
     ("common/io",),
     ("common/driver",),
     ("meshes", "monolithic", "partitioned"),

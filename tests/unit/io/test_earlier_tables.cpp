@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultTables tables{true, true, true, false, EnergyParts{true, true}};
+const ResultTables tables{true, true, true, false, EnergyParts{true, true}, {}, {"wall", "3"}};
 const std::vector<double> centre{0, 0.5, 1}, wall{0, 1};
 
 using Lines = std::vector<std::string>;
@@ -41,6 +41,7 @@ class Tables : public FolderTest {
       results.write_centerline(time, centre, {1.0 * k, 2, 3});
       results.write_wall(time, wall, {0.25 * k, 0}, {1e-320, -1e300});
       results.write_flow(time, {1.0 * k, 2, 3, 4});
+      results.write_surfaces(time - 0.05, {{"wall", 1, {1.0 * k, 2, 3}, {1, 2, 3}}, {"3", 2, {4, 5, 6}, {}}});
       if (k == step) {
         results.take_digests();
         digests_ = results.digests();
@@ -106,9 +107,9 @@ TEST_F(Tables, OfSchemesWhosePressuresLagEndOneLevelEarlier) {
 }
 
 TEST_F(Tables, WithARowTooFewOrTooManyAreRefused) {
-  for (const std::string file :
-       {"centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "iterations.csv", "energy.csv"}) {
-    const auto rows = static_cast<std::ptrdiff_t>(file[0] == 'c' ? 3 : file[0] == 'w' ? 2 : 1);
+  for (const std::string file : {"centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "iterations.csv",
+                                 "energy.csv", "surfaces.csv"}) {
+    const auto rows = static_cast<std::ptrdiff_t>(file[0] == 'c' ? 3 : file[0] == 'w' || file[0] == 's' ? 2 : 1);
     for (std::ptrdiff_t row = 1; row <= rows * step; ++row) {
       EXPECT_NE(said_of(file, [&](Lines& lines) { lines.erase(lines.begin() + row); }), "") << file << row;
       EXPECT_NE(said_of(file, [&](Lines& lines) { lines.insert(lines.begin() + row, lines[row]); }), "") << file << row;
@@ -129,6 +130,19 @@ TEST_F(Tables, WithARowTooFewOrTooManyAreRefused) {
     EXPECT_EQ(said_of(file, [](Lines& lines) { lines.push_back("what a kill, or a full disk, may leave"); }), "");
     EXPECT_EQ(said_of(file, [](Lines&) {}), "") << file;
   }
+}
+
+TEST_F(Tables, OfSurfacesHaveARowForEachNameAtOneTimeInTheStep) {
+  EXPECT_EQ(contents_of(folder_ / "run" / "surfaces.csv").substr(0, 14), "time_ms,surfac");
+  EXPECT_EQ(lines_of(folder_ / "run" / "surfaces.csv").at(3), "0.15000000000000002,wall,1,2,2,3,1,2,3,1,0,0");
+  const auto replaced_by = [&](const std::string& row) {
+    return said_of("surfaces.csv", [&](Lines& lines) { lines[4] = row; });
+  };
+  EXPECT_EQ(replaced_by("0.15000000000000002,3,2,4,5,6,0,0,0,4,5,6"), "");
+  EXPECT_NE(replaced_by("0.15000000000000002,wall,2,4,5,6,0,0,0,4,5,6"), "");
+  EXPECT_NE(replaced_by("0.15000000000000002,1,2,4,5,6,0,0,0,4,5,6"), "") << "a place is no name";
+  EXPECT_NE(replaced_by("0.16,3,2,4,5,6,0,0,0,4,5,6"), "") << "another time than the row before";
+  EXPECT_NE(replaced_by("wall,3,2,4,5,6,0,0,0,4,5,6"), "") << "names stand in the second column";
 }
 
 TEST_F(Tables, OfAnotherRunAreKnownByTheirDigests) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "case/case_entry.hpp"
+#include "case/case_keys.hpp"
+#include "case/derived_output.hpp"
+
+namespace fsi {
+
+/// Keys of [output] for surfaces, forces and statistics.
+std::vector<CaseKey<OutputData>> derived_output_keys();
+
+/// Refuses what the scene cannot have: a field or force of a medium that it lacks, statistics without a period.
+/// \throws InputError
+void check_derived_output(const CaseEntry& whole_case, const Case& scene);
+
+}  // namespace fsi

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// What [output] asks for beyond the solution itself. Nothing of it is computed unless it is named.
+struct DerivedOutput {
+  std::vector<std::string> surfaces;                       ///< each a row of surfaces.csv per step
+  std::map<std::string, std::vector<std::string>> forces;  ///< [output.forces.NAME] surfaces: one row for them together
+  bool statistics = false;                                 ///< of the wall shear stress over periods
+  std::optional<double> period{};                          ///< ms
+};
+
+}  // namespace fsi

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "derived/period_statistics.hpp"
+#include "derived/surface_forces.hpp"
+#include "derived/wall_shear_stress.hpp"
+#include "derived/wall_stress.hpp"
+
+namespace fsi {
+
+/// What a case asks for beyond the solution. Null, or empty, where it does not: then nothing of it is made or computed.
+template <int n>
+struct DerivedQuantities {
+  std::unique_ptr<WallShearStress<n>> shear;
+  std::unique_ptr<WallStress<n>> stress;
+  std::unique_ptr<SurfaceForces<n>> forces;
+  std::optional<PeriodStatistics> statistics{};
+};
+
+/// \param mesh   that the scene was built on
+/// \param scene  must outlive what is made
+/// \throws InputError for surfaces that the fluid does not have
+template <class Element>
+DerivedQuantities<Element::components> make_derived_quantities(const Case& setup, const MeshOf<Element>& mesh,
+                                                               const Scene<Element::components>& scene) {
+  const auto& output = setup.output;
+  const auto wants = [&](std::initializer_list<const char*> names) {
+    return output.every > 0 && std::find_first_of(output.fields.begin(), output.fields.end(), names.begin(),
+                                                  names.end()) != output.fields.end();
+  };
+  DerivedQuantities<Element::components> derived;
+  if (scene.fluid && (output.derived.statistics || wants({"wall_shear_stress"}))) {
+    const auto phase = scene.profile.phase("wall shear stress: setup");
+    derived.shear = make_wall_shear_stress<Element>(setup, mesh, scene);
+    scene.profile.count("nodes with wall shear stress", static_cast<std::int64_t>(derived.shear->nodes().size()));
+  }
+  if (scene.wall && wants({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"})) {
+    const auto phase = scene.profile.phase("wall stress: setup");
+    derived.stress = make_wall_stress<Element>(setup, mesh, scene);
+  }
+  derived.forces = make_surface_forces<Element>(setup, mesh, scene);
+  if (derived.forces)
+    scene.profile.count("surfaces with forces", static_cast<std::int64_t>(derived.forces->names().size()));
+  if (output.derived.statistics && output.derived.period) derived.statistics.emplace(*output.derived.period);
+  return derived;
+}
+
+}  // namespace fsi

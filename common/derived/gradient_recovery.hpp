@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "math/tensor.hpp"
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// The cells that a field is smooth on, and what it is there: which axes of space coordinates and components lie along.
+struct RecoveryCells {
+  const std::vector<Point>& points;  ///< mm, per node
+  std::vector<int> nodes;            ///< of the cells, nodes_per_cell for each
+  int nodes_per_cell;
+  int order;              ///< of the element: 1 or 2
+  std::vector<int> axes;  ///< of space, one per coordinate
+  bool axisymmetric = false;
+};
+
+/// Gradients of nodal fields at nodes, by polynomial-preserving recovery [Zhang2005]: a polynomial of a degree above
+/// the element's is fitted by least squares to the nodal values on the cells around a node, and its gradient taken
+/// there. Exact for fields that are such polynomials, at the boundary as well as inside: of order 2 for linear and 3
+/// for quadratic elements, where the gradient of the finite-element function itself has order 1 and 2.
+///
+/// The patch grows, up to four rings of cells, until the fit is determined: until the sum of the weights' sizes is
+/// below `largest_weights` over the distance of the nearest node. Where even that is not enough, as in a layer one
+/// linear element thick, powers that the patch cannot tell from others are left out; at the least the polynomial has the
+/// element's own degree. There the gradient has the order of the element's own.
+///
+/// The weights depend on reference positions alone and are found once; a gradient is then a short sum.
+class GradientRecovery {
+ public:
+  static constexpr double largest_weights = 16;
+
+  /// \param at  nodes of the cells, each once: where gradients are wanted
+  GradientRecovery(const RecoveryCells& cells, std::vector<int> at);
+
+  const std::vector<int>& nodes() const { return at_; }
+  std::size_t size() const { return at_.size(); }
+  /// Nodes at which the polynomial lacks some powers of the degree above the element's.
+  std::size_t fallbacks() const { return fallbacks_; }
+
+  /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry i
+  /// of nodes().
+  /// \tparam Layout  of the field (fem/nodal_layout.hpp), its vectors of `axes.size()` components
+  template <class Layout>
+  Mat3<double> gradient(std::size_t i, const std::vector<double>& field) const {
+    Mat3<double> h{};
+    for (std::size_t k = offsets_[i]; k < offsets_[i + 1]; ++k)
+      for (std::size_t c = 0; c < axes_.size(); ++c) {
+        const double value = field[Layout::vector(patch_[k], static_cast<int>(c))];
+        for (std::size_t j = 0; j < axes_.size(); ++j) h(axes_[c], axes_[j]) += weights_[k][j] * value;
+      }
+    if (axisymmetric_)
+      h(1, 1) = radius_[i] > 0 ? field[Layout::vector(at_[i], 0)] / radius_[i] : h(0, 0);  // its limit on the axis
+    return h;
+  }
+
+ private:
+  std::vector<int> at_;
+  std::vector<int> axes_;
+  bool axisymmetric_;
+  std::vector<double> radius_;                  ///< mm, per entry; of bodies of revolution
+  std::vector<std::size_t> offsets_{0};         ///< per entry, into the patches
+  std::vector<int> patch_;                      ///< nodes
+  std::vector<std::array<double, 3>> weights_;  ///< 1/mm, per node of a patch and coordinate
+  std::size_t fallbacks_ = 0;
+};
+
+}  // namespace fsi

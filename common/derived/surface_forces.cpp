@@ -1,0 +1,223 @@
+#include "derived/surface_forces.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/names.hpp"
+#include "derived/fluid_surface.hpp"
+#include "fem/elements.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr const char* interface_name = "interface";
+constexpr const char* walls_name = "walls";
+
+/// The places on the fluid's boundary of a surface that the case names.
+template <class Element>
+std::vector<int> places_of(const Case& setup, const MeshOf<Element>& mesh, const Scene<Element::components>& scene,
+                           const FluidSurface<Element>& surface, const std::string& key, const std::string& name) {
+  std::vector<int> places;
+  if (name == interface_name && scene.coupled()) {
+    std::vector<int> wall_regions;
+    for (const auto& [layer, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(layer));
+    places = surface.places(interface_facets(mesh, mesh.region_index(group::fluid), wall_regions));
+  } else if (name == walls_name) {
+    places = surface.places(FluidFacetKind::solid);
+  } else {
+    places = surface.places(group_facets(mesh, name));
+  }
+  if (!places.empty()) return places;
+  std::vector<std::string> known{walls_name};
+  if (scene.coupled()) known.emplace_back(interface_name);
+  for (const auto& group : mesh.facet_groups)
+    if (!surface.places(group.facets).empty()) known.push_back(group.name);
+  const bool in_mesh = mesh.facets(name) != nullptr;
+  throw InputError(setup.path.string(), key,
+                   "\"" + name + "\" " + (in_mesh ? "does not bound the fluid" : "is no surface of the mesh"),
+                   "give " + one_of(known));
+}
+
+template <class Element>
+class SurfaceForcesOf : public SurfaceForces<Element::components> {
+ public:
+  static constexpr int n = Element::components;
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+  using Facet = typename MeshOf<Element>::Facet;
+
+  SurfaceForcesOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
+      : scene_(scene), part_(fluid_part<Element>(scene)) {
+    const auto surface = fluid_surface<Element>(setup, mesh, part_);
+    facets_ = surface.facets;
+    // Openings with velocities that are not prescribed: all of them, or their corners alone are held by the walls.
+    std::vector<char> is_free(facets_.size(), 0);
+    for (const auto& opening : openings_of(setup)) {
+      const auto places = surface.places(group_facets(mesh, opening.surface));
+      const auto nodes = surface.nodes(places);
+      if (!std::all_of(nodes.begin(), nodes.end(), [&](int node) { return is_held(node); }))
+        for (const int f : places) is_free[f] = 1;
+    }
+    std::set<int> stressed;  // nodes where gradients are needed
+    const auto add = [&](const std::string& name, const std::string& key, const std::vector<std::string>& members) {
+      Set set;
+      for (const auto& member : members) {
+        const auto places = places_of<Element>(setup, mesh, scene, surface, key, member);
+        set.facets.insert(set.facets.end(), places.begin(), places.end());
+      }
+      std::sort(set.facets.begin(), set.facets.end());
+      set.facets.erase(std::unique(set.facets.begin(), set.facets.end()), set.facets.end());
+      const auto count = std::count_if(set.facets.begin(), set.facets.end(), [&](int f) { return is_free[f] != 0; });
+      if (count > 0 && count < static_cast<std::ptrdiff_t>(set.facets.size()))
+        throw InputError(setup.path.string(), key, "joins openings to surfaces that the fluid sticks to",
+                         "name them apart: forces are found in different ways");
+      set.by_equations = count == 0;
+      if (set.by_equations) {
+        set.nodes = surface.nodes(set.facets);
+        // The rows of nodes on the rim hold a share of the traction beside the surface. Where that is not given it is
+        // taken out again, a strip one element wide.
+        std::vector<char> inside(facets_.size(), 0), on(part_.nodes.size(), 0);
+        for (const int f : set.facets) inside[f] = 1;
+        for (const int node : set.nodes) on[node] = 1;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+          const bool touches = std::any_of(facets_[f].begin(), facets_[f].end(), [&](int node) { return on[node]; });
+          if (inside[f] || !touches || is_free[f] != 0 || surface.kinds[f] == FluidFacetKind::axis) continue;
+          set.beside.push_back(static_cast<int>(f));
+        }
+      }
+      for (const int f : set.by_equations ? set.beside : set.facets)
+        stressed.insert(facets_[f].begin(), facets_[f].end());
+      names_.push_back(name);
+      sets_.push_back(std::move(set));
+    };
+    for (const auto& name : setup.output.derived.surfaces) add(name, "output.surfaces", {name});
+    for (const auto& [name, members] : setup.output.derived.forces)
+      add(name, "output.forces." + name + ".surfaces", members);
+    gradients_.emplace(fluid_gradients<Element>(part_, {stressed.begin(), stressed.end()}));
+    entry_.assign(part_.nodes.size(), -1);
+    for (std::size_t i = 0; i < gradients_->size(); ++i) entry_[gradients_->nodes()[i]] = static_cast<int>(i);
+  }
+
+  const std::vector<std::string>& names() const override { return names_; }
+
+  std::vector<SurfaceForce> at(const Balance& balance) const override {
+    assert(scene_.fluid);
+    const auto &mesh = balance.at.mesh, &flow = balance.at.fluid;
+    std::vector<double> residual;
+    scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures,
+                           residual);
+    std::vector<Mat3<double>> stress;
+    for (std::size_t i = 0; i < gradients_->size(); ++i)
+      stress.push_back(viscous_stress<n>(*gradients_, i, scene_.fluid->form().viscosity, mesh, flow));
+    std::vector<SurfaceForce> forces;
+    for (const Set& set : sets_) {
+      SurfaceForce force;
+      std::vector<char> on;
+      if (set.by_equations) {
+        on.assign(part_.nodes.size(), 0);
+        for (const int node : set.nodes) {
+          on[node] = 1;
+          for (int k = 0; k < n; ++k) force.force[Element::axis[k]] -= residual[Mixed::vector(node, k)];
+        }
+        for (const int f : set.beside) force.force = force.force - traction(f, mesh, flow, stress, &on);
+      } else {
+        for (const int f : set.facets) force.force = force.force + traction(f, mesh, flow, stress, nullptr);
+      }
+      for (const int f : set.facets) add_pressure(f, mesh, flow, force);
+      if constexpr (Element::axisymmetric) force.force[0] = force.pressure[0] = 0;  // all round they cancel
+      forces.push_back(force);
+    }
+    return forces;
+  }
+
+ private:
+  struct Set {
+    bool by_equations = true;
+    std::vector<int> facets;  ///< places
+    std::vector<int> nodes;   ///< of the facets
+    std::vector<int> beside;  ///< facets that touch these nodes, with a traction that is not given
+  };
+
+  bool is_held(int node) const {
+    for (int k = 0; k < n; ++k)
+      if (!scene_.velocity_conditions.fixes(node, k)) return false;
+    return true;
+  }
+
+  static double pressure_at(const Facet& facet, int q, const std::vector<double>& flow) {
+    using F = typename Element::Facet;
+    double p = 0;
+    for (int a = 0; a < F::scalar_nodes; ++a) p += F::scalar_shape(q, a) * flow[Mixed::scalar(facet[a])];
+    return p;
+  }
+
+  /// Integral of phi (p n - S n) over a current facet: the fluid's traction on what is beyond it.
+  /// \param on  phi is the sum of the shape functions of these nodes; null: one
+  Vec3<double> traction(int place, const std::vector<double>& mesh, const std::vector<double>& flow,
+                        const std::vector<Mat3<double>>& stress, const std::vector<char>* on) const {
+    using F = typename Element::Facet;
+    const Facet& facet = facets_[place];
+    Vec3<Pack> corner[F::nodes];
+    current_corners<Element>(part_.nodes, facet, mesh, corner);
+    Vec3<double> sum{};
+    for (int q = 0; q < F::points; ++q) {
+      const auto packed = F::weighted_normal(corner, q);
+      const Vec3<double> normal{{packed[0][0], packed[1][0], packed[2][0]}};
+      Mat3<double> s{};
+      double phi = 0;
+      for (int a = 0; a < F::nodes; ++a) {
+        s = s + F::shape(q, a) * stress[entry_[facet[a]]];
+        if (on == nullptr || (*on)[facet[a]] != 0) phi += F::shape(q, a);
+      }
+      sum = sum + phi * (pressure_at(facet, q, flow) * normal - s * normal);
+    }
+    return sum;
+  }
+
+  void add_pressure(int place, const std::vector<double>& mesh, const std::vector<double>& flow,
+                    SurfaceForce& force) const {
+    using F = typename Element::Facet;
+    const Facet& facet = facets_[place];
+    Vec3<Pack> corner[F::nodes];
+    current_corners<Element>(part_.nodes, facet, mesh, corner);
+    for (int q = 0; q < F::points; ++q) {
+      const auto packed = F::weighted_normal(corner, q);
+      const Vec3<double> normal{{packed[0][0], packed[1][0], packed[2][0]}};
+      force.area += std::sqrt(dot(normal, normal));
+      force.pressure = force.pressure + pressure_at(facet, q, flow) * normal;
+    }
+  }
+
+  const Scene<n>& scene_;
+  const PartOf<Element>& part_;
+  std::vector<Facet> facets_;  ///< of the fluid's boundary, normals outward
+  std::vector<std::string> names_;
+  std::vector<Set> sets_;
+  std::optional<GradientRecovery> gradients_;
+  std::vector<int> entry_;  ///< per node, in gradients_; -1: not there
+};
+
+}  // namespace
+
+template <class Element>
+std::unique_ptr<SurfaceForces<Element::components>> make_surface_forces(const Case& setup, const MeshOf<Element>& mesh,
+                                                                        const Scene<Element::components>& scene) {
+  if (setup.output.derived.surfaces.empty() && setup.output.derived.forces.empty()) return nullptr;
+  if (!scene.fluid)
+    throw InputError(setup.path.string(), setup.output.derived.surfaces.empty() ? "output.forces" : "output.surfaces",
+                     "asks for forces of the fluid, and the scene has none", "remove it");
+  return std::make_unique<SurfaceForcesOf<Element>>(setup, mesh, scene);
+}
+
+#define FSI_INSTANTIATE(Element)                                                             \
+  template std::unique_ptr<SurfaceForces<Element::components>> make_surface_forces<Element>( \
+      const Case&, const MeshOf<Element>&, const Scene<Element::components>&);
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

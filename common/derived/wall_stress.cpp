@@ -1,0 +1,200 @@
+#include "derived/wall_stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "derived/gradient_recovery.hpp"
+#include "fem/elements.hpp"
+#include "wall/hyperelastic.hpp"
+#include "wall/wall_problem.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The first Piola-Kirchhoff stress P of the wall's weak form at a point of every lane, kPa.
+template <class Law>
+Mat3<Pack> piola_stress(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
+                        const Fibres& fibres) {
+  const Vec3<Pack> none{{Pack(0.0), Pack(0.0), Pack(0.0)}};
+  const Hyperelastic<Law> form{0.0, bulk_modulus, 0.0, law};
+  const auto prepared = form.prepare(grad_d, none, Unstabilised{});
+  if constexpr (Hyperelastic<Law>::has_fibres) {
+    return form.integrand(prepared, none, pressure, fibres).flux;
+  } else {
+    static_cast<void>(fibres);
+    return form.integrand(prepared, none, pressure, {}).flux;
+  }
+}
+
+/// A layer: its vertices with recovered gradients, and the fibres there.
+struct StressLayer {
+  ElementLaw law;
+  double bulk_modulus;  ///< kPa
+  GradientRecovery gradients;
+  std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
+};
+
+/// Fibre directions at nodes: the mean of those at the quadrature points around them, weighted by N_a^2.
+template <class Element>
+std::vector<std::array<Vec3<double>, 2>> nodal_fibres(const WallLayer<Element>& layer, const std::vector<int>& nodes,
+                                                      int node_count) {
+  using Packs = ElementPacks<Element>;
+  struct Held {
+    const typename Packs::ElementPack* pack;
+    const std::array<Fibres, Element::points>* fibres;
+  };
+  std::map<int, Held> packs;  // by number: in one order, whatever the threads
+  for (int t = 0; t < layer.packs.thread_count(); ++t)
+    for (std::size_t i = 0; i < layer.packs.of_thread(t).size(); ++i) {
+      const auto& pack = layer.packs.of_thread(t)[i];
+      packs.emplace(pack.number, Held{&pack, &layer.fibres[t][i]});
+    }
+  std::vector<std::array<Vec3<double>, 2>> sums(static_cast<std::size_t>(node_count));
+  for (auto& sum : sums) sum = {};
+  for (const auto& [number, held] : packs)
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(held.pack->geometry, q);
+      for (int lane = 0; lane < held.pack->filled; ++lane)
+        for (int a = 0; a < Element::nodes; ++a) {
+          const double weight = g.weight[lane] * g.vectors().value[a] * g.vectors().value[a];
+          for (int family = 0; family < 2; ++family)
+            for (int i = 0; i < 3; ++i)
+              sums[held.pack->node[a][lane]][family][i] += weight * (*held.fibres)[q].direction[family][i][lane];
+        }
+    }
+  std::vector<std::array<Vec3<double>, 2>> directions;
+  for (const int node : nodes) {
+    auto direction = sums[node];
+    for (auto& a : direction) a = (1 / std::sqrt(dot(a, a))) * a;
+    directions.push_back(direction);
+  }
+  return directions;
+}
+
+template <class Element>
+class WallStressOf : public WallStress<Element::components> {
+ public:
+  static constexpr int n = Element::components;
+  using Mixed = MixedLayout<n>;
+
+  WallStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
+      : node_count_(scene.wall->node_count()) {
+    const auto& problem = static_cast<const WallProblem<Element>&>(*scene.wall);
+    const auto& part = problem.part();
+    share_.assign(static_cast<std::size_t>(node_count_), 0.0);
+    fibre_share_ = share_;
+    std::size_t index = 0;
+    for (const auto& [name, data] : setup.structure->layers) {
+      const WallLayer<Element>& layer = problem.layers()[index++];
+      RecoveryCells cells{part.nodes,
+                          {},
+                          Element::nodes,
+                          Element::order,
+                          {std::begin(Element::axis), std::end(Element::axis)},
+                          Element::axisymmetric};
+      std::vector<int> vertices;
+      const int region = mesh.region_index(name);
+      for (std::size_t c = 0; c < part.cells.size(); ++c) {
+        if (part.cell_region[c] != region) continue;
+        const auto& cell = part.cells[c];
+        cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
+        vertices.insert(vertices.end(), cell.begin(), cell.begin() + Element::scalar_nodes);
+      }
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      for (const int node : vertices) {
+        ++share_[node];
+        if (!layer.fibres.empty()) ++fibre_share_[node];
+      }
+      StressLayer stress{element_law(layer.material),
+                         bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
+                         GradientRecovery(cells, std::move(vertices)),
+                         {}};
+      if (!layer.fibres.empty()) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
+      layers_.push_back(std::move(stress));
+    }
+    for (auto* shares : {&share_, &fibre_share_})
+      for (double& share : *shares) share = share > 0 ? 1 / share : 0;
+  }
+
+  bool has_fibres() const override {
+    return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return !layer.fibres.empty(); });
+  }
+
+  WallStresses of(const std::vector<double>& wall) const override {
+    WallStresses all;
+    all.cauchy.assign(static_cast<std::size_t>(node_count_), Mat3<double>{});
+    if (has_fibres())
+      for (auto& family : all.of_fibres) family.assign(static_cast<std::size_t>(node_count_), 0.0);
+    for (const auto& layer : layers_) std::visit([&](const auto& law) { add(law, layer, wall, all); }, layer.law);
+    return all;
+  }
+
+ private:
+  template <class Law>
+  void add(const Law& law, const StressLayer& layer, const std::vector<double>& wall, WallStresses& all) const {
+    const auto& nodes = layer.gradients.nodes();
+    for (std::size_t first = 0; first < nodes.size(); first += pack_width) {
+      const std::size_t filled = std::min<std::size_t>(pack_width, nodes.size() - first);
+      Mat3<Pack> grad_d;
+      Pack pressure(0.0);
+      Fibres fibres;
+      for (std::size_t lane = 0; lane < pack_width; ++lane) {
+        const std::size_t i = first + std::min(lane, filled - 1);
+        const auto l = static_cast<int>(lane);
+        const auto h = layer.gradients.gradient<Mixed>(i, wall);
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) grad_d(r, c).set(l, h(r, c));
+        pressure.set(l, wall[Mixed::scalar(nodes[i])]);
+        for (int family = 0; family < 2; ++family)
+          for (int k = 0; k < 3; ++k)
+            fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
+      }
+      const Mat3<Pack> piola = piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
+      const Deformation<Pack> f = deformation(grad_d);
+      Mat3<Pack> cauchy = (Pack(1.0) / f.volume_ratio) * times_transposed(piola, f.gradient);
+      if constexpr (Hyperelastic<Law>::is_compressible)
+        if (law.on_reference()) cauchy = piola;  // small strains: one stress for both configurations
+      for (std::size_t lane = 0; lane < filled; ++lane) {
+        const auto l = static_cast<int>(lane);
+        const int node = nodes[first + lane];
+        Mat3<double> sigma;
+        for (int r = 0; r < 3; ++r)  // symmetric but for rounding
+          for (int c = 0; c < 3; ++c) sigma(r, c) = 0.5 * (cauchy(r, c)[l] + cauchy(c, r)[l]);
+        all.cauchy[node] = all.cauchy[node] + share_[node] * sigma;
+        if (layer.fibres.empty()) continue;
+        for (std::size_t family = 0; family < 2; ++family) {
+          Vec3<double> a{};
+          for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c) a[r] += f.gradient(r, c)[l] * layer.fibres[first + lane][family][c];
+          all.of_fibres[family][node] += fibre_share_[node] * dot(a, sigma * a) / dot(a, a);
+        }
+      }
+    }
+  }
+
+  int node_count_;
+  std::vector<StressLayer> layers_;
+  std::vector<double> share_;        ///< per node: one over the layers that have it
+  std::vector<double> fibre_share_;  ///< likewise over those with fibres
+};
+
+}  // namespace
+
+template <class Element>
+std::unique_ptr<WallStress<Element::components>> make_wall_stress(const Case& setup, const MeshOf<Element>& mesh,
+                                                                  const Scene<Element::components>& scene) {
+  return std::make_unique<WallStressOf<Element>>(setup, mesh, scene);
+}
+
+#define FSI_INSTANTIATE(Element)                                                       \
+  template std::unique_ptr<WallStress<Element::components>> make_wall_stress<Element>( \
+      const Case&, const MeshOf<Element>&, const Scene<Element::components>&);
+FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,388 @@
+// What is made of solutions, against closed forms: wall shear stress of Poiseuille's and Womersley's flow, forces on
+// surfaces against the pressures that they balance, stresses of the inflated tube.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdio>
+
+#include "base/error.hpp"
+#include "derived/stress_invariants.hpp"
+#include "derived/surface_forces.hpp"
+#include "derived/wall_shear_stress.hpp"
+#include "derived/wall_stress.hpp"
+#include "fem/elements.hpp"
+#include "mesh/group_names.hpp"
+#include "support/element_meshes.hpp"
+#include "support/inflated_tube.hpp"
+#include "support/scenes.hpp"
+#include "system/system.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+using AllElements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
+                                   P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
+
+Case fluid_case(double density, double viscosity) {
+  Case setup = coupled_case("neo-hookean");
+  setup.structure.reset();
+  setup.fluid->density = density;
+  setup.fluid->viscosity = viscosity;
+  return setup;
+}
+
+template <class Element>
+void name_surface(MeshOf<Element>& mesh, const std::string& name, int axis, double value) {
+  typename MeshOf<Element>::FacetGroup group{name, {}};
+  for (const auto& facet : boundary_facets(mesh))
+    if (std::all_of(facet.nodes.begin(), facet.nodes.end(),
+                    [&](int node) { return std::abs(mesh.nodes[node][axis] - value) < 1e-12; }))
+      group.facets.push_back(facet.nodes);
+  mesh.facet_groups.push_back(std::move(group));
+}
+
+/// Where flow through the unit cube, square or ring goes, and across: coordinates from 0 (the ring's first radius) to 1
+/// (its second).
+template <class Element>
+constexpr int along_axis = Element::axisymmetric ? 2 : 0;
+template <class Element>
+constexpr int across_axis = Element::axisymmetric ? 0 : 1;
+
+/// irregular_mesh() with inlet and outlet at its ends and the surfaces `lower` and `upper` across.
+template <class Element>
+MeshOf<Element> channel(int n, double first_radius = 1) {
+  auto mesh = irregular_mesh<Element>(n, "fluid", first_radius);
+  const double first = Element::axisymmetric ? first_radius : 0;
+  name_surface<Element>(mesh, group::inlet, along_axis<Element>, 0);
+  name_surface<Element>(mesh, group::outlet, along_axis<Element>, 1);
+  name_surface<Element>(mesh, "lower", across_axis<Element>, first);
+  name_surface<Element>(mesh, "upper", across_axis<Element>, first + 1);
+  return mesh;
+}
+
+/// A flow along the channel, u(x) at the coordinate across.
+template <class Element, class Profile>
+Solution flow_along(const Scene<Element::components>& scene, Profile profile) {
+  constexpr int n = Element::components;
+  Solution level = scene.at_rest().now;
+  for (int a = 0; a < scene.fluid->node_count(); ++a)
+    for (int k = 0; k < n; ++k)
+      if (Element::axis[k] == along_axis<Element>)
+        level.fluid[MixedLayout<n>::vector(a, k)] = profile(scene.fluid->nodes().nodes[a][across_axis<Element>]);
+  return level;
+}
+
+/// Largest difference of the wall shear stress at inner nodes of the surface `upper` from `along`, in the flow's
+/// direction.
+template <class Element>
+double shear_error(const WallShearStress<Element::components>& shear, const Scene<Element::components>& scene,
+                   const Solution& level, double upper, double along) {
+  const auto values = shear.at_nodes(level);
+  double largest = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < shear.nodes().size(); ++i) {
+    const Point& x = scene.fluid->nodes().nodes[shear.nodes()[i]];
+    if (std::abs(x[across_axis<Element>] - upper) > 1e-12) continue;
+    if (Element::dim == 3 && (x[2] < 1e-12 || x[2] > 1 - 1e-12)) continue;  // on the edge of another wall
+    ++count;
+    for (int k = 0; k < 3; ++k)
+      largest = std::max(largest, std::abs(values[3 * i + k] - (k == along_axis<Element> ? along : 0)));
+  }
+  EXPECT_GT(count, 2);
+  return largest;
+}
+
+template <class Element>
+class WallShear : public testing::Test {};
+TYPED_TEST_SUITE(WallShear, AllElements);
+
+// u = U (1 - r^2), which recovered gradients see exactly: tau = 2 mu U at r = 1, with the flow.
+TYPED_TEST(WallShear, OfAParabolaIsExact) {
+  const auto mesh = channel<TypeParam>(TypeParam::dim == 3 ? 3 : 4, 0);
+  const Case setup = fluid_case(1, 0.4);
+  const auto scene = build_scene<TypeParam>(setup, mesh);
+  const auto shear = make_wall_shear_stress<TypeParam>(setup, mesh, *scene);
+  const auto level = flow_along<TypeParam>(*scene, [](double r) { return 3 * (1 - r * r); });
+  EXPECT_LT(shear_error<TypeParam>(*shear, *scene, level, 1, 2 * 0.4 * 3), 1e-11);
+}
+
+/// Womersley's flow [Womersley1955] in a pipe of radius 1 at the time when the pressure gradient is `phase` of its
+/// period old: u(r) = Re[(1 - J_0(b r) / J_0(b)) e^(i phase)], b = i^(3/2) alpha.
+class Womersley {
+ public:
+  Womersley(double alpha, double phase) : b_(alpha * std::exp(i * (3 * pi / 4))), turn_(std::exp(i * phase)) {}
+  double velocity(double r) const { return (turn_ * (1.0 - bessel(0, b_ * r) / bessel(0, b_))).real(); }
+  double slope(double r) const { return (turn_ * b_ * bessel(1, b_ * r) / bessel(0, b_)).real(); }
+
+ private:
+  using Complex = std::complex<double>;
+  static constexpr Complex i{0, 1};
+  static inline const double pi = std::acos(-1.0);
+  /// J_order by its power series.
+  static Complex bessel(int order, Complex z) {
+    Complex term = order == 0 ? 1.0 : 0.5 * z, sum = 0;
+    for (int k = 0; k < 60; ++k) {
+      sum += term;
+      term *= -0.25 * z * z / static_cast<double>((k + 1) * (k + 1 + order));
+    }
+    return sum;
+  }
+  Complex b_, turn_;
+};
+
+TYPED_TEST(WallShear, OfWomersleysFlowHasItsOrder) {
+  const double alpha = 3;
+  const Womersley flow(alpha, 0.8);
+  constexpr int coarsest = TypeParam::dim == 3 ? 4 : 8, levels = TypeParam::dim == 3 ? 2 : 3;
+  double errors[3] = {};
+  for (int l = 0; l < levels; ++l) {
+    const auto mesh = channel<TypeParam>(coarsest << l, 0);
+    const Case setup = fluid_case(1, 0.4);
+    const auto scene = build_scene<TypeParam>(setup, mesh);
+    const auto shear = make_wall_shear_stress<TypeParam>(setup, mesh, *scene);
+    // In flat channels the profile serves as any other smooth one.
+    const auto level = flow_along<TypeParam>(*scene, [&](double r) { return flow.velocity(r); });
+    const double exact = -0.4 * flow.slope(1);
+    errors[l] = shear_error<TypeParam>(*shear, *scene, level, 1, exact) / (0.4 * alpha);  // about its amplitude
+  }
+  const double order = std::log2(errors[levels - 2] / errors[levels - 1]);
+  std::printf("wall shear stress, error over amplitude %.2e %.2e %.2e: order %.2f\n", errors[0], errors[1], errors[2],
+              order);
+  EXPECT_GT(order, TypeParam::order + 1 - 0.3);
+  EXPECT_LT(errors[levels - 1], TypeParam::dim == 3 ? 0.06 : 0.006);
+}
+
+// On a domain that has been stretched across by a factor 1.25: the slope falls by it, and directions stay.
+TYPED_TEST(WallShear, SeesTheCurrentConfiguration) {
+  constexpr int n = TypeParam::components;
+  const auto mesh = channel<TypeParam>(TypeParam::dim == 3 ? 3 : 4, 0);
+  const Case setup = fluid_case(1, 0.4);
+  const auto scene = build_scene<TypeParam>(setup, mesh);
+  const auto shear = make_wall_shear_stress<TypeParam>(setup, mesh, *scene);
+  auto level = flow_along<TypeParam>(*scene, [](double r) { return 3 * (1 - r * r); });
+  level.mesh.assign(VectorLayout<n>::size(scene->fluid->node_count()), 0.0);
+  for (int a = 0; a < scene->fluid->node_count(); ++a)
+    for (int k = 0; k < n; ++k)
+      if (TypeParam::axis[k] == across_axis<TypeParam>)
+        level.mesh[VectorLayout<n>::vector(a, k)] = 0.25 * scene->fluid->nodes().nodes[a][across_axis<TypeParam>];
+  EXPECT_LT(shear_error<TypeParam>(*shear, *scene, level, 1, 2 * 0.4 * 3 / 1.25), 1e-11);
+}
+
+/// The fluid after one long step of backward Euler from rest.
+template <class Element>
+Balance flow_under_pressure(Scene<Element::components>& scene, double pressure, double step) {
+  constexpr int n = Element::components;
+  System<n> system("fluid", scene, number_fluid(scene));
+  State state = scene.at_rest();
+  StepData data;
+  data.time = step;
+  data.rates = scene.integrator->rates(state, step);
+  data.opening_pressures = {pressure};
+  system.work_on(state, data);
+  NewtonOptions options;
+  options.tolerance = 1e-12;
+  const auto report = newton(system, options);
+  EXPECT_TRUE(report.converged) << report.failure;
+  return {state.now, data};
+}
+
+template <class Element>
+class Forces : public testing::Test {};
+TYPED_TEST_SUITE(Forces, AllElements);
+
+// Without inertia the walls hold what the pressure pushes: F = p A along the channel, to the tolerance of the solver, on
+// any mesh, though the flow is resolved by three elements. The pressure's part on walls along the flow is zero.
+TYPED_TEST(Forces, OnAllWallsBalanceThePressureAtTheInlet) {
+  const auto mesh = channel<TypeParam>(3);
+  Case setup = fluid_case(1e-9, 0.4);
+  setup.output.derived.surfaces = {"walls", "lower", group::inlet};
+  const auto scene = build_scene<TypeParam>(setup, mesh);
+  const auto forces = make_surface_forces<TypeParam>(setup, mesh, *scene);
+  const double pressure = 0.7;
+  const auto found = forces->at(flow_under_pressure<TypeParam>(*scene, pressure, 1.0));
+  const double pi = std::acos(-1.0), area = TypeParam::axisymmetric ? 3 * pi : 1;
+  constexpr int z = along_axis<TypeParam>;
+  EXPECT_NEAR(found[2].area, area, 1e-12);
+  EXPECT_NEAR(found[0].force[z], pressure * area, 1e-8 * pressure * area);
+  EXPECT_NEAR(found[0].pressure[z], 0, 1e-12);
+  EXPECT_GT(found[1].force[z], 0.05 * pressure * area);
+  EXPECT_LT(found[1].force[z], 0.6 * pressure * area);
+  if (TypeParam::axisymmetric) {
+    EXPECT_NEAR(found[1].area, 2 * pi, 1e-12);
+    EXPECT_EQ(found[0].force[0], 0);
+  }
+  // The inlet is pushed back by the pressure that is prescribed there, as far as the mesh resolves it.
+  EXPECT_NEAR(found[2].force[z], -pressure * area, 0.25 * pressure * area);
+}
+
+// A fluid at rest under one pressure, in a box that is open at one end: each wall bears p A along its normal and nothing
+// across, also where walls meet at edges. There rows hold a share of both.
+TYPED_TEST(Forces, OfAFluidAtRestAreThePressureTimesTheArea) {
+  auto mesh = channel<TypeParam>(3);
+  Case setup = fluid_case(1, 0.4);
+  setup.fluid->outlet = false;
+  setup.output.derived.surfaces = {"upper"};
+  setup.output.derived.forces["corner"] = {"upper", "outlet"};
+  const auto scene = build_scene<TypeParam>(setup, mesh);
+  const auto forces = make_surface_forces<TypeParam>(setup, mesh, *scene);
+  Balance balance;
+  State state = scene->at_rest();
+  balance.data.rates = scene->integrator->rates(state, 1.0);
+  balance.data.opening_pressures = {2.0};
+  balance.at = state.now;
+  for (int a = 0; a < scene->fluid->node_count(); ++a)
+    balance.at.fluid[MixedLayout<TypeParam::components>::scalar(a)] = 2.0;
+  const auto found = forces->at(balance);
+  const double pi = std::acos(-1.0), end = TypeParam::axisymmetric ? 3 * pi : 1;
+  ASSERT_EQ(forces->names(), (std::vector<std::string>{"upper", "corner"}));
+  for (int k = 0; k < 3; ++k) {
+    const double up = k == across_axis<TypeParam> && !TypeParam::axisymmetric ? 2 : 0;
+    EXPECT_NEAR(found[0].force[k], up, 1e-12) << k;
+    EXPECT_NEAR(found[1].force[k], up + (k == along_axis<TypeParam> ? 2 * end : 0), 1e-12) << k;
+    EXPECT_NEAR(found[1].pressure[k], found[1].force[k], 1e-12) << k;
+  }
+}
+
+TEST(ForcesOnSurfaces, RefuseWhatIsNoneOfTheFluids) {
+  auto mesh = channel<P1PlaneTriangle>(3);
+  Case setup = fluid_case(1, 0.4);
+  setup.path = "case.toml";
+  const auto scene = build_scene<P1PlaneTriangle>(setup, mesh);
+  const auto message = [&] {
+    try {
+      make_surface_forces<P1PlaneTriangle>(setup, mesh, *scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  setup.output.derived.surfaces = {"uper"};
+  EXPECT_NE(message().find("output.surfaces"), std::string::npos) << message();
+  EXPECT_NE(message().find("\"uper\" is no surface of the mesh"), std::string::npos) << message();
+  EXPECT_NE(message().find("walls, inlet, outlet, lower or upper"), std::string::npos) << message();
+  setup.output.derived.surfaces = {};
+  setup.output.derived.forces["both"] = {"upper", "outlet"};
+  EXPECT_NE(message().find("output.forces.both.surfaces"), std::string::npos) << message();
+  EXPECT_NE(message().find("joins openings"), std::string::npos) << message();
+}
+
+/// A piece of the tube of docs/theory.md, section 13.1, inflated to inner radius a: its exact displacement at the nodes,
+/// r^2 = R^2 + a^2 - R_i^2, and pressures that make sigma_r a given function.
+template <class Element>
+struct ExactTube {
+  static constexpr int n = Element::components;
+  Case setup;
+  MeshOf<Element> mesh;
+  std::unique_ptr<Scene<n>> scene;
+  std::vector<double> wall;
+
+  ExactTube(const Tube& tube, int m, double a) {
+    const int along = 4;
+    const double height = 0.4;
+    auto grid = triangle_grid(
+        {3 * m, along}, {"media", "adventitia"},
+        [&](int i, int j) {
+          return Point{inner_radius + (outer_radius - inner_radius) * i / (3.0 * m), 0, j * height / along};
+        },
+        [&](int i, int) { return i < 2 * m ? 0 : 1; });
+    if constexpr (Element::order == 1)
+      mesh = grid;
+    else
+      mesh = with_mid_edge_nodes(grid);
+    name_surface<Element>(mesh, group::inner, 0, inner_radius);
+    name_surface<Element>(mesh, group::wall_ends, 2, 0);
+    std::string material = tube.name;
+    std::transform(material.begin(), material.end(), material.begin(), [](char c) { return std::tolower(c); });
+    setup = coupled_case(material);
+    setup.geometry = Geometry::axisymmetric;
+    setup.fluid.reset();
+    setup.inlet.reset();
+    setup.time.reset();
+    setup.load = PressureTable{{{0.0, 1.0}}};
+    setup.structure->layer_pressure = LayerPressure::separate;
+    scene = build_scene<Element>(setup, mesh);
+    wall.assign(scene->wall->space().mixed_size(), 0.0);
+    for (int node = 0; node < scene->wall->node_count(); ++node) {
+      const double radius = scene->wall->nodes().nodes[node][0];
+      wall[MixedLayout<n>::vector(node, 0)] = std::sqrt(radius * radius + a * a - inner_radius * inner_radius) - radius;
+      wall[MixedLayout<n>::scalar(node)] = 0.1 * radius;
+    }
+  }
+};
+
+struct StressErrors {
+  double hoop = 0, axial = 0, mean = 0, fibre = 0;  ///< kPa, largest at any vertex of any layer
+};
+
+template <class Element>
+StressErrors stress_errors(const Tube& tube, int m) {
+  const double a = 1.15 * inner_radius;
+  const ExactTube<Element> exact(tube, m, a);
+  const auto stress = make_wall_stress<Element>(exact.setup, exact.mesh, *exact.scene);
+  const auto found = stress->of(exact.wall);
+  StressErrors errors;
+  for (std::size_t l = 0; l < 2; ++l) {
+    const auto& layer = tube.layers[l];
+    const auto& data = exact.scene->wall->layer_data();  // by name: adventitia before media
+    for (const int node : data[1 - l].nodes) {
+      if (!exact.scene->wall->space().carries_scalar(node)) continue;
+      const double big_r = exact.scene->wall->nodes().nodes[node][0];
+      const double s = std::sqrt(big_r * big_r + a * a - inner_radius * inner_radius) / big_r;
+      const auto& sigma = found.cauchy[node];
+      // Invariants of section 5: axial against radial as hoop against radial, with stretch 1 and sin^2 alpha.
+      double axial = 0;
+      std::visit([&](const auto& law) { axial = law.shear_modulus() * (1 - 1 / (s * s)); }, layer.material);
+      double fibres = 0, cosine = 0;
+      if (const auto* artery = std::get_if<Artery>(&layer.material)) {
+        cosine = std::cos(artery->fibre_angle());
+        const double e = s * s * cosine * cosine - cosine * cosine;
+        fibres = 4 * artery->k1 * std::exp(artery->k2 * e * e) * e;
+        axial += fibres * (1 - cosine * cosine);
+        const double f = s * s * cosine * cosine, z = 1 - cosine * cosine;
+        const double along = (f * sigma(1, 1) + z * sigma(2, 2)) / (f + z);
+        for (const auto& family : found.of_fibres)
+          errors.fibre = std::max(errors.fibre, std::abs(family[node] - along));
+      } else {
+        EXPECT_TRUE(found.of_fibres[0].empty());
+        errors.mean = std::max(errors.mean, std::abs(trace(sigma) / 3 + 0.1 * big_r));
+      }
+      errors.hoop =
+          std::max(errors.hoop, std::abs(sigma(1, 1) - sigma(0, 0) - hoop_stress_difference(layer.material, s)));
+      if (tube.name != std::string("Mooney-Rivlin"))
+        errors.axial = std::max(errors.axial, std::abs(sigma(2, 2) - sigma(0, 0) - axial));
+    }
+  }
+  return errors;
+}
+
+template <class Element>
+void expect_stress_order(const Tube& tube, double order, double error) {
+  StressErrors errors[3];
+  for (int l = 0; l < 3; ++l) {
+    errors[l] = stress_errors<Element>(tube, 2 << l);
+    std::printf("%s, %d elements through the wall: hoop %.2e, axial %.2e, mean %.2e, fibre %.2e\n", tube.name, 6 << l,
+                errors[l].hoop, errors[l].axial, errors[l].mean, errors[l].fibre);
+  }
+  EXPECT_GT(std::log2(errors[1].hoop / errors[2].hoop), order);
+  EXPECT_LT(errors[2].hoop, error);
+  EXPECT_LE(errors[2].axial, error);
+  EXPECT_LT(errors[2].mean, 1e-12);  // S' is deviatoric, whatever the gradient
+  EXPECT_LT(errors[2].fibre, 1e-10);
+}
+
+// sigma_theta - sigma_r of section 13.1 on both sides of the layers' boundary, where it jumps by a factor of ten.
+TEST(StressOfTheTube, LinearElementsAreOfSecondOrder) {
+  for (const auto& tube : tubes()) expect_stress_order<P1AxisymmetricTriangle>(tube, 1.7, 0.01);
+}
+TEST(StressOfTheTube, QuadraticElementsAreOfThirdOrder) {
+  for (const auto& tube : tubes()) expect_stress_order<P2P1AxisymmetricTriangle>(tube, 2.6, 1e-4);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
