@@ -13,6 +13,7 @@
 #include "case/opening_conditions.hpp"
 #include "case/pressure_table.hpp"
 #include "case/quasi_newton_options.hpp"
+#include "case/sample_requests.hpp"
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
@@ -123,6 +124,7 @@ struct OutputData {
   std::optional<double> interval{};  ///< ms between entries of fields.h5, in place of `every`; steps end there
   int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
   bool energy = true;                ///< energy.csv
+  SampleRequests samples;            ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.

@@ -2,6 +2,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
+#include "case/sample_keys.hpp"
 
 namespace fsi {
 
@@ -143,7 +144,7 @@ void read_fields(const CaseEntry& entry, OutputData& output) {
 
 std::vector<CaseKey<OutputData>> output_keys() {
   const auto listed = [](const OutputData& output) { return fmt::format("{}", fmt::join(output.fields, ", ")); };
-  return {
+  std::vector<CaseKey<OutputData>> keys = {
       leaf<OutputData>("fields", optional, "fields in fields.h5: any of {}; default all",
                        {read_fields, listed, listed(OutputData())}),
       leaf("every", optional, "steps between entries of fields.h5, default {}; 0: no fields",
@@ -156,6 +157,8 @@ std::vector<CaseKey<OutputData>> output_keys() {
            whole(at(&OutputData::checkpoint_every), 0, most_steps_between)),
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
   };
+  for (auto& key : sample_keys()) keys.push_back(std::move(key));
+  return keys;
 }
 
 std::vector<CaseKey<EconomyData>> economy_keys() {

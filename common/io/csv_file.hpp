@@ -21,6 +21,8 @@ class CsvFile {
   void write(const std::vector<std::vector<double>>& rows);
   /// The same with a name as the second column of each row. \param names  without commas
   void write(const std::vector<std::vector<double>>& rows, const std::vector<std::string>& names);
+  /// The same for rows that are text already, newlines and all.
+  void write_text(const std::string& rows);
   void write(const std::vector<double>& row) { write(std::vector<std::vector<double>>{row}); }
 
   /// Onto the disk, and closes. \throws WriteError

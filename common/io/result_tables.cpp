@@ -48,6 +48,7 @@ std::vector<ResultTable> tables_of(const ResultTables& wanted) {
   if (!wanted.openings.empty()) tables.push_back(openings_table(wanted.openings));
   if (wanted.coupling) tables.push_back(coupling_table());
   if (wanted.energy) tables.push_back(energy_table(*wanted.energy));
+  for (const SampledTable& table : wanted.sampled) tables.push_back({table.file, table.header});
   return tables;
 }
 
