@@ -39,7 +39,7 @@ def rows(folder, name):
     with (Path(folder) / name).open() as file:
         return [
             {
-                key: (float(cell) if cell else None) if key not in ("point", "line", "plane") else cell
+                key: (float(cell) if cell else None) if key not in ("point", "line", "plane", "opening") else cell
                 for key, cell in row.items()
             }
             for row in csv.DictReader(file)
@@ -189,6 +189,16 @@ class Bifurcation(FolderTest):
         self.assertLess(abs(line[0]["x_mm"]) + abs(line[0]["z_mm"]), 0.05)
         end = np.array([line[-1]["x_mm"], line[-1]["y_mm"], line[-1]["z_mm"]])
         self.assertLess(np.linalg.norm(end - [2.5, 0, 6]), 0.1)
+
+    def test_openings_of_their_own(self):
+        settings = (self.mesh, "fluid.outlet=false", "opening.left.resistance=0.5", "opening.right.resistance=0.5")
+        runs = [run(program, BIFURCATION, self.base / f"three-{Path(program).name}", *settings) for program in DRIVERS]
+        for folder in runs:
+            self.assertNotIn("lines.csv", files_of(folder))
+        one, other = (rows(folder, "openings.csv") for folder in runs)
+        self.assertEqual({row["opening"] for row in one}, {"inlet", "left", "right"})
+        for key, apart in differences(one, other).items():
+            self.assertLess(apart, 1e-5, key)
 
     def test_a_surface_that_is_not_there(self):
         process = attempt(
