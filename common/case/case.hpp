@@ -14,6 +14,7 @@
 #include "case/opening_conditions.hpp"
 #include "case/pressure_table.hpp"
 #include "case/quasi_newton_options.hpp"
+#include "case/sample_requests.hpp"
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
@@ -144,6 +145,7 @@ struct OutputData {
   int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
   bool energy = true;                ///< energy.csv
   DerivedOutput derived{};
+  SampleRequests samples;            ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.

@@ -3,6 +3,7 @@
 #include "case/case_keys.hpp"
 #include "case/derived_keys.hpp"
 #include "case/key_values.hpp"
+#include "case/sample_keys.hpp"
 
 namespace fsi {
 
@@ -159,6 +160,7 @@ std::vector<CaseKey<OutputData>> output_keys() {
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
   };
   for (auto& key : derived_output_keys()) keys.push_back(std::move(key));
+  for (auto& key : sample_keys()) keys.push_back(std::move(key));
   return keys;
 }
 

@@ -422,6 +422,11 @@ class Run {
       log.warning(notice);
       warn(program_, notice);
     }
+    for (const auto& note : loaded_.points.notes) log.info(note);
+    for (const auto& warning : loaded_.points.warnings) {
+      log.warning(warning);
+      warn(program_, warning);
+    }
     if (!lock_.said().empty()) log.warning(lock_.said());
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));

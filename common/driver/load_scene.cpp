@@ -3,19 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "driver/mesh_units.hpp"
+#include "driver/observation_points.hpp"
 #include "driver/prestress.hpp"
+#include "driver/requested_samples.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/artery/curved_edges.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
-#include "mesh/boundary.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -23,7 +26,6 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/renumber.hpp"
-#include "mesh/sampling.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/build_scene.hpp"
 #include "scene/required_openings.hpp"
@@ -152,95 +154,6 @@ MeshOf<Element> load_mesh(const Case& setup) {
   return bandwidth(ordered) < bandwidth(mesh) ? ordered : mesh;
 }
 
-constexpr int line_points = 181;
-
-template <class Facets>
-Point centre_of(const std::vector<Point>& nodes, const Facets& surface) {
-  Point sum{0, 0, 0};
-  double count = 0;
-  for (const auto& facet : surface)
-    for (int node : facet) {
-      sum = sum + nodes[node];
-      ++count;
-    }
-  return (1 / count) * sum;
-}
-
-/// Where the centre line of a scene runs: the axis of a tube; in plane scenes the straight line from the middle of the
-/// inlet to that of the outlet.
-template <class Element>
-Axis axis_of(const Case& setup, const MeshOf<Element>& mesh) {
-  Axis axis;
-  if (setup.structure) axis = {setup.structure->axis_origin, setup.structure->axis_direction};
-  if constexpr (Element::axisymmetric) axis = {};
-  if constexpr (Element::dim == 2 && !Element::axisymmetric) {
-    const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
-    if (inlet && outlet) {
-      axis.origin = centre_of(mesh.nodes, *inlet);
-      axis.direction = centre_of(mesh.nodes, *outlet) - axis.origin;
-    }
-  }
-  return axis;
-}
-
-NodalSample in_part(std::vector<int> nodes, std::vector<double> weights, const PartNodes& part) {
-  nodes.resize(weights.size());  // scalars live on the first ones
-  for (int& node : nodes) node = part.local_node[node];
-  return {std::move(nodes), std::move(weights)};
-}
-
-/// The fluid's pressure along the axis between two openings. In two dimensions it is left out where the line leaves the
-/// fluid: annuli and bent channels have none. A tube without one has a wrong axis in its case, and is refused.
-template <class Element>
-void add_centre_line(const MeshOf<Element>& mesh, const FacetsOf<Element>& inlet, const FacetsOf<Element>& outlet,
-                     const PartNodes& fluid, const SamplingPlace& place, ObservationPoints& points) {
-  const auto z = evenly_spaced(axial_position(mesh.nodes, inlet, points.axis),
-                               axial_position(mesh.nodes, outlet, points.axis), line_points);
-  std::vector<PointSample> found;
-  try {
-    found = sample_in_cells(mesh, mesh.region_index(group::fluid), points_on_axis(points.axis, z), place);
-  } catch (const InputError&) {
-    if constexpr (Element::dim == 2) return;
-    throw;
-  }
-  points.centre_z = z;
-  for (auto& sample : found)
-    points.centre_line.push_back(in_part(std::move(sample.nodes), std::move(sample.scalar_weights), fluid));
-}
-
-template <class Element>
-ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& mesh,
-                                     const Scene<Element::components>& scene) {
-  ObservationPoints points;
-  points.axis = axis_of<Element>(setup, mesh);
-  const int fluid_region = mesh.region_index(group::fluid);
-  const auto *inlet = mesh.facets(group::inlet), *outlet = mesh.facets(group::outlet);
-  if (scene.fluid && inlet && outlet && norm(points.axis.direction) > 0)
-    add_centre_line<Element>(mesh, *inlet, *outlet, scene.fluid->nodes(), {mesh_source(setup), group::fluid}, points);
-  constexpr bool tube = Element::dim == 3 || Element::axisymmetric;
-  if (scene.wall && tube) {
-    std::vector<int> wall_regions;
-    for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
-    const auto surface =
-        fluid_region >= 0 ? interface_facets(mesh, fluid_region, wall_regions) : group_facets(mesh, group::inner);
-    if (surface.empty()) return points;
-    const AxisFrame frame(points.axis);
-    double first = frame.axial(mesh.nodes[surface[0][0]]), last = first;
-    for (const auto& facet : surface)
-      for (int node : facet) {
-        first = std::min(first, frame.axial(mesh.nodes[node]));
-        last = std::max(last, frame.axial(mesh.nodes[node]));
-      }
-    points.angles = Element::axisymmetric ? 1 : 16;
-    points.wall_z = evenly_spaced(first, last, line_points);
-    for (auto& found : wall_samples<Element::dim>(mesh.nodes, surface, points.axis, points.wall_z, points.angles,
-                                                  {mesh_source(setup), fluid_region >= 0 ? "interface" : group::inner}))
-      points.wall_line.push_back(
-          {in_part(std::move(found.nodes), std::move(found.weights), scene.wall->nodes()), found.direction});
-  }
-  return points;
-}
-
 template <class Part>
 FieldGrid grid_of(const std::string& name, const Part& part) {
   FieldGrid grid;
@@ -252,6 +165,27 @@ FieldGrid grid_of(const std::string& name, const Part& part) {
   return grid;
 }
 
+/// Of the circle that has the area of the widest opening, mm; in plane scenes the length of it.
+template <class Element>
+double widest_opening(const Case& setup, const MeshOf<Element>& mesh) {
+  double widest = 0;
+  for (const auto& opening : openings_of(setup)) {
+    double area = 0;
+    for (const auto& f : group_facets(mesh, opening.surface)) {
+      const auto x = [&](int i) { return mesh.nodes[f[i]]; };
+      if constexpr (Element::dim == 3)
+        area += norm(triangle_area_vector(x(0), x(1), x(2)));
+      else
+        area += distance(x(0), x(1));
+    }
+    const double diameter = Element::dim == 3       ? 2 * std::sqrt(area / 3.14159265358979323846)
+                            : Element::axisymmetric ? 2 * area
+                                                    : area;
+    widest = std::max(widest, diameter);
+  }
+  return widest;
+}
+
 template <class Element>
 LoadedScene<Element::components> load(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
   const auto mesh = load_mesh<Element>(setup);
@@ -261,11 +195,17 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
                  Element::dim == 3 ? "tetrahedra" : "triangles"};
   loaded.scene = build_scene<Element>(setup, mesh);
   if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
-  loaded.points = observation_points<Element>(setup, mesh, *loaded.scene);
   loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene);
   const auto& scene = *loaded.scene;
-  if (scene.fluid) loaded.grids.push_back(grid_of("fluid", static_cast<FluidProblem<Element>&>(*scene.fluid).part()));
-  if (scene.wall) loaded.grids.push_back(grid_of("wall", static_cast<WallProblem<Element>&>(*scene.wall).part()));
+  VesselParts<Element> parts;
+  if (scene.fluid) parts.fluid = &static_cast<FluidProblem<Element>&>(*scene.fluid).part();
+  if (scene.wall) parts.wall = &static_cast<WallProblem<Element>&>(*scene.wall).part();
+  loaded.points = observation_points<Element>(setup, mesh, parts, mesh_source(setup));
+  loaded.points.requested = requested_samples<Element>(setup, mesh, parts, loaded.points);
+  if (const auto slip = unit_slip_of_mesh(setup, widest_opening<Element>(setup, mesh)))
+    loaded.points.warnings.push_back(mesh_source(setup) + ": " + *slip);
+  if (parts.fluid) loaded.grids.push_back(grid_of("fluid", *parts.fluid));
+  if (parts.wall) loaded.grids.push_back(grid_of("wall", *parts.wall));
   return loaded;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.hpp"
@@ -21,11 +22,13 @@ constexpr double same_state = 1e-6;
 
 template <int n>
 Observables<n>::Observables(ObservationPoints points, const Scene<n>& scene)
-    : scene_(scene), points_(std::move(points)) {}
+    : scene_(scene), points_(std::move(points)), samples_(points_.requested, scene) {}
 
 template <int n>
 ResultTables Observables<n>::tables() const {
-  return {!points_.centre_line.empty(), !points_.wall_line.empty(), scene_.fluid != nullptr};
+  ResultTables tables{!points_.centre_line.empty(), !points_.wall_line.empty(), scene_.fluid != nullptr};
+  tables.sampled = samples_.tables();
+  return tables;
 }
 
 template <int n>
@@ -67,6 +70,8 @@ void Observables<n>::write(const State& state, ResultFolder& folder) const {
   if (!points_.centre_line.empty()) folder.write_centerline(state.time, points_.centre_z, seen.pressure);
   if (scene_.fluid) folder.write_flow(state.time, seen.flow);
   if (!points_.wall_line.empty()) folder.write_wall(state.time, points_.wall_z, seen.radial, seen.axial);
+  for (const SampledTable& table : samples_.tables())
+    folder.write_sampled(table, state.time, samples_.rows(table, state));
 }
 
 template <int n>
@@ -74,6 +79,14 @@ void Observables<n>::require_same(const State& level, const EarlierTables& earli
   const Seen seen = look(level);
   using Columns = std::vector<std::pair<std::size_t, const std::vector<double>&>>;
   // Columns of one unit are compared by the largest number in any of them: the small ones may be rounding alone.
+  const auto require = [&](const std::string& file, double apart, double size) {
+    if (!(apart <= same_state * size))
+      throw InputError((earlier.folder() / file).string(), "",
+                       fmt::format("its rows of the time {:g} differ from the checkpoint's state by {:.1e} of their "
+                                   "largest value: the two are not of one run",
+                                   level.time, apart / size),
+                       "restart from a folder as its run has left it, or run from the start");
+  };
   const auto compare = [&](const ResultTable& table, std::size_t width, const Columns& columns) {
     const auto& rows = earlier.last_level(table.file);
     if (rows.empty()) return;
@@ -84,12 +97,7 @@ void Observables<n>::require_same(const State& level, const EarlierTables& earli
         size = std::max({size, std::abs(row), std::abs(values[i])});
         apart = std::max(apart, std::abs(row - values[i]));
       }
-    if (!(apart <= same_state * size))
-      throw InputError((earlier.folder() / table.file).string(), "",
-                       fmt::format("its rows of the time {:g} differ from the checkpoint's state by {:.1e} of their "
-                                   "largest value: the two are not of one run",
-                                   level.time, apart / size),
-                       "restart from a folder as its run has left it, or run from the start");
+    require(table.file, apart, size);
   };
   std::vector<double> pressure = seen.pressure;
   for (double& p : pressure) p *= pascal_per_kilopascal;
@@ -100,6 +108,20 @@ void Observables<n>::require_same(const State& level, const EarlierTables& earli
   compare(wall_table(), 4, {{2, seen.radial}, {3, seen.axial}});
   compare(flow_table(), 5, {{1, in}, {2, out}});
   compare(flow_table(), 5, {{3, pressure_in}, {4, pressure_out}});
+  for (const SampledTable& table : samples_.tables()) {
+    const auto& before = earlier.last_level(table.file);
+    const auto now = samples_.rows(table, level);
+    std::map<int, std::pair<double, double>> by_kind;  // how far apart, largest
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const auto& value = now.at(i / table.kinds.size()).at(i % table.kinds.size());
+      auto& [apart, size] = by_kind[table.kinds[i % table.kinds.size()]];
+      if (std::isnan(before[i]) != !value.has_value()) apart = HUGE_VAL;
+      if (std::isnan(before[i]) || !value) continue;
+      size = std::max({size, std::abs(before[i]), std::abs(*value)});
+      apart = std::max(apart, std::abs(before[i] - *value));
+    }
+    for (const auto& [kind, found] : by_kind) require(table.file, found.first, found.second);
+  }
 }
 
 #define FSI_INSTANTIATE(n) template class Observables<n>;

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "driver/observation.hpp"
+#include "driver/sample_tables.hpp"
 #include "io/result_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
 
-/// What the CSV tables show of a state: centre-line pressure, inner-wall displacement, flow. Parts that a scene does
+/// What the CSV tables show of a state: centre-line pressure, inner-wall displacement, flow, samples. Parts that a scene does
 /// not have cost nothing.
 template <int n>
 class Observables {
@@ -32,6 +33,7 @@ class Observables {
 
   const Scene<n>& scene_;
   ObservationPoints points_;
+  SampleTables<n> samples_;
 };
 
 }  // namespace fsi

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "mesh/axis.hpp"
+#include "sampling/plane_cut.hpp"
 
 namespace fsi {
 
@@ -18,6 +21,26 @@ struct InnerWallSample {
   Point direction;  ///< of space, unit length, away from the axis
 };
 
+/// A point at which a case wants fields: in the fluid, or in the wall.
+struct SampledPoint {
+  std::string name;  ///< of the point or its line
+  double s = 0;      ///< mm, along the line from its beginning
+  Point at;          ///< reference coordinates, mm
+  bool in_fluid;
+  NodalSample vectors, scalars;
+};
+
+struct SampledPlane {
+  std::string name;
+  std::shared_ptr<const PlaneCut> cut;
+};
+
+/// What a case asks for by name, in the order of the names; points that lie in no cell are left out.
+struct RequestedSamples {
+  std::vector<SampledPoint> points, lines;
+  std::vector<SampledPlane> planes;
+};
+
 /// Where the tables of a run look at the fields. Empty where a scene has no such line.
 struct ObservationPoints {
   Axis axis;
@@ -26,6 +49,9 @@ struct ObservationPoints {
   std::vector<double> wall_z;              ///< mm along the axis
   std::vector<InnerWallSample> wall_line;  ///< `angles` samples for each of wall_z
   int angles = 1;
+  RequestedSamples requested;
+  std::vector<std::string> notes;     ///< what was decided here, for the log
+  std::vector<std::string> warnings;  ///< what could not be had, a line each
 };
 
 }  // namespace fsi

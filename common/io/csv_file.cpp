@@ -45,10 +45,14 @@ void CsvFile::write(const std::vector<std::vector<double>>& rows, const std::vec
     }
     text.push_back('\n');
   }
+  write_text({text.data(), text.size()});
+}
+
+void CsvFile::write_text(const std::string& rows) {
   file_.require_undisturbed();
   const auto whole_rows = file_.size();
   try {
-    file_.write({text.data(), text.size()});
+    file_.write(rows);
   } catch (...) {
     file_.cut_to(whole_rows);
     throw;

@@ -19,6 +19,8 @@ class CsvFile {
   /// when the disk is full, or when the file has been deleted or changed by somebody else; no part of a row stays then,
   /// if the file can be cut
   void write(const std::vector<std::vector<double>>& rows);
+  /// The same for rows that are text already, newlines and all.
+  void write_text(const std::string& rows);
   void write(const std::vector<double>& row) { write(std::vector<std::vector<double>>{row}); }
   /// The same with a name behind the first number of each row.
   /// \param names  one per row, without commas, quotes and line ends

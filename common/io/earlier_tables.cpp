@@ -29,8 +29,9 @@ bool same(double a, double b, double scale) {
   return std::abs(a - b) <= rounding * scale;
 }
 
-/// The table's next row, which must be there. \param last  the step whose row it is
-void read_row(TableReader& table, std::int64_t step, std::int64_t last) {
+/// The table's next row, which must be there. \param last    the step whose row it is
+/// \param blanks  whether cells may be empty, which are read as NaN
+void read_row(TableReader& table, std::int64_t step, std::int64_t last, bool blanks = false) {
   switch (table.next()) {
     case Found::end:
       table.refuse(fmt::format("ends before the rows of step {}, and the checkpoint is of step {}", step, last));
@@ -40,7 +41,8 @@ void read_row(TableReader& table, std::int64_t step, std::int64_t last) {
       break;
   }
   for (const double number : table.row())
-    if (!std::isfinite(number)) table.refuse_line("holds a number that is not finite");
+    if (!std::isfinite(number) && !(blanks && std::isnan(number)))
+      table.refuse_line("holds a number that is not finite");
 }
 
 /// What stands behind the rows that are taken over must be of later steps, whole or not.
@@ -88,7 +90,10 @@ EarlierTables::EarlierTables(const fs::path& folder, const ResultTables& wanted,
     if (table.within_steps && !fs::exists(folder / table.file, error))
       throw InputError((folder / table.file).string(), "output.surfaces", "are wanted, but the earlier run wrote none",
                        "continue without output.surfaces and output.forces, or run from the start");
-    parts_.push_back(checked(table, steps));
+    const auto sampled = std::find_if(wanted.sampled.begin(), wanted.sampled.end(),
+                                      [&](const SampledTable& one) { return one.file == table.file; });
+    parts_.push_back(sampled == wanted.sampled.end() ? checked(table, steps)
+                                                     : with_digest(checked_samples(*sampled, steps), steps));
   }
 }
 
@@ -103,15 +108,19 @@ void EarlierTables::copy_to(const fs::path& folder) const {
 }
 
 EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
-  Part part = table.of_steps       ? checked_steps(table, steps)
-              : table.within_steps ? checked_within_steps(table, steps)
-                                   : checked_levels(table, steps);
-  const auto known = steps.digests.find(table.file);
+  return with_digest(table.of_steps       ? checked_steps(table, steps)
+                     : table.within_steps ? checked_within_steps(table, steps)
+                                          : checked_levels(table, steps),
+                     steps);
+}
+
+EarlierTables::Part EarlierTables::with_digest(Part part, const EarlierSteps& steps) const {
+  const auto known = steps.digests.find(part.file);
   if (known == steps.digests.end()) return part;
-  TableDigest digest(folder_ / table.file);
+  TableDigest digest(folder_ / part.file);
   digest.take(part.bytes);
   if (digest.numbers() != known->second)
-    throw InputError((folder_ / table.file).string(), "",
+    throw InputError((folder_ / part.file).string(), "",
                      "its rows are not those that the run wrote up to its checkpoint",
                      "restart from a folder as its run has left it, or run from the start");
   return part;
@@ -144,7 +153,7 @@ EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const
 }
 
 EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, const EarlierSteps& steps) const {
-  TableReader reader(folder_ / table.file, table.header, !table.names.empty());
+  TableReader reader(folder_ / table.file, table.header, table.names.empty() ? 0 : 1);
   const std::vector<double>* z = table.file == centerline_table().file ? &steps.centre_z
                                  : table.file == wall_table().file     ? &steps.wall_z
                                                                        : nullptr;
@@ -163,9 +172,9 @@ EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, cons
       if (z != nullptr && !same(reader.row()[1], (*z)[i], length))
         reader.refuse_line(fmt::format("is of z = {:g} mm, not {:g}: rows are missing, doubled or out of order",
                                        reader.row()[1], (*z)[i]));
-      if (!table.names.empty() && reader.name() != table.names[i])
+      if (!table.names.empty() && reader.place() != table.names[i])
         reader.refuse_line(fmt::format("is of the opening {}, not {}: rows are missing, doubled or out of order",
-                                       printable(reader.name()), table.names[i]));
+                                       printable(reader.place()), table.names[i]));
       if (step == steps.levels) part.last_level.insert(part.last_level.end(), reader.row().begin(), reader.row().end());
     }
   }
@@ -195,6 +204,37 @@ EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table
   }
   Part part{table.file, reader.bytes()};
   check_rest(reader, 0, before);
+  return part;
+}
+
+EarlierTables::Part EarlierTables::checked_samples(const SampledTable& table, const EarlierSteps& steps) const {
+  std::error_code error;
+  if (!fs::exists(folder_ / table.file, error))
+    throw InputError((folder_ / table.file).string(), "output",
+                     "its samples are wanted, but the earlier run wrote none",
+                     "continue without them, or run from the start");
+  const std::size_t columns = 1 + static_cast<std::size_t>(std::count(table.header.begin(), table.header.end(), ','));
+  TableReader reader(folder_ / table.file, table.header, columns - 1 - table.kinds.size());
+  Part part{table.file};
+  double time = 0;
+  for (std::int64_t step = 1; step <= steps.levels; ++step) {
+    time = times_[static_cast<std::size_t>(step - 1)];
+    for (const std::string& place : table.places) {
+      read_row(reader, step, steps.step, true);
+      if (!same(reader.row()[0], time, time))
+        reader.refuse_line(fmt::format("is of the time {:g}, not {:g}: rows are missing, doubled or out of order",
+                                       reader.row()[0], time));
+      if (reader.place() != place)
+        reader.refuse_line(
+            fmt::format("is of '{}', not of '{}': the earlier run sampled elsewhere, or rows are "
+                        "missing, doubled or out of order",
+                        printable(reader.place()), place));
+      if (step == steps.levels)
+        part.last_level.insert(part.last_level.end(), reader.row().begin() + 1, reader.row().end());
+    }
+  }
+  part.bytes = reader.bytes();
+  check_rest(reader, 0, time);
   return part;
 }
 

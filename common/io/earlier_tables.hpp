@@ -31,7 +31,8 @@ class EarlierTables {
   const std::filesystem::path& folder() const { return folder_; }
   /// Ends of the steps 1 to the last one, as EarlierSteps::time.
   const std::vector<double>& times() const { return times_; }
-  /// Rows of the last level in a table of waves or flow, one after the other; empty where there is none.
+  /// Rows of the last level in a table of waves or flow, one after the other; empty where there is none. Of sampled
+  /// tables the values alone, NaN where a cell is empty.
   const std::vector<double>& last_level(const std::string& file) const;
 
   /// Copies the checked rows into a folder, which may be the same: each table by a temporary file and rename, so that a
@@ -49,6 +50,8 @@ class EarlierTables {
   Part checked_steps(const ResultTable& table, const EarlierSteps& steps);
   Part checked_levels(const ResultTable& table, const EarlierSteps& steps) const;
   Part checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const;
+  Part checked_samples(const SampledTable& table, const EarlierSteps& steps) const;
+  Part with_digest(Part part, const EarlierSteps& steps) const;
 
   std::filesystem::path folder_;
   std::vector<double> times_;

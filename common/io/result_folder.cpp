@@ -30,6 +30,7 @@ const std::vector<std::string>& result_files() {
                                    "checkpoint.h5", "prestress.h5", "run.log"};
     for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts(), {"any"}, {"any"}}))
       names.push_back(table.file);
+    names.insert(names.end(), {points_file, lines_file, planes_file});
     return names;
   }();
   return files;
@@ -183,6 +184,8 @@ void ResultFolder::open_tables(const ResultTables& tables, bool append) {
   energy_parts_ = tables.energy;
   if (energy_parts_) open(energy_, energy_table(*energy_parts_));
   if (!tables.surfaces.empty()) open(surfaces_, surfaces_table(tables.surfaces));
+  for (const SampledTable& table : tables.sampled)
+    sampled_.try_emplace(table.file, folder_ / table.file, table.header, append);
   for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
 }
 
@@ -209,6 +212,10 @@ void ResultFolder::write_wall(double time, const std::vector<double>& z, const s
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
   write_rows(*wall_, wall_table().file, rows);
+}
+
+void ResultFolder::write_sampled(const SampledTable& table, double time, const std::vector<SampledRow>& rows) {
+  sampled_.at(table.file).write_text(sampled_text(table, time, rows));
 }
 
 void ResultFolder::write_flow(double time, const FlowRecord& flow) {
@@ -265,6 +272,7 @@ void ResultFolder::write_surfaces(double time, const std::vector<SurfaceRecord>&
 void ResultFolder::close() {
   for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_, &surfaces_})
     if (*table) (*table)->close();
+  for (auto& [file, table] : sampled_) table.close();
 }
 
 }  // namespace fsi

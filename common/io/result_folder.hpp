@@ -65,6 +65,8 @@ class ResultFolder {
   /// Displacements (mm) of the inner wall at the axial positions z (mm); all of the same length.
   void write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
                   const std::vector<double>& axial);
+  /// \param rows  as many as the table has places
+  void write_sampled(const SampledTable& table, double time, const std::vector<SampledRow>& rows);
   void write_flow(double time, const FlowRecord& flow);
   /// \param openings  in the order of ResultTables::openings
   void write_openings(double time, const std::vector<OpeningRecord>& openings);
@@ -87,6 +89,7 @@ class ResultFolder {
   std::map<std::string, TableDigest> digests_;
   std::vector<std::string> opening_names_;
   std::optional<CsvFile> centerline_, wall_, flow_, openings_, iterations_, coupling_, energy_, surfaces_;
+  std::map<std::string, CsvFile> sampled_;
 };
 
 }  // namespace fsi

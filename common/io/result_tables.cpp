@@ -56,6 +56,7 @@ std::vector<ResultTable> tables_of(const ResultTables& wanted) {
   if (wanted.coupling) tables.push_back(coupling_table());
   if (wanted.energy) tables.push_back(energy_table(*wanted.energy));
   if (!wanted.surfaces.empty()) tables.push_back(surfaces_table(wanted.surfaces));
+  for (const SampledTable& table : wanted.sampled) tables.push_back({table.file, table.header});
   return tables;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnostics/energy_record.hpp"
+#include "io/sampled_table.hpp"
 
 namespace fsi {
 
@@ -19,6 +20,7 @@ struct ResultTables {
   std::optional<EnergyParts> energy{};  ///< unless the case does not want it
   std::vector<std::string> openings{};  ///< names of those that openings.csv has rows for; empty: no such table
   std::vector<std::string> surfaces{};  ///< names whose forces the case asks for
+  std::vector<SampledTable> sampled{};  ///< that the case asks for
 };
 
 /// A table of a result folder.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -19,8 +20,8 @@ constexpr const char* remedy = "restart from a folder whose tables are whole, or
 
 }  // namespace
 
-TableReader::TableReader(std::filesystem::path file, const std::string& header, bool named)
-    : file_(std::move(file)), named_(named) {
+TableReader::TableReader(std::filesystem::path file, const std::string& header, std::size_t places)
+    : file_(std::move(file)), places_(places) {
   std::error_code error;
   if (!std::filesystem::exists(file_, error)) refuse("missing");
   if (!std::filesystem::is_regular_file(file_, error)) refuse("is no file");
@@ -50,23 +51,32 @@ bool TableReader::read_line() {
 TableReader::Found TableReader::next() {
   if (!read_line()) return Found::end;
   row_.clear();
+  place_.clear();
   const char *at = text_.data(), *const end = at + text_.size();
   while (true) {
-    if (named_ && row_.size() == 1) {
-      const char* const behind = std::find(at, end, ',');
-      if (behind == end) return Found::no_row;
-      name_.assign(at, behind);
-      at = behind + 1;
+    if (places_ > 0 && row_.size() == 1) {
+      const char* last = std::find(at, end, ',');
+      for (std::size_t i = 1; i < places_ && last != end; ++i) last = std::find(last + 1, end, ',');
+      if (last == end) return Found::no_row;
+      place_.assign(at, last);
+      at = last + 1;
     }
-    double number = 0;
-    const auto [stop, error] = std::from_chars(at, end, number);
-    if (error != std::errc() && error != std::errc::result_out_of_range) return Found::no_row;
-    row_.push_back(error == std::errc() ? number : HUGE_VAL);  // beyond all numbers: not finite
+    const bool empty = places_ > 0 && !row_.empty() && (at == end || *at == ',');
+    double number = std::numeric_limits<double>::quiet_NaN();
+    const char* stop = at;
+    if (!empty) {
+      const auto read = std::from_chars(at, end, number);
+      if (read.ec != std::errc() && read.ec != std::errc::result_out_of_range) return Found::no_row;
+      stop = read.ptr;
+      // Beyond all numbers: not finite. A word for what is no number is not the empty cell that NaN stands for.
+      if (read.ec != std::errc() || (places_ > 0 && std::isnan(number))) number = HUGE_VAL;
+    }
+    row_.push_back(number);
     if (stop == end) break;
     if (*stop != ',') return Found::no_row;
     at = stop + 1;
   }
-  return row_.size() + (named_ ? 1 : 0) == columns_ ? Found::row : Found::no_row;
+  return row_.size() + places_ == columns_ ? Found::row : Found::no_row;
 }
 
 void TableReader::refuse_line(const std::string& problem) const {

@@ -11,9 +11,10 @@ namespace fsi {
 /// Reads a CSV table of numbers, its second column perhaps names, row by row, in bounded memory whatever the file holds.
 class TableReader {
  public:
+  /// \param places  how many columns behind the first are text or say where a row belongs, and are kept as text; with
+  ///                 any, cells behind them may be empty
   /// \throws InputError when the file is missing, no regular file, or begins with another line than `header`
-  /// \param named  whether the second column holds names
-  TableReader(std::filesystem::path file, const std::string& header, bool named = false);
+  TableReader(std::filesystem::path file, const std::string& header, std::size_t places = 0);
 
   /// What stands at a place of the table.
   enum class Found {
@@ -24,10 +25,10 @@ class TableReader {
   /// Goes on by a line.
   Found next();
 
-  /// Of the last row found.
+  /// Of the last row found; without the columns kept as text, empty cells being NaN.
   const std::vector<double>& row() const { return row_; }
-  /// The name in the last row found, which row() leaves out; empty where the table has none.
-  const std::string& name() const { return name_; }
+  /// The columns kept as text, with the commas between them.
+  const std::string& place() const { return place_; }
   /// Number of the last line read; the header's is 1.
   std::int64_t line() const { return line_; }
   /// Bytes from the beginning of the file up to the end of the last line read.
@@ -47,9 +48,8 @@ class TableReader {
   std::ifstream stream_;
   std::string text_;
   std::vector<double> row_;
-  std::string name_;
-  bool named_;
-  std::size_t columns_ = 0;
+  std::string place_;
+  std::size_t columns_ = 0, places_ = 0;
   std::int64_t line_ = 0;
   std::uint64_t bytes_ = 0;
 };

@@ -41,6 +41,22 @@ struct CellMap {
     return sum;
   }
 
+  /// dx/dl_i, the coordinates taken as independent, mm.
+  std::array<Point, Dim + 1> slopes(const Barycentric& l) const {
+    std::array<Point, Dim + 1> slope;
+    if constexpr (Order == 1) {
+      for (int i = 0; i <= Dim; ++i) slope[i] = x[i];
+    } else {
+      for (int i = 0; i <= Dim; ++i) slope[i] = (4 * l[i] - 1) * x[i];
+      for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
+        const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
+        slope[a] = slope[a] + 4 * l[b] * x[Dim + 1 + e];
+        slope[b] = slope[b] + 4 * l[a] * x[Dim + 1 + e];
+      }
+    }
+    return slope;
+  }
+
   /// Coordinates of a place in the straight cell of the vertices.
   Barycentric straight(const Point& p) const {
     if constexpr (Dim == 3) {
@@ -78,14 +94,7 @@ struct CellMap {
 
  private:
   Barycentric newton_step(const Point& p, const Barycentric& l) const {
-    // dx/dl_i, the coordinates taken as independent; columns of the Jacobian are differences to the first.
-    std::array<Point, Dim + 1> slope;
-    for (int i = 0; i <= Dim; ++i) slope[i] = (4 * l[i] - 1) * x[i];
-    for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
-      const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
-      slope[a] = slope[a] + 4 * l[b] * x[Dim + 1 + e];
-      slope[b] = slope[b] + 4 * l[a] * x[Dim + 1 + e];
-    }
+    const auto slope = slopes(l);  // columns of the Jacobian are differences to the first
     std::array<Point, Dim> column;
     for (int i = 0; i < Dim; ++i) column[i] = slope[i + 1] - slope[0];
     const Point off = p - at(l);

@@ -18,6 +18,7 @@
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh/point_distance.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/symmetry_planes.hpp"
 
@@ -30,21 +31,6 @@ constexpr const char* conforming_remedy =
 
 std::string text(const Point& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
-}
-
-double distance_to_segment(const Point& x, const Point& p, const Point& q) {
-  const Point along = q - p;
-  const double t = std::clamp(dot(x - p, along) / dot(along, along), 0.0, 1.0);
-  return distance(x, p + t * along);
-}
-
-/// Distance from x to the triangle abc (C. Ericson, Real-Time Collision Detection, section 5.1.5).
-double distance_to_triangle(const Point& x, const Point& a, const Point& b, const Point& c) {
-  const Point normal = cross(b - a, c - a);
-  const bool above = dot(cross(b - a, x - a), normal) >= 0 && dot(cross(c - b, x - b), normal) >= 0 &&
-                     dot(cross(a - c, x - c), normal) >= 0;
-  if (above) return std::abs(dot(x - a, normal)) / norm(normal);
-  return std::min({distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
 template <int Dim, int Order>
@@ -426,8 +412,8 @@ class Checks {
 
   void interface() const {
     const auto shared = interface_facets(mesh_, fluid_, layers_);
-    if (shared.empty()) fail("interface", "fluid and wall share no facet", conforming_remedy);
     faces_that_meet_unshared();
+    if (shared.empty()) fail("interface", "the wall does not touch the fluid: they share no facet", conforming_remedy);
 
     std::vector<Facet> held;
     for_groups_and_planes(needs_.clamping,

@@ -20,10 +20,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double inside = -1e-9;        // barycentric coordinates this far below zero are rounding
+constexpr double on_boundary = -1e-6;   // and of points that users type with a few digits
 constexpr double furthest_edges = 0.5;  // longest edges that a point may lie outside
 
-template <int Dim, int Order>
-CellMap<Dim, Order> map_of(const SimplexMesh<Dim, Order>& mesh, int cell) {
+/// \tparam Mesh  a mesh or a part of one
+template <int Dim, int Order, template <int, int> class Mesh>
+CellMap<Dim, Order> map_of(const Mesh<Dim, Order>& mesh, int cell) {
   CellMap<Dim, Order> map;
   for (std::size_t i = 0; i < map.x.size(); ++i) map.x[i] = mesh.nodes[mesh.cells[cell][i]];
   return map;
@@ -31,8 +33,8 @@ CellMap<Dim, Order> map_of(const SimplexMesh<Dim, Order>& mesh, int cell) {
 
 /// Points in whose convex hull a cell lies: its vertices and, for each curved edge, the middle control point of its
 /// Bezier curve.
-template <int Dim, int Order>
-std::array<Point, nodes_of_simplex(Dim, Order)> control_points(const SimplexMesh<Dim, Order>& mesh, int cell) {
+template <int Dim, int Order, template <int, int> class Mesh>
+std::array<Point, nodes_of_simplex(Dim, Order)> control_points(const Mesh<Dim, Order>& mesh, int cell) {
   auto x = map_of(mesh, cell).x;
   if constexpr (Order == 2)
     for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
@@ -45,8 +47,8 @@ std::array<Point, nodes_of_simplex(Dim, Order)> control_points(const SimplexMesh
 /// Cells sorted into the boxes of a regular grid that their bounding boxes touch.
 class CellGrid {
  public:
-  template <int Dim, int Order>
-  CellGrid(const SimplexMesh<Dim, Order>& mesh, const std::vector<int>& cells) {
+  template <int Dim, int Order, template <int, int> class Mesh>
+  CellGrid(const Mesh<Dim, Order>& mesh, const std::vector<int>& cells) {
     low_.fill(std::numeric_limits<double>::infinity());
     Point high;
     high.fill(-std::numeric_limits<double>::infinity());
@@ -118,11 +120,35 @@ std::array<double, N> clamped(std::array<double, N> weights) {
   return weights;
 }
 
-template <int Dim, int Order>
-PointSample sample_of(const SimplexMesh<Dim, Order>& mesh, int cell, const std::array<double, Dim + 1>& l) {
+template <int Dim, int Order, template <int, int> class Mesh>
+PointSample sample_of(const Mesh<Dim, Order>& mesh, int cell, const std::array<double, Dim + 1>& l) {
   const auto& nodes = mesh.cells[cell];
   const auto weights = CellMap<Dim, Order>::shape(l);
   return {{nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, {l.begin(), l.end()}};
+}
+
+/// The cell that holds a point deepest, the first of them among several.
+template <int Dim>
+struct Holder {
+  int cell = -1;  ///< none
+  std::array<double, Dim + 1> place{};
+};
+
+/// \param furthest  how negative a barycentric coordinate of a point in a cell may be
+template <int Dim, int Order, template <int, int> class Mesh>
+Holder<Dim> holder_of(const Mesh<Dim, Order>& mesh, const CellGrid& grid, const Point& x, double furthest) {
+  const auto [begin, end] = grid.near(x);
+  Holder<Dim> holder;
+  double most = furthest;
+  for (const int* c = begin; c != end; ++c) {
+    std::array<double, Dim + 1> candidate;
+    if (!map_of(mesh, *c).find(x, candidate)) continue;
+    const double least = *std::min_element(candidate.begin(), candidate.end());
+    if (least < most || (holder.cell >= 0 && least <= most)) continue;
+    most = least;
+    holder = {*c, candidate};
+  }
+  return holder;
 }
 
 /// The nearest cell by the distance to the point's clamped image in it.
@@ -357,20 +383,30 @@ std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, in
   const CellGrid grid(mesh, cells);
   samples.reserve(points.size());
   for (const Point& x : points) {
-    const auto [begin, end] = grid.near(x);
-    double most = inside;
-    const int* holder = nullptr;
-    std::array<double, Dim + 1> place{};
-    for (const int* c = begin; c != end; ++c) {
-      std::array<double, Dim + 1> candidate;
-      if (!map_of(mesh, *c).find(x, candidate)) continue;
-      const double least = *std::min_element(candidate.begin(), candidate.end());
-      if (least < most || (holder != nullptr && least <= most)) continue;
-      most = least;
-      holder = c;
-      place = candidate;
-    }
-    samples.push_back(holder != nullptr ? sample_of(mesh, *holder, place) : nearest_sample(mesh, cells, x, from));
+    const Holder<Dim> holder = holder_of(mesh, grid, x, inside);
+    samples.push_back(holder.cell >= 0 ? sample_of(mesh, holder.cell, holder.place)
+                                       : nearest_sample(mesh, cells, x, from));
+  }
+  return samples;
+}
+
+template <int Dim, int Order>
+std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order>& part,
+                                                        const std::vector<Point>& points) {
+  std::vector<std::optional<PointSample>> samples(points.size());
+  if (points.empty() || part.cells.empty()) return samples;
+  const CellGrid grid(part, all_cells(part));
+  const auto off_plane = [&](const Point& x) {
+    if constexpr (Dim == 3) return false;
+    // The plane of the part is that of its first cell.
+    const auto map = map_of(part, 0);
+    const Point normal = cross(map.x[1] - map.x[0], map.x[2] - map.x[0]);
+    return std::abs(dot(x - map.x[0], normal)) > -on_boundary * std::pow(norm(normal), 1.5);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (off_plane(points[i])) continue;
+    const Holder<Dim> holder = holder_of(part, grid, points[i], on_boundary);
+    if (holder.cell >= 0) samples[i] = sample_of(part, holder.cell, clamped(holder.place));
   }
   return samples;
 }
@@ -432,6 +468,8 @@ std::vector<Point> points_on_axis(const Axis& axis, const std::vector<double>& p
 #define INSTANTIATE(Dim, Order)                                                                                      \
   template std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>&, int, const std::vector<Point>&,  \
                                                     const SamplingPlace&);                                           \
+  template std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order>&,                       \
+                                                                   const std::vector<Point>&);                       \
   template std::vector<WallSample> wall_samples<Dim>(                                                                \
       const std::vector<Point>&, const std::vector<std::array<int, nodes_of_simplex(Dim - 1, Order)>>&, const Axis&, \
       const std::vector<double>&, int, const SamplingPlace&);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesh/axis.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesh/submesh.hpp"
 
 namespace fsi {
 
@@ -30,6 +32,15 @@ struct PointSample {
 template <int Dim, int Order>
 std::vector<PointSample> sample_in_cells(const SimplexMesh<Dim, Order>& mesh, int region,
                                          const std::vector<Point>& points, const SamplingPlace& from = {});
+
+/// Finds for each point the cell of a part that holds it, numbers of nodes being the part's; empty for a point in none.
+/// Weights as above. A point outside by less than a millionth of a cell counts as in it; one outside by more, be it only
+/// because the cells' facets cut a curve short, does not. Among cells that share the point the one that holds it
+/// deepest counts, then the first.
+/// \param points  mm; of triangle parts those off their plane are in no cell
+template <int Dim, int Order>
+std::vector<std::optional<PointSample>> locate_in_cells(const Submesh<Dim, Order>& part,
+                                                        const std::vector<Point>& points);
 
 /// Interpolation at a point of the inner wall.
 struct WallSample {

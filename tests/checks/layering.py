@@ -18,6 +18,7 @@ FLOORS = (
     ("common/algebra",),
     ("common/solvers",),
     ("common/fem",),
+    ("common/sampling",),
     ("common/materials",),
     ("common/fluid", "common/wall", "common/mesh_motion"),
     ("common/case",),

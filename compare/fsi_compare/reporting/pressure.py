@@ -11,6 +11,7 @@ from ..runs.labels import default_labels, read_labels
 from ..runs.run_folder import Run, read_run
 from .layout import say_written
 from .matplotlib_loader import load_matplotlib
+from .samples import compare_samples, without_centre_line
 
 MOST_TIMES = 60
 PAPER_TIMES = "1.5,3,4.5,6,7.5,9"
@@ -34,7 +35,9 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "  pressure_waves.csv         all runs at the selected times\n"
         "  pressure_waves.png, .svg   one panel per time\n"
         "  pressure_waves.json        the printed numbers in full precision\n"
-        "Runs whose meshes, time steps or lengths differ are compared with a warning.",
+        "Runs whose meshes, time steps or lengths differ are compared with a warning.\n"
+        "Of bent tubes the pressure is that along the centre line that was found, z being its arc length. Where a run\n"
+        "has none, flows, points, lines and planes that all runs have are compared, in sample_differences.csv.",
     )
     pressure.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
     pressure.add_argument(
@@ -68,6 +71,8 @@ def pressure(options: argparse.Namespace) -> int:
     if len(times) > MOST_TIMES:
         raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
     labels = read_labels(options.labels, len(options.folders))
+    if any(without_centre_line(folder) for folder in options.folders):
+        return compare_samples(options.folders, labels, options.output, options.quiet)
     runs = [read_run(folder) for folder in options.folders]
     labels = labels or default_labels(runs)
     check_comparable(runs, times)

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from ..base.errors import InputError, printable
-from ..base.files import exists, is_folder, read_text
+from ..base.files import exists, is_file, is_folder, read_text
 from .columns import LARGEST, number
 from .pressure_waves import PressureWaves
+from .samples import CENTRE_LINE, LINES, waves_along
 from .summary import FILE, FINISHED, PROGRAMS, read_summary
 
 PRESSURE_COLUMNS = ("time_ms", "z_mm", "pressure_Pa")
@@ -44,16 +45,19 @@ def read_finished(folder: Path) -> dict:
 
 
 def read_run(folder: Path) -> Run:
-    """Reads `summary.json` and `centerline_pressure.csv`. Raises InputError naming file, key and problem unless the run
-    is finished and both files are complete."""
+    """Reads `summary.json` and `centerline_pressure.csv`, or of a bent tube its centre line in `lines.csv`, arc length
+    in place of z. Raises InputError naming file, key and problem unless the run is finished and both files are
+    complete."""
     summary = read_finished(folder)
+    along_axis = folder / "centerline_pressure.csv"
+    found = is_file(folder / LINES) and not exists(along_axis)
     return Run(
         folder=folder,
         program=summary["program"],
         version=printable(summary.get("version", "")),
         title=printable(summary.get("title", "")),
         summary=summary,
-        pressure=read_pressure(folder / "centerline_pressure.csv"),
+        pressure=waves_along(folder / LINES, CENTRE_LINE) if found else read_pressure(along_axis),
     )
 
 

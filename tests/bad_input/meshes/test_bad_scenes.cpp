@@ -173,9 +173,10 @@ TEST(BadScene, FluidAndWallShareNoFacet) {
       [](const Point& x) {
         return Point{1.5 + 0.8 * (x[0] - 1.5), 1.5 + 0.8 * (x[1] - 1.5), x[2]};
       });
-  EXPECT_EQ(verdict(file.text_41()),
-            "tube.msh: interface: fluid and wall share no facet; mesh fluid and wall together, with one shared surface "
-            "(gmsh: BooleanFragments or Coherence before meshing)");
+  EXPECT_EQ(
+      verdict(file.text_41()),
+      "tube.msh: interface: the wall does not touch the fluid: they share no facet; mesh fluid and wall together, "
+      "with one shared surface (gmsh: BooleanFragments or Coherence before meshing)");
 }
 
 TEST(BadScene, HangingNodesOnTheInterface) {

@@ -1,0 +1,102 @@
+#include "driver/sample_tables.hpp"
+
+#include <array>
+#include <utility>
+
+#include "fem/dimensions.hpp"
+#include "io/result_tables.hpp"
+
+namespace fsi {
+
+namespace {
+
+// Kinds of columns: those of one unit that is of one size.
+enum Kind { pressure, velocity, displacement, flow, area };
+
+/// Interpolated vectors as vectors of space.
+template <class Layout, std::size_t n>
+std::array<double, 3> vector_at(const NodalSample& sample, const std::vector<double>& field,
+                                const std::array<int, n>& axes) {
+  std::array<double, 3> sum{0, 0, 0};
+  for (std::size_t a = 0; a < sample.nodes.size(); ++a)
+    for (std::size_t k = 0; k < n; ++k)
+      sum[axes[k]] += sample.weights[a] * field[Layout::vector(sample.nodes[a], static_cast<int>(k))];
+  return sum;
+}
+
+}  // namespace
+
+template <int n>
+SampleTables<n>::SampleTables(RequestedSamples samples, const Scene<n>& scene)
+    : scene_(scene), samples_(std::move(samples)) {
+  add(points_file, samples_.points, false);
+  add(lines_file, samples_.lines, true);
+  if (samples_.planes.empty()) return;
+  SampledTable table{planes_file, "time_ms,plane,flow_mm3_per_ms,pressure_Pa,area_mm2", {}, {flow, pressure, area}};
+  for (const SampledPlane& plane : samples_.planes) table.places.push_back(plane.name);
+  tables_.push_back(table);
+}
+
+template <int n>
+void SampleTables<n>::add(const char* file, const std::vector<SampledPoint>& samples, bool along_line) {
+  if (samples.empty()) return;
+  SampledTable table{
+      file,
+      along_line ? "time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa" : "time_ms,point,x_mm,y_mm,z_mm,pressure_Pa",
+      {},
+      {pressure}};
+  if (scene_.fluid) {
+    table.header += ",velocity_x_mm_per_ms,velocity_y_mm_per_ms,velocity_z_mm_per_ms";
+    table.kinds.insert(table.kinds.end(), 3, velocity);
+  }
+  if (scene_.wall) {
+    table.header += ",displacement_x_mm,displacement_y_mm,displacement_z_mm";
+    table.kinds.insert(table.kinds.end(), 3, displacement);
+  }
+  for (const SampledPoint& sample : samples) {
+    std::string place = sample.name;
+    if (along_line) place += ',' + number_text(sample.s);
+    for (const double x : sample.at) place += ',' + number_text(x);
+    table.places.push_back(place);
+  }
+  tables_.push_back(table);
+}
+
+template <int n>
+SampledRow SampleTables<n>::row(const SampledPoint& sample, const State& level) const {
+  using Mixed = MixedLayout<n>;
+  const auto& medium = sample.in_fluid ? level.now.fluid : level.now.wall;
+  SampledRow row(1, 0.0);
+  for (std::size_t a = 0; a < sample.scalars.nodes.size(); ++a)
+    *row[0] += pascal_per_kilopascal * sample.scalars.weights[a] * medium[Mixed::scalar(sample.scalars.nodes[a])];
+  if (scene_.fluid && !sample.in_fluid) row.resize(4);  // no velocity
+  if (sample.in_fluid)
+    for (const double u : vector_at<Mixed>(sample.vectors, medium, scene_.axes)) row.emplace_back(u);
+  if (scene_.wall) {
+    const auto moved = sample.in_fluid ? vector_at<VectorLayout<n>>(sample.vectors, level.now.mesh, scene_.axes)
+                                       : vector_at<Mixed>(sample.vectors, medium, scene_.axes);
+    for (const double d : moved) row.emplace_back(d);
+  }
+  return row;
+}
+
+template <int n>
+std::vector<SampledRow> SampleTables<n>::rows(const SampledTable& table, const State& level) const {
+  std::vector<SampledRow> rows;
+  if (table.file == planes_file) {
+    for (const SampledPlane& plane : samples_.planes) {
+      const PlaneRow seen = plane.cut->look(level.now.mesh, level.now.fluid);
+      rows.push_back({seen.flow, std::nullopt, seen.area});
+      if (seen.area > 0) rows.back()[1] = pascal_per_kilopascal * seen.pressure;
+    }
+  } else {
+    for (const SampledPoint& sample : table.file == points_file ? samples_.points : samples_.lines)
+      rows.push_back(row(sample, level));
+  }
+  return rows;
+}
+
+#define FSI_INSTANTIATE(n) template class SampleTables<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

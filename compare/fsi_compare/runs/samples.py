@@ -1,0 +1,155 @@
+"""The samples of a run: `points.csv`, `lines.csv`, `planes.csv`, and other tables with the same rows at each time.
+
+A column of names says which point, line or plane a row belongs to; columns of coordinates say where in it. All else are
+values, NaN where the file has an empty cell: no velocity in a wall.
+"""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.files import is_file, read_text
+from .columns import LARGEST, number
+from .pressure_waves import PressureWaves
+from .summary import FINISHED
+
+POINTS, LINES, PLANES = "points.csv", "lines.csv", "planes.csv"
+CENTRE_LINE = "centerline"  # the line that a tube gets which does not follow its axis
+TIME = "time_ms"
+NAMES = ("point", "line", "plane", "opening", "surface")
+PLACES = ("s_mm", "x_mm", "y_mm", "z_mm")
+
+
+@dataclass(frozen=True)
+class Samples:
+    """One point, line or plane over time."""
+
+    times: np.ndarray  # ms, (levels,)
+    places: Dict[str, np.ndarray]  # of PLACES, (points,)
+    values: Dict[str, np.ndarray]  # by column, (levels, points)
+
+
+def read_samples(path: Path) -> Dict[str, Samples]:
+    """The samples of a table by name; the whole of a table without a column of names is one sample "". Raises InputError
+    naming line and column unless each has the same places at each time."""
+    text = read_text(path, FINISHED, "run it again")
+    lines = text.splitlines()
+    if len(lines) < 2 or not text.endswith("\n"):
+        problem = "holds no time level" if len(lines) < 2 else "is cut off"
+        raise InputError(path, "", problem, "run it again")
+    header = lines[0].split(",")
+    if TIME not in header:
+        raise InputError(path, "line 1", f"column '{TIME}' is missing", "run it again")
+    name_column = next((i for i, name in enumerate(header) if name in NAMES), None)
+    rows: Dict[str, List[List[float]]] = {}
+    for row, line in enumerate(lines[1:], start=2):
+        cells = line.split(",")
+        if len(cells) != len(header):
+            raise InputError(path, f"line {row}", f"has {len(cells)} values instead of {len(header)}", "run it again")
+        name = "" if name_column is None else cells[name_column]
+        rows.setdefault(name, []).append(
+            [
+                math.nan if i == name_column else _number(path, row, column, cell)
+                for i, (column, cell) in enumerate(zip(header, cells))
+            ]
+        )
+    return {name: _by_level(path, name, header, np.array(of_name)) for name, of_name in rows.items()}
+
+
+def _number(path: Path, row: int, column: str, cell: str) -> float:
+    if not cell and column not in (TIME, *PLACES):
+        return math.nan
+    try:
+        value = number(cell)
+    except ValueError:
+        raise InputError(path, f"line {row}", f"{column} '{cell}' is not a number", "run it again") from None
+    if not abs(value) <= LARGEST:
+        raise InputError(path, f"line {row}", f"{column} is {cell}", "the run went wrong; look at its run.log")
+    return value
+
+
+def _by_level(path: Path, name: str, header: List[str], rows: np.ndarray) -> Samples:
+    time = rows[:, header.index(TIME)]
+    points = int(np.argmax(time != time[0])) or len(time)
+    if len(time) % points != 0 or np.any(np.diff(time.reshape(-1, points)) != 0):
+        raise InputError(path, name, "has not the same points at each time", "run it again")
+    times = time[::points]
+    if np.any(np.diff(times) <= 0):
+        raise InputError(path, name, "its times do not increase", "run it again")
+    columns = {column: rows[:, i].reshape(-1, points) for i, column in enumerate(header)}
+    places = {column: columns[column] for column in PLACES if column in columns}
+    if any(np.any(place != place[0]) for place in places.values()):
+        raise InputError(path, name, "has not the same points at each time", "run it again")
+    return Samples(
+        times,
+        {column: place[0] for column, place in places.items()},
+        {c: v for c, v in columns.items() if c not in (TIME, *PLACES, *NAMES)},
+    )
+
+
+def waves_along(path: Path, name: str) -> PressureWaves:
+    """The pressure along a line of `lines.csv`, its arc length in place of z. Raises InputError when it is not there."""
+    lines = read_samples(path)
+    if name not in lines:
+        raise InputError(path, "", f"has no line '{name}'", f"ask for one with [output.lines.{name}] and run it again")
+    line = lines[name]
+    pressure = line.values.get("pressure_Pa")
+    if "s_mm" not in line.places or pressure is None or len(line.places["s_mm"]) < 2 or np.isnan(pressure).any():
+        raise InputError(path, name, "has no pressure along it", "run it again")
+    return PressureWaves(line.times, line.places["s_mm"], pressure)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far a column of a sample is apart in two runs, at the times that both have."""
+
+    table: str
+    sample: str
+    column: str
+    largest: float  # difference, in the column's unit
+    size: float  # largest value of the first run
+    levels: int  # compared
+
+
+def differences_of_tables(one: Path, other: Path, tables: Tuple[str, ...]) -> List[Difference]:
+    """Of the columns of the samples that two runs have in common, at the same places."""
+    found = []
+    for table in tables:
+        if not (is_file(one / table) and is_file(other / table)):
+            continue
+        first, second = read_samples(one / table), read_samples(other / table)
+        for name in first:
+            if name in second:
+                found += _differences(table, name, first[name], second[name])
+    return found
+
+
+def _differences(table: str, name: str, one: Samples, other: Samples) -> List[Difference]:
+    tolerance = 1e-9 * max(abs(one.times[-1]), abs(other.times[-1]))
+    pairs = [(i, int(np.argmin(np.abs(other.times - time)))) for i, time in enumerate(one.times)]
+    pairs = [(i, j) for i, j in pairs if abs(other.times[j] - one.times[i]) <= tolerance]
+    points = next(iter(one.values.values())).shape[1]
+    same = all(
+        place in other.places
+        and len(at) == len(other.places[place])
+        and np.allclose(at, other.places[place], rtol=0, atol=1e-9 * (np.abs(at).max() + 1))
+        for place, at in one.places.items()
+    )
+    if not pairs or not same:
+        return []
+    mine, theirs = (list(level) for level in zip(*pairs))
+    found = []
+    for column, values in one.values.items():
+        theirs_of = other.values.get(column)
+        if theirs_of is None or theirs_of.shape[1] != points:
+            continue
+        a, b = values[mine], theirs_of[theirs]
+        both = ~(np.isnan(a) | np.isnan(b))
+        if both.any():
+            apart, size = float(np.abs(a - b)[both].max()), float(np.abs(a[both]).max())
+            found.append(Difference(table, name, column, apart, size, len(pairs)))
+    return found

@@ -1,0 +1,104 @@
+"""Tables of samples, and runs of vessels without a centre line."""
+
+import unittest
+from pathlib import Path
+
+import numpy as np
+import synthetic
+from folder_case import FolderCase
+
+from fsi_compare.base.errors import InputError
+from fsi_compare.runs.run_folder import read_run
+from fsi_compare.runs.samples import differences_of_tables, read_samples
+
+LINE = """time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms
+0.5,a,0,1,0,0,10,0.5
+0.5,a,2,1,0,2,20,
+0.5,centerline,0,0,0,0,1,2
+0.5,centerline,1,0,0,1,3,4
+1,a,0,1,0,0,30,0.25
+1,a,2,1,0,2,40,
+1,centerline,0,0,0,0,5,6
+1,centerline,1,0,0,1,7,8
+"""
+FLOW = "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms\n0.5,1,2\n1,3,4\n"
+
+
+class Samples(FolderCase):
+    def table(self, text=LINE, name="lines.csv"):
+        path = self.base / name
+        path.write_text(text)
+        return path
+
+    def test_lines_by_name(self):
+        lines = read_samples(self.table())
+        self.assertEqual(set(lines), {"a", "centerline"})
+        a = lines["a"]
+        np.testing.assert_array_equal(a.times, [0.5, 1])
+        np.testing.assert_array_equal(a.places["s_mm"], [0, 2])
+        np.testing.assert_array_equal(a.values["pressure_Pa"], [[10, 20], [30, 40]])
+        np.testing.assert_array_equal(a.values["velocity_x_mm_per_ms"], [[0.5, np.nan], [0.25, np.nan]])
+
+    def test_tables_without_names_are_one_sample(self):
+        flow = read_samples(self.table(FLOW, "flow.csv"))
+        np.testing.assert_array_equal(flow[""].values["inlet_flow_mm3_per_ms"], [[1], [3]])
+
+    def test_what_is_broken_is_named(self):
+        for text, said in (
+            (LINE[:-1], "is cut off"),
+            (LINE.split("\n")[0] + "\n", "no time level"),
+            (LINE.replace("1,a,2,1,0,2,40,\n", ""), "has not the same points at each time"),
+            (LINE.replace("1,a,2,1,0,2", "1,a,2,1,0,2.5"), "has not the same points at each time"),
+            (LINE.replace("10,0.5", "ten,0.5"), "line 2: pressure_Pa 'ten' is not a number"),
+            (LINE.replace("10,0.5", "inf,0.5"), "line 2: pressure_Pa is inf"),
+            (LINE.replace("10,0.5", "10"), "line 2: has 7 values instead of 8"),
+        ):
+            with self.assertRaises(InputError) as refused:
+                read_samples(self.table(text))
+            self.assertIn(said, str(refused.exception))
+
+    def test_differences_are_of_times_and_places_in_common(self):
+        for folder, text in (
+            ("one", LINE),
+            ("other", LINE.replace("1,centerline", "1.25,centerline").replace("30", "33")),
+        ):
+            (self.base / folder).mkdir()
+            (self.base / folder / "lines.csv").write_text(text)
+        found = differences_of_tables(self.base / "one", self.base / "other", ("lines.csv", "planes.csv"))
+        by = {(d.sample, d.column): d for d in found}
+        self.assertEqual((by["a", "pressure_Pa"].largest, by["a", "pressure_Pa"].size), (3, 40))
+        self.assertEqual(by["a", "velocity_x_mm_per_ms"].largest, 0)
+        self.assertEqual(by["centerline", "pressure_Pa"].levels, 1)
+
+    def finished(self, name, **tables):
+        folder = synthetic.write_run(self.base / name, synthetic.parabola(0.8))
+        (folder / "centerline_pressure.csv").unlink()
+        for table, text in tables.items():
+            (folder / f"{table}.csv").write_text(text)
+        return folder
+
+    def test_a_bent_tube_has_the_centre_line_that_was_found(self):
+        run = read_run(self.finished("bent", lines=LINE))
+        np.testing.assert_array_equal(run.pressure.z, [0, 1])
+        np.testing.assert_array_equal(run.pressure.pressure, [[1, 3], [5, 7]])
+
+    def test_of_branching_vessels_flows_and_samples_are_compared(self):
+        one = self.finished("one", flow=FLOW)
+        other = self.finished("other", flow=FLOW.replace("3,4", "3,4.5"), lines=LINE)
+        code, out, err = self.call("pressure", one, other, "-o", self.out)
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("outlet_flow_mm3_per_ms", out)
+        rows = {row["column"]: row for row in self.csv("sample_differences.csv")}
+        self.assertEqual(float(rows["outlet_flow_mm3_per_ms"]["largest_difference"]), 0.5)
+        self.assertEqual(float(rows["inlet_flow_mm3_per_ms"]["largest_difference"]), 0)
+
+    def test_nothing_in_common(self):
+        code, _, err = self.call(
+            "pressure", self.finished("one", flow=FLOW), self.finished("other", lines=LINE), "-o", self.out
+        )
+        self.assertEqual(code, 1)
+        self.assertIn("has no samples at times in common", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,114 @@
+// Tables of samples: their text, and what a restart believes of them.
+
+#include "io/sampled_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "io/earlier_tables.hpp"
+#include "io/result_folder.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+const SampledTable points{
+    points_file, "time_ms,point,x_mm,y_mm,pressure_Pa,velocity_x_mm_per_ms", {"a,0,1.5", "b,2,-1"}, {0, 1}};
+
+ResultTables tables(const SampledTable& sampled = points) {
+  ResultTables wanted{false, false, true};
+  wanted.sampled = {sampled};
+  return wanted;
+}
+
+class SampledTables : public FolderTest {
+ protected:
+  static constexpr int written = 3, step = 2;  // the checkpoint is of step 2
+
+  void SetUp() override {
+    FolderTest::SetUp();
+    ResultFolder results(folder_ / "run", tables());
+    for (int k = 1; k <= written; ++k) {
+      const double time = 0.1 * k;
+      results.write_iterations({k, time, 1, 3, 0, 0.5, 1e-4});
+      results.write_flow(time, {1.0 * k, 2, 3, 4});
+      results.write_sampled(points, time, {{100.0 * k, std::nullopt}, {-1e-3, 0.25 * k}});
+    }
+  }
+
+  EarlierTables read(const SampledTable& sampled = points) const {
+    return EarlierTables(folder_ / "run", tables(sampled), {step, 0.1 * step, step, {}, {}});
+  }
+  std::string refusal(const SampledTable& sampled = points) const {
+    try {
+      read(sampled);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  void replace(const std::string& from, const std::string& to) {
+    std::string text = contents_of(folder_ / "run" / points_file);
+    ASSERT_NE(text.find(from), std::string::npos);
+    write_text(folder_ / "run" / points_file, text.replace(text.find(from), from.size(), to));
+  }
+};
+
+TEST_F(SampledTables, EmptyCellsStandForWhatDoesNotExist) {
+  EXPECT_EQ(contents_of(folder_ / "run" / points_file),
+            points.header + "\n0.1,a,0,1.5,100,\n0.1,b,2,-1,-0.001,0.25\n0.2,a,0,1.5,200,\n0.2,b,2,-1,-0.001,0.5\n" +
+                "0.30000000000000004,a,0,1.5,300,\n0.30000000000000004,b,2,-1,-0.001,0.75\n");
+}
+
+TEST_F(SampledTables, ARestartTakesOverTheRowsUpToItsCheckpoint) {
+  const auto earlier = read();
+  const auto& last = earlier.last_level(points_file);
+  ASSERT_EQ(last.size(), 4u);
+  EXPECT_EQ(last[0], 200);
+  EXPECT_TRUE(std::isnan(last[1]));
+  EXPECT_EQ(last[3], 0.5);
+  { const ResultFolder again(folder_ / "again", tables(), earlier); }
+  EXPECT_EQ(contents_of(folder_ / "again" / points_file),
+            points.header + "\n0.1,a,0,1.5,100,\n0.1,b,2,-1,-0.001,0.25\n0.2,a,0,1.5,200,\n0.2,b,2,-1,-0.001,0.5\n");
+}
+
+TEST_F(SampledTables, OtherSamplesAreRefused) {
+  SampledTable other = points;
+  other.places[1] = "b,2,-1.5";
+  EXPECT_NE(refusal(other).find("is of 'b,2,-1', not of 'b,2,-1.5'"), std::string::npos) << refusal(other);
+  other = points;
+  other.places.push_back("c,0,0");
+  EXPECT_NE(refusal(other).find("rows are missing, doubled or out of order"), std::string::npos) << refusal(other);
+  other = points;
+  other.file = lines_file;
+  EXPECT_NE(refusal(other).find("the earlier run wrote none"), std::string::npos) << refusal(other);
+}
+
+TEST_F(SampledTables, DamagedRowsAreRefused) {
+  replace("0.2,b,2,-1,-0.001,0.5\n", "");
+  EXPECT_NE(refusal().find("line 5: is of the time 0.3"), std::string::npos) << refusal();
+}
+
+TEST_F(SampledTables, WordsForNumbersAreRefused) {
+  replace("200", "nan");
+  EXPECT_NE(refusal().find("line 4: holds a number that is not finite"), std::string::npos) << refusal();
+  replace("nan", "2x0");
+  EXPECT_NE(refusal().find("line 4: is no row of this table"), std::string::npos) << refusal();
+  replace(",2x0,", ",");
+  EXPECT_NE(refusal().find("line 4: is no row of this table"), std::string::npos) << refusal();
+}
+
+TEST_F(SampledTables, NumbersThatAreNotFiniteAreNotWritten) {
+  ResultFolder results(folder_ / "other", tables());
+  EXPECT_THROW(results.write_sampled(points, 0.1, {{1, 2}, {std::numeric_limits<double>::infinity(), std::nullopt}}),
+               ConvergenceError);
+  EXPECT_EQ(contents_of(folder_ / "other" / points_file), points.header + "\n");
+}
+
+}  // namespace
+
+}  // namespace fsi::test
