@@ -40,7 +40,9 @@ MISTAKES = (
     ("time.step=0", 1),
     ("output.fields=['colour']", 1),
 )
-FILES = re.compile(r"(fields(-\d{4,})?\.h5|fields\.xdmf|checkpoint\.h5|summary\.json|run\.log|[a-z_]+\.csv)")
+FILES = re.compile(
+    r"(fields(-\d{4,})?\.h5|(fields|fluid|wall)\.xdmf|checkpoint\.h5|summary\.json|run\.log|[a-z_]+\.csv)"
+)
 
 
 def options(parser):
