@@ -1,0 +1,159 @@
+"""The library: units from headers, tables of any kind, what is absent, and what is wrong with a folder."""
+
+import json
+import unittest
+
+import numpy as np
+from folder_case import FolderCase
+from synthetic import TIMES, Z, gaussian, write_run
+
+import fsi_compare
+from fsi_compare.results.table import read_table
+from fsi_compare.results.units import split_unit
+
+
+class Units(unittest.TestCase):
+    def test_units_of_headers(self):
+        for header, expected in {
+            "time_ms": ("time", "ms"),
+            "z_mm": ("z", "mm"),
+            "inlet_flow_mm3_per_ms": ("inlet_flow", "mm^3/ms"),
+            "flow_mm2_per_ms": ("flow", "mm^2/ms"),
+            "mean_pressure_Pa": ("mean_pressure", "Pa"),
+            "fluid_kinetic_energy_uJ": ("fluid_kinetic_energy", "uJ"),
+            "wall_s": ("wall", "s"),
+            "shear_rate_per_ms": ("shear_rate", "1/ms"),
+            "resistance_kPa_ms_per_mm3": ("resistance", "kPa ms/mm^3"),
+            "force_mN": ("force", "mN"),
+            "step": ("step", ""),
+            "solver_error": ("solver_error", ""),
+            "pass_per_step": ("pass_per_step", ""),
+            "ms": ("ms", ""),
+            "loads_mm_per": ("loads_mm_per", ""),
+        }.items():
+            self.assertEqual(split_unit(header), expected, header)
+
+
+class Tables(FolderCase):
+    def run_with(self, name, text, **summary):
+        folder = write_run(self.base / "run", gaussian(0.66), **summary)
+        (folder / name).write_text(text)
+        return fsi_compare.open_run(folder, unfinished="status" in summary)
+
+    def test_words_numbers_and_gaps(self):
+        run = self.run_with("probe.csv", "time_ms,where,force_mN,work_uJ\n1,a,0.5,\n2,b,-1e-3,7\n2,a,3,8\n")
+        table = run.table("probe")
+        self.assertEqual(list(table), ["time", "where", "force", "work"])
+        self.assertEqual([table.unit(name) for name in table], ["ms", "", "mN", "uJ"])
+        np.testing.assert_array_equal(table["time"], [1, 2, 2])
+        self.assertEqual(table["where"].tolist(), ["a", "b", "a"])
+        np.testing.assert_array_equal(table["force_mN"], [0.5, -1e-3, 3])
+        np.testing.assert_array_equal(table["work"], [np.nan, 7, 8])
+        np.testing.assert_array_equal(table.where(where="a")["force"], [0.5, 3])
+        self.assertEqual({name: part.rows for name, part in table.groups("where").items()}, {"a": 2, "b": 1})
+        self.assertEqual(table.label("force"), "force in mN")
+        self.assertNotIn("pressure", table)
+        self.assertIn("probe.csv", run.tables)
+
+    def test_names_that_differ_in_their_unit_only(self):
+        table = self.run_with("coupling.csv", "residual,residual_mm\n1,2\n").coupling
+        self.assertEqual(list(table), ["residual", "residual_mm"])
+        self.assertEqual((table["residual"][0], table["residual_mm"][0], table.unit("residual_mm")), (1, 2, "mm"))
+
+    def test_openings(self):
+        rows = "".join(
+            f"{t},{name},{q * t},{100 * q + t},{'' if name == 'a' else 5 * t}\n"
+            for t in (1, 2, 3)
+            for name, q in (("a", 2), ("b", -1))
+        )
+        header = "time_ms,opening,flow_mm3_per_ms,mean_pressure_Pa,windkessel_pressure_Pa\n"
+        openings = self.run_with("openings.csv", header + rows).openings
+        self.assertEqual(list(openings), ["a", "b"])
+        np.testing.assert_array_equal(openings["a"].flow, [2, 4, 6])
+        np.testing.assert_array_equal(openings["b"].mean_pressure, [-99, -98, -97])
+        self.assertIsNone(openings["a"].windkessel_pressure)
+        np.testing.assert_array_equal(openings["b"].windkessel_pressure, [5, 10, 15])
+
+    def test_wrong_tables(self):
+        for text, problem in (
+            ("", "is empty"),
+            ("a,a\n1,2\n", "line 1: column 'a' is there twice"),
+            ("a,\n1,2\n", "line 1: a column has no name"),
+            ("a,b\n1,2\n3\n", "line 3: has 1 values instead of 2"),
+            ("a,b\n1,2\n3,x\n", "line 3: b 'x' is not a number"),
+            ("a,b\n1,2\n3,4", "line 3: is cut off"),
+            ("a,b\n1,2\n3,1e200\n", "line 3: b 1e200 is too large"),
+            ("a,b\n1,2\n3,1_0\n", "line 3: b '1_0' is not a number"),
+        ):
+            with self.subTest(text):
+                (self.base / "probe.csv").write_text(text)
+                with self.assertRaisesRegex(fsi_compare.InputError, f"probe.csv: {problem}"):
+                    read_table(self.base / "probe.csv")
+
+    def test_run_that_goes_on(self):
+        run = self.run_with("probe.csv", "time_ms,a\n1,2\n2,", status="running")
+        np.testing.assert_array_equal(run.table("probe")["time"], [1])
+        self.assertEqual(run.status, "running")
+        with self.assertRaisesRegex(fsi_compare.InputError, "not finished"):
+            fsi_compare.open_run(run.folder)
+
+
+class Folders(FolderCase):
+    def test_what_is_absent(self):
+        run = fsi_compare.open_run(write_run(self.base / "run", gaussian(0.66)))
+        self.assertEqual((run.wall_line, run.energy, run.coupling), (None, None, None))
+        self.assertEqual((run.openings, run.fields), ({}, {}))
+        with self.assertRaisesRegex(fsi_compare.InputError, "has no table 'iterations.csv'; did you mean"):
+            run.time
+        with self.assertRaisesRegex(fsi_compare.InputError, "has no 'presure'; did you mean 'pressure'"):
+            run.centre_line["presure"]
+        with self.assertRaisesRegex(fsi_compare.InputError, "line centre line: 99 ms is outside the run"):
+            run.centre_line.at(99, "pressure")
+
+    def test_no_run(self):
+        with self.assertRaisesRegex(fsi_compare.InputError, "no such folder"):
+            fsi_compare.open_run(self.base / "none")
+        with self.assertRaisesRegex(fsi_compare.InputError, "no such folder"):
+            fsi_compare.open_run(self.base / "none", unfinished=True)
+        (self.base / "summary.json").write_text(json.dumps({"program": "other", "status": "running"}))
+        with self.assertRaisesRegex(fsi_compare.InputError, "program: is missing or unknown"):
+            fsi_compare.open_run(self.base, unfinished=True)
+
+    def test_line_with_other_points_at_a_time(self):
+        folder = write_run(self.base / "run", gaussian(0.66))
+        (folder / "centerline_pressure.csv").write_text("time_ms,z_mm,pressure_Pa\n1,0,1\n1,1,1\n2,0,1\n2,3,1\n")
+        with self.assertRaisesRegex(fsi_compare.InputError, "has not the same points at each time"):
+            fsi_compare.open_run(folder).centre_line
+
+
+class Comparison(FolderCase):
+    def lines(self, first, second):
+        one = write_run(self.base / "one", first)
+        two = write_run(self.base / "two", second)
+        return fsi_compare.open_run(one).centre_line, fsi_compare.open_run(two).centre_line
+
+    def test_norms(self):
+        """A wave against another one 10 % higher and one Pa: closed forms."""
+        reference, other = self.lines(lambda t, z: 0 * z + 2 * t, lambda t, z: 0 * z + 2.2 * t + 1)
+        found = fsi_compare.difference(other, reference, "pressure")
+        np.testing.assert_allclose(found.max_norm, 0.2 * TIMES + 1)
+        np.testing.assert_allclose(found.max_relative, (0.2 * TIMES + 1) / (2 * TIMES))
+        np.testing.assert_allclose(found.l2_norm, (0.2 * TIMES + 1) * np.sqrt(Z[-1]))
+        np.testing.assert_allclose(found.l2_relative, found.max_relative)
+        self.assertEqual((found.unit, found.largest.levels), ("Pa", len(TIMES)))
+        between = fsi_compare.difference(other, reference, "pressure", times=[1.3])
+        np.testing.assert_allclose(between.max_norm, 0.2 * 1.3 + 1)
+        with self.assertRaisesRegex(fsi_compare.InputError, "outside the run"):
+            fsi_compare.difference(other, reference, "pressure", times=[13])
+        with self.assertRaisesRegex(fsi_compare.InputError, "is not there"):
+            fsi_compare.difference(None, reference, "pressure")
+
+    def test_names_of_the_library(self):
+        for name in fsi_compare.__all__:
+            self.assertTrue((getattr(fsi_compare, name).__doc__ or "").strip(), name)
+        with self.assertRaises(AttributeError):
+            fsi_compare.no_such_name
+
+
+if __name__ == "__main__":
+    unittest.main()
