@@ -73,7 +73,11 @@ def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Pa
 
 
 def pressure_figure(
-    waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+    waves: Sequence[PressureWaves],
+    labels: Sequence[str],
+    times: Sequence[float],
+    title: str,
+    quantity: str = "pressure in Pa",
 ) -> Figure:
     """One panel per time, in reading order; the legend has its own strip below the panels."""
     columns = 1 if len(times) == 1 else 2 if len(times) <= 8 else 3
@@ -91,7 +95,7 @@ def pressure_figure(
         axes.set_xlim(min(wave.z[0] for wave in waves), max(wave.z[-1] for wave in waves))
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 3, 5, 10]))
         axes.set_xlabel("z in mm")
-        axes.set_ylabel("pressure in Pa")
+        axes.set_ylabel(quantity)
     _share_scales(grid, len(times))
 
     finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
