@@ -11,6 +11,7 @@ from ..results.line import Line
 from ..results.run import RunResults
 from .pictures import LINES
 
+OF_RUNS = ("centre_line", "wall_line")  # lines that are attributes of a run
 TITLES = {"flow": "flow outwards in mm^3/ms", "mean_pressure": "mean pressure in Pa"}
 
 
@@ -22,17 +23,18 @@ def plot_line(
     axes: Optional[Axes] = None,
 ) -> Axes:
     """A quantity along a line at one time in ms, a curve for each run that has the line: `line` is 'centre_line'
-    ('pressure') or 'wall_line' ('radial', 'axial'). Raises InputError when no run has it."""
+    ('pressure'), 'wall_line' ('radial', 'axial') or the name of a line of the case. Raises InputError when no run has it.
+    """
     axes = axes or _new()
     drawn = 0
     for run in runs:
-        found: Optional[Line] = getattr(run, line)
+        found: Optional[Line] = getattr(run, line) if line in OF_RUNS else run.lines.get(line)
         if found is not None:
-            axes.plot(found.z, found.at(time, quantity), label=run.label, **_style(drawn))
+            axes.plot(found.s, found.at(time, quantity), label=run.label, **_style(drawn))
             axes.set_ylabel(f"{quantity} in {found.units[quantity]}")
             drawn += 1
     _require(drawn, line)
-    axes.set_xlabel("z in mm")
+    axes.set_xlabel("z in mm" if line in OF_RUNS else f"mm along {line}")
     axes.set_title(f"t = {time:g} ms")
     axes.legend()
     return axes

@@ -46,12 +46,17 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     report.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
     report.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
     report.add_argument("--title", help="heading of the report (default: the runs' title)")
+    report.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; a report is quick on one thread"
+    )
     report.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     report.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
 
 def report(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     if len(options.folders) > MOST_RUNS:
         raise InputError("", "DIR", f"{len(options.folders)} runs do not fit a report", f"give at most {MOST_RUNS}")
     times = read_times(options.times) if options.times is not None else []
@@ -82,12 +87,12 @@ def report(options: argparse.Namespace) -> int:
 
 def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:
     """There is something to show, and all lines reach the times asked for."""
-    if not any(run.centre_line or run.wall_line or run.openings for run in runs):
+    if not any(run.has_samples for run in runs):
         raise InputError(
             runs[0].folder, "", "has neither lines nor openings", "ask for them in the case, and run it again"
         )
     for run in runs:
-        for line in (run.centre_line, run.wall_line):
+        for line in (run.centre_line, run.wall_line, *run.lines.values()):
             for time in times:
                 if line is not None:
                     line.at(time, next(iter(line.values)))
@@ -159,7 +164,7 @@ def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Tabl
 
 def _difference(line: "Line | None", reference: "Line | None", quantity: str) -> List[Any]:
     """[maximum, L2, levels], or nothing where the lines cannot be compared."""
-    if line is None or reference is None or not line.waves(quantity).covers_line(reference.z):
+    if line is None or reference is None or not line.waves(quantity).covers_line(reference.s):
         return []
     largest = difference(line, reference, quantity, times=[]).largest
     found = largest.largest

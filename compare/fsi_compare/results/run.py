@@ -13,7 +13,7 @@ from ..base.suggestions import nearest
 from ..runs.run_folder import read_finished
 from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
-from .line import Line, line_of
+from .line import Line, line_of, lines_of
 from .openings import Opening, inlet_and_outlet, openings_of
 from .table import Table, read_table
 
@@ -108,6 +108,31 @@ class RunResults:
         return None if table is None else line_of("wall", table)
 
     @cached_property
+    def lines(self) -> Dict[str, Line]:
+        """Lines that the case asks for, by name; empty for none."""
+        table = self._optional("lines.csv")
+        return {} if table is None else lines_of(table)
+
+    @cached_property
+    def points(self) -> Dict[str, Table]:
+        """Points that the case asks for, by name: a row for each time. Empty for none."""
+        return self._named("points.csv", "point")
+
+    @cached_property
+    def planes(self) -> Dict[str, Table]:
+        """Planes that the case asks for, by name: flow, mean pressure and area, a row for each time. Empty for none."""
+        return self._named("planes.csv", "plane")
+
+    @cached_property
+    def surfaces(self) -> Dict[str, Table]:
+        """Forces on the surfaces that the case asks for, by name: a row for each time. Empty for none."""
+        return self._named("surfaces.csv", "surface")
+
+    def _named(self, file: str, column: str) -> Dict[str, Table]:
+        table = self._optional(file)
+        return {} if table is None else table.groups(column)
+
+    @cached_property
     def openings(self) -> Dict[str, Opening]:
         """By name; empty for a run without fluid."""
         table = self._optional("openings.csv")
@@ -115,6 +140,14 @@ class RunResults:
             return openings_of(table)
         flow = self._optional("flow.csv")
         return {} if flow is None else inlet_and_outlet(flow)
+
+    @property
+    def has_samples(self) -> bool:
+        """Whether there is any line, opening, plane or point."""
+        lines = (self.centre_line, self.wall_line)
+        return any(line is not None for line in lines) or bool(
+            self.lines or self.openings or self.planes or self.points
+        )
 
     @cached_property
     def fields(self) -> Dict[str, MediumFields]:

@@ -8,6 +8,7 @@ from folder_case import FolderCase
 from synthetic import TIMES, Z, gaussian, write_run
 
 import fsi_compare
+from fsi_compare.reporting.run_player import panels
 from fsi_compare.results.table import read_table
 from fsi_compare.results.units import split_unit
 
@@ -73,6 +74,35 @@ class Tables(FolderCase):
         np.testing.assert_array_equal(openings["b"].mean_pressure, [-99, -98, -97])
         self.assertIsNone(openings["a"].windkessel_pressure)
         np.testing.assert_array_equal(openings["b"].windkessel_pressure, [5, 10, 15])
+
+    def test_samples(self):
+        """Two lines, one of two points and one of three, and a plane, at two times."""
+        points = {"a": [(0, 0, 0), (0, 0, 2)], "bent one": [(0, 0, 0), (3, 0, 4), (3, 5, 4)]}
+        lines = "time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms,velocity_y_mm_per_ms,velocity_z_mm_per_ms\n"
+        for t in (1, 2):
+            for name, at in points.items():
+                lines += "".join(
+                    f"{t},{name},{5 * i},{x},{y},{z},{10 * t + i},{3 * t},,{4 * t}\n" for i, (x, y, z) in enumerate(at)
+                )
+        run = self.run_with("lines.csv", lines.replace(",,", ",0,"))
+        (run.folder / "planes.csv").write_text(
+            "time_ms,plane,flow_mm3_per_ms,pressure_Pa,area_mm2\n1,p,2,3,4\n2,p,5,6,7\n"
+        )
+        self.assertEqual(list(run.lines), ["a", "bent one"])
+        bent = run.lines["bent one"]
+        np.testing.assert_array_equal(bent.s, [0, 5, 10])
+        np.testing.assert_array_equal(bent.points, points["bent one"])
+        np.testing.assert_array_equal(bent["pressure"], [[10, 11, 12], [20, 21, 22]])
+        np.testing.assert_array_equal(bent.at(1.5, "pressure"), [15, 16, 17])
+        self.assertEqual(
+            (list(bent.values)[0], bent.vectors, bent.units["velocity_x"]), ("pressure", ["velocity"], "mm/ms")
+        )
+        np.testing.assert_allclose(bent.magnitude("velocity"), [[5, 5, 5], [10, 10, 10]])
+        np.testing.assert_array_equal(run.planes["p"]["flow"], [2, 5])
+        self.assertEqual((run.points, run.surfaces), ({}, {}))
+        headings = {panel.title: panel.y for panel in panels([run]) if panel.lines or panel.series}
+        self.assertEqual(headings["Velocity along the line bent one"], ("velocity", "mm/ms"))
+        self.assertEqual(headings["Flow: plane p"], ("flow", "mm^3/ms"))
 
     def test_wrong_tables(self):
         for text, problem in (

@@ -300,6 +300,7 @@ class Command(FolderCase):
             ([self.base / "none"], "no such folder"),
             ([folder, "--times", "1,9"], "9 ms is outside the run; give a time between 0.25 and 5 ms"),
             ([folder] * 25, "25 runs do not fit a report; give at most 24"),
+            ([folder, "--threads", "0"], "--threads: 0 is not positive"),
             ([folder, "--labels", "a,b"], "--labels: 2 labels for 1 runs"),
         ):
             code, out, err = self.call("report", *arguments, "-o", self.out)
@@ -313,7 +314,7 @@ class Command(FolderCase):
         self.assertEqual((code, err), (0, ""))
         names = {Path(name).name for name in out.removeprefix("Written: ").strip().split(", ")}
         self.assertEqual(names | {"report.md"}, {path.name for path in self.out.iterdir()})
-        self.assertIn("centre_line_pressure.svg", names)
+        self.assertIn("pressure_along_the_centre_line.svg", names)
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ class Page(FolderTest):
             "import fsi_compare, numpy, sys\n"
             "run = fsi_compare.open_run('monolithic')\n"
             "o = run.openings\n"
-            "numpy.savez('found.npz', time=run.time, pressure=run.centre_line['pressure'], z=run.centre_line.z,\n"
+            "numpy.savez('found.npz', time=run.time, pressure=run.centre_line['pressure'], s=run.centre_line.s,\n"
             "  radial=run.wall_line['radial'], inlet=o['inlet'].flow, outlet=o['outlet'].flow,\n"
             "  mean=o['inlet'].mean_pressure, velocity=run.fields['fluid'].at(1.0, 'velocity'),\n"
             "  between=run.fields['fluid'].at(0.875, 'velocity'), layers=run.fields['wall'].layers,\n"
@@ -69,7 +69,7 @@ class Page(FolderTest):
             for name, expected in {
                 "time": table(folder, "iterations.csv")[:, 1],
                 "pressure": pressure[:, 2].reshape(8, -1),
-                "z": pressure[:181, 1],
+                "s": pressure[:181, 1],
                 "radial": wall[:, 2].reshape(8, -1),
                 "inlet": -flow[:, 1],  # outwards
                 "outlet": flow[:, 2],
