@@ -60,11 +60,9 @@ def command(harness, program, folder, mesh, *settings):
 
 def unreadable(folder):
     """What is wrong with the fields of a run that may have been killed: the list is whole, and so is what it lists."""
-    list_file = folder / "fields.xdmf"
-    if not list_file.exists():
-        return ""
+    lists = [folder / f"{name}.xdmf" for name in ("fields", "fluid", "wall")]
     try:
-        media = temporal_lists(list_file)
+        media = [entries for file in lists if file.exists() for entries in temporal_lists(file)]
         for grids in media:
             for grid in grids[-1:]:
                 for item in grid.iter("DataItem"):

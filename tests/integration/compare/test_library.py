@@ -3,6 +3,7 @@
 import json
 import unittest
 
+import h5py
 import numpy as np
 from folder_case import FolderCase
 from synthetic import TIMES, Z, gaussian, write_run
@@ -154,6 +155,54 @@ class Folders(FolderCase):
         (folder / "centerline_pressure.csv").write_text("time_ms,z_mm,pressure_Pa\n1,0,1\n1,1,1\n2,0,1\n2,3,1\n")
         with self.assertRaisesRegex(fsi_compare.InputError, "has not the same points at each time"):
             fsi_compare.open_run(folder).centre_line
+
+
+class Fields(FolderCase):
+    """Two files of entries, with a scalar of nodes, a vector of cells and a symmetric tensor of nodes."""
+
+    POINTS, CELLS = np.arange(15.0).reshape(5, 3), np.array([[0, 1, 2, 3], [1, 2, 3, 4]], dtype=np.int32)
+    SHAPES = {"pressure": (5,), "traction": (2, 3), "rate": (5, 6)}
+
+    def write(self, path, entries):
+        """`entries`: (number, time, whether it is finished)."""
+        with h5py.File(path, "w") as h5:
+            h5["steps/number"] = np.array([number for number, _, _ in entries])
+            h5["steps/time"] = np.array([time for _, time, _ in entries])
+            h5["fluid/points"], h5["fluid/cells"] = self.POINTS, self.CELLS
+            for name, shape in self.SHAPES.items():
+                for number, time, _ in entries:
+                    h5[f"fluid/{name}/{number:08d}"] = np.arange(np.prod(shape)).reshape(shape) + 100 * time
+                h5[f"fluid/{name}"].attrs["unit"] = np.bytes_("kPa" if name != "rate" else "1/ms")
+                h5[f"steps/written/fluid.{name}"] = np.array([done for _, _, done in entries], dtype=np.uint8)
+
+    def test_entries_of_all_files(self):
+        folder = write_run(self.base / "run", gaussian(0.66))
+        self.write(folder / "fields.h5", [(0, 0.0, 1), (4, 0.5, 1), (8, 1.0, 1)])
+        self.write(folder / "fields-0002.h5", [(8, 1.0, 1), (12, 2.0, 1), (16, 3.0, 0)])
+        fields = fsi_compare.open_run(folder).fields
+        self.assertEqual(list(fields), ["fluid"])
+        fluid = fields["fluid"]
+        self.assertEqual((fluid.names, fluid.units["rate"]), (["pressure", "rate", "traction"], "1/ms"))
+        np.testing.assert_array_equal(fluid.times, [0, 0.5, 1, 2])
+        np.testing.assert_array_equal(fluid.points, self.POINTS)
+        np.testing.assert_array_equal(fluid.cells, self.CELLS)
+        self.assertIsNone(fluid.layers)
+        for name, shape in self.SHAPES.items():
+            for time in (0, 0.5, 1, 1.25, 2):  # linear in time
+                expected = np.arange(np.prod(shape)).reshape(shape) + 100 * time
+                np.testing.assert_allclose(fluid.at(time, name), expected, rtol=1e-14)
+        for wrong, problem in (
+            (lambda: fluid.at(2.5, "rate"), "2.5 ms is outside what was written; give a time between 0 and 2 ms"),
+            (lambda: fluid.at(1, "presure"), "has no field 'presure'; did you mean 'pressure'"),
+        ):
+            with self.assertRaisesRegex(fsi_compare.InputError, problem):
+                wrong()
+
+    def test_damaged_file(self):
+        folder = write_run(self.base / "run", gaussian(0.66))
+        (folder / "fields.h5").write_bytes(b"no HDF5")
+        with self.assertRaisesRegex(fsi_compare.InputError, "fields.h5: cannot be read"):
+            fsi_compare.open_run(folder).fields
 
 
 class Comparison(FolderCase):

@@ -2,11 +2,26 @@
 
 import json
 import os
+import subprocess
+import time
 import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import ARTERY, DRIVERS, MONOLITHIC, FolderTest, arrays, execute, make_small_mesh, restart, run, summary
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    driver_command,
+    execute,
+    make_small_mesh,
+    restart,
+    run,
+    summary,
+    times,
+)
 from scenes import KINDS, forms, scene
 
 READER = Path(__file__).with_name("read_fields.py")
@@ -21,9 +36,9 @@ def shown_by_paraview(folder):
     return json.loads(process.stdout)
 
 
-def shown_by_meshio(folder):
+def shown_by_meshio(folder, *options):
     """{medium: {times, cells, points, fields}} once all is found equal to the HDF5 files."""
-    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", "-B", MESHIO_READER, folder)
+    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", "-B", MESHIO_READER, folder, *options)
     if process.returncode != 0:
         raise AssertionError(process.stderr)
     return json.loads(process.stdout)
@@ -83,6 +98,27 @@ class Fields(FolderTest):
         restart(MONOLITHIC, ARTERY, folder, *settings, f"time.end={8 * STEP}")
         for series in shown_by_meshio(folder).values():
             self.assertEqual(series["times"], [0, 2 * STEP, 4 * STEP, 6 * STEP, 8 * STEP])
+
+    def test_series_of_a_killed_run(self):
+        settings = (f"mesh.file={self.base / 'small.msh'}", "output.every=1", "time.end=1000")
+        folder = self.base / "killed"
+        process = subprocess.Popen(driver_command(MONOLITHIC, ARTERY, "-q", folder=folder, settings=settings))
+        try:
+            self.wait_for(lambda: (folder / "checkpoint.h5").exists() and len(times(folder)) > 5)
+        finally:
+            process.kill()
+            process.wait()
+        found = shown_by_meshio(folder, "--killed")
+        self.assertEqual(sorted(found), ["fluid", "wall"])
+        for series in found.values():
+            self.assertGreater(len(series["times"]), 4)
+            np.testing.assert_array_equal(series["times"], STEP * np.arange(len(series["times"])))
+
+    def wait_for(self, ready, patience=60):
+        end = time.monotonic() + patience
+        while not ready():
+            self.assertLess(time.monotonic(), end, "the run does not get on")
+            time.sleep(0.02)
 
     def test_last_values_are_those_of_the_checkpoint(self):
         for folder, shown in self.each():
