@@ -90,7 +90,8 @@ class Report:
         self.image(png, caption)
 
     def player(self, player: playing.Player) -> None:
-        """What a reader with JavaScript can move through; pictures of the same must stand beside it."""
+        """What a reader with JavaScript can move through. It does not print: pictures of the same belong beside it, or word of
+        how to get them."""
         self._body.append(player.html())
         self._plays = True
 

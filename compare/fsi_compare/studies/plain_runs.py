@@ -1,6 +1,8 @@
-"""The plain kind: a table of all runs with how they ended and what they took, and the runs through time."""
+"""The plain kind: a table of all runs with how they ended and what they took; where there is JavaScript, the runs through
+time."""
 
-from ..reporting.run_player import add_waves
+from ..reporting.player import Player
+from ..reporting.run_player import panels
 from ..results.run import RunResults
 from .evidence.runs_table import runs_table
 from .running.context import Context
@@ -22,6 +24,7 @@ def evaluate(context: Context) -> None:
     if not shown:
         return
     context.report.section("Through time")
-    if len(done) > MOST_RUNS:
-        context.report.text(f"The first {MOST_RUNS} of {len(done)} runs; `fsi-compare report` shows others.")
-    add_waves(context.report, [results for _, results in shown], [run.request.label for run, _ in shown])
+    some = f"The first {MOST_RUNS} of {len(done)} runs. " if len(done) > MOST_RUNS else ""
+    context.report.text(f"{some}Needs JavaScript; `fsi-compare report` makes pictures for print of any runs.")
+    labels = [run.request.label for run, _ in shown]
+    context.report.player(Player(labels, panels([results for _, results in shown])))
