@@ -22,7 +22,11 @@ MOVING = (
     ("wall_line", "radial", "radial displacement", "Radial displacement of the inner wall"),
     ("wall_line", "axial", "axial displacement", "Axial displacement of the inner wall"),
 )
-OF_OPENINGS = (("flow", "flow outwards", "mm^3/ms"), ("mean_pressure", "mean pressure", "Pa"))
+OF_OPENINGS = (
+    ("flow", "flow outwards", "mm^3/ms"),
+    ("mean_pressure", "mean pressure", "Pa"),
+    ("windkessel_pressure", "Windkessel pressure", "Pa"),
+)
 OF_PLACES = {"planes": ("flow", "pressure"), "points": ("pressure",)}  # columns of their tables that are shown
 MOST_PANELS = 8  # over time, in one picture
 PICTURES = 6  # times in a picture, where none are asked for
@@ -69,11 +73,13 @@ def panels(runs: Sequence[RunResults]) -> List[Panel]:
         found += line_panels(runs, name)
     for name in names_of(runs, "openings"):
         for attribute, words, unit in OF_OPENINGS:
-            panel = Panel(f"{words.capitalize()}: {name}", ("time", "ms"), (words, unit))
+            panel = Panel(f"{words[0].upper()}{words[1:]}: {name}", ("time", "ms"), (words, unit))
             for place, run in enumerate(runs):
                 if name in run.openings:
                     opening = run.openings[name]
-                    panel.series.append(Series(place, opening.time, getattr(opening, attribute)))
+                    values = getattr(opening, attribute)
+                    if values is not None:
+                        panel.series.append(Series(place, opening.time, values))
             found.append(panel)
     for kind, columns in OF_PLACES.items():
         for name in names_of(runs, kind):

@@ -16,15 +16,15 @@ class Opening:
     time: np.ndarray  #: ms, (levels,)
     flow: np.ndarray  #: mm^3/ms, positive outwards, (levels,)
     mean_pressure: np.ndarray  #: Pa, (levels,)
-    windkessel_pressure: Optional[np.ndarray]  #: Pa, of its Windkessel, (levels,); None: it has none
+    windkessel_pressure: Optional[np.ndarray]  #: Pa, stored, or behind a resistance, (levels,); None: neither
 
 
 def openings_of(table: Table) -> Dict[str, Opening]:
-    """From `openings.csv`, a row for each time and opening."""
+    """From `openings.csv`, a row for each time and opening; a column of zeros is written for what stores no pressure."""
     found = {}
     for name, rows in table.groups("opening").items():
         pressure = rows["windkessel_pressure"] if "windkessel_pressure" in rows else np.array([])
-        none = pressure.dtype.kind != "f" or not np.any(np.isfinite(pressure))
+        none = not np.any(np.isfinite(pressure) & (pressure != 0))
         found[name] = Opening(name, rows["time"], rows["flow"], rows["mean_pressure"], None if none else pressure)
     return found
 

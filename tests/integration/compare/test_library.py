@@ -64,7 +64,7 @@ class Tables(FolderCase):
 
     def test_openings(self):
         rows = "".join(
-            f"{t},{name},{q * t},{100 * q + t},{'' if name == 'a' else 5 * t}\n"
+            f"{t},{name},{q * t},{100 * q + t},{0 if name == 'a' else 5 * t}\n"
             for t in (1, 2, 3)
             for name, q in (("a", 2), ("b", -1))
         )

@@ -263,7 +263,7 @@ class InABrowser(FolderCase):
         self.assertTrue(all(height > 100 for height in self.visible("figure img")))
         self.browser.open(self.page)
         self.assertGreater(self.visible(".player")[0], 500)
-        self.assertEqual(len(self.visible(".panel")), 7)
+        self.assertEqual(len(self.visible(".panel")), 9)
 
     def test_print(self):
         self.browser.open(self.page)
