@@ -1,12 +1,25 @@
 """docs/python.md runs as it stands: its pieces of code are one session on runs of both drivers, and print what it says."""
 
+import json
 import os
 import re
 import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import CASES, DRIVERS, MONOLITHIC, NEO_HOOKEAN, FolderTest, arrays, execute, make_small_mesh, run, table
+from programs import (
+    CASES,
+    DRIVERS,
+    MONOLITHIC,
+    NEO_HOOKEAN,
+    FolderTest,
+    arrays,
+    execute,
+    make_mesh,
+    make_small_mesh,
+    run,
+    table,
+)
 
 ROOT = CASES.parent.parent
 PYTHON = Path(MONOLITHIC).parent / "fsi-python"
@@ -48,6 +61,27 @@ class Page(FolderTest):
             ).stdout
             for option in re.findall(r"(?<= )--?[a-z]+", command):
                 self.assertIn(option, shown, command)
+
+    def test_openings_by_name(self):
+        """A Windkessel behind the outlet: openings.csv and flow.csv say the same flows, outwards and along the tube."""
+        case = ROOT / "tests" / "integration" / "openings" / "openings.toml"
+        mesh = make_mesh(self.base / "section.msh", "--axisymmetric", "--level", "coarse", "--length", 6)
+        folder = run(MONOLITHIC, case, self.base / "openings", f"mesh.file={mesh}", "time.end=0.5")
+        process = self.python(
+            "import fsi_compare, json\n"
+            "o = fsi_compare.open_run('openings').openings\n"
+            "print(json.dumps({n: [p.time.tolist(), p.flow.tolist(), p.mean_pressure.tolist(),\n"
+            "  None if p.windkessel_pressure is None else p.windkessel_pressure.tolist()] for n, p in o.items()}))\n"
+        )
+        self.assertEqual(process.returncode, 0, process.stderr)
+        found, flow = json.loads(process.stdout), table(folder, "flow.csv")
+        self.assertEqual(sorted(found), ["inlet", "outlet"])
+        for name, sign, column in (("inlet", -1, 1), ("outlet", 1, 2)):
+            np.testing.assert_array_equal(found[name][0], flow[:, 0])
+            np.testing.assert_allclose(found[name][1], sign * flow[:, column], rtol=1e-12)
+            np.testing.assert_allclose(found[name][2], flow[:, column + 2], rtol=1e-9)
+        self.assertIsNone(found["inlet"][3])
+        self.assertTrue(all(0 < p < 100 for p in found["outlet"][3]))  # it empties from 0.1 kPa
 
     def test_values_are_those_of_the_files(self):
         script = (
