@@ -2,6 +2,7 @@
 # tree can be moved.
 #   bin/                   the programs
 #   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery
+#   lib/python3/dist-packages/   fsi-duo.pth, which puts that Python on the path of Debian's
 #   share/doc/fsi-duo/     README, docs, licence
 #   include/fsi-duo/       headers, in the folders of the sources
 #   lib/                   libraries, and lib/cmake/fsi-duo for find_package(fsi-duo)
@@ -21,8 +22,15 @@ install(TARGETS fsi-mesh fsi-monolithic fsi-partitioned
 # fsi-compare: compare/ and meshes/ lie beside each other as in the sources, where it looks for cases and studies.
 file(RELATIVE_PATH FSI_COMPARE_PACKAGE_DIR
   ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/fsi-duo/compare)
-configure_file(compare/fsi-compare.in ${PROJECT_BINARY_DIR}/installed/fsi-compare @ONLY)
-install(PROGRAMS ${PROJECT_BINARY_DIR}/installed/fsi-compare DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+foreach(_program fsi-compare fsi-python)
+  configure_file(compare/${_program}.in ${PROJECT_BINARY_DIR}/installed/${_program} @ONLY)
+  install(PROGRAMS ${PROJECT_BINARY_DIR}/installed/${_program} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+endforeach()
+# `import fsi_compare` without fsi-python: below /usr, Debian's Python reads this file by itself.
+set(_python lib/python3/dist-packages)
+file(RELATIVE_PATH _package ${CMAKE_INSTALL_PREFIX}/${_python} ${CMAKE_INSTALL_FULL_DATADIR}/fsi-duo/compare)
+file(WRITE ${PROJECT_BINARY_DIR}/installed/fsi-duo.pth "${_package}\n")
+install(FILES ${PROJECT_BINARY_DIR}/installed/fsi-duo.pth DESTINATION ${_python} COMPONENT programs)
 install(DIRECTORY compare/fsi_compare compare/studies DESTINATION ${_data}/compare COMPONENT programs
   PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY meshes/artery DESTINATION ${_data}/meshes COMPONENT programs FILES_MATCHING PATTERN "*.toml")

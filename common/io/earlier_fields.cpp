@@ -64,16 +64,16 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
       if (dot == std::string::npos) refuse(file, "/steps/written/" + name, "is unknown");
       const std::string grid = name.substr(0, dot), points = "/" + grid + "/points";
       if (!h5.has(points)) refuse(file, points, "missing");
-      const auto nodes = h5.shape(points).at(0);
+      const auto nodes = h5.shape(points).at(0), cells = h5.shape("/" + grid + "/cells").at(0);
       for (std::size_t i = 0; i < flags.size(); ++i) {
         if (flags[i] == 0) continue;
         written[i] = true;
         const auto dataset = fmt::format("/{}/{}/{:08}", grid, name.substr(dot + 1), numbers[i]);
         if (!h5.has(dataset)) refuse(file, dataset, "missing, though marked as written");
         const auto shape = h5.shape(dataset);
-        if (shape.empty() || shape.size() > 2 || shape[0] != nodes ||
+        if (shape.empty() || shape.size() > 2 || (shape[0] != nodes && shape[0] != cells) ||
             (shape.size() == 2 && shape[1] != 3 && shape[1] != 6))
-          refuse(file, dataset, "has another shape than the grid's points");
+          refuse(file, dataset, "has another shape than the grid's points and cells");
       }
     }
     for (std::size_t i = 0; i < times.size(); ++i) {

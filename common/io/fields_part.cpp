@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 // Layout, all datasets contiguous:
 //   /GRID/points (N, 3) double, mm      /GRID/cells (M, 3, 4, 6 or 10) int32      /GRID/layer (M) int32
-//   /GRID/FIELD/STEP (N) or (N, 3) double, STEP with eight digits; attribute `unit` on /GRID/FIELD
+//   /GRID/FIELD/STEP (N), (N, 3) or (N, 6) double, M instead of N for a field of cells; STEP with eight digits;
+//   attribute `unit` on /GRID/FIELD
 //   /steps/number (S) int64   /steps/time (S) double, ms
 //   /steps/written/GRID.FIELD (S) uint8: 1 once the values of that step are on disk
 
@@ -123,7 +124,7 @@ void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids,
     if (!grid.layer.empty()) file.write_new<std::int32_t>(prefix + "/layer", {grid.layer.size()}, grid.layer.data());
     for (std::size_t f = 0; f < grid.fields.size(); ++f) {
       const FieldDescription& field = grid.fields[f];
-      std::vector<std::uint64_t> shape{n};
+      std::vector<std::uint64_t> shape{places_of(grid, field)};
       if (field.components > 1) shape.push_back(static_cast<std::uint64_t>(field.components));
       for (const auto& entry : entries)
         file.create_dataset<double>(field_dataset(grid.name, field.name, entry.step), shape);
@@ -150,7 +151,8 @@ void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids,
         if (sources[i].fields[g][f] == 0) continue;
         const auto dataset = field_dataset(grids[g].name, grids[g].fields[f].name, entries[i].step);
         const auto values = old->read<double>(dataset);
-        if (values.size() != grids[g].points.size() * static_cast<std::size_t>(grids[g].fields[f].components))
+        const FieldDescription& field = grids[g].fields[f];
+        if (values.size() != places_of(grids[g], field) * static_cast<std::size_t>(field.components))
           throw InputError(sources[i].file.string(), dataset, "has another number of values than the grid asks for",
                            "the file is damaged; run from the start, or restart without fields: "
                            "--set output.every=0");

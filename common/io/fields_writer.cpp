@@ -77,16 +77,16 @@ struct FieldsWriter::Implementation {
   FieldPlan plan;
   std::vector<FieldStep> kept;  ///< of an earlier run; then comes the plan from its entry first_planned on
   std::int64_t first_planned = 0;
-  XdmfDocument document;
-  std::int64_t parts = 0;  ///< on disk
+  std::vector<XdmfDocument> documents;  ///< of all media, then of each
+  std::int64_t parts = 0;               ///< on disk
   std::int64_t open_part = -1;
   std::optional<FieldsPart> part;
 
   Implementation(fs::path folder_, std::vector<FieldGrid> grids_, FieldPlan plan_)
-      : folder(std::move(folder_)),
-        grids(std::move(grids_)),
-        plan(std::move(plan_)),
-        document(folder / "fields.xdmf", grids) {
+      : folder(std::move(folder_)), grids(std::move(grids_)), plan(std::move(plan_)) {
+    documents.emplace_back(folder / "fields.xdmf", grids);
+    for (std::size_t medium = 0; medium < grids.size(); ++medium)
+      documents.emplace_back(folder / (grids[medium].name + ".xdmf"), grids, medium);
     assert(std::all_of(grids.begin(), grids.end(), is_sound));
   }
 
@@ -121,11 +121,16 @@ struct FieldsWriter::Implementation {
     FieldsPart::prepare(file_of(number), grids, steps, sources);
   }
 
+  /// Makes the documents with the first `count` entries.
+  void list(std::int64_t count, const std::function<ListedEntry(std::int64_t)>& entry_of) {
+    for (auto& document : documents) document.replace(count, entry_of, total());
+  }
+
   void create() {
     prepare(0, {});
     replace_by_temporary(file_of(0));
     parts = 1;
-    document.replace(0, nullptr, total());
+    list(0, nullptr);
   }
 
   void continue_from(const fs::path& from, double until) {
@@ -138,7 +143,7 @@ struct FieldsWriter::Implementation {
     std::error_code error;
     const bool in_place = fs::exists(folder, error) && fs::equivalent(from, folder, error);
     // A list that is here already must not hold, in between, entries that their file has lost.
-    if (in_place) document.replace(old.whole * FieldsPart::capacity, listed, total());
+    if (in_place) list(old.whole * FieldsPart::capacity, listed);
     if (!in_place)
       for (std::int64_t number = 0; number < old.whole; ++number) {
         fs::copy_file(from / FieldsPart::name(number), temporary_name(file_of(number)),
@@ -151,7 +156,7 @@ struct FieldsWriter::Implementation {
       }
     move_entries(old);
     remove_others();
-    document.replace(kept_count(), listed, total());
+    list(kept_count(), listed);
   }
 
   /// Removes what an earlier run has left behind the last part.
@@ -206,7 +211,7 @@ struct FieldsWriter::Implementation {
       auto& of_grid = arrays.emplace_back();
       for (const auto& field : grid.fields) {
         const auto& data = values.at({grid.name, field.name});
-        if (data.size() != grid.points.size() * static_cast<std::size_t>(field.components))
+        if (data.size() != places_of(grid, field) * static_cast<std::size_t>(field.components))
           throw std::logic_error(grid.name + "." + field.name + " has the wrong number of values");
         of_grid.push_back(&data);
       }
@@ -215,7 +220,9 @@ struct FieldsWriter::Implementation {
     FieldsPart& file = opened(number);
     const bool listed = any(file.fields_of(place));
     file.write(place, arrays);
-    if (!listed) document.add({{entry(i), file.fields_of(place)}, FieldsPart::name(number)});
+    if (listed) return;
+    const ListedEntry finished{{entry(i), file.fields_of(place)}, FieldsPart::name(number)};
+    for (auto& document : documents) document.add(finished);
   }
 };
 

@@ -12,8 +12,8 @@
 namespace fsi {
 
 /// Writes the fields of a run: fields.h5, which is followed by fields-0002.h5 and so on where there are more than 256
-/// entries (io/fields_part.hpp), and fields.xdmf (opens in ParaView), which lists the finished entries of all of them
-/// (io/xdmf.hpp). They can be read after a kill at any moment. Neither the start nor an entry costs more when many are
+/// entries (io/fields_part.hpp), and the time series fields.xdmf, fluid.xdmf and wall.xdmf, which list the finished
+/// entries of all of them (io/xdmf.hpp). They can be read after a kill at any moment. Neither the start nor an entry costs more when many are
 /// planned or have been written; but the list is written anew whenever it has doubled.
 class FieldsWriter {
  public:

@@ -26,8 +26,8 @@ namespace {
 /// Everything a run leaves in its folder; a folder with nothing else may be emptied for a new run.
 const std::vector<std::string>& result_files() {
   static const std::vector<std::string> files = [] {
-    std::vector<std::string> names{"summary.json",  "fields.h5",    "fields.xdmf",
-                                   "checkpoint.h5", "prestress.h5", "run.log"};
+    std::vector<std::string> names{"summary.json", "fields.h5",     "fields.xdmf",  "fluid.xdmf",
+                                   "wall.xdmf",    "checkpoint.h5", "prestress.h5", "run.log"};
     for (const ResultTable& table : tables_of({true, true, true, true, EnergyParts(), {"any"}, {"any"}}))
       names.push_back(table.file);
     names.insert(names.end(), {points_file, lines_file, planes_file});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -27,6 +28,12 @@ const char* topology_of(int nodes_per_cell) {
     default:
       return "Tetrahedron_10";
   }
+}
+
+/// XDMF's name of a field with so many components.
+const char* attribute_of(int components) {
+  assert(components == 1 || components == 3 || components == 6);
+  return components == 1 ? "Scalar" : components == 3 ? "Vector" : "Tensor6";
 }
 
 std::string escaped(const std::string& text) {
@@ -54,11 +61,12 @@ std::string data_item(const std::string& dimensions, bool is_real, const std::st
 
 constexpr const char* document_head =
     "<?xml version=\"1.0\"?>\n"
-    "<Xdmf Version=\"2.0\">\n"
-    "  <Domain>\n"
-    "    <Grid Name=\"media\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
+    "<Xdmf Version=\"3.0\">\n"
+    "  <Domain>\n";
+constexpr const char* media_head = "    <Grid Name=\"media\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
 constexpr const char* grid_tail = "      </Grid>\n";
-constexpr const char* document_tail = "    </Grid>\n  </Domain>\n</Xdmf>\n";
+constexpr const char* media_tail = "    </Grid>\n";
+constexpr const char* document_tail = "  </Domain>\n</Xdmf>\n";
 
 constexpr std::string_view slot_head = "        <?slot  >\n";
 constexpr std::size_t free_byte = slot_head.size() - 3;  // a blank before ">", and "?" once the slot is in use
@@ -95,17 +103,15 @@ std::string grid_text(const FieldGrid& grid, std::size_t cells, bool layered, co
   for (std::size_t f = 0; f < grid.fields.size(); ++f) {
     const FieldDescription& field = grid.fields[f];
     if (listed.entry.fields.at(place).at(f) == 0) continue;
-    assert(field.components == 1 || field.components == 3 || field.components == 6);
+    const auto places = field.of_cells ? cells : nodes;
+    const auto shape =
+        field.components == 1 ? fmt::format("{}", places) : fmt::format("{} {}", places, field.components);
     text += fmt::format(
-        "          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\"><Information Name=\"unit\" "
-        "Value=\"{}\"/>{}</Attribute>\n",
-        escaped(field.name),
-        field.components == 6   ? "Tensor6"
-        : field.components == 3 ? "Vector"
-                                : "Scalar",
-        escaped(field.unit),
-        data_item(field.components > 1 ? fmt::format("{} {}", nodes, field.components) : fmt::format("{}", nodes), true,
-                  file, field_dataset(grid.name, field.name, step.step)));
+        "          <Information Name=\"unit of {}\" Value=\"{}\"/>\n"
+        "          <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+        escaped(field.name), escaped(field.unit), escaped(field.name), attribute_of(field.components),
+        field.of_cells ? "Cell" : "Node",
+        data_item(shape, true, file, field_dataset(grid.name, field.name, step.step)));
   }
   return text + "        </Grid>\n";
 }
@@ -127,6 +133,19 @@ std::int64_t slots_for(std::int64_t count, std::int64_t total) {
 
 XdmfDocument::XdmfDocument(std::filesystem::path file, std::vector<FieldGrid> grids)
     : path_(std::move(file)), grids_(std::move(grids)) {
+  places_.resize(grids_.size());
+  std::iota(places_.begin(), places_.end(), std::size_t{0});
+  tail_ =
+      (grids_.empty() ? std::string(document_head) + media_head : std::string(grid_tail)) + media_tail + document_tail;
+  prepare(std::string(document_head) + media_head);
+}
+
+XdmfDocument::XdmfDocument(std::filesystem::path file, const std::vector<FieldGrid>& grids, std::size_t medium)
+    : path_(std::move(file)), grids_{grids.at(medium)}, places_{medium}, tail_(std::string(grid_tail) + document_tail) {
+  prepare(document_head);
+}
+
+void XdmfDocument::prepare(const std::string& first_head) {
   for (std::size_t g = 0; g < grids_.size(); ++g) {
     FieldGrid& grid = grids_[g];
     cells_.push_back(grid.cells.size() / static_cast<std::size_t>(grid.nodes_per_cell));
@@ -134,15 +153,15 @@ XdmfDocument::XdmfDocument(std::filesystem::path file, std::vector<FieldGrid> gr
     grid.cells = {};
     grid.layer = {};
     head_.push_back(fmt::format("{}      <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-                                g == 0 ? document_head : grid_tail, escaped(grid.name)));
-    const auto text = grid_text(grid, cells_[g], layered_[g], longest_entry(grid, g), g);
+                                g == 0 ? first_head : grid_tail, escaped(grid.name)));
+    const auto text = grid_text(grid, cells_[g], layered_[g], longest_entry(grid, places_[g]), places_[g]);
     length_.push_back(slot_head.size() + text.size() + slot_tail.size());
   }
 }
 
 std::string XdmfDocument::slot_text(std::size_t grid, const ListedEntry& entry, bool in_use) const {
   std::string text(slot_head);
-  text += grid_text(grids_[grid], cells_[grid], layered_[grid], entry, grid);
+  text += grid_text(grids_[grid], cells_[grid], layered_[grid], entry, places_[grid]);
   assert(text.size() + slot_tail.size() <= length_[grid]);
   assert(text[free_byte] == ' ' && text[free_byte + 1] == '>');
   if (in_use) text[free_byte] = '?';
@@ -174,7 +193,7 @@ void XdmfDocument::rewrite(std::int64_t count, const Slot& slot) {
       const std::string free = free_slot(length_[g]);
       for (std::int64_t i = count; i < slots; ++i) add(free);
     }
-    add(std::string(grids_.empty() ? document_head : grid_tail) + document_tail, true);
+    add(tail_, true);
     file.close();
   } catch (...) {
     remove_temporary(path_);

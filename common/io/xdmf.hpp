@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,11 +19,15 @@ struct ListedEntry {
   std::string file;
 };
 
-/// fields.xdmf, XDMF 2: presents the HDF5 files as a spatial collection of temporal ones, one per medium. The other way
-/// round, time outside, ParaView would number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked
-/// in one step would be lost in the next.
+/// An XDMF 3 document that presents the HDF5 files as time series. It comes in two forms:
+/// - All media (fields.xdmf): a spatial collection of temporal ones. The other way round, time outside, ParaView would
+///   number the media anew in each step ("fluid", "fluid[1]", ...), and a block picked in one step would be lost in the
+///   next.
+/// - One medium (fluid.xdmf, wall.xdmf): its temporal collection alone, which is what meshio.xdmf.TimeSeriesReader and
+///   the other readers of series on one mesh take.
+/// An attribute has no child but its values, since meshio refuses others: units are <Information> beside them.
 ///
-/// It lists finished entries only and is a whole document at any moment. The list of each medium has free slots of one
+/// A document lists finished entries only and is a whole document at any moment. The list of each medium has free slots of one
 /// length, and a slot begins with a processing instruction, which readers skip. While a slot is free, that instruction
 /// goes on to the slot's end:
 ///     <?slot  >                                      ?>      free
@@ -36,7 +41,10 @@ class XdmfDocument {
  public:
   static constexpr std::int64_t first_slots = 256;
 
+  /// Of all media.
   XdmfDocument(std::filesystem::path file, std::vector<FieldGrid> grids);
+  /// Of grids[medium] alone. Entries are given with the flags of all grids nevertheless.
+  XdmfDocument(std::filesystem::path file, const std::vector<FieldGrid>& grids, std::size_t medium);
 
   /// Makes the document, or replaces it, with `count` entries.
   /// \param total  entries that it will have in the end
@@ -46,13 +54,16 @@ class XdmfDocument {
   void add(const ListedEntry& entry);
 
  private:
+  void prepare(const std::string& first_head);
   using Slot = std::function<std::string(std::size_t grid, std::int64_t place)>;
   void rewrite(std::int64_t count, const Slot& slot);
   std::string slot_text(std::size_t grid, const ListedEntry& entry, bool in_use) const;
   std::uint64_t place_of(std::size_t grid, std::int64_t slot) const;
 
   std::filesystem::path path_;
-  std::vector<FieldGrid> grids_;  ///< without cells and layers
+  std::vector<FieldGrid> grids_;     ///< without cells and layers
+  std::vector<std::size_t> places_;  ///< of the grids among those of the entries
+  std::string tail_;                 ///< behind the slots of the last grid
   std::vector<std::size_t> cells_;
   std::vector<bool> layered_;
   std::vector<std::string> head_;    ///< before the slots of each grid

@@ -1,1 +1,54 @@
-"""Starts the other programs as a user would, reads their result folders and compares them; never looks inside them."""
+"""Starts the other programs as a user would, reads their result folders and compares them; never looks inside them.
+
+As a library (docs/python.md):
+
+    import fsi_compare
+
+    run = fsi_compare.open_run("results/monolithic")
+    run.time, run.centre_line["pressure"], run.openings["outlet"].flow, run.fields["wall"].at(3.0, "displacement")
+"""
+
+from typing import TYPE_CHECKING, Any, List
+
+if TYPE_CHECKING:
+    from .base.errors import InputError as InputError
+    from .reporting.plots import plot_energy as plot_energy, plot_line as plot_line, plot_openings as plot_openings
+    from .results.comparison import LineDifference as LineDifference, difference as difference
+    from .results.fields import MediumFields as MediumFields
+    from .results.line import Line as Line
+    from .results.openings import Opening as Opening
+    from .results.run import RunResults as RunResults, open_run as open_run
+    from .results.table import MissingColumn as MissingColumn, Table as Table
+
+__all__ = [
+    "InputError",
+    "Line",
+    "LineDifference",
+    "MediumFields",
+    "MissingColumn",
+    "Opening",
+    "RunResults",
+    "Table",
+    "difference",
+    "open_run",
+    "plot_energy",
+    "plot_line",
+    "plot_openings",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Names of the library are loaded on first use, since the program must not wait for what it does not need."""
+    if name not in __all__:
+        raise AttributeError(f"module 'fsi_compare' has no attribute '{name}'")
+    if name.startswith("plot_"):  # matplotlib takes a second to load
+        from .reporting import plots
+
+        return getattr(plots, name)
+    from . import library
+
+    return getattr(library, name)
+
+
+def __dir__() -> List[str]:
+    return sorted([*globals(), *__all__])

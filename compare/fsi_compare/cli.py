@@ -9,6 +9,7 @@ from .linear.command import add_parser as add_solvers, solvers
 from .mesh_import.command import add_parser as add_convert_mesh, convert_mesh
 from .reporting.cost import add_parser as add_cost, cost
 from .reporting.pressure import add_parser as add_pressure, pressure
+from .reporting.run_report import add_parser as add_report, report
 from .studies.accuracy_of_runs import accuracy, add_parser as add_accuracy
 from .studies.command import add_parser as add_study, study
 
@@ -29,6 +30,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     add_pressure(commands, version)
+    add_report(commands, version)
     add_cost(commands, version)
     add_accuracy(commands, version)
     add_solvers(commands, "results/solvers", version)
@@ -49,6 +51,7 @@ def run(arguments: Sequence[str], version: str) -> int:
         top.error("no command")
     command = {
         "pressure": pressure,
+        "report": report,
         "cost": cost,
         "accuracy": accuracy,
         "solvers": solvers,

@@ -17,6 +17,7 @@ FOLDER = f"compare/{PACKAGE}"
 FLOORS = (
     ("base",),
     ("runs", "mesh_import"),
+    ("results",),
     ("reporting",),
     ("linear", "gallery"),
     ("studies.running",),

@@ -73,9 +73,16 @@ def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Pa
 
 
 def pressure_figure(
-    waves: Sequence[PressureWaves], labels: Sequence[str], times: Sequence[float], title: str
+    waves: Sequence[PressureWaves],
+    labels: Sequence[str],
+    times: Sequence[float],
+    title: str,
+    quantity: str = "pressure in Pa",
+    place: str = "z in mm",
+    styles: Sequence[int] = (),
 ) -> Figure:
-    """One panel per time, in reading order; the legend has its own strip below the panels."""
+    """One panel per time, in reading order; the legend has its own strip below the panels. `styles`: numbers of the runs'
+    line styles; without them those of their places."""
     columns = 1 if len(times) == 1 else 2 if len(times) <= 8 else 3
     rows = -(-len(times) // columns)
     width = columns * PANEL_INCHES[0] + (1.5 if columns == 1 else 0)
@@ -84,14 +91,14 @@ def pressure_figure(
     for axes in grid.flat[len(times) :]:
         axes.set_visible(False)
     for axes, time in zip(grid.flat, times):
-        for i, (wave, label) in enumerate(zip(waves, labels)):
-            axes.plot(wave.z, wave.at(time), label=label, zorder=2 + 0.01 * i, **LINES[i % len(LINES)])
+        for i, (wave, label, style) in enumerate(zip(waves, labels, styles or range(len(waves)))):
+            axes.plot(wave.z, wave.at(time), label=label, zorder=2 + 0.01 * i, **LINES[style % len(LINES)])
         axes.axhline(0, color="#999999", linewidth=0.6, zorder=1)
         axes.set_title(f"t = {time_text(time)} ms")
         axes.set_xlim(min(wave.z[0] for wave in waves), max(wave.z[-1] for wave in waves))
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 3, 5, 10]))
-        axes.set_xlabel("z in mm")
-        axes.set_ylabel("pressure in Pa")
+        axes.set_xlabel(place)
+        axes.set_ylabel(quantity)
     _share_scales(grid, len(times))
 
     finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from ..base.files import replacing
 from .layout import Table
+from . import player as playing
 from .pictures import write_figure
 
 STYLE = """
@@ -42,6 +43,7 @@ class Report:
         self._body: List[str] = []
         self._markdown: List[str] = [f"# {title}"]  # blocks with an empty line between them
         self._sections: List[str] = []
+        self._plays = False
 
     def section(self, heading: str) -> None:
         self._sections.append(heading)
@@ -87,6 +89,12 @@ class Report:
         self.written += [png, svg]
         self.image(png, caption)
 
+    def player(self, player: playing.Player) -> None:
+        """What a reader with JavaScript can move through. It does not print: pictures of the same belong beside it, or word of
+        how to get them."""
+        self._body.append(player.html())
+        self._plays = True
+
     def image(self, png: Path, caption: str) -> None:
         data = base64.b64encode(png.read_bytes()).decode("ascii")
         text = re.sub(r"[`*]", "", caption)
@@ -110,12 +118,13 @@ class Report:
                 '<meta name="viewport" content="width=device-width, initial-scale=1">',
                 '<link rel="icon" href="data:,">',  # browsers ask for one otherwise
                 f"<title>{html.escape(self.title)}</title>",
-                f"<style>{STYLE}</style>",
+                f"<style>{STYLE}{playing.STYLE if self._plays else ''}</style>",
                 "</head>",
                 "<body>",
                 f"<h1>{_inline(self.title)}</h1>",
                 f"<nav>{links}</nav>",
                 *self._body,
+                *([playing.program()] if self._plays else []),
                 "</body>",
                 "</html>",
                 "",

@@ -28,6 +28,8 @@ RESULT_FILES = (
     "summary.json",
     "fields.h5",
     "fields.xdmf",
+    "fluid.xdmf",
+    "wall.xdmf",
     "checkpoint.h5",
     "run.log",
     "checkpoint.h5.tmp",

@@ -76,6 +76,7 @@ class Killed:
                     "fields.h5",
                     "fields.h5.tmp",
                     "fields.xdmf.tmp",
+                    "wall.xdmf.tmp",
                     "summary.json.tmp",
                 ]
                 + ["iterations.csv", "flow.csv", "flow.csv.tmp", "centerline_pressure.csv", "energy.csv"]

@@ -241,7 +241,7 @@ def harmless_tables(folder, step, level, choose):
                 text_of(t / n)[:s]
             )
         yield "torn", f"{name} with half a line more", lambda t, n=name: (t / n).write_bytes(text_of(t / n) + b"9.9,1")
-    for name in ("summary.json", "run.log", "fields.xdmf"):
+    for name in ("summary.json", "run.log", "fields.xdmf", "fluid.xdmf", "wall.xdmf"):
         yield "made anew", f"{name} missing", lambda t, n=name: (t / n).unlink()
     yield "made anew", "summary.json damaged", lambda t: (t / "summary.json").write_bytes(b"\0{[")
 

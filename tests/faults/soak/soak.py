@@ -40,7 +40,9 @@ MISTAKES = (
     ("time.step=0", 1),
     ("output.fields=['colour']", 1),
 )
-FILES = re.compile(r"(fields(-\d{4,})?\.h5|fields\.xdmf|checkpoint\.h5|summary\.json|run\.log|[a-z_]+\.csv)")
+FILES = re.compile(
+    r"(fields(-\d{4,})?\.h5|(fields|fluid|wall)\.xdmf|checkpoint\.h5|summary\.json|run\.log|[a-z_]+\.csv)"
+)
 
 
 def options(parser):
@@ -58,11 +60,9 @@ def command(harness, program, folder, mesh, *settings):
 
 def unreadable(folder):
     """What is wrong with the fields of a run that may have been killed: the list is whole, and so is what it lists."""
-    list_file = folder / "fields.xdmf"
-    if not list_file.exists():
-        return ""
+    lists = [folder / f"{name}.xdmf" for name in ("fields", "fluid", "wall")]
     try:
-        media = temporal_lists(list_file)
+        media = [entries for file in lists if file.exists() for entries in temporal_lists(file)]
         for grids in media:
             for grid in grids[-1:]:
                 for item in grid.iter("DataItem"):

@@ -38,7 +38,7 @@ def difference(folder, reference):
         for file in sorted(reference.glob("*.csv")):
             if table(folder / file.name) != table(file):
                 return file.name
-        for name in ("fields.xdmf", "checkpoint.h5"):
+        for name in ("fields.xdmf", "fluid.xdmf", "wall.xdmf", "checkpoint.h5"):
             if (folder / name).read_bytes() != (reference / name).read_bytes():
                 return name
         if datasets(folder / "fields.h5") != datasets(reference / "fields.h5"):

@@ -28,6 +28,8 @@ VICTIMS = (
     "summary.json",
     "fields.h5",
     "fields.xdmf",
+    "fluid.xdmf",
+    "wall.xdmf",
 )
 
 

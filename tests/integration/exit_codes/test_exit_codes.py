@@ -84,9 +84,11 @@ class ExitCodes(FolderTest):
                     "fields.h5",
                     "fields.xdmf",
                     "flow.csv",
+                    "fluid.xdmf",
                     "iterations.csv",
                     "run.log",
                     "summary.json",
+                    "wall.xdmf",
                     "wall_displacement.csv",
                 ],
             )

@@ -1,20 +1,44 @@
-"""ParaView's reader finds in fields.xdmf what the run computed."""
+"""ParaView's reader finds in fields.xdmf, and meshio in fluid.xdmf and wall.xdmf, what the run computed."""
 
 import json
 import os
+import subprocess
+import time
 import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import ARTERY, DRIVERS, MONOLITHIC, FolderTest, arrays, execute, make_small_mesh, run, summary
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    driver_command,
+    execute,
+    make_small_mesh,
+    restart,
+    run,
+    summary,
+    times,
+)
 from scenes import KINDS, forms, scene
 
 READER = Path(__file__).with_name("read_fields.py")
+MESHIO_READER = Path(__file__).with_name("read_by_meshio.py")
 STEPS, STEP = 5, 0.125
 
 
 def shown_by_paraview(folder):
     process = execute(os.environ["FSI_VTK_PYTHON"], "-E", READER, folder)
+    if process.returncode != 0:
+        raise AssertionError(process.stderr)
+    return json.loads(process.stdout)
+
+
+def shown_by_meshio(folder, *options):
+    """{medium: {times, cells, points, fields}} once all is found equal to the HDF5 files."""
+    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", "-B", MESHIO_READER, folder, *options)
     if process.returncode != 0:
         raise AssertionError(process.stderr)
     return json.loads(process.stdout)
@@ -55,6 +79,46 @@ class Fields(FolderTest):
                     self.assertIn("layer", grids[part]["cell fields"])
                 self.assertEqual(len(set(grids["wall"]["cell fields"]["layer"])), 2)
                 self.assertEqual(len(grids["fluid"]["cells"]) + len(grids["wall"]["cells"]), mesh["tetrahedra"])
+
+    def test_series_of_each_medium(self):
+        for folder in self.folders:
+            found, mesh = shown_by_meshio(folder), summary(folder)["mesh"]
+            self.assertEqual(sorted(found), ["fluid", "wall"])
+            for medium, series in found.items():
+                self.assertEqual(series["times"], [0, 2 * STEP, 4 * STEP, 5 * STEP])
+                self.assertEqual(series["points"], mesh[f"{medium}_nodes"])
+                self.assertEqual(series["cells"], "tetra")
+                self.assertEqual(series["fields"], ["displacement", "layer", "pressure", "velocity"])
+
+    def test_series_of_a_restarted_run(self):
+        """In place, with fields of its own beyond the end of the first run."""
+        mesh = self.base / "small.msh"
+        settings = (f"mesh.file={mesh}", "output.every=2")
+        folder = run(MONOLITHIC, ARTERY, self.base / "restarted", *settings, f"time.end={4 * STEP}")
+        restart(MONOLITHIC, ARTERY, folder, *settings, f"time.end={8 * STEP}")
+        for series in shown_by_meshio(folder).values():
+            self.assertEqual(series["times"], [0, 2 * STEP, 4 * STEP, 6 * STEP, 8 * STEP])
+
+    def test_series_of_a_killed_run(self):
+        settings = (f"mesh.file={self.base / 'small.msh'}", "output.every=1", "time.end=1000")
+        folder = self.base / "killed"
+        process = subprocess.Popen(driver_command(MONOLITHIC, ARTERY, "-q", folder=folder, settings=settings))
+        try:
+            self.wait_for(lambda: (folder / "checkpoint.h5").exists() and len(times(folder)) > 5)
+        finally:
+            process.kill()
+            process.wait()
+        found = shown_by_meshio(folder, "--killed")
+        self.assertEqual(sorted(found), ["fluid", "wall"])
+        for series in found.values():
+            self.assertGreater(len(series["times"]), 4)
+            np.testing.assert_array_equal(series["times"], STEP * np.arange(len(series["times"])))
+
+    def wait_for(self, ready, patience=60):
+        end = time.monotonic() + patience
+        while not ready():
+            self.assertLess(time.monotonic(), end, "the run does not get on")
+            time.sleep(0.02)
 
     def test_last_values_are_those_of_the_checkpoint(self):
         for folder, shown in self.each():
@@ -155,6 +219,14 @@ class Kinds(FolderTest):
             self.assertEqual(cells, mesh["tetrahedra" if geometry == "3d" else "triangles"])
         for element, geometry, _, _, grid in self.each():
             self.assertEqual(grid["kinds"], [CELLS[element, VERTICES[geometry]]])
+
+    def test_series_of_each_medium(self):
+        names = {("p1", 3): "triangle", ("p1", 4): "tetra", ("p2p1", 3): "triangle6", ("p2p1", 4): "tetra10"}
+        for (element, geometry), (folder, shown) in self.runs.items():
+            for medium, series in shown_by_meshio(folder).items():
+                self.assertEqual(series["times"], shown["times"])
+                self.assertEqual(series["cells"], names[element, VERTICES[geometry]])
+                self.assertEqual(series["points"], len(shown["grids"][-1][medium]["points"]))
 
     def test_middles_are_between_their_ends(self):
         """In VTK's order, on the curve: near the middle of the edge, and in tubes at the mean radius and angle."""

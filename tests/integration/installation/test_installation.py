@@ -54,6 +54,18 @@ class Installation(unittest.TestCase):
         finally:
             package.with_name("elsewhere").rename(package)
 
+    def test_library(self):
+        """`import fsi_compare` by fsi-python, and by a Python that reads the installed folder of packages."""
+        script = "import fsi_compare, sys; print(fsi_compare.open_run.__name__, fsi_compare.__file__, *sys.argv[1:])"
+        package = self.prefix / "share" / "fsi-duo" / "compare" / "fsi_compare"
+        expected = f"open_run {package / '__init__.py'} a b\n"
+        self.assertEqual(self.program("fsi-python", "-B", "-c", script, "a", "b"), expected)
+        self.assertTrue((package / "py.typed").is_file())
+        packages = self.prefix / "lib" / "python3" / "dist-packages"
+        script = f"import site; site.addsitedir({str(packages)!r}); {script}"
+        found = execute(os.environ["FSI_PYTHON"], "-E", "-B", "-c", script, "a", "b", cwd=self.scratch)
+        self.assertEqual(found, expected)
+
     def test_ready_study_runs_installed_programs(self):
         """The plan of a ready study, with the ready cases, from the installed files alone."""
         output = self.scratch / "plan"

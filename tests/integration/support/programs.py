@@ -170,7 +170,10 @@ class FolderTest(unittest.TestCase):
         self.assertEqual((folder / "fields.h5").exists(), (other / "fields.h5").exists())
         if (folder / "fields.h5").exists():
             self.assertEqual(differing_arrays(folder / "fields.h5", other / "fields.h5"), [])
-            self.assertEqual((folder / "fields.xdmf").read_text(), (other / "fields.xdmf").read_text())
+            for name in ("fields.xdmf", "fluid.xdmf", "wall.xdmf"):
+                self.assertEqual((folder / name).exists(), (other / name).exists(), name)
+                if (folder / name).exists():
+                    self.assertEqual((folder / name).read_text(), (other / name).read_text(), name)
 
     def assertSameTables(self, folder, other):
         for name in TABLES:

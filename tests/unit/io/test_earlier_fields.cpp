@@ -11,6 +11,8 @@ namespace fsi::test {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 class EarlierFields : public FolderTest {
  protected:
   void SetUp() override {
@@ -27,6 +29,25 @@ TEST_F(EarlierFields, AreCountedUpToATime) {
   EXPECT_EQ(entries(1), 2);
   EXPECT_EQ(entries(100), 3) << "planned ones do not count";
   EXPECT_EQ(checked_field_entries(folder_ / "missing", sample_grids(), 1), 0);
+}
+
+TEST_F(EarlierFields, OfCellsAndTensorsAreTaken) {
+  auto grids = sample_grids();
+  grids[1].fields = {{"stress", 6, "kPa", true}, {"mises", 1, "kPa", true}, {"strain", 6, ""}};
+  const auto folder = folder_ / "cells";
+  fs::create_directories(folder);
+  {
+    FieldsWriter fields(folder, {grids[1]}, planned_field_steps(2, 1, steps_of(0.5)));
+    fields.write(0, {{{"wall", "stress"}, std::vector<double>(3 * 6)},
+                     {{"wall", "mises"}, std::vector<double>(3)},
+                     {{"wall", "strain"}, std::vector<double>(6 * 6)}});
+    EXPECT_THROW(fields.write(1, {{{"wall", "stress"}, std::vector<double>(6 * 6)},
+                                  {{"wall", "mises"}, std::vector<double>(3)},
+                                  {{"wall", "strain"}, std::vector<double>(6 * 6)}}),
+                 std::logic_error)
+        << "as many values as nodes";
+  }
+  EXPECT_EQ(checked_field_entries(folder, sample_grids(), 1), 1);
 }
 
 TEST_F(EarlierFields, OfAnotherMeshAreRefused) {

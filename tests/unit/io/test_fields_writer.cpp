@@ -47,7 +47,7 @@ TEST_F(Fields, ListOnlyFinishedSteps) {
   write(writer, 8);
   EXPECT_TRUE(listed(8));
   EXPECT_NE(xdmf().find("<Time Value=\"1\"/>"), std::string::npos);
-  EXPECT_NE(xdmf().find("<Information Name=\"unit\" Value=\"mm/ms\"/>"), std::string::npos);
+  EXPECT_NE(xdmf().find("<Information Name=\"unit of velocity\" Value=\"mm/ms\"/>"), std::string::npos);
 }
 
 TEST_F(Fields, RefuseWhatWasNotPlanned) {

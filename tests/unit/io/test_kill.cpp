@@ -77,7 +77,8 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
       FieldsWriter fields(reference, grids, planned);
       for (int s = 0; s <= step + 1; ++s) write_step(results, fields, grids, s);
     }
-    for (const auto* file : {"wall_displacement.csv", "iterations.csv", "fields.xdmf", "checkpoint.h5"})
+    for (const auto* file :
+         {"wall_displacement.csv", "iterations.csv", "fields.xdmf", "fluid.xdmf", "wall.xdmf", "checkpoint.h5"})
       EXPECT_EQ(contents_of(run / file), contents_of(reference / file))
           << file << " killed after " << milliseconds << " ms";
     EXPECT_EQ(hash_of_file(run / "fields.h5"), hash_of_file(reference / "fields.h5"));

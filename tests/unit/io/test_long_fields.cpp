@@ -66,9 +66,9 @@ class LongFields : public FolderTest {
   }
   /// Nothing but the files of the run that was not stopped.
   static void expect_whole(const fs::path& folder) {
-    for (const auto* file : {"fields.h5", "fields-0002.h5", "fields.xdmf"})
+    for (const auto* file : {"fields.h5", "fields-0002.h5", "fields.xdmf", "fluid.xdmf", "wall.xdmf"})
       EXPECT_TRUE(contents_of(folder / file) == contents_of(runs_ / "whole" / file)) << folder << " " << file;
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 3);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 5);
   }
 };
 
@@ -90,7 +90,7 @@ TEST_F(LongFields, StartTheSameHoweverManyEntriesArePlanned) {
                                        return FieldStep{entry, static_cast<double>(entry)};
                                      }});
   EXPECT_EQ(asked, FieldsPart::capacity);
-  for (const auto* file : {"fields.h5", "fields.xdmf"})
+  for (const auto* file : {"fields.h5", "fields.xdmf", "fluid.xdmf", "wall.xdmf"})
     EXPECT_EQ(fs::file_size(few / file), fs::file_size(many / file)) << file;
   asked = 0;
   EXPECT_EQ(writer.entry_at(1e6), 1000000);
@@ -233,6 +233,27 @@ TEST_F(List, GrowsByDoublingAndIsTheSameWhenItIsMadeAtOnce) {
   XdmfDocument(made, grids).replace(900, entry, 1000);
   EXPECT_TRUE(contents_of(grown) == contents_of(made));
   EXPECT_EQ(outside_instructions(contents_of(grown), "<Time "), 1800);
+}
+
+TEST_F(List, OfOneMediumTakesItsFlagsFromThoseOfAll) {
+  const auto grids = sample_grids();
+  const auto entry = [&](std::int64_t i) {
+    return ListedEntry{{{i, 0.5 * static_cast<double>(i)}, {{1, 1}, {1, i == 1 ? std::uint8_t{0} : std::uint8_t{1}}}},
+                       "fields.h5"};
+  };
+  const auto file = folder_ / "wall.xdmf";
+  XdmfDocument document(file, grids, 1);
+  document.replace(2, entry, 3);
+  document.add(entry(2));
+  const auto text = contents_of(file);
+  EXPECT_EQ(outside_instructions(text, "<Time "), 3);
+  EXPECT_EQ(outside_instructions(text, "CollectionType=\"Temporal\""), 1);
+  EXPECT_EQ(outside_instructions(text, "CollectionType=\"Spatial\""), 0);
+  EXPECT_EQ(outside_instructions(text, "/wall/displacement/"), 3);
+  EXPECT_EQ(outside_instructions(text, "/wall/pressure/"), 2);
+  EXPECT_EQ(text.find("/wall/pressure/00000001"), std::string::npos);
+  EXPECT_EQ(text.find("/fluid/"), std::string::npos);
+  EXPECT_EQ(outside_instructions(text, "<Grid "), outside_instructions(text, "</Grid>"));
 }
 
 TEST_F(List, FileInPlaceWritesWithinWhatIsThere) {

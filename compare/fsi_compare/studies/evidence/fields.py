@@ -25,7 +25,7 @@ class Medium:
 
     points: np.ndarray  # mm, (nodes, 3)
     cells: np.ndarray  # (tetrahedra, 4)
-    data: Dict[str, np.ndarray]  # by name: at nodes (mm, mm/ms, kPa), `layer` at cells
+    data: Dict[str, np.ndarray]  # by name: at nodes or cells, as the run has written it
 
 
 def read_fields(folder: Path, time: float) -> Dict[str, Medium]:
@@ -58,7 +58,8 @@ def _value(written: Any) -> float:
 
 
 def _medium(folder: Path, grid: Any) -> Medium:
-    data = {attribute.get("Name"): _item(folder, attribute) for attribute in grid.findall("Attribute")}
+    attributes = {attribute.get("Name"): attribute for attribute in grid.findall("Attribute")}
+    data = {name: _item(folder, attribute) for name, attribute in attributes.items()}
     cells, points = _item(folder, grid.find("Topology")), _item(folder, grid.find("Geometry"))
     if cells.ndim != 2 or cells.shape[1] not in (4, 10):
         raise InputError(folder / FILE, "", "shows a scene in two dimensions", 'give a run with geometry = "3d"')
@@ -70,8 +71,9 @@ def _medium(folder: Path, grid: Any) -> Medium:
             raise InputError(folder / FILE, str(name), f"has {len(values)} values", "run it again")
     if cells.shape[1] == 10:
         cells = cells[:, TETRAHEDRA].reshape(-1, 4)
-        if "layer" in data:
-            data["layer"] = np.repeat(data["layer"], len(TETRAHEDRA))
+        for name, attribute in attributes.items():
+            if attribute.get("Center") == "Cell":
+                data[name] = np.repeat(data[name], len(TETRAHEDRA), axis=0)
     return Medium(points, cells, data)
 
 

@@ -105,6 +105,7 @@ def evaluate(context: Context) -> int:
     report.answer(answer(Found(runs, claims, agreements, speeds, errors, costs, missing)))
     report.section("The waves")
     paper_waves.three_walls(report, runs, errors)
+    paper_waves.through_time(report, runs)
     report.section("Claims")
     report.text(
         f"{paper.source().split(', section')[0]}. {tally(claims)} What each verdict asks for stands at the end."

@@ -10,7 +10,10 @@ from matplotlib.figure import Figure
 from ...base.names import MATERIALS, MESHES
 from ...reporting.layout import Table, fixed
 from ...reporting.pictures import pressure_figure
+from ...reporting.player import Player
 from ...reporting.report import Report
+from ...reporting.run_player import panels
+from ...results.run import RunResults
 from ...runs.differences import largest_difference
 from ...runs.pressure_waves import PressureWaves, peak
 from ..evidence import fields, tube_pictures
@@ -57,6 +60,20 @@ def three_walls(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError
     waves = [run for run in shown_waves(runs) if run.folder in errors]
     if waves:
         report.table(error_table(waves, [errors[run.folder] for run in waves]))
+
+
+def through_time(report: Report, runs: PaperRuns) -> None:
+    """The waves of all walls by both drivers, for a reader who moves through them; the pictures are elsewhere."""
+    mesh = runs.finest
+    found = [
+        (f"{MATERIALS[material]}, {name}", run)
+        for material in runs.materials
+        for name, method in (("monolithic", MONOLITHIC), ("partitioned", PARTITIONED))
+        if (run := runs.wave(material, mesh, method)) is not None
+    ]
+    if found:
+        results = [RunResults(run.folder, run.summary) for _, run in found]
+        report.player(Player([name for name, _ in found], panels(results)))
 
 
 def driver_pictures(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshError]) -> None:

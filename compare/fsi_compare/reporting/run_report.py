@@ -1,0 +1,171 @@
+"""`fsi-compare report`: finished runs beside each other in one HTML file through which the reader moves in time."""
+
+import argparse
+from pathlib import Path
+from typing import Any, List, Sequence
+
+from ..base.errors import InputError, printable
+from ..base.files import folder, together
+from ..results.comparison import difference
+from ..results.line import Line
+from ..results.run import RunResults, open_run
+from ..runs.labels import folder_labels, read_labels
+from .layout import Table, fixed, say_written
+from .matplotlib_loader import load_matplotlib
+from .pressure import MOST_TIMES, read_times
+
+MOST_RUNS = 24
+
+DESCRIPTION = """\
+One HTML file of finished runs, which needs no network: pressure along the centre
+line, displacement of the wall, flow and pressure of each opening. The reader moves
+through time with a slider, switches runs on and off, reads values under the pointer
+and zooms. Pictures of the same stay for print and without JavaScript. Writes to
+OUTDIR: report.html, report.md, and every table and picture as a file of its own.
+"""
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    report = commands.add_parser(
+        "report",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        help="finished runs in one HTML file that plays",
+        description=DESCRIPTION,
+        epilog="example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
+    )
+    report.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
+    report.add_argument(
+        "-o",
+        "--output",
+        metavar="OUTDIR",
+        type=folder,
+        default=Path("results/report"),
+        help="folder for the files written (default: %(default)s)",
+    )
+    report.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
+    report.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
+    report.add_argument("--title", help="heading of the report (default: the runs' title)")
+    report.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; a report is quick on one thread"
+    )
+    report.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    report.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def report(options: argparse.Namespace) -> int:
+    """Reads all runs and checks everything before the first file is written."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
+    if len(options.folders) > MOST_RUNS:
+        raise InputError("", "DIR", f"{len(options.folders)} runs do not fit a report", f"give at most {MOST_RUNS}")
+    times = read_times(options.times) if options.times is not None else []
+    if len(times) > MOST_TIMES:
+        raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
+    labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
+    runs = [open_run(folder) for folder in options.folders]
+    check_runs(runs, times)
+    title = printable(options.title) if options.title is not None else default_title(runs)
+    with together(options.output) as place:
+        load_matplotlib()
+        from .report import Report
+        from .run_player import add_waves
+
+        page = Report(place, title)
+        page.section("Runs")
+        page.table(runs_table(runs, labels))
+        page.section("Through time")
+        add_waves(page, runs, labels, times)
+        if len(runs) > 1:
+            page.section("Differences")
+            page.table(differences_table(runs, labels))
+        page.write()
+    if not options.quiet:
+        say_written(options.output, page.written)
+    return 0
+
+
+def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:
+    """There is something to show, and all lines reach the times asked for."""
+    if not any(run.has_samples for run in runs):
+        raise InputError(
+            runs[0].folder, "", "has neither lines nor openings", "ask for them in the case, and run it again"
+        )
+    for run in runs:
+        for line in (run.centre_line, run.wall_line, *run.lines.values()):
+            for time in times:
+                if line is not None:
+                    line.at(time, next(iter(line.values)))
+
+
+def default_title(runs: Sequence[RunResults]) -> str:
+    titles = {run.title for run in runs}
+    return titles.pop() if len(titles) == 1 and "" not in titles else "Runs beside each other"
+
+
+def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    table = Table(
+        "runs",
+        "Runs",
+        [("", name) for name in ("run", "program", "case", "element", "nodes", "steps", "end, ms", "seconds")],
+        ["run", "program", "title", "element", "geometry", "nodes", "steps", "end_ms", "wall_s"],
+        left=4,
+    )
+    for run, label in zip(runs, labels):
+        summary = run.summary
+        nodes, totals = summary.get("mesh", {}).get("nodes"), summary.get("totals", {})
+        element, geometry = (printable(summary.get(key, "")) for key in ("element", "geometry"))
+        ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
+        ends += [opening.time[-1] for opening in run.openings.values()]
+        end = float(max(ends)) if ends else None
+        table.rows.append(
+            [
+                label,
+                run.program,
+                run.title,
+                ", ".join(part for part in (element, geometry) if part),
+                fixed(nodes, "d"),
+                fixed(totals.get("steps"), "g"),
+                fixed(end, "g"),
+                fixed(totals.get("wall_s"), ".1f"),
+            ]
+        )
+        table.csv_rows.append(
+            [label, run.program, run.title, element, geometry, nodes, totals.get("steps"), end, totals.get("wall_s")]
+        )
+    return table
+
+
+def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    """Of each run against the first, where both have the line and it has the same extent."""
+    table = Table(
+        "differences",
+        f"Largest difference from {labels[0]} over the common time levels",
+        [("", "run"), ("", "quantity"), ("relative", "maximum norm"), ("relative", "L2 norm"), ("", "levels")],
+        ["run", "quantity", "max_relative", "l2_relative", "levels"],
+        left=2,
+    )
+    for run, label in zip(runs[1:], labels[1:]):
+        for attribute, quantity, words in (
+            ("centre_line", "pressure", "pressure"),
+            ("wall_line", "radial", "radial displacement"),
+        ):
+            line, reference = (getattr(one, attribute) for one in (run, runs[0]))
+            row = _difference(line, reference, quantity)
+            if row:
+                table.rows.append([label, words, fixed(row[0], ".2e"), fixed(row[1], ".2e"), fixed(row[2], "d")])
+                table.csv_rows.append([label, words, *row])
+    table.notes.append(
+        "The first norm is relative to the largest value of the reference at the same time, the second to its L2 norm along "
+        "the line; the largest of all levels that both runs have. A dash: no level in common, or a reference of zero."
+    )
+    return table
+
+
+def _difference(line: "Line | None", reference: "Line | None", quantity: str) -> List[Any]:
+    """[maximum, L2, levels], or nothing where the lines cannot be compared."""
+    if line is None or reference is None or not line.waves(quantity).covers_line(reference.s):
+        return []
+    largest = difference(line, reference, quantity, times=[]).largest
+    found = largest.largest
+    return [found and found.max_relative, found and found.l2_relative, largest.levels]

@@ -1,0 +1,1 @@
+"""A result folder as arrays with units: what `import fsi_compare` hands out (docs/python.md)."""

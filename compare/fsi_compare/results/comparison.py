@@ -1,0 +1,66 @@
+"""How far two runs are apart along a line, in the norms of `fsi-compare pressure`."""
+
+from dataclasses import dataclass
+from typing import Optional, Sequence
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..runs.differences import OverTime, differences_at, largest_difference
+from .line import Line
+
+
+@dataclass(frozen=True)
+class LineDifference:
+    """Norms of run - reference along a line. Relative norms are NaN where the reference is zero."""
+
+    times: np.ndarray  #: ms, (times,)
+    unit: str  #: of the quantity
+    max_norm: np.ndarray  #: largest absolute difference, (times,), in `unit`
+    max_relative: np.ndarray  #: to the largest absolute value of the reference at the same time, (times,)
+    l2_norm: np.ndarray  #: (integral of the squared difference dz)^(1/2), (times,), in `unit` mm^(1/2)
+    l2_relative: np.ndarray  #: to that of the reference at the same time, (times,)
+    largest: OverTime  #: of each norm by itself, over the levels that both runs have
+
+
+def difference(
+    line: Optional[Line], reference: Optional[Line], quantity: str, times: Optional[Sequence[float]] = None
+) -> LineDifference:
+    """Difference of one quantity between the lines of two runs, on the points of the reference; linear between points and
+    between time levels. `times` in ms; without them the levels of the reference that the other run reaches. Raises
+    InputError for lines that are not there, quantities that they lack, times or points that one of them does not reach.
+    """
+    if line is None or reference is None:
+        raise InputError("", "line", "is not there", "compare runs that have both written it")
+    waves, base = line.waves(quantity), reference.waves(quantity)
+    if not waves.covers_line(base.z):
+        raise InputError(
+            "",
+            f"line {line.name}",
+            f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the reference's from {base.z[0]:g} to {base.z[-1]:g} mm",
+            "compare runs on the same geometry",
+        )
+    asked = [float(t) for t in base.times if waves.covers(t)] if times is None else [float(t) for t in times]
+    for one, found in ((line, waves), (reference, base)):
+        for time in asked:
+            if not found.covers(time):
+                raise InputError(
+                    "",
+                    f"line {one.name}",
+                    f"{time:g} ms is outside the run",
+                    f"give times between {found.times[0]:g} and {found.times[-1]:g} ms",
+                )
+    norms = differences_at(base, waves, asked)
+
+    def column(name: str) -> np.ndarray:
+        return np.array([np.nan if getattr(n, name) is None else getattr(n, name) for n in norms])
+
+    return LineDifference(
+        times=np.array(asked),
+        unit=reference.units[quantity],
+        max_norm=column("max_norm"),
+        max_relative=column("max_relative"),
+        l2_norm=column("l2_norm"),
+        l2_relative=column("l2_relative"),
+        largest=largest_difference(base, waves.on(base.z)),
+    )

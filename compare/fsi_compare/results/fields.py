@@ -1,0 +1,162 @@
+"""Fields of a run on its meshes, read from the HDF5 files when they are asked for."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Optional, Tuple
+
+import h5py
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.suggestions import nearest
+
+FIRST = "fields.h5"
+AGAIN = "run it again"
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """Where the values of one time are."""
+
+    time: float
+    file: Path
+    name: str
+
+
+class MediumFields:
+    """Fluid or wall: its mesh, and the fields on it."""
+
+    def __init__(self, name: str, file: Path, entries: Dict[str, List[_Entry]], units: Dict[str, str]) -> None:
+        self.name = name
+        #: unit of each field by its name
+        self.units: Dict[str, str] = units
+        self._file = file
+        self._entries = entries
+        self._mesh: Dict[str, np.ndarray] = {}
+
+    def __repr__(self) -> str:
+        fields = ", ".join(f"{name} in {self.units[name]}" for name in self.names)
+        return f"<MediumFields {self.name}: {len(self.times)} times; {fields}>"
+
+    @property
+    def names(self) -> List[str]:
+        """The fields that are there."""
+        return sorted(self._entries)
+
+    @property
+    def points(self) -> np.ndarray:
+        """Reference positions, mm, (nodes, 3)."""
+        return self._of_mesh("points")
+
+    @property
+    def cells(self) -> np.ndarray:
+        """Numbers of nodes, (cells, 3, 4, 6 or 10): triangles or tetrahedra, middles of edges behind the vertices in VTK's
+        order."""
+        return self._of_mesh("cells")
+
+    @property
+    def layers(self) -> Optional[np.ndarray]:
+        """Number of each cell's layer, (cells,); None where the medium has none."""
+        with _opened(self._file) as h5:
+            if f"{self.name}/layer" not in h5:
+                return None
+        return self._of_mesh("layer")
+
+    @property
+    def times(self) -> np.ndarray:
+        """Of the entries that were written, ms, (entries,)."""
+        return np.array(sorted({entry.time for entries in self._entries.values() for entry in entries}))
+
+    def times_of(self, field: str) -> np.ndarray:
+        """Of the entries that have this field, ms, (entries,). Raises InputError."""
+        return np.array([entry.time for entry in self._of(field)])
+
+    def at(self, time: float, field: str) -> np.ndarray:
+        """Values at a time in ms, linear between entries: (nodes,) or (cells,) of a scalar, (..., 3) of a vector, (..., 6)
+        of a symmetric tensor (xx, xy, xz, yy, yz, zz). Raises InputError for another field, or a time outside of the
+        entries."""
+        entries = self._of(field)
+        times = np.array([entry.time for entry in entries])
+        tolerance = 1e-6 * (float(np.min(np.diff(times))) if len(times) > 1 else max(abs(float(times[0])), 1.0))
+        if not times[0] - tolerance <= time <= times[-1] + tolerance:
+            raise InputError(
+                self._file,
+                f"{self.name}/{field}",
+                f"{time:g} ms is outside what was written",
+                f"give a time between {times[0]:g} and {times[-1]:g} ms",
+            )
+        nearest_entry = int(np.argmin(np.abs(times - time)))
+        if abs(times[nearest_entry] - time) <= tolerance:
+            return self._values(field, entries[nearest_entry])
+        after = int(np.searchsorted(times, time))
+        weight = (time - times[after - 1]) / (times[after] - times[after - 1])
+        return (1 - weight) * self._values(field, entries[after - 1]) + weight * self._values(field, entries[after])
+
+    def _of(self, field: str) -> List[_Entry]:
+        if field not in self._entries:
+            raise InputError(
+                self._file,
+                self.name,
+                f"has no field '{field}'",
+                f"did you mean '{nearest(field, self.names)}'? It has {', '.join(self.names)}",
+            )
+        return self._entries[field]
+
+    def _values(self, field: str, entry: _Entry) -> np.ndarray:
+        return _dataset(entry.file, f"{self.name}/{field}/{entry.name}")
+
+    def _of_mesh(self, part: str) -> np.ndarray:
+        if part not in self._mesh:
+            self._mesh[part] = _dataset(self._file, f"{self.name}/{part}")
+        return self._mesh[part]
+
+
+def read_fields(folder: Path) -> Dict[str, MediumFields]:
+    """Media by name, without their values; empty when the run has written none. Raises InputError."""
+    parts = [path for path in [folder / FIRST, *sorted(folder.glob("fields-*.h5"), key=_number)] if path.is_file()]
+    entries: Dict[str, Dict[str, List[_Entry]]] = {}
+    units: Dict[str, Dict[str, str]] = {}
+    for path in parts:
+        with _opened(path) as h5:
+            try:
+                for unit, medium, field, found in _finished(path, h5):
+                    known = entries.setdefault(medium, {}).setdefault(field, [])
+                    if not known or found.time > known[-1].time:  # a killed restart may have left one in two files
+                        known.append(found)
+                    units.setdefault(medium, {})[field] = unit
+            except (KeyError, TypeError, ValueError, AttributeError, OSError) as error:
+                raise InputError(path, "", f"cannot be read: {error}", AGAIN) from None
+    return {name: MediumFields(name, parts[0], found, units[name]) for name, found in sorted(entries.items())}
+
+
+def _finished(path: Path, h5: h5py.File) -> List[Tuple[str, str, str, _Entry]]:
+    """(unit, medium, field, entry) of all entries of a file that are whole."""
+    numbers, times = h5["steps/number"][()], h5["steps/time"][()]
+    found = []
+    for key, flags in h5["steps/written"].items():
+        medium, _, field = key.partition(".")
+        unit = h5[medium][field].attrs.get("unit", "") if field in h5[medium] else ""
+        unit = unit.decode() if isinstance(unit, bytes) else str(unit)
+        for number, time, flag in zip(numbers, times, flags[()]):
+            if flag:
+                found.append((unit, medium, field, _Entry(float(time), path, f"{number:08d}")))
+    return found
+
+
+def _number(path: Path) -> Tuple[int, str]:
+    return len(path.name), path.name
+
+
+def _opened(path: Path) -> h5py.File:
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise InputError(path, "", f"cannot be read: {error}", AGAIN) from None
+
+
+def _dataset(path: Path, name: str) -> np.ndarray:
+    with _opened(path) as h5:
+        try:
+            return np.asarray(h5[name][()])
+        except (KeyError, TypeError, AttributeError, OSError) as error:
+            raise InputError(path, name, f"cannot be read: {error}", AGAIN) from None

@@ -1,0 +1,39 @@
+"""Flow and pressure of each opening of the fluid over time."""
+
+from dataclasses import dataclass
+from typing import Dict, Optional
+
+import numpy as np
+
+from .table import Table
+
+
+@dataclass(frozen=True)
+class Opening:
+    """Of one opening, at all time levels."""
+
+    name: str
+    time: np.ndarray  #: ms, (levels,)
+    flow: np.ndarray  #: mm^3/ms, positive outwards, (levels,)
+    mean_pressure: np.ndarray  #: Pa, (levels,)
+    windkessel_pressure: Optional[np.ndarray]  #: Pa, stored, or behind a resistance, (levels,); None: neither
+
+
+def openings_of(table: Table) -> Dict[str, Opening]:
+    """From `openings.csv`, a row for each time and opening; a column of zeros is written for what stores no pressure."""
+    found = {}
+    for name, rows in table.groups("opening").items():
+        pressure = rows["windkessel_pressure"] if "windkessel_pressure" in rows else np.array([])
+        none = not np.any(np.isfinite(pressure) & (pressure != 0))
+        found[name] = Opening(name, rows["time"], rows["flow"], rows["mean_pressure"], None if none else pressure)
+    return found
+
+
+def inlet_and_outlet(table: Table) -> Dict[str, Opening]:
+    """From `flow.csv`, where the flow of the inlet is positive inwards."""
+    found = {}
+    for name, outwards in (("inlet", -1.0), ("outlet", 1.0)):
+        if f"{name}_flow" in table:
+            flow = outwards * table[f"{name}_flow"]
+            found[name] = Opening(name, table["time"], flow, table[f"{name}_pressure"], None)
+    return found

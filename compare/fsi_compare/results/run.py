@@ -1,0 +1,173 @@
+"""One run: a result folder whose parts are read when they are first asked for."""
+
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Union
+
+import numpy as np
+
+from ..base.errors import InputError, printable
+from ..base.files import exists, is_folder, read_object
+from ..base.suggestions import nearest
+from ..runs.run_folder import read_finished
+from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
+from .fields import MediumFields, read_fields
+from .line import Line, line_of, lines_of
+from .openings import Opening, inlet_and_outlet, openings_of
+from .table import Table, read_table
+
+NOT_WRITTEN = "ask for it in the case, or see summary.json for why it is not there"
+
+
+class RunResults:
+    """What a run has left in its folder. Each part is read once, on first use; a part that the run did not write is None.
+    Made by `open_run`."""
+
+    def __init__(self, folder: Path, summary: Dict[str, Any]) -> None:
+        self.folder = folder
+        #: summary.json as it stands: counts, totals, seconds of each phase, mesh
+        self.summary: Dict[str, Any] = summary
+
+    def __repr__(self) -> str:
+        return f"<RunResults {self.folder}: {self.program}, {self.status}, '{self.title}'>"
+
+    @property
+    def program(self) -> str:
+        """'fsi-monolithic' or 'fsi-partitioned'."""
+        return str(self.summary["program"])
+
+    @property
+    def status(self) -> str:
+        """'done', or how else the run stands: 'running', 'interrupted', 'not converged', 'failed'."""
+        return str(self.summary.get("status", "unknown"))
+
+    @property
+    def title(self) -> str:
+        """Of the case."""
+        return printable(self.summary.get("title", ""))
+
+    @property
+    def label(self) -> str:
+        """A short name for legends: the folder's."""
+        return printable(self.folder.resolve().name)
+
+    @property
+    def tables(self) -> List[str]:
+        """Names of the tables that are there: ['energy.csv', 'flow.csv', ...]."""
+        return sorted(path.name for path in self.folder.glob("*.csv"))
+
+    def table(self, name: str) -> Table:
+        """Any table by its name, with or without '.csv': columns with units. Raises InputError when it is not there."""
+        file = name if name.endswith(".csv") else name + ".csv"
+        if file not in self._read:
+            if file not in self.tables:
+                known = self.tables
+                hint = f"did you mean '{nearest(file, known)}'? It has {', '.join(known)}" if known else NOT_WRITTEN
+                raise InputError(self.folder, "", f"has no table '{file}'", hint)
+            self._read[file] = read_table(self.folder / file, finished=self.status == "done")
+        return self._read[file]
+
+    @cached_property
+    def _read(self) -> Dict[str, Table]:
+        return {}
+
+    def _optional(self, name: str) -> Optional[Table]:
+        return self.table(name) if name in self.tables else None
+
+    @property
+    def iterations(self) -> Table:
+        """A row for each time step: iterations, seconds, estimated error of the solver. Raises InputError."""
+        return self.table("iterations.csv")
+
+    @property
+    def time(self) -> np.ndarray:
+        """Ends of the time steps, ms, (steps,)."""
+        return self.iterations["time"]
+
+    @property
+    def energy(self) -> Optional[Table]:
+        """The energy balance of each time step, uJ (docs/energy.md)."""
+        return self._optional("energy.csv")
+
+    @property
+    def coupling(self) -> Optional[Table]:
+        """Passes and residuals of each time step of a partitioned run."""
+        return self._optional("coupling.csv")
+
+    @cached_property
+    def centre_line(self) -> Optional[Line]:
+        """'pressure' in Pa along the middle of the fluid."""
+        table = self._optional("centerline_pressure.csv")
+        return None if table is None else line_of("centre line", table)
+
+    @cached_property
+    def wall_line(self) -> Optional[Line]:
+        """'radial' and 'axial' displacement in mm of the inner wall, mean over the circumference."""
+        table = self._optional("wall_displacement.csv")
+        return None if table is None else line_of("wall", table)
+
+    @cached_property
+    def lines(self) -> Dict[str, Line]:
+        """Lines that the case asks for, by name; empty for none."""
+        table = self._optional("lines.csv")
+        return {} if table is None else lines_of(table)
+
+    @cached_property
+    def points(self) -> Dict[str, Table]:
+        """Points that the case asks for, by name: a row for each time. Empty for none."""
+        return self._named("points.csv", "point")
+
+    @cached_property
+    def planes(self) -> Dict[str, Table]:
+        """Planes that the case asks for, by name: flow, mean pressure and area, a row for each time. Empty for none."""
+        return self._named("planes.csv", "plane")
+
+    @cached_property
+    def surfaces(self) -> Dict[str, Table]:
+        """Forces on the surfaces that the case asks for, by name: a row for each time. Empty for none."""
+        return self._named("surfaces.csv", "surface")
+
+    def _named(self, file: str, column: str) -> Dict[str, Table]:
+        table = self._optional(file)
+        return {} if table is None else table.groups(column)
+
+    @cached_property
+    def openings(self) -> Dict[str, Opening]:
+        """By name; empty for a run without fluid."""
+        table = self._optional("openings.csv")
+        if table is not None:
+            return openings_of(table)
+        flow = self._optional("flow.csv")
+        return {} if flow is None else inlet_and_outlet(flow)
+
+    @property
+    def has_samples(self) -> bool:
+        """Whether there is any line, opening, plane or point."""
+        lines = (self.centre_line, self.wall_line)
+        return any(line is not None for line in lines) or bool(
+            self.lines or self.openings or self.planes or self.points
+        )
+
+    @cached_property
+    def fields(self) -> Dict[str, MediumFields]:
+        """By medium, 'fluid' and 'wall'; empty when the run has written none. Values are read when they are asked for."""
+        return read_fields(self.folder)
+
+
+def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> RunResults:
+    """The run in a result folder.
+
+    `unfinished`: also one that has not ended well or still goes on; what it has written so far is read. Raises
+    InputError, whose message says what to do.
+    """
+    path = Path(folder)
+    if not unfinished:
+        return RunResults(path, read_finished(path))
+    if not is_folder(path):
+        problem = "is not a folder" if exists(path) else "no such folder"
+        raise InputError(path, "", problem, "give the folder that a run wrote with -o")
+    summary = checked(path / FILE, read_object(path / FILE, FINISHED, AGAIN))
+    if summary.get("program") not in PROGRAMS:
+        raise InputError(path / FILE, "program", "is missing or unknown", "give the result folder of a driver")
+    return RunResults(path, summary)

@@ -1,0 +1,166 @@
+"""Any table of a result folder: columns by name, with the units that its header states."""
+
+import io
+import math
+from pathlib import Path
+from typing import Any, Dict, Iterator, List, Mapping, Sequence
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.files import read_text
+from ..base.suggestions import nearest
+from ..runs.columns import LARGEST, number
+from ..runs.summary import FINISHED
+from .units import split_unit
+
+AGAIN = "run it again"
+
+
+class MissingColumn(InputError, KeyError):
+    """A table has no column of this name."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class Table(Mapping[str, np.ndarray]):
+    """Columns of one length, (rows,): numbers as float64, an empty field as NaN; words as text.
+
+    A column goes by its name with or without its unit: `flow.csv` has `table["inlet_flow"]`, which is also
+    `table["inlet_flow_mm3_per_ms"]`. Where two columns differ in their unit only, both keep it in their names.
+    """
+
+    def __init__(self, path: Path, columns: Mapping[str, np.ndarray]) -> None:
+        """`columns` by their full headers."""
+        self.path = path
+        parts = {header: split_unit(header) for header in columns}
+        bare = [name for name, _ in parts.values()]
+        short = {header: name if bare.count(name) == 1 else header for header, (name, _) in parts.items()}
+        self._columns = {short[header]: values for header, values in columns.items()}
+        self._headers = {short[header]: header for header in columns}
+        self._names = {header: name for name, header in self._headers.items()}
+        #: unit of each column by its name, "" for none
+        self.units: Dict[str, str] = {short[header]: unit for header, (_, unit) in parts.items()}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[self._name(name)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        return f"<Table {self.path.name}: {self.rows} rows; {', '.join(map(self.label, self))}>"
+
+    @property
+    def rows(self) -> int:
+        return len(next(iter(self._columns.values()))) if self._columns else 0
+
+    def unit(self, name: str) -> str:
+        """'mm^3/ms', or '' for a column without unit. Raises MissingColumn."""
+        return self.units[self._name(name)]
+
+    def label(self, name: str) -> str:
+        """What to write beside an axis: 'inlet flow in mm^3/ms'. Raises MissingColumn."""
+        name = self._name(name)
+        words = split_unit(self._headers[name])[0].replace("_", " ")
+        return f"{words} in {self.units[name]}" if self.units[name] else words
+
+    def where(self, **values: Any) -> "Table":
+        """The rows in which columns have these values: `table.where(opening="outlet")`. Raises MissingColumn."""
+        rows = np.ones(self.rows, dtype=bool)
+        for name, value in values.items():
+            rows &= self[name] == value
+        return self._rows(rows)
+
+    def groups(self, name: str) -> "Dict[Any, Table]":
+        """One table for each value of a column, in the order in which they come. Raises MissingColumn."""
+        column = self[name]
+        return {value: self._rows(column == value) for value in dict.fromkeys(column.tolist())}
+
+    def _rows(self, rows: np.ndarray) -> "Table":
+        return Table(self.path, {header: self._columns[name][rows] for name, header in self._headers.items()})
+
+    def _name(self, name: str) -> str:
+        if name in self._columns:
+            return name
+        if name in self._names:
+            return self._names[name]
+        raise MissingColumn(
+            self.path,
+            "",
+            f"has no column '{name}'",
+            f"did you mean '{nearest(name, list(self._columns))}'? It has {', '.join(self._columns)}",
+        )
+
+
+def read_table(path: Path, finished: bool = True) -> Table:
+    """A CSV file with a line of headers. `finished`: of a run that has ended, so that a last line without end is a
+    mistake; else it is left out. Raises InputError naming line and column."""
+    text = read_text(path, FINISHED, AGAIN)
+    if text and not text.endswith("\n"):
+        if finished:
+            raise InputError(path, f"line {len(text.splitlines())}", "is cut off", "the run was interrupted; " + AGAIN)
+        text = text[: text.rfind("\n") + 1]
+    lines = text.splitlines()
+    if not lines:
+        raise InputError(path, "", "is empty", AGAIN)
+    headers = [name.strip() for name in lines[0].split(",")]
+    for name in headers:
+        if not name or headers.count(name) > 1:
+            raise InputError(
+                path, "line 1", f"column '{name}' is there twice" if name else "a column has no name", AGAIN
+            )
+    return Table(path, _numbers(text, lines, headers) or _columns(path, lines, headers))
+
+
+def _numbers(text: str, lines: Sequence[str], headers: Sequence[str]) -> Dict[str, np.ndarray]:
+    """All columns when each field is a finite number, else nothing: the common case, read at once."""
+    if len(lines) == 1 or "_" in text[len(lines[0]) :]:
+        return {}
+    try:
+        values = np.loadtxt(io.StringIO(text), delimiter=",", skiprows=1, ndmin=2, comments=None)
+    except ValueError:
+        return {}
+    if values.shape != (len(lines) - 1, len(headers)) or not np.all(np.abs(values) <= LARGEST):
+        return {}
+    return {name: np.ascontiguousarray(column) for name, column in zip(headers, values.T)}
+
+
+def _columns(path: Path, lines: Sequence[str], headers: Sequence[str]) -> Dict[str, np.ndarray]:
+    """The same field by field. A column whose first field says a word holds words."""
+    rows: List[List[str]] = []
+    for row, line in enumerate(lines[1:], 2):
+        fields = [field.strip() for field in line.split(",")]
+        if len(fields) != len(headers):
+            raise InputError(path, f"line {row}", f"has {len(fields)} values instead of {len(headers)}", AGAIN)
+        rows.append(fields)
+    columns: Dict[str, np.ndarray] = {}
+    for place, name in enumerate(headers):
+        fields = [row[place] for row in rows]
+        first = next((field for field in fields if field), "0")
+        if not _is_number(first):
+            columns[name] = np.array(fields)
+            continue
+        values = np.full(len(fields), np.nan)
+        for row, field in enumerate(fields):
+            if not field:
+                continue
+            if not _is_number(field):
+                raise InputError(path, f"line {row + 2}", f"{name} '{field}' is not a number", AGAIN)
+            values[row] = number(field)
+            if math.isinf(values[row]) or abs(values[row]) > LARGEST:
+                raise InputError(path, f"line {row + 2}", f"{name} {field} is too large", AGAIN)
+        columns[name] = values
+    return columns
+
+
+def _is_number(field: str) -> bool:
+    try:
+        number(field)
+    except ValueError:
+        return False
+    return True
