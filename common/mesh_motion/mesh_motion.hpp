@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
@@ -13,7 +14,7 @@ namespace fsi {
 template <int n>
 using MeshMotionMatrix = BlockMatrix<1, n>;
 
-/// What moves the mesh of the fluid between its boundaries.
+/// What moves the mesh of the fluid between its boundaries, by linear equations.
 template <int n>
 class MeshMotion {
  public:
@@ -23,18 +24,24 @@ class MeshMotion {
 };
 
 /// Assembles the operator of the harmonic mesh motion, without boundary conditions.
+/// \param stiffness  k of each cell (stiffening.hpp); empty: 1
 template <class Element>
-void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix);
+void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix,
+                          const std::vector<double>& stiffness = {});
 
-/// Harmonic mesh motion on the elements of the fluid, which must outlive it.
+/// Harmonic mesh motion, plain or stiffened, on the elements of the fluid, which must outlive it.
 template <class Element>
 class MeshMotionOfElements : public MeshMotion<Element::components> {
  public:
-  explicit MeshMotionOfElements(const ElementPacks<Element>& packs) : packs_(packs) {}
-  void assemble(MeshMotionMatrix<Element::components>& matrix) const override { assemble_mesh_motion(packs_, matrix); }
+  explicit MeshMotionOfElements(const ElementPacks<Element>& packs, std::vector<double> stiffness = {})
+      : packs_(packs), stiffness_(std::move(stiffness)) {}
+  void assemble(MeshMotionMatrix<Element::components>& matrix) const override {
+    assemble_mesh_motion(packs_, matrix, stiffness_);
+  }
 
  private:
   const ElementPacks<Element>& packs_;
+  std::vector<double> stiffness_;
 };
 
 /// r = A d, both in the vector layout.
