@@ -16,6 +16,7 @@
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesh_motion/mesh_motion_options.hpp"
 #include "solvers/krylov/krylov.hpp"
 #include "solvers/newton.hpp"
 
@@ -146,6 +147,7 @@ struct Case {
   std::map<std::string, OpeningConditions> openings{};  ///< [[opening]], by surface
   std::optional<TimeData> time;
   std::optional<StaticData> static_load;
+  MeshMotionOptions mesh_motion;  ///< [mesh_motion], of scenes with fluid and wall
   MonolithicData monolithic;
   PartitionedData partitioned;
   OutputData output;

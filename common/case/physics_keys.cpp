@@ -397,6 +397,7 @@ std::vector<CaseKey<Case>> physics_keys() {
       pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),
       scene_section<TimeData>("time", "a run in time", time_keys(), &Case::time, check_time),
       scene_section("static", "a wall without inertia, instead of [time]", static_keys(), &Case::static_load),
+      mesh_motion_section(),
   };
 }
 

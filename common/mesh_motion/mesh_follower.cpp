@@ -72,14 +72,15 @@ void MeshFollower<n>::follow(const std::vector<double>& target, std::vector<doub
   if (frames_) frames_->template to_frames<VectorLayout<n>>(way);
   for (std::size_t i = 0; i < way.size(); ++i)
     if (inner_[i]) way[i] = 0;
+  std::vector<double> here = mesh, step(way.size()), trial;
   double gone = 0, part = 1;
   const double smallest = std::ldexp(1.0, -options_.max_halvings);
   while (gone < 1) {
     part = std::min(part, 1 - gone);
-    std::vector<double> step = way, trial = mesh;
-    for (double& x : step) x *= part;
+    scaled_copy(part, way, step);
+    trial = here;
     if (go(step, trial)) {
-      mesh = std::move(trial);
+      std::swap(here, trial);
       gone += part;
       part *= 2;
       continue;
@@ -89,6 +90,7 @@ void MeshFollower<n>::follow(const std::vector<double>& target, std::vector<doub
     if (part < smallest)
       throw ConvergenceError("the mesh motion finds no way without a folded element", "smaller steps or a finer mesh");
   }
+  mesh = std::move(here);
 }
 
 template <int n>

@@ -29,7 +29,7 @@ class MeshFollower {
                const MeshFollowerOptions& options = {});
 
   /// Moves `mesh`, an unfolded field along the axes of space, to where its given values are those of `target`.
-  /// \throws ConvergenceError when there is no way
+  /// \throws ConvergenceError when there is no way; `mesh` is then as it was
   void follow(const std::vector<double>& target, std::vector<double>& mesh);
   /// The next call makes a tangent of its own, so that its answer does not depend on those before.
   void forget() { linearised_ = false; }

@@ -1,6 +1,7 @@
 #include "mesh_motion/mesh_motion.hpp"
 
 #include "fem/elements.hpp"
+#include "math/kinematics.hpp"
 #include "mesh_motion/harmonic.hpp"
 #include "mesh_motion/stiffening.hpp"
 
@@ -33,9 +34,24 @@ void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<E
   });
 }
 
-#define FSI_INSTANTIATE(Element) \
+template <class Element>
+AssemblyResult smallest_volume_ratio(const ElementPacks<Element>& packs, const std::vector<double>& mesh) {
+  std::vector<AssemblyResult> results(packs.thread_count());
+  for_each_thread(packs, serial_residual_elements, [&](int t, const auto& mine) {
+    NodalVector<Element> d{};
+    for (const auto& pack : mine) {
+      gather<VectorLayout<Element::components>>(d, pack, mesh.data());
+      for (int q = 0; q < Element::points; ++q)
+        results[t].include(volume_change(gradient_of(d, Element::at(pack.geometry, q))) + 1.0, pack.cell.data());
+    }
+  });
+  return reduced(results);
+}
+
+#define FSI_INSTANTIATE(Element)                                                                           \
   template void assemble_mesh_motion(const ElementPacks<Element>&, MeshMotionMatrix<Element::components>&, \
-                                     const std::vector<double>&);
+                                     const std::vector<double>&);                                          \
+  template AssemblyResult smallest_volume_ratio(const ElementPacks<Element>&, const std::vector<double>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

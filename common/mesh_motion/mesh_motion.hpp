@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "fem/assembly_result.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
 
@@ -21,6 +22,8 @@ class MeshMotion {
   virtual ~MeshMotion() = default;
   /// Overwrites the operator, without boundary conditions.
   virtual void assemble(MeshMotionMatrix<n>& matrix) const = 0;
+  /// The smallest J of a mesh displacement, in the vector layout, and where it is.
+  virtual AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const = 0;
 };
 
 /// Assembles the operator of the harmonic mesh motion, without boundary conditions.
@@ -28,6 +31,10 @@ class MeshMotion {
 template <class Element>
 void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix,
                           const std::vector<double>& stiffness = {});
+
+/// The smallest J of a mesh displacement at a quadrature point.
+template <class Element>
+AssemblyResult smallest_volume_ratio(const ElementPacks<Element>& packs, const std::vector<double>& mesh);
 
 /// Harmonic mesh motion, plain or stiffened, on the elements of the fluid, which must outlive it.
 template <class Element>
@@ -37,6 +44,9 @@ class MeshMotionOfElements : public MeshMotion<Element::components> {
       : packs_(packs), stiffness_(std::move(stiffness)) {}
   void assemble(MeshMotionMatrix<Element::components>& matrix) const override {
     assemble_mesh_motion(packs_, matrix, stiffness_);
+  }
+  AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const override {
+    return fsi::smallest_volume_ratio(packs_, mesh);
   }
 
  private:

@@ -29,8 +29,7 @@ class NearestPoint {
     if (end - begin < 2) return;
     const std::size_t middle = begin + (end - begin) / 2;
     const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](const Point& a, const Point& b) { return a[axis] < b[axis]; });
+    std::nth_element(at(begin), at(middle), at(end), [&](const Point& a, const Point& b) { return a[axis] < b[axis]; });
     sort(begin, middle, (axis + 1) % 3);
     sort(middle + 1, end, (axis + 1) % 3);
   }

@@ -57,9 +57,9 @@ AssemblyResult ElasticMeshMotion<Element>::assemble(const std::vector<double>& m
   if (tangent) tangent->set_zero();
   std::vector<AssemblyResult> results(packs_.thread_count());
   for_each_thread(packs_, tangent ? serial_jacobian_elements : serial_residual_elements, [&](int t, const auto& mine) {
-    results[t] = tangent ? assemble_packs<Element, true>(form_, mine, stiffness_, mesh, residual.data(),
-                                                         tangent->values.data())
-                         : assemble_packs<Element, false>(form_, mine, stiffness_, mesh, residual.data(), nullptr);
+    results[t] =
+        tangent ? assemble_packs<Element, true>(form_, mine, stiffness_, mesh, residual.data(), tangent->values.data())
+                : assemble_packs<Element, false>(form_, mine, stiffness_, mesh, residual.data(), nullptr);
   });
   return reduced(results);
 }

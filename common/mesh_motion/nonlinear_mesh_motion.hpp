@@ -7,6 +7,7 @@
 #include "algebra/block_matrix.hpp"
 #include "fem/assembly_result.hpp"
 #include "fem/element_packs.hpp"
+#include "mesh_motion/mesh_motion.hpp"
 #include "mesh_motion/pseudo_solid.hpp"
 
 namespace fsi {
@@ -26,6 +27,8 @@ class NonlinearMeshMotion {
   /// tangent where one is passed.
   virtual AssemblyResult assemble(const std::vector<double>& mesh, std::vector<double>& residual,
                                   MeshMotionTangent<n>* tangent = nullptr) const = 0;
+  /// The smallest J of a mesh displacement and where it is.
+  virtual AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const = 0;
 };
 
 /// The pseudo-solid on the elements of the fluid, which must outlive it.
@@ -42,6 +45,9 @@ class ElasticMeshMotion : public NonlinearMeshMotion<Element::components> {
   std::shared_ptr<const NodeGraph> graph() const override { return graph_; }
   AssemblyResult assemble(const std::vector<double>& mesh, std::vector<double>& residual,
                           MeshMotionTangent<n>* tangent = nullptr) const override;
+  AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const override {
+    return fsi::smallest_volume_ratio(packs_, mesh);
+  }
 
  private:
   const ElementPacks<Element>& packs_;

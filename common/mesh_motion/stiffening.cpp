@@ -47,7 +47,7 @@ std::vector<double> mesh_stiffness(const Submesh<Dim, Order>& part, const std::v
   return stiffness;
 }
 
-#define FSI_INSTANTIATE(Dim, Order)                                                                      \
+#define FSI_INSTANTIATE(Dim, Order)                                                                \
   template std::vector<double> mesh_stiffness(const Submesh<Dim, Order>&, const std::vector<int>&, \
                                               const MeshMotionOptions&);
 FSI_INSTANTIATE(2, 1)

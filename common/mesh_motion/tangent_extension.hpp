@@ -51,13 +51,13 @@ class TangentExtension : public MeshExtension<n> {
   const MeshMotionTangent<n>& tangent_;
   TangentExtensionOptions options_;
   std::vector<char> inner_;
-  std::vector<int> row_;             ///< per entry of the vector layout; -1 where the value is given
-  std::vector<std::size_t> entry_;   ///< per row
+  std::vector<int> row_;            ///< per entry of the vector layout; -1 where the value is given
+  std::vector<std::size_t> entry_;  ///< per row
   bool iterative_ = false;
-  CsrMatrix<double> matrix_;         ///< among inner entries; symmetric, so that its rows serve as columns
+  CsrMatrix<double> matrix_;  ///< among inner entries; symmetric, so that its rows serve as columns
   std::vector<double> boundary_rows_, given_;
-  ScalarMultigrid multigrid_[n];     ///< of each component
-  std::vector<int> rows_of_[n];      ///< the rows of each component
+  ScalarMultigrid multigrid_[n];  ///< of each component
+  std::vector<int> rows_of_[n];   ///< the rows of each component
   SparseMatrix columns_;
   DirectSolver solver_;
   std::vector<float> single_r_, single_z_;

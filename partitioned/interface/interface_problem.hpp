@@ -47,6 +47,7 @@ class InterfaceProblem {
     first_wall_ = state.now.wall;
     last_was_linearised_ = false;
     wall_.work_on(state, data);
+    if (mesh_motion_) mesh_motion_->start();
   }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) const = 0;
@@ -159,13 +160,19 @@ class InterfaceProblem {
     return d;
   }
 
-  /// The mesh follows d on the interface.
+  /// The mesh follows d on the interface. \throws PassFailure when it finds no way there
   void move_mesh(const std::vector<double>& d) {
     const Stopwatch watch(cost.mesh_seconds);
+    const std::vector<double> from = scene_.nonlinear_mesh_motion ? state_->now.mesh : std::vector<double>();
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
       for (int k = 0; k < n; ++k) state_->now.mesh[mesh_entry(scene_.interface[i], k)] = d[i * n + k];
     if (!mesh_motion_) mesh_motion_ = std::make_unique<MeshMotionSolver<n>>(scene_);
-    mesh_motion_->solve(state_->now.mesh);
+    try {
+      mesh_motion_->solve(state_->now.mesh, from, state_->before[0].mesh);
+    } catch (const ConvergenceError& error) {
+      if (!scene_.nonlinear_mesh_motion) throw;
+      throw PassFailure(error.what(), {});
+    }
   }
 
   /// Loads the wall with the fluid's momentum rows and solves it.

@@ -78,13 +78,19 @@ PrescribedMotion<Element> body_in_a_box(int boxes) {
   const auto inside = [&](auto... index) { return ((index >= 2 * boxes / 5 && index < 3 * boxes / 5) && ...); };
   const auto mesh = [&] {
     if constexpr (Element::dim == 3) {
-      return grid_mesh({boxes, boxes, boxes}, {"fluid", "body"},
-                       [&](int i, int j, int k) -> Point { return {i * h, j * h, k * h}; },
-                       [&](int i, int j, int k) { return inside(i, j, k) ? 1 : 0; });
+      return grid_mesh(
+          {boxes, boxes, boxes}, {"fluid", "body"},
+          [&](int i, int j, int k) -> Point {
+            return {i * h, j * h, k * h};
+          },
+          [&](int i, int j, int k) { return inside(i, j, k) ? 1 : 0; });
     } else {
-      auto grid = triangle_grid({boxes, boxes}, {"fluid", "body"},
-                                [&](int i, int j) -> Point { return {i * h, 0, j * h}; },
-                                [&](int i, int j) { return inside(i, j) ? 1 : 0; });
+      auto grid = triangle_grid(
+          {boxes, boxes}, {"fluid", "body"},
+          [&](int i, int j) -> Point {
+            return {i * h, 0, j * h};
+          },
+          [&](int i, int j) { return inside(i, j) ? 1 : 0; });
       for (auto& x : grid.nodes) x = {x[0], x[2], 0};
       return grid;
     }
@@ -116,8 +122,12 @@ inline Point shifted(const Point&, double amount) {
 template <class Element>
 PrescribedMotion<Element> bulging_tube(int boxes) {
   const double h = 1.0 / boxes;
-  const auto mesh = triangle_grid({boxes, 4 * boxes}, {"fluid"}, [&](int i, int j) -> Point { return {i * h, 0, j * h}; },
-                                  [](int, int) { return 0; });
+  const auto mesh = triangle_grid(
+      {boxes, 4 * boxes}, {"fluid"},
+      [&](int i, int j) -> Point {
+        return {i * h, 0, j * h};
+      },
+      [](int, int) { return 0; });
   auto problem = detail::prescribed_motion<Element>(
       mesh, [](const Point& x) { return x[0] > 1 - 1e-9; },
       [](const Point& x, int axis) { return axis == 0 ? x[0] < 1e-9 : x[2] < 1e-9 || x[2] > 4 - 1e-9; });
