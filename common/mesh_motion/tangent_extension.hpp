@@ -24,7 +24,7 @@ struct TangentExtensionOptions {
 /// The linearised equations of a nonlinear mesh motion, whose components couple: by a factorisation or, where that is
 /// large, by conjugate gradients in double precision, preconditioned by a V-cycle of smoothed aggregation in single
 /// precision for each component alone: by Korn's inequality as good as for a Laplacian but for a constant
-/// ([Axelsson1978], [Blaheta1994]). A tangent that is not positive, as it may be far from equilibrium, is factorised.
+/// [Blaheta1994]. A tangent that is not positive, as it may be far from equilibrium, is factorised.
 /// Results do not depend on the number of threads.
 template <int n>
 class TangentExtension : public MeshExtension<n> {
