@@ -87,8 +87,7 @@ void MeshFollower<n>::follow(const std::vector<double>& target, std::vector<doub
     }
     linearised_ = false;  // the next try begins with a tangent of this place
     part /= 2;
-    if (part < smallest)
-      throw ConvergenceError("the mesh motion finds no way without a folded element", "smaller steps or a finer mesh");
+    if (part < smallest) throw ConvergenceError("the mesh motion finds no way without a folded element", "");
   }
   mesh = std::move(here);
 }

@@ -308,14 +308,17 @@ const std::vector<BadCase>& bad_cases() {
        "start of each step, default 2; euler of fsi-monolithic and explicit coupling 1)"},
       // Mesh motion
       {"MeshMotionUnknown", coupled_case, "[output]", "[mesh_motion]\nmethod = \"stifened\"\n[output]",
-       "case.toml:34: mesh_motion.method: \"stifened\" is unknown; did you mean stiffened? There are harmonic, stiffened "
+       "case.toml:34: mesh_motion.method: \"stifened\" is unknown; did you mean stiffened? There are harmonic, "
+       "stiffened "
        "or nonlinear-elastic"},
       {"ExponentOfTheHarmonicMotion", coupled_case, "[output]", "[mesh_motion]\nsize_exponent = 1\n[output]",
-       "case.toml:34: mesh_motion.size_exponent: belongs to the method \"stiffened\" or \"nonlinear-elastic\", and this "
+       "case.toml:34: mesh_motion.size_exponent: belongs to the method \"stiffened\" or \"nonlinear-elastic\", and "
+       "this "
        "case has \"harmonic\"; remove it, or set mesh_motion.method = \"stiffened\""},
       {"PoissonOfTheStiffenedMotion", coupled_case, "[output]",
        "[mesh_motion]\nmethod = \"stiffened\"\npoisson = 0.3\n[output]",
-       "case.toml:35: mesh_motion.poisson: belongs to the method \"nonlinear-elastic\", and this case has \"stiffened\"; "
+       "case.toml:35: mesh_motion.poisson: belongs to the method \"nonlinear-elastic\", and this case has "
+       "\"stiffened\"; "
        "remove it, or set mesh_motion.method = \"nonlinear-elastic\""},
       {"PoissonOfAnIncompressibleMesh", coupled_case, "[output]",
        "[mesh_motion]\nmethod = \"nonlinear-elastic\"\npoisson = 0.5\n[output]",
