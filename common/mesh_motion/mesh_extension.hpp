@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// Solves the linear equations of a mesh motion, or those that one is linearised to, for what is not given of a field of
+/// Solves the linear equations of a mesh motion, or those one is linearised to, for what is not given of a field of
 /// n numbers a node.
 template <int n>
 class MeshExtension {
@@ -13,7 +13,7 @@ class MeshExtension {
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular
   virtual void update() = 0;
-  /// Sets the inner values of `field` so that the rows of A field at inner entries equal `right` there; the other values
+  /// Sets the inner values of `field` so that the rows of A field at inner entries equal `right` there; other values
   /// are given.
   /// \param tolerance  residual over that of zero inner values; a factorisation solves to rounding
   virtual void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) = 0;

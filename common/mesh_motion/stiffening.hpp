@@ -13,7 +13,7 @@ namespace fsi {
 /// the distance l of its centroid from the nearest node of the interface
 ///   k = (V_mean / V)^chi (l_mean / l)^p,
 /// so that small elements and those at the interface, whose shape decides, are moved as they are, and large ones far
-/// away deform: [Stein2003] with p = 0, [Jasak2006] with chi = 0. Means are over the cells. Straight cells are taken for
+/// away deform: [Stein2003] with p = 0, [Jasak2006] with chi = 0. Means are over cells. Straight cells are taken for
 /// curved ones.
 /// \param interface  nodes of the part, of which there is one at least where p is not 0
 /// \returns empty where all coefficients are one

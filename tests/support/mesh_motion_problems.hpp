@@ -69,7 +69,7 @@ PrescribedMotion<Element> prescribed_motion(const Linear& linear, OnInterface on
 
 }  // namespace detail
 
-/// The unit square or cube around a body that is 0.2 mm a side, in its middle. The body's surface moves, the outer one is
+/// The unit square or cube around a body that is 0.2 mm a side, in the middle. Its surface moves, the outer one is
 /// held.
 /// \param boxes  a side, a multiple of five
 template <class Element>
