@@ -74,6 +74,14 @@ void refuse_pressures_per_layer(const Case& setup, const PartNodes& wall, const 
                      "set it to \"continuous\", or use the linear solvers " + one_of(general_solver_names()));
 }
 
+void refuse_nonlinear_mesh_motion(const Case& setup, const std::string& what) {
+  if (setup.mesh_motion.method == MeshMotionMethod::nonlinear_elastic)
+    throw InputError(
+        setup.path.string(), "mesh_motion.method",
+        "\"nonlinear-elastic\" does not go with " + what + ": the paper's coupled system has a harmonic mesh motion",
+        "set it to \"harmonic\" or \"stiffened\", or use the linear solvers " + one_of(general_solver_names()));
+}
+
 template <int n>
 void refuse_turned_frames(const Case& setup, const NodalFrames<n>* fluid, const NodalFrames<n>* wall,
                           const std::string& what) {
@@ -93,8 +101,9 @@ std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const 
   if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name("monolithic.linear_solver", name, known);
   for (const auto& method : coupled_methods) {
     if (method.name != name) continue;
-    if (!blocks.coupled()) break;  // not for one medium: the message comes below
     const std::string what = "monolithic.linear_solver = \"" + name + "\"";
+    if (blocks.mesh_tangent) refuse_nonlinear_mesh_motion(setup, what);
+    if (!blocks.coupled()) break;  // not for one medium: the message comes below
     refuse_pressures_per_layer(setup, *blocks.wall_nodes, what);
     refuse_turned_frames<n>(setup, blocks.fluid_frames, blocks.wall_frames, what);
     return std::make_unique<CoupledLinearSolver<n>>(blocks, options_for(method, setup.monolithic));

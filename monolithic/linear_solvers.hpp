@@ -18,6 +18,9 @@ template <int n>
 void refuse_turned_frames(const Case& setup, const NodalFrames<n>* fluid, const NodalFrames<n>* wall,
                           const std::string& what);
 
+/// For the same. \throws InputError when the case's mesh motion is not linear
+void refuse_nonlinear_mesh_motion(const Case& setup, const std::string& what);
+
 /// Makes the linear solver `name`, one of linear_solver_names() ([Langer2018], section 4; docs/solvers.md), with the
 /// settings of the case's [monolithic]:
 ///   fast                            what a user should run, see FastSolver
@@ -26,7 +29,7 @@ void refuse_turned_frames(const Case& setup, const NodalFrames<n>* fluid, const 
 ///                                   inverse; with _exact at the end of the name, factorisations
 ///   amg amli                        cycles of the coupled multigrid, alone; with _gmres or _fgmres, inside these
 /// \throws InputError when the solver needs fluid and wall and the scene lacks one of them, or when it needs one wall
-/// pressure where layers meet and they have their own, or planes of symmetry normal to axes
+/// pressure where layers meet and they have their own, planes of symmetry normal to axes, or a linear mesh motion
 template <int n>
 std::unique_ptr<LinearSolver> make_linear_solver(const std::string& name, const Case& setup,
                                                  const JacobianBlocks<n>& blocks);

@@ -18,6 +18,7 @@
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "mesh_motion/mesh_motion_options.hpp"
 #include "solvers/krylov/krylov.hpp"
 #include "solvers/newton.hpp"
 
@@ -170,6 +171,7 @@ struct Case {
   std::optional<PrestressData> prestress;
   std::optional<TimeData> time;
   std::optional<StaticData> static_load;
+  MeshMotionOptions mesh_motion;  ///< [mesh_motion], of scenes with fluid and wall
   MonolithicData monolithic;
   PartitionedData partitioned;
   OutputData output;

@@ -126,6 +126,7 @@ CaseKey<Parent> section(const std::string& name, bool required, const std::strin
 // The tables.
 const std::vector<CaseKey<Case>>& case_keys();
 std::vector<CaseKey<Case>> physics_keys();  ///< top-level keys of fluid, structure, loads and time
+CaseKey<Case> mesh_motion_section();        ///< [mesh_motion]
 std::vector<CaseKey<Case>> solver_keys();   ///< of solvers, output and economy
 
 /// All effective values of a case, in the order of the tables. Sections that it lacks have none.

@@ -43,6 +43,8 @@ void check_sections(const CaseEntry& whole_case, const Case& scene) {
       {!fluid && !scene.load && support_loads_of(scene).empty(), "", "no [load]",
        "add [load] with pressure, since there is no fluid"},
       {fluid && scene.load, "load", "is for a wall without fluid", "rename it to [inlet], or remove it"},
+      {whole_case.has("mesh_motion") && !(fluid && wall), "mesh_motion",
+       "is for scenes of fluid and wall, where the fluid's mesh moves", "remove it"},
       {in_static && scene.load && scene.load->points.size() > 1, "load", "changes in time, but the case is static",
        "give one pressure, without until"},
   };

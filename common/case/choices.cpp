@@ -78,6 +78,14 @@ const NameTable<FibreFrame>& fibre_frames() {
   return table;
 }
 
+const NameTable<MeshMotionMethod>& mesh_motion_methods() {
+  static const NameTable<MeshMotionMethod> table{"mesh_motion.method",
+                                                 {{"harmonic", MeshMotionMethod::harmonic},
+                                                  {"stiffened", MeshMotionMethod::stiffened},
+                                                  {"nonlinear-elastic", MeshMotionMethod::nonlinear_elastic}}};
+  return table;
+}
+
 const NameTable<LayerPressure>& layer_pressures() {
   static const NameTable<LayerPressure> table{
       "structure.layer_pressure", {{"continuous", LayerPressure::continuous}, {"separate", LayerPressure::separate}}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/name_table.hpp"
+#include "mesh_motion/mesh_motion_options.hpp"
 
 namespace fsi {
 
@@ -68,6 +69,8 @@ const NameTable<TimeScheme>& time_schemes();
 enum class InflowProfile { plug, parabolic, womersley };
 const NameTable<InflowProfile>& inflow_profiles();
 const NameTable<ToleranceOf>& tolerance_kinds();
+/// mesh_motion.method: "harmonic", "stiffened", "nonlinear-elastic"
+const NameTable<MeshMotionMethod>& mesh_motion_methods();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();
 const NameTable<LayerPressure>& layer_pressures();

@@ -400,6 +400,7 @@ std::vector<CaseKey<Case>> physics_keys() {
       prestress_section(),
       scene_section<TimeData>("time", "a run in time", time_keys(), &Case::time, check_time),
       scene_section("static", "a wall without inertia, instead of [time]", static_keys(), &Case::static_load),
+      mesh_motion_section(),
   };
 }
 

@@ -10,6 +10,7 @@
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fem/dimensions.hpp"
 #include "mesh_motion/harmonic_extension.hpp"
+#include "mesh_motion/tangent_extension.hpp"
 #include "solvers/krylov/single_gmres.hpp"
 #include "system/jacobian_product.hpp"
 
@@ -21,9 +22,9 @@ struct FastSolver<n>::Iterative {
   VelocityPressureMatrix<n> matrix;
   VelocityPressurePreconditioner<n> preconditioner;
   JacobianProduct<n> jacobian;
-  std::unique_ptr<HarmonicExtension<n>> extension;  ///< null without mesh motion
-  int extension_version = 0;                        ///< of the operator that it was made of
-  bool shape_derivatives = false;                   ///< they are not all zero (as they are at rest)
+  std::unique_ptr<MeshExtension<n>> extension;  ///< null without mesh motion
+  int extension_version = 0;                    ///< of the operator that it was made of
+  bool shape_derivatives = false;               ///< they are not all zero (as they are at rest)
   SingleGmres gmres;
   std::vector<float> single_right, single_solution;
   std::vector<double> right, solution, residual, jacobian_times_x, correction;
@@ -31,12 +32,17 @@ struct FastSolver<n>::Iterative {
 
   explicit Iterative(const JacobianBlocks<n>& blocks)
       : layout(blocks), matrix(blocks, layout), preconditioner(matrix), jacobian(blocks) {
-    if (blocks.mesh_laplacian) {
+    if (blocks.mesh_laplacian || blocks.mesh_tangent) {
       std::vector<char> inner(blocks.numbering.mesh_rows.size());
       for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = blocks.numbering.mesh_rows[i].index >= 0;
-      extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner),
-                                                         HarmonicExtensionOptions{}, blocks.fluid_frames);
-      count_extension(blocks);
+      if (blocks.mesh_tangent) {
+        extension = std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner));
+        extension_version = *blocks.mesh_laplacian_version;
+      } else {
+        extension = std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner),
+                                                           HarmonicExtensionOptions{}, blocks.fluid_frames);
+        count_extension(blocks);
+      }
       mesh.resize(blocks.numbering.mesh.size());
       mesh_right.resize(mesh.size());
       fluid_rows.resize(blocks.numbering.fluid.size());
@@ -69,6 +75,10 @@ void FastSolver<n>::update() {
   } else {
     const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
     if (!iterative_) iterative_ = std::make_unique<Iterative>(blocks_);
+    if (blocks_.mesh_tangent) {
+      iterative_->extension->update();
+      iterative_->count_extension(blocks_);
+    }
     iterative_->layout.update();
     iterative_->matrix.fill();
     set_up_preconditioner(false);

@@ -52,28 +52,48 @@ Extreme largest_stretch(const std::vector<int>& vertices, int per_cell, const st
   return largest;
 }
 
-/// Volume of a tetrahedron, or area of a triangle, of these vertices, up to a factor; signed by `like`.
-double simplex_size(const int* vertex, int per_cell, const std::vector<Point>& x, const std::vector<Point>& like) {
-  if (per_cell == 4) return tetrahedron_volume(x[vertex[0]], x[vertex[1]], x[vertex[2]], x[vertex[3]]);
-  const auto normal = [&](const std::vector<Point>& y) {
-    return cross(y[vertex[1]] - y[vertex[0]], y[vertex[2]] - y[vertex[0]]);
-  };
-  return dot(normal(x), normal(like));
+/// What other mesh motion would follow further (docs/theory.md, section 6).
+std::string remedy_of(MeshMotionMethod method) {
+  const auto quoted = [](MeshMotionMethod other) { return "\"" + mesh_motion_methods().name_of(other) + "\""; };
+  switch (method) {
+    case MeshMotionMethod::harmonic:
+      return fmt::format(", but mesh_motion.method = {} or {} can", quoted(MeshMotionMethod::stiffened),
+                         quoted(MeshMotionMethod::nonlinear_elastic));
+    case MeshMotionMethod::stiffened:
+      return fmt::format(", but mesh_motion.method = {} can", quoted(MeshMotionMethod::nonlinear_elastic));
+    case MeshMotionMethod::nonlinear_elastic:
+      break;
+  }
+  return {};
 }
 
-Extreme smallest_volume(const std::vector<int>& vertices, int per_cell, const std::vector<Point>& at_rest,
-                        const std::vector<Point>& now) {
-  Extreme smallest{1, {}};
-  for (std::size_t cell = 0; cell < vertices.size(); cell += per_cell) {
-    const int* vertex = &vertices[cell];
-    const double ratio =
-        simplex_size(vertex, per_cell, now, at_rest) / simplex_size(vertex, per_cell, at_rest, at_rest);
-    if (ratio >= smallest.value) continue;
-    Point centre{0, 0, 0};
-    for (int a = 0; a < per_cell; ++a) centre = centre + (1.0 / per_cell) * at_rest[vertex[a]];
-    smallest = {ratio, centre};
+/// Of an element that the mesh motion is about to fold: it is small at the last level, or would be folded at the next
+/// one if the mesh went on as in the last step.
+template <int n>
+std::string mesh_hint(const Case& setup, const Scene<n>& scene, const State& state, const AxisFrame& frame) {
+  const auto &now = state.before[0].mesh, &last = state.before[1].mesh;
+  AssemblyResult smallest = scene.smallest_volume_ratio(now);
+  const bool small = !(smallest.smallest_volume_ratio > squeezed);
+  if (!small) {
+    std::vector<double> next(now.size());
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = 2 * now[i] - last[i];
+    const AssemblyResult then = scene.smallest_volume_ratio(next);
+    if (!then.inverted()) return {};
+    smallest.cell = then.cell;
   }
-  return smallest;
+  if (smallest.cell < 0) return {};
+  const auto vertices = scene.fluid->cell_vertices();
+  const auto& at_rest = scene.fluid->nodes().nodes;
+  Point centre{0, 0, 0};
+  for (int a = 0; a <= n; ++a) centre = centre + (1.0 / (n + 1)) * at_rest[vertices[smallest.cell * (n + 1) + a]];
+  const std::string what = !small ? "folds as the wall moves on"
+                           : smallest.inverted()
+                               ? "is folded"
+                               : fmt::format("has {:.2g} % of its volume left", 100 * smallest.smallest_volume_ratio);
+  return fmt::format(
+      "a mesh element of the fluid near z = {:.1f} mm {}: the mesh cannot follow this motion much "
+      "further{}",
+      frame.axial(centre), what, remedy_of(setup.mesh_motion.method));
 }
 
 /// What is known of a wall that gave way.
@@ -147,16 +167,8 @@ std::string failure_hint(const Case& setup, const Scene<n>& scene, const Loads& 
     const auto text = wall_hint(wall, limit, is_static);
     if (!text.empty()) found.push_back(text);
   }
-  if (scene.coupled()) {
-    const auto& at_rest = scene.fluid->nodes().nodes;
-    const Extreme volume = smallest_volume(scene.fluid->cell_vertices(), per_cell, at_rest,
-                                           moved(at_rest, state.before[0].mesh, n, scene.axes));
-    if (volume.value <= squeezed)
-      found.push_back(
-          fmt::format("a mesh element of the fluid near z = {:.1f} mm has {:.2g} % of its volume left: the mesh "
-                      "cannot follow this motion much further",
-                      frame.axial(volume.where), 100 * volume.value));
-  }
+  if (scene.coupled())
+    if (const auto text = mesh_hint(setup, scene, state, frame); !text.empty()) found.push_back(text);
   return fmt::format("{}", fmt::join(found, "; "));
 }
 

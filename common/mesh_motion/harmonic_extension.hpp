@@ -7,6 +7,7 @@
 #include "algebra/csr_matrix.hpp"
 #include "algebra/direct_solver.hpp"
 #include "fem/nodal_frames.hpp"
+#include "mesh_motion/mesh_extension.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
 
 namespace fsi {
@@ -30,7 +31,7 @@ struct HarmonicExtensionOptions {
 /// Results do not depend on the number of threads.
 /// \tparam n  components of a node
 template <int n>
-class HarmonicExtension {
+class HarmonicExtension : public MeshExtension<n> {
  public:
   /// \param laplacian  symmetric, one number per node pair and component, conditions not imposed; must outlive this
   /// \param inner      per node and component: its value is sought, its row an equation
@@ -41,19 +42,19 @@ class HarmonicExtension {
 
   /// The operator has new values.
   /// \throws ConvergenceError when it is singular
-  void update();
+  void update() override;
 
   /// Sets the inner values of `field`, n numbers a node, so that the rows of A field at inner entries equal `right`
   /// there; the other values are given. The iteration starts from the inner values as they are.
   /// \param tolerance  in place of the options' one; the factorisation solves to rounding
-  void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance);
+  void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) override;
   void solve(const std::vector<double>& right, std::vector<double>& field) { solve(right, field, options_.tolerance); }
 
   /// All components are solved by iteration.
-  bool iterates() const;
-  double memory_mib() const;
+  bool iterates() const override;
+  double memory_mib() const override;
   /// Conjugate gradient iterations of the last solve, the most of all components.
-  int iterations() const { return iterations_; }
+  int iterations() const override { return iterations_; }
 
  private:
   /// Components of one matrix: several that have the same, or several that frames mix, each with rows of its own.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "fem/assembly_result.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
 
@@ -13,28 +15,43 @@ namespace fsi {
 template <int n>
 using MeshMotionMatrix = BlockMatrix<1, n>;
 
-/// What moves the mesh of the fluid between its boundaries.
+/// What moves the mesh of the fluid between its boundaries, by linear equations.
 template <int n>
 class MeshMotion {
  public:
   virtual ~MeshMotion() = default;
   /// Overwrites the operator, without boundary conditions.
   virtual void assemble(MeshMotionMatrix<n>& matrix) const = 0;
+  /// The smallest J of a mesh displacement, in the vector layout, and where it is.
+  virtual AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const = 0;
 };
 
 /// Assembles the operator of the harmonic mesh motion, without boundary conditions.
+/// \param stiffness  k of each cell (stiffening.hpp); empty: 1
 template <class Element>
-void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix);
+void assemble_mesh_motion(const ElementPacks<Element>& packs, MeshMotionMatrix<Element::components>& matrix,
+                          const std::vector<double>& stiffness = {});
 
-/// Harmonic mesh motion on the elements of the fluid, which must outlive it.
+/// The smallest J of a mesh displacement at a quadrature point.
+template <class Element>
+AssemblyResult smallest_volume_ratio(const ElementPacks<Element>& packs, const std::vector<double>& mesh);
+
+/// Harmonic mesh motion, plain or stiffened, on the elements of the fluid, which must outlive it.
 template <class Element>
 class MeshMotionOfElements : public MeshMotion<Element::components> {
  public:
-  explicit MeshMotionOfElements(const ElementPacks<Element>& packs) : packs_(packs) {}
-  void assemble(MeshMotionMatrix<Element::components>& matrix) const override { assemble_mesh_motion(packs_, matrix); }
+  explicit MeshMotionOfElements(const ElementPacks<Element>& packs, std::vector<double> stiffness = {})
+      : packs_(packs), stiffness_(std::move(stiffness)) {}
+  void assemble(MeshMotionMatrix<Element::components>& matrix) const override {
+    assemble_mesh_motion(packs_, matrix, stiffness_);
+  }
+  AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const override {
+    return fsi::smallest_volume_ratio(packs_, mesh);
+  }
 
  private:
   const ElementPacks<Element>& packs_;
+  std::vector<double> stiffness_;
 };
 
 /// r = A d, both in the vector layout.

@@ -9,6 +9,7 @@
 #include "fluid/fluid_problem.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh_motion/stiffening.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
@@ -36,6 +37,19 @@ CylinderAxis cylinder_axis(const StructureData& data) {
     axis.direction[i] = d[i] / length;
   }
   return axis;
+}
+
+template <class Element>
+void build_mesh_motion(const MeshMotionOptions& options, const FluidProblem<Element>& fluid,
+                       Scene<Element::components>& scene) {
+  std::vector<int> interface;
+  for (const auto& node : scene.interface) interface.push_back(node.fluid);
+  auto stiffness = mesh_stiffness(fluid.part(), interface, options);
+  if (options.method == MeshMotionMethod::nonlinear_elastic)
+    scene.nonlinear_mesh_motion = std::make_unique<ElasticMeshMotion<Element>>(
+        fluid.packs(), fluid.space().graph(), PseudoSolid::of_poisson(options.poisson), std::move(stiffness));
+  else
+    scene.mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid.packs(), std::move(stiffness));
 }
 
 }  // namespace
@@ -104,7 +118,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     const auto openings = openings_of(setup);
     for (std::size_t i = 0; i < openings.size(); ++i)
       if (!fluid->open_boundaries()[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i]));
-    if (scene->wall) scene->mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid->packs());
+    if (scene->wall) build_mesh_motion(setup.mesh_motion, *fluid, *scene);
     scene->fluid = std::move(fluid);
   }
 
@@ -119,7 +133,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   if (!setup.supports.empty()) require_no_rigid_motion(setup, *scene);
   scene->keep_constant_operators = setup.economy.keep_constant_operators;
-  if (scene->coupled()) scene->assemble_mesh_motion();
+  if (scene->mesh_motion_problem) scene->assemble_mesh_motion();
   return scene;
 }
 

@@ -12,6 +12,7 @@
 #include "fem/nodal_frames.hpp"
 #include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
+#include "mesh_motion/nonlinear_mesh_motion.hpp"
 #include "scene/dirichlet_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
 #include "time/time_integrator.hpp"
@@ -36,8 +37,9 @@ class Scene {
 
   std::unique_ptr<Fluid<n>> fluid;
   std::unique_ptr<Wall<n>> wall;
-  std::unique_ptr<MeshMotion<n>> mesh_motion_problem;  ///< null unless fluid and wall meet
-  MeshMotionMatrix<n> mesh_motion;                     ///< its operator; empty unless fluid and wall meet
+  std::unique_ptr<MeshMotion<n>> mesh_motion_problem;             ///< null unless fluid and wall meet
+  MeshMotionMatrix<n> mesh_motion;                                ///< its operator; empty unless fluid and wall meet
+  std::unique_ptr<NonlinearMeshMotion<n>> nonlinear_mesh_motion;  ///< in place of both, where the case asks for one
   int mesh_motion_assemblies = 0;            ///< what is made of the matrix is as old as the count it was made at
   bool keep_constant_operators = true;       ///< false: assembled at each use, to see what keeping them saves
   std::vector<InterfaceNode> interface;      ///< ascending in the fluid's numbers
@@ -71,9 +73,14 @@ class Scene {
     mesh_motion_problem->assemble(mesh_motion);
     ++mesh_motion_assemblies;
   }
+  /// The smallest J of a mesh displacement at a quadrature point, and the fluid's cell that it is in.
+  AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const {
+    return mesh_motion_problem ? mesh_motion_problem->smallest_volume_ratio(mesh)
+                               : nonlinear_mesh_motion->smallest_volume_ratio(mesh);
+  }
   /// To be called before each use of operators that never change.
   void renew_constant_operators() {
-    if (!keep_constant_operators) assemble_mesh_motion();
+    if (!keep_constant_operators && mesh_motion_problem) assemble_mesh_motion();
   }
 
   /// The state at rest, but for prescribed values.

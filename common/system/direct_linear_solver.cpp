@@ -14,6 +14,7 @@ GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks) {
   if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
   if (blocks.fluid) gather_blocks(builder, *blocks.fluid, numbering.fluid_rows, numbering.fluid);
   if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.fluid_rows, numbering.mesh);
+  if (blocks.mesh_tangent) gather_blocks(builder, *blocks.mesh_tangent, numbering.mesh_rows, numbering.mesh);
   if (blocks.mesh_laplacian)
     gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh, blocks.fluid_frames);
   return GatheredMatrix(std::move(builder));

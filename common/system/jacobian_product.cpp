@@ -19,7 +19,7 @@ template <int n>
 void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<double>& y) {
   const Numbering& numbering = blocks_.numbering;
   y.assign(static_cast<std::size_t>(numbering.size), 0.0);
-  if (blocks_.shape_derivatives || blocks_.mesh_laplacian) values(numbering.mesh, x, mesh_);
+  if (blocks_.shape_derivatives || blocks_.mesh_laplacian || blocks_.mesh_tangent) values(numbering.mesh, x, mesh_);
   if (blocks_.fluid) {
     values(numbering.fluid, x, fluid_);
     fsi::multiply(*blocks_.fluid, fluid_, fluid_rows_);
@@ -30,6 +30,10 @@ void JacobianProduct<n>::multiply(const std::vector<double>& x, std::vector<doub
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_space<VectorLayout<n>>(mesh_);
     multiply_components<n>(*blocks_.mesh_laplacian, mesh_, mesh_rows_);
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<VectorLayout<n>>(mesh_rows_);
+    add_to_system(numbering.mesh_rows, mesh_rows_, y);
+  }
+  if (blocks_.mesh_tangent) {
+    fsi::multiply(*blocks_.mesh_tangent, mesh_, mesh_rows_);
     add_to_system(numbering.mesh_rows, mesh_rows_, y);
   }
   if (blocks_.wall) {

@@ -32,6 +32,7 @@ struct JacobianBlocks {
   const BlockMatrix<mixed, mixed>* fluid = nullptr;          ///< d(momentum, continuity) / d(u, p_f)
   const BlockMatrix<mixed, n>* shape_derivatives = nullptr;  ///< d(momentum, continuity) / d(d_m)
   const BlockMatrix<1, n>* mesh_laplacian = nullptr;         ///< of the mesh motion, one number per component
+  const BlockMatrix<n, n>* mesh_tangent = nullptr;           ///< in its place, of a mesh motion that is not linear
   const BlockMatrix<mixed, mixed>* wall = nullptr;           ///< d(momentum, volume) / d(d_s, p_s)
   /// Nodes whose components of vectors are those of a frame, in all blocks but those of the mesh motion; null: none.
   const NodalFrames<n>* fluid_frames = nullptr;

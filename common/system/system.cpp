@@ -30,6 +30,9 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
                    : numbering_.mesh.empty() ? FluidDerivatives::fluid
                                              : FluidDerivatives::fluid_and_domain),
       interface_(interface_pairs(scene)),
+      mesh_tangent_(scene.nonlinear_mesh_motion && !numbering_.mesh_rows.empty()
+                        ? MeshMotionTangent<n>(scene.nonlinear_mesh_motion->graph())
+                        : MeshMotionTangent<n>()),
       norm_(norm),
       impedance_(impedance),
       solver_(solver_by(make_solver)),
@@ -60,7 +63,12 @@ JacobianBlocks<n> System<n>::blocks() {
     if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
     blocks.fluid_nodes = &scene_.fluid->nodes();
   }
-  if (!numbering_.mesh_rows.empty()) blocks.mesh_laplacian = &scene_.mesh_motion;
+  if (!numbering_.mesh_rows.empty()) {
+    if (scene_.nonlinear_mesh_motion)
+      blocks.mesh_tangent = &mesh_tangent_;
+    else
+      blocks.mesh_laplacian = &scene_.mesh_motion;
+  }
   if (blocks.fluid && blocks.wall) blocks.interface = &interface_;
   if (!scene_.fluid_frames.empty()) blocks.fluid_frames = &scene_.fluid_frames;
   if (!scene_.wall_frames.empty()) blocks.wall_frames = &scene_.wall_frames;
@@ -261,7 +269,13 @@ AssemblyResult System<n>::assemble(bool derivatives) {
   residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
   if (!numbering_.mesh_rows.empty()) {
     mesh_residual_.resize(state_->now.mesh.size());
-    multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
+    if (scene_.nonlinear_mesh_motion) {
+      result.include(scene_.nonlinear_mesh_motion->assemble(state_->now.mesh, mesh_residual_,
+                                                            derivatives ? &mesh_tangent_ : nullptr));
+      if (derivatives) scene_.fluid_frames.turn_blocks(mesh_tangent_);
+    } else {
+      multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
+    }
     add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_);
   }
   if (!numbering_.fluid_rows.empty()) {
@@ -340,6 +354,7 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
   if (j.wall) add(*j.wall, numbering_.wall_rows, numbering_.wall, false);
   if (j.fluid) add(*j.fluid, numbering_.fluid_rows, numbering_.fluid, false);
   if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
+  if (j.mesh_tangent) add(*j.mesh_tangent, numbering_.mesh_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
   for (const auto& [normals, slope] : opening_terms_) {
     double flow = 0;

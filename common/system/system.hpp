@@ -133,6 +133,7 @@ class System : public NewtonProblem {
   FluidDerivatives derivatives_;
   std::vector<InterfacePair> interface_;
   std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
+  MeshMotionTangent<n> mesh_tangent_;       ///< of a nonlinear mesh motion; empty otherwise
   SystemNorm norm_;
   const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;

@@ -121,6 +121,7 @@ class LinearStudy {
       throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
                        "give [fluid] and [structure]");
     refuse_pressures_per_layer(setup, scene_->wall->nodes(), "--linear-systems");
+    refuse_nonlinear_mesh_motion(setup, "--linear-systems");
     refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, "--linear-systems");
     scene_->for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw&) {
       throw InputError(setup.path.string(), "opening." + open.name(),

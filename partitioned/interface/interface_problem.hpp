@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/error.hpp"
 #include "case/case.hpp"
 #include "condensed_solver/fast_or_direct.hpp"
 #include "partitioned/interface/membrane.hpp"
@@ -47,6 +48,7 @@ class InterfaceProblem {
     first_wall_ = state.now.wall;
     last_was_linearised_ = false;
     wall_.work_on(state, data);
+    if (mesh_motion_) mesh_motion_->start();
   }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) const = 0;
@@ -64,7 +66,8 @@ class InterfaceProblem {
   virtual void finish_step() {}
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
   /// differences of its positions, are then the wall's.
-  void follow_wall() { move_mesh(wall_displacement(state_->now)); }
+  /// \throws ConvergenceError when a nonlinear mesh motion finds no way there
+  void follow_wall() { extend(wall_displacement(state_->now)); }
 
   /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
@@ -159,13 +162,14 @@ class InterfaceProblem {
     return d;
   }
 
-  /// The mesh follows d on the interface.
+  /// The mesh follows d on the interface. \throws PassFailure when a nonlinear motion finds no way there
   void move_mesh(const std::vector<double>& d) {
-    const Stopwatch watch(cost.mesh_seconds);
-    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
-      for (int k = 0; k < n; ++k) state_->now.mesh[mesh_entry(scene_.interface[i], k)] = d[i * n + k];
-    if (!mesh_motion_) mesh_motion_ = std::make_unique<MeshMotionSolver<n>>(scene_);
-    mesh_motion_->solve(state_->now.mesh);
+    try {
+      extend(d);
+    } catch (const ConvergenceError& error) {
+      if (!scene_.nonlinear_mesh_motion) throw;
+      throw PassFailure(error.what(), {});
+    }
   }
 
   /// Loads the wall with the fluid's momentum rows and solves it.
@@ -200,6 +204,16 @@ class InterfaceProblem {
   /// jump to and fro while the iterates of a step lie close together: an old Jacobian is worth keeping longer than
   /// elsewhere (artery: a quarter of the factorisations that 0.4 takes).
   static constexpr double wall_contraction = 0.6;
+
+  void extend(const std::vector<double>& d) {
+    const Stopwatch watch(cost.mesh_seconds);
+    const std::vector<double> from = scene_.nonlinear_mesh_motion ? state_->now.mesh : std::vector<double>();
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) state_->now.mesh[mesh_entry(scene_.interface[i], k)] = d[i * n + k];
+    if (!mesh_motion_) mesh_motion_ = std::make_unique<MeshMotionSolver<n>>(scene_);
+    mesh_motion_->solve(state_->now.mesh, from, state_->before[0].mesh);
+  }
+
   std::vector<double> first_wall_;    ///< of the step's first guess
   bool last_was_linearised_ = false;  ///< the wall's fields are no solution to start from
 };

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "mesh_motion/harmonic_extension.hpp"
+#include "mesh_motion/mesh_follower.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {
 
-/// Takes the fluid's mesh along with its interface: a harmonic extension, prepared once per run or as often as the
-/// scene assembles its operator.
+/// Takes the fluid's mesh along with its interface. A harmonic extension is prepared once per run or as often as the
+/// scene assembles its operator; a nonlinear motion once a stage at least.
 template <int n>
 class MeshMotionSolver {
  public:
@@ -18,6 +19,11 @@ class MeshMotionSolver {
     const Numbering numbering = number_mesh_motion(scene);
     std::vector<char> inner(numbering.mesh_rows.size());
     for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = numbering.mesh_rows[i].index >= 0;
+    if (scene.nonlinear_mesh_motion) {
+      follower_ =
+          std::make_unique<MeshFollower<n>>(*scene.nonlinear_mesh_motion, std::move(inner), &scene_.fluid_frames);
+      return;
+    }
     zero_.assign(inner.size(), 0.0);
     const auto phase = scene_.profile.phase("factorisation: mesh motion");
     extension_ = std::make_unique<HarmonicExtension<n>>(scene_.mesh_motion, std::move(inner),
@@ -25,8 +31,25 @@ class MeshMotionSolver {
     version_ = scene_.mesh_motion_assemblies;
   }
 
+  /// A stage begins: what follows does not depend on those before.
+  void start() {
+    if (follower_) follower_->forget();
+  }
+
   /// Overwrites the inner values of d_m, n numbers per fluid node, from those on the boundary.
-  void solve(std::vector<double>& mesh) {
+  /// \param from      a mesh, of any boundary values, that a nonlinear motion sets out from
+  /// \param unfolded  or, where an element of that is folded, from this one
+  /// \throws ConvergenceError when it finds no way
+  void solve(std::vector<double>& mesh, const std::vector<double>& from, const std::vector<double>& unfolded) {
+    if (follower_) {
+      const auto phase = scene_.profile.phase("solve: mesh motion");
+      const int before = follower_->tangents();
+      std::vector<double> moved = follower_->unfolded(from) ? from : unfolded;
+      follower_->follow(mesh, moved);
+      mesh = std::move(moved);
+      scene_.profile.count("mesh motion factorisations", follower_->tangents() - before);
+      return;
+    }
     scene_.renew_constant_operators();
     if (version_ != scene_.mesh_motion_assemblies) {
       const auto phase = scene_.profile.phase("factorisation: mesh motion");
@@ -42,7 +65,8 @@ class MeshMotionSolver {
  private:
   Scene<n>& scene_;
   std::unique_ptr<HarmonicExtension<n>> extension_;
-  int version_ = 0;  ///< the assembly whose operator it is
+  std::unique_ptr<MeshFollower<n>> follower_;  ///< in its place, of a nonlinear motion
+  int version_ = 0;                            ///< the assembly whose operator it is
   std::vector<double> zero_;
 };
 

@@ -307,6 +307,26 @@ const std::vector<BadCase>& bad_cases() {
       {"PredictorOfOrderThree", coupled_case, "end = 12.0", "end = 12.0\npredictor = 3",
        "case.toml:27: time.predictor: 3 is out of range; give a whole number from 0 to 2 (order of the extrapolated "
        "start of each step, default 2; euler of fsi-monolithic and explicit coupling 1)"},
+      // Mesh motion
+      {"MeshMotionUnknown", coupled_case, "[output]", "[mesh_motion]\nmethod = \"stifened\"\n[output]",
+       "case.toml:34: mesh_motion.method: \"stifened\" is unknown; did you mean stiffened? There are harmonic, "
+       "stiffened "
+       "or nonlinear-elastic"},
+      {"ExponentOfTheHarmonicMotion", coupled_case, "[output]", "[mesh_motion]\nsize_exponent = 1\n[output]",
+       "case.toml:34: mesh_motion.size_exponent: belongs to the method \"stiffened\" or \"nonlinear-elastic\", and "
+       "this "
+       "case has \"harmonic\"; remove it, or set mesh_motion.method = \"stiffened\""},
+      {"PoissonOfTheStiffenedMotion", coupled_case, "[output]",
+       "[mesh_motion]\nmethod = \"stiffened\"\npoisson = 0.3\n[output]",
+       "case.toml:35: mesh_motion.poisson: belongs to the method \"nonlinear-elastic\", and this case has "
+       "\"stiffened\"; "
+       "remove it, or set mesh_motion.method = \"nonlinear-elastic\""},
+      {"PoissonOfAnIncompressibleMesh", coupled_case, "[output]",
+       "[mesh_motion]\nmethod = \"nonlinear-elastic\"\npoisson = 0.5\n[output]",
+       "case.toml:35: mesh_motion.poisson: 0.5 is out of range; give a number >= 0 and <= 0.49 (Poisson's ratio of "
+       "nonlinear-elastic at rest, default 0)"},
+      {"MeshMotionWithoutFluid", static_case, "[static]", "[mesh_motion]\nmethod = \"stiffened\"\n[static]",
+       "case.toml:12: mesh_motion: is for scenes of fluid and wall, where the fluid's mesh moves; remove it"},
       {"LoadStepsZero", static_case, "load_steps = 5", "load_steps = 0",
        "case.toml:13: static.load_steps: 0 is out of range; give a whole number from 1 to 1000000 (equal steps in "
        "which the load is raised, default 10)"},

@@ -53,6 +53,7 @@ TEST(CaseHash, NoticesWhatChangesTheEquations) {
     c.time.reset();
     c.static_load = StaticData{};
   }));
+  EXPECT_TRUE(changed([](Case& c) { c.mesh_motion.method = MeshMotionMethod::stiffened; }));
   EXPECT_TRUE(changed([](Case& c) { c.structure.reset(); }));
 }
 
@@ -161,6 +162,10 @@ time.damping = chosen
 time.spectral_radius = 0.5
 time.newmark_beta = 1
 time.newmark_gamma = 1
+mesh_motion.method = harmonic
+mesh_motion.size_exponent = 1
+mesh_motion.distance_exponent = 1
+mesh_motion.poisson = 0
 )";
   EXPECT_EQ(canonical_dump(scene), expected);
 }

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "fem/nodal_frames.hpp"
+#include "mesh_motion/tangent_extension.hpp"
+
+namespace fsi {
+
+/// How a nonlinear mesh motion is solved by itself.
+struct MeshFollowerOptions {
+  double tolerance = 1e-11;       ///< of the last increment, relative to the displacement
+  double keep_contraction = 0.2;  ///< a tangent serves while an iteration contracts increments by this
+  int max_iterations = 20;        ///< of Newton's method on one stretch of the way
+  int max_halvings = 20;          ///< of the way
+  TangentExtensionOptions linear;
+};
+
+/// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's answer to the
+/// boundary's motion; where that folds an element, or the iteration fails, the way is gone in halves. So any motion
+/// whose way holds unfolded meshes is followed.
+template <int n>
+class MeshFollower {
+ public:
+  /// \param motion  must outlive this, and so must `frames`
+  /// \param inner   per node and component: its value is sought; at nodes with a frame components are the frame's
+  /// \param frames  null: none
+  MeshFollower(const NonlinearMeshMotion<n>& motion, std::vector<char> inner, const NodalFrames<n>* frames = nullptr,
+               const MeshFollowerOptions& options = {});
+
+  /// Moves `mesh`, an unfolded field along the axes of space, to where its given values are those of `target`.
+  /// \throws ConvergenceError when there is no way; `mesh` is then as it was
+  void follow(const std::vector<double>& target, std::vector<double>& mesh);
+  /// The next call makes a tangent of its own, so that its answer does not depend on those before.
+  void forget() { linearised_ = false; }
+  /// No element of the mesh is inverted.
+  bool unfolded(const std::vector<double>& mesh);
+
+  int tangents() const { return tangents_; }      ///< made in all calls
+  int iterations() const { return iterations_; }  ///< of all calls: each a linear solve
+  double memory_mib() const;
+
+ private:
+  /// Rows in the frames, zero where values are given. \returns false when an element is inverted
+  bool evaluate(const std::vector<double>& mesh);
+  void linearise(const std::vector<double>& mesh);
+  /// Newton's method from `mesh`, given values fixed.
+  bool settle(std::vector<double>& mesh);
+  bool go(const std::vector<double>& step, std::vector<double>& mesh);
+  /// increment_ = what the tangent answers to the residual and to `given` values' change.
+  void solve(const std::vector<double>& given);
+
+  const NonlinearMeshMotion<n>& motion_;
+  std::vector<char> inner_;
+  const NodalFrames<n>* frames_;
+  MeshFollowerOptions options_;
+  MeshMotionTangent<n> tangent_;
+  TangentExtension<n> extension_;
+  bool linearised_ = false;
+  int tangents_ = 0, iterations_ = 0;
+  std::vector<double> residual_, increment_, right_;
+};
+
+}  // namespace fsi
