@@ -48,8 +48,8 @@ struct CompressibleNeoHookean : ElasticConstants {
             f.volume_ratio};
   }
 
-  /// With A = C - I, x = I_3 - 1 = tr A + tr cof A + det A: Psi' = mu/2 (x - ln(1 + x) - tr cof A - det A) - mu/3 ln^2 J,
-  /// all of second order in A.
+  /// With A = C - I and x = I_3 - 1 = tr A + tr cof A + det A, all of second order in A:
+  ///   Psi' = mu/2 (x - ln(1 + x) - tr cof A - det A) - mu/3 ln^2 J
   template <class T>
   static T energy(double mu, const Mat3<T>& h) {
     const Deformation<T> f = deformation(h);

@@ -4,8 +4,8 @@
 
 namespace fsi {
 
-/// The artery's law with fibres that are dispersed about their families' directions ([Gasser2006]; docs/theory.md, section
-/// 5.4). With E_i = kappa (J_1 - 3) + (1 - 3 kappa) (J_i - 1)
+/// The artery's law with fibres that are dispersed about their families' directions ([Gasser2006]; docs/theory.md,
+/// section 5.4). With E_i = kappa (J_1 - 3) + (1 - 3 kappa) (J_i - 1)
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over E_i > 0 of (exp(k2 E_i^2) - 1).
 /// A type of its own: the loops over parallel fibres know nothing of it.
 struct DispersedArtery {

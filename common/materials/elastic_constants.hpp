@@ -21,7 +21,8 @@ struct ElasticConstants {
   double compression_modulus() const {
     return young > 0 ? young / (3 * (1 - 2 * poisson)) : lame_lambda + 2 * lame_mu / 3;
   }
-  /// E / (1 - nu^2), kPa: stress per strain where the strain across vanishes, as around a thin tube held along its axis.
+  /// E / (1 - nu^2), kPa: stress per strain where the strain across vanishes, as around a thin tube held along its
+  /// axis.
   double plane_modulus() const {
     const double mu = shear_modulus(), k = compression_modulus();
     return 4 * mu * (3 * k + mu) / (3 * k + 4 * mu);

@@ -62,7 +62,8 @@ std::array<int, Element::dim> vertices_of(const typename MeshOf<Element>::Facet&
   return vertices;
 }
 
-/// Marks start and end among the pieces of `wall_ends`. \param body  sets of nodes of the mesh that the wall's cells make
+/// Marks start and end among the pieces of `wall_ends`.
+/// \param body  sets of nodes of the mesh that the wall's cells make
 template <class Element>
 void mark_ends(const MeshOf<Element>& mesh, const PartOf<Element>& wall, const FacetsOf<Element>& ends,
                ConnectedNodes& body, const std::vector<int>& bodies, const std::string& case_file,

@@ -59,8 +59,8 @@ FibreField<Element> fibre_directions(const ElementPacks<Element>& packs, const s
   return all;
 }
 
-/// The directions in the frame of the wall's potentials. In two dimensions the direction that stands upright on the plane
-/// is the axial one of plane scenes and the circumferential one of a body of revolution.
+/// The directions in the frame of the wall's potentials. In two dimensions the direction that stands upright on the
+/// plane is the axial one of plane scenes and the circumferential one of a body of revolution.
 /// \param cells  of the wall's part, as the packs name them
 template <class Element>
 FibreField<Element> fibre_directions(const ElementPacks<Element>& packs, const FrameFields& fields,

@@ -118,9 +118,9 @@ void solve_dense(double (&a)[size][size], double (&b)[size]) {
 }
 
 /// Gradients at the nodes, by least squares: of the quadratic polynomial through a node's value that is nearest to the
-/// values of its neighbours and theirs, near ones counting more ([Zhang2005]). A linear element's own gradient is off by
-/// the angle of its facets, which are not the wall's; this is of second order, at the boundary too. A polynomial that the
-/// neighbours do not determine has small second derivatives.
+/// values of its neighbours and theirs, near ones counting more ([Zhang2005]). A linear element's own gradient is off
+/// by the angle of its facets, which are not the wall's; this is of second order, at the boundary too. A polynomial
+/// that the neighbours do not determine has small second derivatives.
 template <class Element>
 std::vector<Vec3<double>> nodal_slopes(const PartNodes& part, const NodeGraph& graph,
                                        const std::vector<double>& field) {

@@ -7,14 +7,15 @@
 
 namespace fsi {
 
-/// Where the potentials of a wall's frame are held: a mark per node of the wall's part, copies marked as their originals.
+/// Where the potentials of a wall's frame are held: a mark per node of the wall's part, copies marked as their
+/// originals.
 struct FrameBoundary {
   std::vector<char> inner, outer;  ///< the radial potential is 0 and 1
   std::vector<char> start, end;    ///< the axial potential is 0 and 1; empty in two dimensions
 };
 
-/// Frame of a wall of any shape from two potentials, each harmonic on the whole wall with no flux through the rest of the
-/// boundary (docs/theory.md, section 5.6; the idea is [Bayer2012]'s).
+/// Frame of a wall of any shape from two potentials, each harmonic on the whole wall with no flux through the rest of
+/// the boundary (docs/theory.md, section 5.6; the idea is [Bayer2012]'s).
 struct FrameFields {
   std::vector<double> radial, axial;  ///< potentials per node of the part; the axial one is empty in two dimensions
   /// Of linear elements, whose gradients are constant: found at the nodes from the potentials around, 1/mm. Else empty.
@@ -32,8 +33,9 @@ struct LocalFrame {
   Vec3<double> radial, circumferential, axial;
 };
 
-/// e_r along the radial slope, e_z along what the axial slope has across e_r, e_theta = e_z x e_r. Where that is nothing,
-/// as at the saddle of a branching, e_z is along what an axis of space has across e_r, the one that is the most.
+/// e_r along the radial slope, e_z along what the axial slope has across e_r, e_theta = e_z x e_r. Where that is
+/// nothing, as at the saddle of a branching, e_z is along what an axis of space has across e_r, the one that is the
+/// most.
 LocalFrame frame_of(const Vec3<double>& radial_slope, const Vec3<double>& axial_slope);
 
 }  // namespace fsi

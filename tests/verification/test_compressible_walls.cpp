@@ -169,7 +169,8 @@ TEST(CompressibleWalls, ThickTubeAtLargeStrainsIsThatOfTheRadialEquation) {
     }
 }
 
-/// The tip's rise, mm, of Cook's membrane (48 x 44 x 16 mm, plane strain) under a shear traction of 6.25 MPa at its end.
+/// The tip's rise, mm, of Cook's membrane (48 x 44 x 16 mm, plane strain) under a shear traction of 6.25 MPa at its
+/// end.
 template <class Element>
 double cooks_tip(const Material& layer, int m) {
   constexpr int n = Element::components;
@@ -212,8 +213,8 @@ double cooks_tip(const Material& layer, int m) {
   return membrane.solution[MixedLayout<n>::vector(tip, 1)];
 }
 
-// G = 80.1938 MPa, K = 40,094 MPa: the tip rises by 6.891 mm with 30 elements a side (OpenGeoSys' documentation, F-bar);
-// elements that lock stop at 2.3 to 4.7 mm.
+// G = 80.1938 MPa, K = 40,094 MPa: the tip rises by 6.891 mm with 30 elements a side (OpenGeoSys' documentation,
+// F-bar); elements that lock stop at 2.3 to 4.7 mm.
 TEST(CompressibleWalls, CooksMembraneRisesAsPublished) {
   const double shear = 80193.8, bulk = 40094e3;
   const Material mixed = make_material("neo-hookean", {{"c10", shear}}),

@@ -26,8 +26,8 @@ namespace {
 const double pi = std::acos(-1.0);
 constexpr double radius = 1.5;  // mm, of the inner face
 
-/// A tube of two layers, closed around, along the z axis or bent about the line x = -bend, y = 0 there in the plane of x
-/// and z, with groups `inner` and `wall_ends`.
+/// A tube of two layers, closed around, along the z axis or bent about the line x = -bend, y = 0 there in the plane of
+/// x and z, with groups `inner` and `wall_ends`.
 struct Tube {
   double thickness = 0.4, length = 2, bend = 0;  ///< mm; no bend: straight
 
@@ -173,8 +173,8 @@ TEST(FibreFrames, OfAStraightTubeAreTheCylinders) {
 }
 
 // The angle along the bend is harmonic without flux through the faces: the axial direction is the torus's but for the
-// mesh. The radial potential's lines are straight on the faces alone; inside they bow by t^2/(8 bend radius inner radius)
-// = 2e-3 at most.
+// mesh. The radial potential's lines are straight on the faces alone; inside they bow by t^2/(8 bend radius inner
+// radius) = 2e-3 at most.
 TEST(FibreFrames, OfABentTubeAreTheToruss) {
   const Tube bent{0.4, 4, 6};
   const auto p1 = table_of<P1Tetrahedron>("bent, P1", bent, {1, 2, 4});

@@ -1,5 +1,5 @@
-// The laws with a finite bulk modulus in the mixed form: the stress P' - p G with p = -K g against the derivative of the
-// energy Psi' + K/2 g^2, against the laws' textbook stresses, and against closed forms.
+// The laws with a finite bulk modulus in the mixed form: the stress P' - p G with p = -K g against the derivative of
+// the energy Psi' + K/2 g^2, against the laws' textbook stresses, and against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -146,8 +146,9 @@ TEST(CompressibleLaws, StressIsThatOfTheTextbook) {
     }
 }
 
-// Pulled to a stretch l with free sides, by hand. Saint Venant-Kirchhoff: E_t = -nu E_l and P = E l (l^2 - 1)/2. Linear:
-// P = E (l - 1). Neo-Hookean: mu (m^2 - 1) + lambda ln(l m^2) = 0 for the sides' stretch m, P = mu (l^2 - m^2)/l.
+// Pulled to a stretch l with free sides, by hand. Saint Venant-Kirchhoff: E_t = -nu E_l and P = E l (l^2 - 1)/2.
+// Linear: P = E (l - 1). Neo-Hookean: mu (m^2 - 1) + lambda ln(l m^2) = 0 for the sides' stretch m, and
+// P = mu (l^2 - m^2)/l.
 TEST(CompressibleLaws, UniaxialTension) {
   const double l = 1.2;
   const double side = std::sqrt(1 - poisson * (l * l - 1)) - 1;
@@ -169,8 +170,8 @@ TEST(CompressibleLaws, UniaxialTension) {
   EXPECT_NEAR(of_neo_hookean[4], 0, 1e-13);
 }
 
-// x = X + gamma Y. Saint Venant-Kirchhoff: S = (lambda, lambda + 2 mu, lambda) gamma^2/2, S_xy = mu gamma. Linear: sigma_xy
-// = mu gamma alone. Neo-Hookean: J = 1, sigma_xx = mu gamma^2, sigma_xy = mu gamma, nothing else.
+// x = X + gamma Y. Saint Venant-Kirchhoff: S = (lambda, lambda + 2 mu, lambda) gamma^2/2, S_xy = mu gamma. Linear:
+// sigma_xy = mu gamma alone. Neo-Hookean: J = 1, sigma_xx = mu gamma^2, sigma_xy = mu gamma, nothing else.
 TEST(CompressibleLaws, SimpleShear) {
   const double shear = 0.6;
   const Matrix h{{{0, shear, 0}, {0, 0, 0}, {0, 0, 0}}};

@@ -30,8 +30,8 @@ Strain<Pack> pulled(double l) {
   return strain_of(h);
 }
 
-// W = c10/2 (l^2 + 2/l - 3) + k1/k2 (exp(k2 E^2) - 1), E = kappa (l^2 + 2/l - 3) + (1 - 3 kappa) (l^2 cos^2 + sin^2/l - 1):
-// the Cauchy stress difference is l dW/dl, by hand.
+// W = c10/2 (l^2 + 2/l - 3) + k1/k2 (exp(k2 E^2) - 1) with
+// E = kappa (l^2 + 2/l - 3) + (1 - 3 kappa) (l^2 cos^2 + sin^2/l - 1): the Cauchy stress difference is l dW/dl, by hand.
 TEST(FibreDispersion, UniaxialStretchByHand) {
   for (double kappa : {0.0, 0.1, 0.226, 1.0 / 3})
     for (double l : {1.05, 1.3}) {
