@@ -412,8 +412,8 @@ class Checks {
 
   void interface() const {
     const auto shared = interface_facets(mesh_, fluid_, layers_);
-    faces_that_meet_unshared();
     if (shared.empty()) fail("interface", "the wall does not touch the fluid: they share no facet", conforming_remedy);
+    faces_that_meet_unshared();
 
     std::vector<Facet> held;
     for_groups_and_planes(needs_.clamping,
