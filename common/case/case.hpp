@@ -146,7 +146,7 @@ struct OutputData {
   int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
   bool energy = true;                ///< energy.csv
   DerivedOutput derived{};
-  SampleRequests samples;            ///< [output.points], [output.lines.NAME], [output.planes.NAME]
+  SampleRequests samples;  ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };
 
 /// [economy]: savings switched off to see what they are worth. The answers stay the same.
