@@ -82,7 +82,7 @@ class WallStressOf : public WallStress<Element::components> {
   using Mixed = MixedLayout<n>;
 
   WallStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
-      : node_count_(scene.wall->node_count()) {
+      : wall_(*scene.wall), node_count_(scene.wall->node_count()) {
     const auto& problem = static_cast<const WallProblem<Element>&>(*scene.wall);
     const auto& part = problem.part();
     share_.assign(static_cast<std::size_t>(node_count_), 0.0);
@@ -90,7 +90,7 @@ class WallStressOf : public WallStress<Element::components> {
     std::size_t index = 0;
     for (const auto& [name, data] : setup.structure->layers) {
       const WallLayer<Element>& layer = problem.layers()[index++];
-      RecoveryCells cells{part.nodes,
+      RecoveryCells cells{scene.wall->unloaded_nodes(scene.axes),
                           {},
                           Element::nodes,
                           Element::order,
@@ -125,7 +125,8 @@ class WallStressOf : public WallStress<Element::components> {
     return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return !layer.fibres.empty(); });
   }
 
-  WallStresses of(const std::vector<double>& wall) const override {
+  WallStresses of(const std::vector<double>& now) const override {
+    const std::vector<double> wall = wall_.from_unloaded(now);  // of a wall under prestress not the mesh's shape
     WallStresses all;
     all.cauchy.assign(static_cast<std::size_t>(node_count_), Mat3<double>{});
     if (has_fibres())
@@ -177,6 +178,7 @@ class WallStressOf : public WallStress<Element::components> {
     }
   }
 
+  const Wall<n>& wall_;
   int node_count_;
   std::vector<StressLayer> layers_;
   std::vector<double> share_;        ///< per node: one over the layers that have it

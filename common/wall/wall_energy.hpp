@@ -24,7 +24,8 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
     const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
     NodalVector<Element> d{}, v{};
     NodalScalar<Element> p{};
-    gather_displacement<Element>(d, pack, wall, prestress);
+    gather<MixedLayout<n>>(d, pack, wall);
+    if (prestress) add_prestress<Element>(d, pack, prestress);
     gather<MixedLayout<n>>(p, pack, balance);
     if (velocity) gather<VectorLayout<n>>(v, pack, velocity);
     struct Prepared {
@@ -73,16 +74,20 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
     NodalVector<Element> reference{}, d_before{}, d_start{}, d_end{}, v_start{}, v_end{}, moved;
     NodalScalar<Element> p_before{};
     at.gather_from(step.balance, pack);
-    gather_displacement<Element>(reference, pack, step.reference, step.balance.prestress);
-    gather_displacement<Element>(d_start, pack, step.start, step.balance.prestress);
-    gather_displacement<Element>(d_end, pack, step.end, step.balance.prestress);
+    gather<Mixed>(reference, pack, step.reference);
+    gather<Mixed>(d_start, pack, step.start);
+    gather<Mixed>(d_end, pack, step.end);
     if (step.wall_before) {
-      gather_displacement<Element>(d_before, pack, step.wall_before, step.balance.prestress);
+      gather<Mixed>(d_before, pack, step.wall_before);
       gather<Mixed>(p_before, pack, step.wall_before);
     }
     if (step.velocity_end) {
       gather<Vector>(v_start, pack, step.velocity_start);
       gather<Vector>(v_end, pack, step.velocity_end);
+    }
+    if (const double* prestress = step.balance.prestress) {
+      for (auto* field : {&reference, &d_start, &d_end}) add_prestress<Element>(*field, pack, prestress);
+      if (step.wall_before) add_prestress<Element>(d_before, pack, prestress);
     }
     for (int a = 0; a < Element::nodes; ++a)
       for (int k = 0; k < n; ++k)
