@@ -71,6 +71,7 @@ struct StructureData {
   std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
   FibreFrame fibre_frame = FibreFrame::cylinder;
+  Point gravity{0, 0, 0};         ///< mm/ms^2, acceleration of all its mass, a load that does not change
   Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
   Point axis_direction{0, 0, 1};  ///< need not be normalised
   std::map<std::string, MaterialData> layers;

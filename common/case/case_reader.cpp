@@ -68,6 +68,18 @@ void check_axis(const CaseEntry& whole_case, const Case& scene) {
     structure.child("axis_origin").refuse("the axis of an axisymmetric scene is the z axis", "leave this key out");
 }
 
+/// A load lies in the space of its scene.
+void check_gravity(const CaseEntry& whole_case, const Case& scene) {
+  if (!scene.structure) return;
+  const auto& g = scene.structure->gravity;
+  const CaseEntry structure = whole_case.child("structure");
+  if (scene.geometry == Geometry::axisymmetric && (g[0] != 0 || g[1] != 0))
+    structure.child("gravity").refuse("is along another direction than the axis of the body of revolution",
+                                      "give [0, 0, g]");
+  if (scene.geometry == Geometry::plane && g[2] != 0)
+    structure.child("gravity").refuse("points out of the plane of the scene", "give [g_x, g_y, 0]");
+}
+
 /// Each time of output ends a step, so that there can be no more of them than steps.
 void check_output_times(const CaseEntry& whole_case, const Case& scene) {
   constexpr double most = 1e6;
@@ -157,6 +169,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
+  check_gravity(whole_case, scene);
   check_output_times(whole_case, scene);
   check_derived_output(whole_case, scene);
   warn_of_wall_density(whole_case, scene);

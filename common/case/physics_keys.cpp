@@ -198,6 +198,8 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            "frame of the fibre directions: {}; cylinder: about the axis below; laplace: on a wall of any shape, by "
            "potentials between its inner and outer faces and between its ends",
            name_from(at(&StructureData::fibre_frame), fibre_frames())),
+      leaf("gravity", optional, "acceleration [x, y, z] in mm/ms^2 that loads all of the wall's mass, default {}",
+           point(at(&StructureData::gravity), false)),
       leaf("axis_origin", optional,
            "point on the artery's axis in {unit}, default {}; of plane scenes where the upright axis stands",
            point(at(&StructureData::axis_origin), false)),

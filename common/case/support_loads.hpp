@@ -7,14 +7,21 @@
 
 namespace fsi {
 
-/// One of the loads that supports put on the wall: a number in time on a surface.
+/// One of the loads on the wall from outside: a number in time on a surface, or on all of the wall.
 struct SupportLoad {
-  std::string surface;   ///< name of the facet group
-  int component = -1;    ///< of a traction; -1: a pressure that follows the surface
-  PressureTable course;  ///< kPa
+  std::string surface;   ///< name of the facet group; empty: a force on the wall's volume
+  int component = -1;    ///< of a traction or force, a direction of the scene; -1: a pressure that follows the surface
+  PressureTable course;  ///< kPa, of a force on the volume kPa/mm
 };
 
-/// The loads of a case's supports, in the order in which scenes and loads hold them.
+/// Axes of space along which the directions of a scene lie.
+inline std::vector<int> axes_of(Geometry geometry) {
+  if (geometry == Geometry::axisymmetric) return {0, 2};
+  if (geometry == Geometry::plane) return {0, 1};
+  return {0, 1, 2};
+}
+
+/// The loads of a case's supports, and the weight of its wall, in the order in which scenes and loads hold them.
 inline std::vector<SupportLoad> support_loads_of(const Case& setup) {
   std::vector<SupportLoad> loads;
   for (const auto& [surface, support] : setup.supports) {
@@ -22,6 +29,11 @@ inline std::vector<SupportLoad> support_loads_of(const Case& setup) {
     for (std::size_t k = 0; k < support.traction.size(); ++k)
       loads.push_back({surface, static_cast<int>(k), support.traction[k]});
   }
+  if (!setup.structure) return loads;
+  const auto axes = axes_of(setup.geometry);
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    if (const double force = setup.structure->density * setup.structure->gravity[axes[k]]; force != 0)
+      loads.push_back({"", static_cast<int>(k), {{{0.0, force}}}});
   return loads;
 }
 

@@ -185,7 +185,7 @@ EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, cons
 
 /// A row for each name and step, all at one time in the step.
 EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const {
-  TableReader reader(folder_ / table.file, table.header, true);
+  TableReader reader(folder_ / table.file, table.header, 1);
   double before = 0;
   for (std::int64_t step = 1; step <= steps.step; ++step) {
     const double end = times_[static_cast<std::size_t>(step - 1)];
@@ -194,7 +194,7 @@ EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table
       read_row(reader, step, steps.step);
       const auto& row = reader.row();
       if (i == 0) time = row[0];
-      if (row[0] != time || reader.name() != table.names[i] || !(time > before + rounding * before) ||
+      if (row[0] != time || reader.place() != table.names[i] || !(time > before + rounding * before) ||
           !(time <= end + rounding * end))
         reader.refuse_line(
             fmt::format("is no row of \"{}\" in step {}, from {:g} to {:g}: rows are missing, doubled or out of order",

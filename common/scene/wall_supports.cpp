@@ -10,6 +10,8 @@
 
 #include "base/error.hpp"
 #include "case/support_loads.hpp"
+#include "fem/contributions.hpp"
+#include "fem/element_packs.hpp"
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
 #include "fem/held_components.hpp"
@@ -69,6 +71,27 @@ Direction<Element::components> direction_of(const std::string& name) {
   return direction;
 }
 
+/// Integrals of the vectors' shape functions, in the mixed layout, mm^3.
+template <class Element>
+std::vector<double> volume_shares(const PartOf<Element>& part, const Wall<Element::components>& wall) {
+  std::vector<double> shares(wall.space().mixed_size(), 0.0);
+  const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *wall.graph());
+  ElementRows<Element, Pack> rows;
+  for (int t = 0; t < packs.thread_count(); ++t)
+    for (const auto& pack : packs.of_thread(t)) {
+      rows.set_zero();
+      for (int q = 0; q < Element::points; ++q) {
+        const auto g = Element::at(pack.geometry, q);
+        Integrand<Pack> f;
+        f.source = {{Pack(1.0), Pack(1.0), Pack(1.0)}};
+        f.scalar_source = Pack(0.0);
+        rows.add_sources(f, g);
+      }
+      scatter_residual<Element>(rows, pack, shares.data());
+    }
+  return shares;
+}
+
 }  // namespace
 
 template <class Element>
@@ -105,7 +128,13 @@ void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<E
     if (!springs.is_none()) supports->template add_springs<Element>(x, facets, springs);
     if (!dampers.is_none()) supports->template add_dampers<Element>(x, facets, dampers);
   }
+  std::vector<double> shares;  // of the nodes in the volume, for all components alike
   for (const SupportLoad& load : support_loads_of(setup)) {
+    if (load.surface.empty()) {
+      if (shares.empty()) shares = volume_shares<Element>(part, wall);
+      supports->add_force(shares, load.component);
+      continue;
+    }
     const auto facets = in_part<Element>(part, group_facets(mesh, load.surface));
     if (load.component < 0)
       supports->template add_pressure<Element>(x, facets);

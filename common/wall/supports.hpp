@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "fem/facet_load.hpp"
@@ -56,17 +57,21 @@ class WallSupports {
   /// Likewise, a component of a traction per area at rest.
   template <class Element, class Facet>
   void add_traction(const std::vector<Point>& x, const std::vector<Facet>& facets, int component) {
-    struct Share {
-      std::size_t entry;
-      double area;  ///< mm^2
-    };
     std::vector<Share> shares;
     const std::vector<double> areas = vector_shape_integrals<Element>(x, facets);
     for (std::size_t a = 0; a < areas.size(); ++a)
       if (areas[a] != 0) shares.push_back({Mixed::vector(static_cast<int>(a), component), areas[a]});
-    loads_.push_back([shares](double p, const double*, std::vector<double>& residual, Matrix*) {
-      for (const Share& share : shares) residual[share.entry] -= p * share.area;
-    });
+    add_dead_load(std::move(shares));
+  }
+  /// Likewise, a component of a force per volume at rest, in kPa/mm.
+  /// \param integrals  of the vectors' shape functions over the wall, in the mixed layout, mm^3
+  void add_force(const std::vector<double>& integrals, int component) {
+    std::vector<Share> shares;
+    for (int a = 0; a < graph_.rows(); ++a) {
+      const std::size_t entry = Mixed::vector(a, component);
+      if (integrals[entry] != 0) shares.push_back({entry, integrals[entry]});
+    }
+    add_dead_load(std::move(shares));
   }
 
   std::size_t load_count() const { return loads_.size(); }
@@ -101,6 +106,17 @@ class WallSupports {
     /// Makes one entry of those that share a place.
     void merge();
   };
+
+  /// What of a load that does not follow the wall belongs to an entry.
+  struct Share {
+    std::size_t entry;
+    double measure;  ///< mm^2, or mm^3
+  };
+  void add_dead_load(std::vector<Share> shares) {
+    loads_.push_back([shares = std::move(shares)](double p, const double*, std::vector<double>& residual, Matrix*) {
+      for (const Share& share : shares) residual[share.entry] -= p * share.measure;
+    });
+  }
 
   static std::vector<double> difference(const double* a, const double* b, double factor, std::size_t size);
 
