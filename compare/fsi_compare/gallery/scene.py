@@ -21,7 +21,8 @@ from typing import Any, Dict, List, Mapping, Sequence, Tuple
 from ..base.errors import InputError
 from ..base.files import exists, is_file, is_folder, listed, read_text
 from ..base.suggestions import nearest
-from ..runs.columns import Columns, read_columns
+from ..results.run import RunResults, open_run
+from ..results.table import Table
 from ..runs.run_folder import read_finished
 
 BOTH = ("fsi-monolithic", "fsi-partitioned")
@@ -59,16 +60,14 @@ class SceneRun:
     summary: Dict[str, Any]
     seconds: float
 
-    def table(self, name: str) -> Columns:
-        """Columns of a table of numbers of the result folder, `flow.csv` for one."""
-        return read_columns(self.folder / name)
+    @property
+    def results(self) -> RunResults:
+        """The folder as arrays with units (docs/python.md)."""
+        return open_run(self.folder)
 
-    def level(self, name: str, time: float) -> Columns:
-        """The rows of such a table at the level nearest to a time in ms."""
-        table = self.table(name)
-        times = table["time_ms"]
-        rows = times == times[abs(times - time).argmin()]
-        return Columns(self.folder / name, {column: values[rows] for column, values in table.items()})
+    def table(self, name: str) -> Table:
+        """A table of the folder, `flow.csv` for one."""
+        return self.results.table(name)
 
 
 @dataclass(frozen=True)
