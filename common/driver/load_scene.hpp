@@ -29,7 +29,7 @@ struct LoadedScene {
   MeshFacts mesh;
   std::unique_ptr<Scene<n>> scene;
   ObservationPoints points;
-  DerivedQuantities<n> derived;  ///< refers to the scene
+  DerivedQuantities<n> derived;         ///< refers to the scene
   std::vector<FieldGrid> grids;         ///< of fluid and wall, where they are, without fields
   std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };

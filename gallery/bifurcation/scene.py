@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from fsi_compare.gallery.scene import Number
 
 MESH = "geo fork.geo"
-QUICK = {"time.end": 4, "time.step": 0.5}
+QUICK = {"time.end": 10}
 
 COMPLIANCE, DISTAL = 5.0, 2.0  # mm^3/kPa, kPa ms/mm^3
 

@@ -14,7 +14,7 @@ from fsi_compare.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set along=25 --set across=3 --set through=1"
-QUICK = {"time.step": 0.25, "time.end": 8}
+QUICK = {"time.step": 0.125, "time.end": 8}
 
 CONVERGED, EULER = 0.1585, 0.121  # mm
 

@@ -147,6 +147,7 @@ structure.bulk_modulus = 10000
 structure.stabilisation = 0.5
 structure.layer_pressure = separate
 structure.fibre_frame = cylinder
+structure.gravity = [0, 0, 0]
 structure.axis_origin = [0, 0, 0]
 structure.axis_direction = [0, 0, 1]
 structure.layers.inside.material = artery
