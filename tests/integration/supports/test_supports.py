@@ -5,12 +5,14 @@ import unittest
 import numpy as np
 from programs import (
     DRIVERS,
+    MESH,
     MONOLITHIC,
     FolderTest,
     arrays,
     attempt,
     difference,
     differing_arrays,
+    execute,
     pressure,
     restart,
     run,
@@ -188,6 +190,58 @@ class Supports(FolderTest):
         process = attempt(MONOLITHIC, case, "-q", folder=self.base / "soft", settings=settings)
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertIn("prestress: no unloaded shape found for more than", process.stderr)
+
+
+class Gravity(FolderTest):
+    """A column between rollers under its weight: u(y) = -rho g (L y - y^2 / 2) / (lambda + 2 mu), which is quadratic."""
+
+    SHAPE = """
+Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0};
+Line(1) = {1, 2};
+s[] = Extrude { 0, 10, 0 } { Curve{1}; Layers{5}; };
+Physical Surface("column") = {s[1]};
+Physical Curve("wall_ends") = {1};
+Physical Curve("symmetry_x") = {s[2], s[3]};
+"""
+    CASE = """
+element = "p2p1"
+geometry = "plane"
+[mesh]
+file = "column.msh"
+[structure]
+density = 2.0
+gravity = [0, -1e-2, 0]
+[structure.layers.column]
+material = "linear-elastic"
+lame_lambda = 40.0
+lame_mu = 30.0
+[static]
+load_steps = 2
+[output.points]
+top = [1, 10, 0]
+middle = [1, 5, 0]
+"""
+
+    def test_column_under_its_weight(self):
+        (self.base / "column.geo").write_text(self.SHAPE)
+        (self.base / "column.toml").write_text(self.CASE)
+        made = execute(MESH, "geo", self.base / "column.geo", "--order", 2, "-q", "-o", self.base / "column.msh")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        folder = run(MONOLITHIC, self.base / "column.toml", self.base / "column")
+        rows = [line.split(",") for line in (folder / "points.csv").read_text().splitlines()]
+        for name, height in (("top", 10.0), ("middle", 5.0)):
+            last = [dict(zip(rows[0], row)) for row in rows if row[1] == name][-1]
+            exact = -2.0 * 1e-2 * (10 * height - height**2 / 2) / (40 + 2 * 30)
+            self.assertAlmostEqual(float(last["displacement_y_mm"]) / exact, 1, delta=1e-9)
+        energy = [line.split(",") for line in (folder / "energy.csv").read_text().splitlines()]
+        work = [float(row[energy[0].index("support_work_uJ")]) for row in energy[1:]]
+        self.assertGreater(min(work), 0)
+
+    def test_a_direction_that_the_scene_lacks_is_refused(self):
+        (self.base / "column.toml").write_text(self.CASE.replace("-1e-2, 0]", "-1e-2, 1]"))
+        process = attempt(MONOLITHIC, self.base / "column.toml", folder=self.base / "none")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("structure.gravity: points out of the plane", process.stderr)
 
 
 if __name__ == "__main__":
