@@ -30,13 +30,14 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         help="runs the scenes of the gallery and makes its page",
         description=DESCRIPTION,
     )
-    gallery.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all)")
+    gallery.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all but the long ones)")
     gallery.add_argument(
         "-o", "--output", metavar="OUTDIR", type=folder, default=Path(DEFAULT_OUTPUT), help=f"default: {DEFAULT_OUTPUT}"
     )
     gallery.add_argument(
         "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
     )
+    gallery.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
     gallery.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
     gallery.add_argument("--list", action="store_true", help="say what there is, and run nothing")
     gallery.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at once (default: 2)")
@@ -54,8 +55,10 @@ def gallery(options: argparse.Namespace) -> int:
     scenes = find_scenes(options.scenes, options.source)
     if options.list:
         for scene in scenes:
-            print(f"{scene.name:<24} {scene.title}")
+            print(f"{scene.name:<24} {scene.title}{' (long)' if scene.long else ''}")
         return 0
+    if not options.scenes and not options.long:
+        scenes = [scene for scene in scenes if not scene.long]
     if options.jobs < 1:
         raise InputError("", "--jobs", f"{options.jobs} is too few", "give 1 or more")
     named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}

@@ -10,6 +10,7 @@ and may hold
   DRIVERS         the drivers that run it, both unless said otherwise: a static wall knows one
   QUICK           entries of the case that make a run of the scene's test, a second or two
   QUICK_MESH      the words of the command that makes that run's mesh
+  LONG            True: takes minutes, run when it is named or all are asked for by --long
 """
 
 import shlex
@@ -95,6 +96,7 @@ class Scene:
     drivers: Tuple[str, ...]
     module: ModuleType = field(repr=False)
     quick_mesh: str = ""
+    long: bool = False
     quick: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -142,6 +144,7 @@ def read_scene(folder: Path) -> Scene:
             drivers=tuple(getattr(module, "DRIVERS", BOTH)),
             module=module,
             quick_mesh=getattr(module, "QUICK_MESH", ""),
+            long=bool(getattr(module, "LONG", False)),
             quick=dict(getattr(module, "QUICK", {})),
         )
     except Exception as error:  # whatever the scene's text does

@@ -45,6 +45,15 @@ class Gallery(FolderTest):
             sorted(p.name for p in (self.own / "static-tube").iterdir()), ["scene.py", "static-tube.toml", "tube.geo"]
         )
 
+    def test_the_kept_page_has_every_scene(self):
+        listed = execute(COMPARE, "gallery", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        page = (READY.parent / "docs" / "gallery.md").read_text(encoding="utf-8")
+        titles = [line.split(maxsplit=1)[1].removesuffix(" (long)") for line in listed.stdout.splitlines()]
+        self.assertGreaterEqual(len(titles), 16)
+        for title in titles:
+            self.assertIn(f"## {title}\n", page)
+
     def test_a_number_that_is_off_fails(self):
         process = self.own_scene("exact_radius(load),", "1.001 * exact_radius(load),")
         self.assertEqual(process.returncode, 2)

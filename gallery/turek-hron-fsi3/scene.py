@@ -1,0 +1,79 @@
+"""Turek-Hron FSI3: a flag that flutters
+
+At a mean inflow of 2 m/s, a Reynolds number of 200, the wake makes the flag flutter 5.5 times a second, by 35 mm up and
+down. The flag is as dense as the fluid, which makes the coupling hard.
+
+The plain harmonic mesh motion folds before the flutter is full, so another one is asked for. Published codes differ in the
+amplitude of u_y by 3.4 %.
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from fsi_compare.gallery.scene import Number
+
+MESH = "geo ../turek-hron-cfd1/channel.geo --order 2 --set far=40 --set near=8 --set flag=7"
+QUICK_MESH = "geo ../turek-hron-cfd1/channel.geo --order 2 --set far=80 --set near=20 --set flag=14"
+QUICK = {"time.end": 40}
+LONG = True
+
+# Of the benchmark (FeatFlow): mean and amplitude of u_y in mm, its frequency in 1/s, mean drag in N/m.
+MEAN, AMPLITUDE, FREQUENCY, DRAG = 1.47, 34.99, 5.46, 460.5
+PERIOD = 1000 / FREQUENCY  # ms
+
+
+def tip(run):
+    """Times in ms and u_y in mm."""
+    points = run.table("points.csv")
+    return points["time_ms"], points["displacement_y_mm"]
+
+
+def last_swings(run, count=4):
+    times, values = tip(run)
+    return times[times > times[-1] - count * PERIOD], values[times > times[-1] - count * PERIOD]
+
+
+def frequency(times, values):
+    """1/s, from where u_y comes up through the middle between its extremes."""
+    middle = (values.max() + values.min()) / 2
+    up = np.flatnonzero((values[:-1] <= middle) & (values[1:] > middle))
+    crossings = times[up] + (middle - values[up]) / (values[up + 1] - values[up]) * (times[up + 1] - times[up])
+    return 1000 * (len(crossings) - 1) / (crossings[-1] - crossings[0])
+
+
+def numbers(runs):
+    source = "FeatFlow"
+    if runs.quick:  # the flow has hardly begun: the drivers must agree
+        known = float(tip(runs.first)[1][-1])
+        return [
+            Number("u_y", "mm", run.program, float(tip(run)[1][-1]), known, 1e-2, "the other driver") for run in runs
+        ]
+    found = []
+    for run in runs:
+        times, values = last_swings(run)
+        forces = run.table("surfaces.csv")
+        drag = forces["force_x_mN"][forces["time_ms"] > forces["time_ms"][-1] - 4 * PERIOD]
+        for what, unit, value, known, tolerance, scale in (
+            ("amplitude of u_y", "mm", (values.max() - values.min()) / 2, AMPLITUDE, 0.034, 0),
+            ("mean of u_y", "mm", (values.max() + values.min()) / 2, MEAN, 0.034, AMPLITUDE),
+            ("frequency of u_y", "1/s", frequency(times, values), FREQUENCY, 0.02, 0),
+            ("mean drag", "N/m", (drag.max() + drag.min()) / 2, DRAG, 0.03, 0),
+        ):
+            found.append(Number(what, unit, run.program, float(value), known, tolerance, source, scale=scale))
+    return found
+
+
+def draw(runs):
+    figure = Figure(figsize=(6.4, 3.2), layout="constrained")
+    axes = figure.add_subplot()
+    for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
+        times, values = tip(run)
+        axes.plot(times / 1000, values, style, color=color, linewidth=0.8, label=run.program)
+    for side in (1, -1):
+        axes.axhline(
+            MEAN + side * AMPLITUDE, color="gray", linestyle=":", label="benchmark's extremes" if side > 0 else None
+        )
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("tip's u_y [mm]")
+    axes.legend(loc="upper left")
+    return figure
