@@ -19,7 +19,7 @@ constexpr bool required = true, optional = false;
 
 /// Names stand in a column of a table.
 std::string sample_name(const CaseEntry& section, const CaseEntry& entry) {
-  const std::string name = entry.key().substr(section.key().size() + 1);
+  std::string name = entry.key().substr(section.key().size() + 1);
   const bool plain = !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });

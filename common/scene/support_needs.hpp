@@ -20,7 +20,9 @@ void need_supports(const Case& setup, const Mesh& mesh, const std::string& mesh_
   if (setup.supports.count(group::wall_ends) > 0) needs.holding = needs.clamping = {};
   std::vector<std::string> names;
   for (const auto& group : mesh.facet_groups) names.push_back(group.name);
-  for (const auto& [surface, support] : setup.supports) {
+  for (const auto& entry : setup.supports) {
+    const std::string& surface = entry.first;
+    const SupportData& support = entry.second;
     if (std::find(names.begin(), names.end(), surface) == names.end())
       throw InputError(setup.path.string(), "support." + surface, "the mesh " + mesh_name + " has no such surface",
                        names.empty() ? "name it in the mesh" : name_remedy(surface, names));
