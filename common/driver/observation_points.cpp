@@ -158,7 +158,7 @@ ObservationPoints observation_points(const Case& setup, const MeshOf<Element>& m
   ObservationPoints points;
   points.axis = axis_of<Element>(setup, mesh, openings);
   bool straight = openings.empty() && !parts.fluid;
-  if (!openings.empty() && norm(points.axis.direction) > 0)
+  if (parts.fluid && !openings.empty() && norm(points.axis.direction) > 0)
     straight = add_centre_line<Element>(mesh, openings, *parts.fluid, points);
   constexpr bool tube = Element::dim == 3 || Element::axisymmetric;
   // A closed end has no second opening, but may have a wall around the axis.

@@ -85,7 +85,7 @@ template <int n>
 LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
   int iterations = 0;
   if (!prepared_) {
-    const LinearReport preparing = prepare();
+    LinearReport preparing = prepare();
     iterations = preparing_iterations_;
     if (!prepared_) return preparing;
   }

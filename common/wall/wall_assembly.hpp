@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,7 @@ template <class Element, class Form>
 typename Form::FibreData fibres_at(const std::vector<std::array<Fibres, Element::points>>* fibres, std::size_t pack,
                                    int q) {
   if constexpr (std::is_same_v<typename Form::FibreData, Fibres>) {
+    assert(fibres);
     return (*fibres)[pack][q];
   } else {
     return {};
@@ -158,6 +160,7 @@ AssemblyResult assemble_layer(const Form& form, const WallLayer<Element>& layer,
         results[t] = layer_packs<Element, false>(form, mine, fibres, in, rows, nullptr);
         return;
       }
+    assert(jacobian);
     if constexpr (Element::stabilised) {
       results[t] = layer_packs<Element, true>(form, mine, fibres, in, rows, jacobian->values.data());
     } else {
