@@ -67,6 +67,6 @@ def draw(runs):
     above.set_ylabel("pressure at the outlet [kPa]")
     below.set_ylabel("flow [mm³/ms]")
     below.set_xlabel("time [ms]")
-    above.legend()
-    below.legend()
+    above.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
+    below.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1))
     return figure
