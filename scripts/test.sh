@@ -2,7 +2,7 @@
 # Builds and tests; installs what is missing first. May be run again: only what changed is built anew.
 #   scripts/test.sh         the quick tests of the release build: within 6 minutes of a fresh clone on two idle cores
 #   scripts/test.sh --all   everything: unit tests under the address and undefined-behaviour sanitizers, then the whole
-#                           release build with every test; within 20 minutes
+#                           release build with every test; about half an hour
 # Ends with ctest's summary; any failure ends it earlier or makes its exit code non-zero.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,22 +1,10 @@
-"""The names that `import fsi_compare` offers, from where they are made; plots are in reporting/plots.py."""
+"""The names that `import fsi_compare` offers, from where they are made; plots are in reporting/plots.py. The list of them is
+that of the package, __init__.py."""
 
-from .base.errors import InputError
-from .results.comparison import LineDifference, difference
-from .results.fields import MediumFields
-from .results.line import Line
-from .results.openings import Opening
-from .results.run import RunResults, open_run
-from .results.table import MissingColumn, Table
-
-__all__ = [
-    "InputError",
-    "Line",
-    "LineDifference",
-    "MediumFields",
-    "MissingColumn",
-    "Opening",
-    "RunResults",
-    "Table",
-    "difference",
-    "open_run",
-]
+from .base.errors import InputError as InputError
+from .results.comparison import LineDifference as LineDifference, difference as difference
+from .results.fields import MediumFields as MediumFields
+from .results.line import Line as Line
+from .results.openings import Opening as Opening
+from .results.run import RunResults as RunResults, open_run as open_run
+from .results.table import MissingColumn as MissingColumn, Table as Table
