@@ -16,8 +16,8 @@ namespace fsi {
 /// Threads own rows, not elements: thread t adds only to the rows of its range of nodes and visits every pack that
 /// touches one of them, so packs on the border of two ranges are evaluated by both. No two threads write to one place
 /// and nothing is coloured or locked. Elements are packed once, in their order and whatever the number of threads, so
-/// that every entry is summed in one order: results do not depend on the number of threads. Rows of distributed memory
-/// will be owned in the same way.
+/// that every entry is summed in one order: results do not depend on the number of threads. Processes own
+/// rows in the same way: they hold all elements that touch one of theirs.
 template <class Element>
 class ElementPacks {
  public:
@@ -26,11 +26,12 @@ class ElementPacks {
 
   struct ElementPack {
     typename Element::Geometry geometry;
-    Lanes node[nodes];              ///< node numbers; empty lanes repeat the last element
-    Lanes position[nodes * nodes];  ///< block (a, b) in the graph; -1: not this thread's row, or an empty lane
-    Lanes cell;                     ///< element numbers, as in the submesh
-    int number;                     ///< among all packs, whatever the number of threads
-    int filled;                     ///< lanes that are not empty
+    Lanes node[nodes];                     ///< node numbers; empty lanes repeat the last element
+    Lanes position[nodes * nodes];         ///< block (a, b) in the graph; -1: not this thread's row, or an empty lane
+    Lanes cell;                            ///< element numbers, as in the submesh
+    int number;                            ///< among all packs, whatever the number of threads
+    int filled;                            ///< lanes that are not empty
+    std::array<bool, pack_width> counted;  ///< by this process, of the filled ones, in sums over elements
 
     /// Whether of the threads that hold this pack it is the one to count it: true for one of them.
     bool counted_here() const { return position[0][0] >= 0; }
@@ -39,9 +40,10 @@ class ElementPacks {
   /// \param node_positions  reference coordinates, mm
   /// \param cells           all cells of the submesh; `subset` lists those to take
   /// \param graph           the node graph that matrices are stored on
+  /// \param counted         of the cells, those that sums count (Submesh::counted); empty: all
   template <class Point, class Cell>
   ElementPacks(const std::vector<Point>& node_positions, const std::vector<Cell>& cells, const std::vector<int>& subset,
-               const NodeGraph& graph)
+               const NodeGraph& graph, const std::vector<char>& counted = {})
       : packs_of_thread_(threads()) {
     const int thread_count = threads();
     const int node_count = static_cast<int>(node_positions.size());
@@ -56,8 +58,11 @@ class ElementPacks {
         const auto to = subset.begin() + static_cast<std::ptrdiff_t>(std::min(begin + pack_width, subset.size()));
         if (std::none_of(from, to, touches)) continue;
         packs_of_thread_[t].emplace_back();
-        fill(packs_of_thread_[t].back(), std::vector<int>(from, to), node_positions, cells, graph, first, last);
-        packs_of_thread_[t].back().number = static_cast<int>(begin / pack_width);
+        auto& pack = packs_of_thread_[t].back();
+        fill(pack, std::vector<int>(from, to), node_positions, cells, graph, first, last);
+        for (int lane = 0; lane < pack_width; ++lane)
+          pack.counted[lane] = counted.empty() || counted[pack.cell[lane]] != 0;
+        pack.number = static_cast<int>(begin / pack_width);
       }
       packs_of_thread_[t].shrink_to_fit();
     }

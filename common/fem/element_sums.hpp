@@ -33,7 +33,7 @@ inline std::array<Pack, Count> pack_integrals(const typename Element::Geometry& 
   return total;
 }
 
-/// Sums of `Count` quantities over all elements. integrals(pack, thread, index in that thread's packs) returns those of
+/// Sums of `Count` quantities over the elements that this process counts. integrals(pack, thread, index in that thread's packs) returns those of
 /// one pack, a lane per element. Every pack is evaluated once and the packs are added up in their order, so that the
 /// sums do not depend on the number of threads.
 template <std::size_t Count, class Element, class Integrals>
@@ -46,7 +46,8 @@ std::array<double, Count> sum_over_elements(const ElementPacks<Element>& packs, 
       const std::array<Pack, Count> lanes = integrals(pack, t, index);
       for (std::size_t i = 0; i < Count; ++i) {
         double sum = 0;
-        for (int lane = 0; lane < pack.filled; ++lane) sum += lanes[i][lane];
+        for (int lane = 0; lane < pack.filled; ++lane)
+          if (pack.counted[lane]) sum += lanes[i][lane];
         of_pack[static_cast<std::size_t>(pack.number)][i] = sum;
       }
     }

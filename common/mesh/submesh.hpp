@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <numeric>
 #include <vector>
 
 #include "mesh/simplex_mesh.hpp"
+#include "parallel/node_share.hpp"
 
 namespace fsi {
 
@@ -19,7 +21,13 @@ struct PartNodes {
   /// (split_between_regions); empty: nowhere.
   std::vector<int> original;
 
+  /// How the part is shared out among processes, this one having its nodes and copies of those around; null: it is
+  /// whole here.
+  std::shared_ptr<const NodeShare> share;
+
   int node_count() const { return static_cast<int>(nodes.size()); }
+  bool owns(int node) const { return !share || share->owned[node] != 0; }
+  const Communicator& processes() const { return share ? *share->processes : Communicator::alone(); }
   bool has_copies() const { return !original.empty(); }
   int original_of(int node) const { return original.empty() ? node : original[node]; }
   /// Gives the copies of a node what holds for the original.
@@ -37,6 +45,9 @@ struct Submesh : PartNodes {
 
   std::vector<Cell> cells;       ///< local node numbers
   std::vector<int> cell_region;  ///< per cell, region of the whole mesh
+  /// Per cell: sums over cells count it at this process. Cells between processes are held by several, and counted by
+  /// one. Empty: all are.
+  std::vector<char> counted;
 
   /// The facet in local node numbers; all its nodes must lie in this part.
   Facet local(Facet facet) const {

@@ -40,14 +40,15 @@ class Scene {
   std::unique_ptr<MeshMotion<n>> mesh_motion_problem;             ///< null unless fluid and wall meet
   MeshMotionMatrix<n> mesh_motion;                                ///< its operator; empty unless fluid and wall meet
   std::unique_ptr<NonlinearMeshMotion<n>> nonlinear_mesh_motion;  ///< in place of both, where the case asks for one
-  int mesh_motion_assemblies = 0;            ///< what is made of the matrix is as old as the count it was made at
-  bool keep_constant_operators = true;       ///< false: assembled at each use, to see what keeping them saves
-  std::vector<InterfaceNode> interface;      ///< ascending in the fluid's numbers
-  std::vector<double> interface_areas;       ///< that belongs to each of them, mm^2
-  std::array<int, n> axes{};                 ///< of space, 0 to 2, that the components of vectors lie along
-  Conditions velocity_conditions;            ///< of the fluid's velocity
-  Conditions mesh_conditions;                ///< of the mesh displacement
-  Conditions wall_conditions;                ///< of the wall's displacement
+  int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
+  bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
+  std::vector<InterfaceNode> interface;  ///< this process's first, then copies; each ascending in the fluid's numbers
+  std::size_t owned_interface = 0;       ///< how many of them are this process's
+  std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
+  std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
+  Conditions velocity_conditions;        ///< of the fluid's velocity
+  Conditions mesh_conditions;            ///< of the mesh displacement
+  Conditions wall_conditions;            ///< of the wall's displacement
   std::vector<PrescribedInflow<n>> inflows;  ///< velocities at openings whose flow is given
   NodalFrames<n> fluid_frames;               ///< of nodes whose conditions are along no axis of space; for both above
   NodalFrames<n> wall_frames;                ///< on the interface those of the fluid
@@ -64,6 +65,10 @@ class Scene {
   mutable Profile profile;           ///< also of those who only read the scene
 
   bool coupled() const { return fluid && wall; }
+  /// That solve the scene together.
+  const Communicator& processes() const {
+    return fluid ? fluid->nodes().processes() : wall ? wall->nodes().processes() : Communicator::alone();
+  }
   bool is_static() const { return integrator->is_static(); }
 
   /// Assembles the mesh motion's operator; its storage stays in place.

@@ -5,14 +5,37 @@
 #include <vector>
 
 #include "fem/unknowns.hpp"
+#include "parallel/exchange.hpp"
 #include "time/interface_kinematics.hpp"
 
 namespace fsi {
 
 /// Which entries of a Solution are unknowns of a system of equations, and which residual rows are its equations. Maps
 /// of absent parts are empty. Single components of a node may be without an unknown, and so may its scalar.
+///
+/// Where a scene is shared out among processes, each has the equations of its nodes and their unknowns, 0 to size - 1.
+/// Values at copies of other processes' nodes hang on these processes' unknowns: they are numbered on from `size`, and
+/// have no equation here. Solutions hold both (columns()); the solver fills the first, update_copies() the rest.
 struct Numbering {
-  std::int64_t size = 0;
+  std::int64_t size = 0;             ///< equations, and unknowns, of this process
+  std::int64_t first = 0;            ///< number among all processes' of the first of them: the others follow
+  std::int64_t whole = 0;            ///< of all processes together; 0: not shared out
+  std::vector<std::int64_t> copies;  ///< numbers among all processes' of the unknowns from `size` on
+  Exchange exchange;                 ///< of unknowns
+  const Communicator* processes = &Communicator::alone();
+
+  std::size_t columns() const { return static_cast<std::size_t>(size) + copies.size(); }
+  /// Of an unknown, own or copy, among all processes'.
+  std::int64_t global(std::int64_t unknown) const {
+    return unknown < size ? first + unknown : copies[static_cast<std::size_t>(unknown - size)];
+  }
+  /// Gives the copies in x, of columns() numbers, their owners' values.
+  void update_copies(std::vector<double>& x) const {
+    if (!processes->is_alone()) exchange.update(x);
+  }
+  /// Unknowns of all processes.
+  std::int64_t whole_size() const { return processes->is_alone() ? size : whole; }
+
   UnknownMap mesh_rows, mesh;    ///< mesh motion: equations, unknowns d_m; vector layout
   UnknownMap fluid_rows, fluid;  ///< momentum and continuity; (u, p_f); mixed layout
   UnknownMap wall_rows, wall;    ///< momentum and volume; (d_s, p_s); mixed layout

@@ -14,6 +14,7 @@ from circles import circles
 FLOORS = (
     ("common/base",),
     ("common/math",),
+    ("common/parallel",),
     ("common/mesh",),
     ("common/algebra",),
     ("common/solvers",),

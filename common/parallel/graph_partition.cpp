@@ -1,0 +1,84 @@
+#include "parallel/graph_partition.hpp"
+
+#include <cassert>
+#include <stdexcept>
+
+#ifdef FSI_WITH_MPI
+#include <cstdio>  // what ptscotch.h needs
+
+#include "parallel/mpi_handle.hpp"
+
+#include <ptscotch.h>
+#endif
+
+namespace fsi {
+
+#ifdef FSI_WITH_MPI
+
+namespace {
+
+void require(int error, const char* what) {
+  if (error != 0) throw std::runtime_error(std::string("PT-Scotch failed: ") + what);
+}
+
+class DistributedGraph {
+ public:
+  explicit DistributedGraph(const Communicator& processes) {
+    require(SCOTCH_dgraphInit(&graph_, mpi_of(processes)), "no graph");
+  }
+  ~DistributedGraph() { SCOTCH_dgraphExit(&graph_); }
+  DistributedGraph(const DistributedGraph&) = delete;
+  DistributedGraph& operator=(const DistributedGraph&) = delete;
+  SCOTCH_Dgraph* get() { return &graph_; }
+
+ private:
+  SCOTCH_Dgraph graph_;
+};
+
+}  // namespace
+
+std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::vector<int>& columns,
+                                    const std::vector<int>& weights, const Communicator& processes) {
+  const int nodes = static_cast<int>(weights.size());
+  if (processes.is_alone()) return std::vector<int>(weights.size(), 0);
+  const auto bound = [&](int rank) { return static_cast<int>(static_cast<long>(nodes) * rank / processes.size()); };
+  const int first = bound(processes.rank()), last = bound(processes.rank() + 1);
+  std::vector<SCOTCH_Num> rows{0}, edges, loads;
+  for (int a = first; a < last; ++a) {
+    for (int at = offsets[a]; at < offsets[a + 1]; ++at)
+      if (columns[at] != a) edges.push_back(columns[at]);
+    rows.push_back(static_cast<SCOTCH_Num>(edges.size()));
+    loads.push_back(weights[a]);
+  }
+  edges.reserve(1);
+  loads.reserve(1);
+  SCOTCH_randomReset();  // the same answer each time
+  std::vector<SCOTCH_Num> owners(static_cast<std::size_t>(last - first) + 1, 0);
+  {
+    DistributedGraph graph(processes);
+    const auto count = static_cast<SCOTCH_Num>(edges.size());
+    require(SCOTCH_dgraphBuild(graph.get(), 0, last - first, last - first, rows.data(), rows.data() + 1, loads.data(),
+                               nullptr, count, count, edges.data(), nullptr, nullptr),
+            "the graph is refused");
+    SCOTCH_Strat strategy;
+    require(SCOTCH_stratInit(&strategy), "no strategy");
+    const int error = SCOTCH_dgraphPart(graph.get(), processes.size(), &strategy, owners.data());
+    SCOTCH_stratExit(&strategy);
+    require(error, "no partition");
+  }
+  owners.resize(static_cast<std::size_t>(last - first));
+  return processes.gather(owners);
+}
+
+#else
+
+std::vector<int> partition_of_graph(const std::vector<int>&, const std::vector<int>&, const std::vector<int>& weights,
+                                    const Communicator& processes) {
+  assert(processes.is_alone());
+  static_cast<void>(processes);
+  return std::vector<int>(weights.size(), 0);
+}
+
+#endif
+
+}  // namespace fsi
