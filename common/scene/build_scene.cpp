@@ -110,7 +110,6 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->mesh_conditions = std::move(boundary.mesh);
     scene->fluid_frames = boundary.mirrored.frames;
     scene->interface = std::move(boundary.interface);
-    scene->owned_interface = scene->interface.size();
     scene->interface_areas = std::move(boundary.interface_areas);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
     auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),

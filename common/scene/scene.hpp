@@ -43,7 +43,7 @@ class Scene {
   int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
   bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
   std::vector<InterfaceNode> interface;  ///< this process's first, then copies; each ascending in the fluid's numbers
-  std::size_t owned_interface = 0;       ///< how many of them are this process's
+  std::size_t interface_copies = 0;      ///< how many at the end are other processes'
   std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
   std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
   Conditions velocity_conditions;        ///< of the fluid's velocity
@@ -65,6 +65,8 @@ class Scene {
   mutable Profile profile;           ///< also of those who only read the scene
 
   bool coupled() const { return fluid && wall; }
+  /// Of its nodes, the first so many are this process's: what sums over the interface count.
+  std::size_t owned_interface() const { return interface.size() - interface_copies; }
   /// That solve the scene together.
   const Communicator& processes() const {
     return fluid ? fluid->nodes().processes() : wall ? wall->nodes().processes() : Communicator::alone();
