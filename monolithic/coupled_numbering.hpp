@@ -15,7 +15,7 @@ Numbering number_scene(const Scene<n>& scene) {
   if (!scene.coupled()) return number_single_medium(scene);
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
-  Numbering all = number_wall(scene);
+  Numbering all = detail::number_wall_here(scene);
   const int nodes = scene.fluid->node_count();
   const auto wet = detail::on_interface(scene);
   const auto& space = scene.fluid->space();
@@ -35,6 +35,7 @@ Numbering number_scene(const Scene<n>& scene) {
       all.fluid_rows[Mixed::vector(i.fluid, k)] = displacement;
       all.interface_velocities.push_back(Mixed::vector(i.fluid, k));
     }
+  detail::share_out(scene, all);
   return all;
 }
 

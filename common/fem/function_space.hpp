@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -32,7 +33,7 @@ class FunctionSpace {
   std::size_t mixed_size() const { return Mixed::size(node_count()); }
   /// Nodes that share a cell.
   const std::shared_ptr<const NodeGraph>& graph() const { return graph_; }
-  /// The volume that belongs to each node, mm^3 (nodal_volumes).
+  /// The volume that belongs to each node, mm^3 (nodal_volumes); of copies what their owners have.
   const std::vector<double>& volumes() const { return volumes_; }
 
  private:
@@ -73,6 +74,7 @@ std::vector<double> nodal_volumes(const Submesh<Element::dim, Element::order>& p
 }
 
 /// The space of an element on a part: vectors at all nodes, scalars at the first Element::scalar_nodes of each cell.
+/// All processes call it that have a share of the part.
 /// \param part  read here only
 template <class Element>
 FunctionSpace<Element::components> function_space(const Submesh<Element::dim, Element::order>& part) {
@@ -84,7 +86,14 @@ FunctionSpace<Element::components> function_space(const Submesh<Element::dim, El
     for (int a = 0; a < Element::scalar_nodes; ++a) carries_scalar[cell[a]] = 1;
   }
   auto graph = std::make_shared<NodeGraph>(graph_of_cells(part.node_count(), cell_nodes, Element::nodes));
-  return {std::move(carries_scalar), std::move(graph), nodal_volumes<Element>(part)};
+  std::vector<double> volumes = nodal_volumes<Element>(part);
+  if (part.share) {  // not all cells of copies are here
+    part.share->exchange.update(volumes);
+    std::vector<double> carries(carries_scalar.begin(), carries_scalar.end());
+    part.share->exchange.update(carries);
+    std::transform(carries.begin(), carries.end(), carries_scalar.begin(), [](double c) { return c != 0 ? 1 : 0; });
+  }
+  return {std::move(carries_scalar), std::move(graph), std::move(volumes)};
 }
 
 }  // namespace fsi

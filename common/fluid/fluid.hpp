@@ -63,7 +63,7 @@ class Fluid {
   }
 
   virtual std::size_t element_count() const = 0;
-  virtual double volume() const = 0;  ///< at rest, mm^3
+  virtual double volume() const = 0;  ///< of the whole fluid at rest, mm^3
   /// The elements as vertices, n + 1 numbers each.
   virtual std::vector<int> cell_vertices() const = 0;
 };

@@ -15,10 +15,14 @@ FluidProblem<Element>::FluidProblem(Part part, const AleFluid& form, std::vector
     : part_(std::move(part)),
       form_(form),
       space_(function_space<Element>(part_)),
-      packs_(part_.nodes, part_.cells, all_cells(part_), *space_.graph()),
+      packs_(part_.nodes, part_.cells, all_cells(part_), *space_.graph(), part_.counted),
       mirrored_(std::move(mirrored)),
       projection_(mirrored_),
-      open_(std::move(open)) {}
+      open_(std::move(open)) {
+  for (int a = 0; a < part_.node_count(); ++a)
+    if (part_.owns(a)) volume_ += space_.volumes()[a];
+  volume_ = part_.processes().sum(volume_);
+}
 
 template <class Element>
 AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::vector<double>& pressures,
@@ -70,15 +74,8 @@ FluidWork FluidProblem<Element>::work(FluidStep step) const {
 template <class Element>
 FluidInput FluidProblem<Element>::with_projection(FluidInput in, PressureProjection<Element>& projection) const {
   if constexpr (Element::stabilised)
-    if (form_.wave_speed > 0) in.projected_gradient = projection.of(in, packs_, part_.node_count()).data();
+    if (form_.wave_speed > 0) in.projected_gradient = projection.of(in, packs_, part_).data();
   return in;
-}
-
-template <class Element>
-double FluidProblem<Element>::volume() const {
-  double sum = 0;
-  for (double v : space_.volumes()) sum += v;
-  return sum;
 }
 
 template <class Element>

@@ -41,7 +41,7 @@ class FluidProblem : public Fluid<Element::components> {
   FluidWork work(FluidStep step) const override;
 
   std::size_t element_count() const override { return part_.cells.size(); }
-  double volume() const override;
+  double volume() const override { return volume_; }
   std::vector<int> cell_vertices() const override;
 
  private:
@@ -52,6 +52,7 @@ class FluidProblem : public Fluid<Element::components> {
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
   FluidJacobian<n> jacobian_;
+  double volume_ = 0;  ///< of all processes' shares
   VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -13,10 +14,12 @@
 #include "fluid/fluid_input.hpp"
 #include "fluid/outflow_law.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "parallel/node_share.hpp"
 
 namespace fsi {
 
-/// A surface of the fluid, by name, through which fluid may pass. It does not move. Vectors have n components.
+/// A surface of the fluid, by name, through which fluid may pass. It does not move. Vectors have n components. Integrals
+/// over it are those of all processes, which ask for them together.
 template <int n>
 class OpenBoundary {
  public:
@@ -27,21 +30,22 @@ class OpenBoundary {
   /// \param normals  integrals of N_a n, as flow arrays, mm^2
   /// \param areas    integrals of the scalar fields' shape functions per node, mm^2
   /// \param facets   nodes of its facets, one after the other
+  /// \param processes  that have a share of it, all other parameters being theirs; they must outlive this
   OpenBoundary(std::string name, std::vector<double> normals, std::vector<double> areas, KineticFlux kinetic_flux,
-               std::vector<int> facets)
+               std::vector<int> facets, const Communicator& processes = Communicator::alone())
       : name_(std::move(name)),
         normals_(std::move(normals)),
         areas_(std::move(areas)),
         kinetic_flux_(std::move(kinetic_flux)),
-        facets_(std::move(facets)) {}
+        facets_(std::move(facets)),
+        processes_(&processes),
+        empty_(!processes.any(std::any_of(areas_.begin(), areas_.end(), [](double area) { return area != 0; }))) {}
 
   const std::string& name() const { return name_; }
-  /// Integrals of N_a n, as a flow array, mm^2.
+  /// Integrals of N_a n, as a flow array, mm^2; zero at copies of other processes' nodes.
   const std::vector<double>& normals() const { return normals_; }
   /// Whether there is a surface at all.
-  bool empty() const {
-    return std::all_of(areas_.begin(), areas_.end(), [](double area) { return area == 0; });
-  }
+  bool empty() const { return empty_; }
 
   /// Lets a law say what pressure answers the flow. \param place  of its p_c among those of all openings
   void set_law(const OutflowLaw& law, std::size_t place) {
@@ -69,19 +73,22 @@ class OpenBoundary {
 
   /// Of a flow array (u, p): volume flow outward, mm^3/ms.
   double outflow(const std::vector<double>& flow) const { return outflow(flow.data()); }
-  double outflow(const double* flow) const { return std::inner_product(normals_.begin(), normals_.end(), flow, 0.0); }
+  double outflow(const double* flow) const {
+    return processes_->sum(std::inner_product(normals_.begin(), normals_.end(), flow, 0.0));
+  }
   /// Mean pressure, kPa; 0 on an empty surface.
   double mean_pressure(const std::vector<double>& flow) const {
-    double integral = 0, area = 0;
+    std::array<double, 2> sums{};  // of the pressure, and of one
     for (std::size_t a = 0; a < areas_.size(); ++a) {
-      integral += areas_[a] * flow[Layout::scalar(static_cast<int>(a))];
-      area += areas_[a];
+      sums[0] += areas_[a] * flow[Layout::scalar(static_cast<int>(a))];
+      sums[1] += areas_[a];
     }
-    return area > 0 ? integral / area : 0;
+    processes_->sum(sums.data(), sums.size());
+    return sums[1] > 0 ? sums[0] / sums[1] : 0;
   }
   /// Integral of |u|^2/2 u . n, mm^5/ms^3: times the density the kinetic energy that flows out, uJ/ms.
   double kinetic_outflow(const std::vector<Point>& nodes, const std::vector<double>& flow) const {
-    return kinetic_flux_(nodes, flow);
+    return processes_->sum(kinetic_flux_(nodes, flow));
   }
 
  private:
@@ -90,24 +97,41 @@ class OpenBoundary {
   std::vector<double> areas_;    ///< per node
   KineticFlux kinetic_flux_;
   std::vector<int> facets_;
+  const Communicator* processes_;
+  bool empty_;
   std::optional<OutflowLaw> law_;
   std::size_t place_ = 0;
 };
 
 /// \param nodes   reference positions of the fluid's nodes, mm
 /// \param facets  in their numbers, normals outward
+/// \param share   of the nodes, if they are shared out: the facets are those that touch an own node; null: they are whole
+/// \param counted  of the facets then, those that sums count here
 template <class Element>
 OpenBoundary<Element::components> open_boundary(
     std::string name, const std::vector<Point>& nodes,
-    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets) {
+    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets,
+    const NodeShare* share = nullptr,
+    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& counted = {}) {
+  using Layout = MixedLayout<Element::components>;
   std::vector<int> facet_nodes;
   for (const auto& facet : facets) facet_nodes.insert(facet_nodes.end(), facet.begin(), facet.end());
-  return {std::move(name), normal_weights<Element, MixedLayout<Element::components>>(nodes, facets),
-          scalar_weights<Element>(nodes, facets),
-          [facets](const std::vector<Point>& at, const std::vector<double>& flow) {
-            return kinetic_flux<Element>(at, facets, flow);
+  auto normals = normal_weights<Element, Layout>(nodes, facets);
+  auto areas = scalar_weights<Element>(nodes, facets);
+  for (std::size_t a = 0; share != nullptr && a < areas.size(); ++a) {
+    if (share->owned[a] != 0) continue;
+    std::fill_n(normals.begin() + static_cast<std::ptrdiff_t>(Layout::vector(static_cast<int>(a))), Layout::entries,
+                0.0);
+    areas[a] = 0;
+  }
+  return {std::move(name),
+          std::move(normals),
+          std::move(areas),
+          [mine = share ? counted : facets](const std::vector<Point>& at, const std::vector<double>& flow) {
+            return kinetic_flux<Element>(at, mine, flow);
           },
-          std::move(facet_nodes)};
+          std::move(facet_nodes),
+          share ? *share->processes : Communicator::alone()};
 }
 
 }  // namespace fsi

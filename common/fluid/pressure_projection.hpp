@@ -10,6 +10,7 @@
 #include "fem/nodal_frames.hpp"
 #include "fluid/fluid_input.hpp"
 #include "math/kinematics.hpp"
+#include "mesh/submesh.hpp"
 
 namespace fsi {
 
@@ -27,13 +28,16 @@ class PressureProjection {
   explicit PressureProjection(VanishingComponents<n> mirrored) : mirrored_(std::move(mirrored)) {}
 
   /// Of in.fluid_reference on the domain of in.mesh_reference: vectors per fluid node in the vector layout, kPa/mm.
-  /// \param nodes  of the fluid
-  const std::vector<double>& of(const FluidInput& in, const ElementPacks<Element>& packs, int nodes) {
-    if (!same(flow_, in.fluid_reference) || !same(mesh_, in.mesh ? in.mesh_reference : nullptr) || gradient_.empty()) {
+  /// Processes that share the fluid out ask for it together.
+  const std::vector<double>& of(const FluidInput& in, const ElementPacks<Element>& packs, const PartNodes& fluid) {
+    const int nodes = fluid.node_count();
+    const bool kept = same(flow_, in.fluid_reference) && same(mesh_, in.mesh ? in.mesh_reference : nullptr);
+    if (fluid.processes().any(!kept || gradient_.empty())) {
       flow_.assign(in.fluid_reference, in.fluid_reference + static_cast<std::size_t>(nodes) * Mixed::entries);
       mesh_.clear();
       if (in.mesh) mesh_.assign(in.mesh_reference, in.mesh_reference + static_cast<std::size_t>(nodes) * n);
       project(packs, nodes);
+      if (fluid.share) fluid.share->template update<Vector>(gradient_);
     }
     return gradient_;
   }

@@ -129,6 +129,20 @@ void WomersleyInflow::set(double time, double flow_rate, std::vector<double>& ve
   }
 }
 
+void WomersleyInflow::keep(const std::function<std::ptrdiff_t(std::size_t entry)>& entry_there) {
+  Modes kept;
+  kept.direction = modes_.direction;
+  kept.coefficients = modes_.coefficients;
+  kept.profiles.resize(modes_.profiles.size());
+  for (std::size_t i = 0; i < modes_.entries.size(); ++i) {
+    const std::ptrdiff_t entry = entry_there(modes_.entries[i]);
+    if (entry < 0) continue;
+    kept.entries.push_back(static_cast<std::size_t>(entry));
+    for (std::size_t k = 0; k < kept.profiles.size(); ++k) kept.profiles[k].push_back(modes_.profiles[k][i]);
+  }
+  modes_ = std::move(kept);
+}
+
 #define FSI_INSTANTIATE(Element)                                                                                 \
   template WomersleyInflow womersley_inflow<Element>(const InflowOpening<Element>&, const PeriodicFlow&, double, \
                                                      double);

@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,9 @@ class WomersleyInflow {
   void set(double time, double flow_rate, std::vector<double>& velocity) const;
   /// The same with the periodic rate itself.
   void set(double time, std::vector<double>& velocity) const { set(time, flow_.at(time), velocity); }
+
+  /// Keeps the nodes whose entry has another, not negative, in the part of the fluid that is set from now on.
+  void keep(const std::function<std::ptrdiff_t(std::size_t entry)>& entry_there);
 
   const PeriodicFlow& flow() const { return flow_; }
   int modes() const { return static_cast<int>(modes_.profiles.size()) - 1; }  ///< besides the mean

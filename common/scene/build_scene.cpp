@@ -1,7 +1,9 @@
 #include "scene/build_scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "fem/elements.hpp"
@@ -13,6 +15,7 @@
 #include "scene/boundary_conditions.hpp"
 #include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
+#include "scene/restricted_conditions.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
 #include "scene/wall_supports.hpp"
@@ -39,12 +42,18 @@ CylinderAxis cylinder_axis(const StructureData& data) {
   return axis;
 }
 
+/// The numbers of the fluid's nodes on the interface.
+template <int n>
+std::vector<int> fluid_nodes_of(const std::vector<InterfaceNode>& interface) {
+  std::vector<int> nodes;
+  for (const auto& node : interface) nodes.push_back(node.fluid);
+  return nodes;
+}
+
+/// \param stiffness  of the cells of the fluid here
 template <class Element>
 void build_mesh_motion(const MeshMotionOptions& options, const FluidProblem<Element>& fluid,
-                       Scene<Element::components>& scene) {
-  std::vector<int> interface;
-  for (const auto& node : scene.interface) interface.push_back(node.fluid);
-  auto stiffness = mesh_stiffness(fluid.part(), interface, options);
+                       std::vector<double> stiffness, Scene<Element::components>& scene) {
   if (options.method == MeshMotionMethod::nonlinear_elastic)
     scene.nonlinear_mesh_motion = std::make_unique<ElasticMeshMotion<Element>>(
         fluid.packs(), fluid.space().graph(), PseudoSolid::of_poisson(options.poisson), std::move(stiffness));
@@ -52,11 +61,61 @@ void build_mesh_motion(const MeshMotionOptions& options, const FluidProblem<Elem
     scene.mesh_motion_problem = std::make_unique<MeshMotionOfElements<Element>>(fluid.packs(), std::move(stiffness));
 }
 
+/// Pairs of the whole interface in the numbers here, this process's first.
+template <int n>
+void restrict_interface(const PartRestriction& fluid, const PartRestriction& wall, Scene<n>& scene) {
+  const auto whole = std::exchange(scene.interface, {});
+  const auto areas = std::exchange(scene.interface_areas, {});
+  for (const bool own : {true, false})
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const InterfaceNode node{fluid.local(whole[i].fluid), wall.local(whole[i].wall), whole[i].clamped};
+      if (node.fluid < 0 || (fluid.share().owned[node.fluid] != 0) != own) continue;
+      scene.interface.push_back(node);
+      scene.interface_areas.push_back(areas[i]);
+      if (!own) ++scene.interface_copies;
+    }
+}
+
+/// An array with a number for each cell of the whole part, as far as they are here.
+std::vector<double> of_cells(const std::vector<double>& whole, const std::vector<int>& cells) {
+  std::vector<double> here;
+  for (const int cell : cells) here.push_back(whole.empty() ? 1 : whole[cell]);
+  return whole.empty() ? whole : here;
+}
+
+FrameFields restricted(FrameFields whole, const PartRestriction& here) {
+  return {here.field(whole.radial), here.field(whole.axial), here.field(whole.radial_slope),
+          here.field(whole.axial_slope)};
+}
+
+template <class Element>
+using Boundaries = std::vector<OpenBoundary<Element::components>>;
+
+/// The openings of the whole fluid, at the nodes and facets here.
+template <class Element>
+Boundaries<Element> openings_here(const Boundaries<Element>& whole, const std::vector<Point>& nodes,
+                                  const PartRestriction& here) {
+  using Facet = typename MeshOf<Element>::Facet;
+  constexpr std::size_t size = std::tuple_size_v<Facet>;
+  Boundaries<Element> open;
+  for (const auto& boundary : whole) {
+    FacetsOf<Element> facets(boundary.facets().size() / size);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+      std::copy_n(boundary.facets().begin() + static_cast<std::ptrdiff_t>(f * size), size, facets[f].begin());
+    open.push_back(open_boundary<Element>(boundary.name(), nodes, here.facets(facets), &here.share(),
+                                          here.counted_facets(facets)));
+    if (boundary.law()) open.back().set_law(*boundary.law(), boundary.place());
+  }
+  return open;
+}
+
 }  // namespace
 
 template <class Element>
-std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const MeshOf<Element>& mesh) {
+std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const MeshOf<Element>& mesh,
+                                                        const MeshShare* share, WholeParts<Element>* whole) {
   constexpr int n = Element::components;
+  assert((share == nullptr) == (whole == nullptr));
   auto scene = std::make_unique<Scene<n>>();
   for (int k = 0; k < n; ++k) scene->axes[k] = Element::axis[k];
 
@@ -65,6 +124,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) wall_regions.push_back(mesh.region_index(name));
 
+  // All is found on the whole mesh; where it is shared out, each process keeps its part of that.
   PartOf<Element> wall_part;
   if (setup.structure) {
     wall_part = submesh(mesh, wall_regions);
@@ -75,24 +135,33 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
       layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
-    const auto pressurised = setup.load || setup.prestress
-                                 ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions))
-                                 : FacetsOf<Element>{};
+    auto pressurised = setup.load || setup.prestress
+                           ? in_part<Element>(wall_part, inner_surface<Element>(mesh, wall_regions))
+                           : FacetsOf<Element>{};
     const auto& s = *setup.structure;
     FrameFields frame;
     if (s.fibre_frame == FibreFrame::laplace &&
         std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return has_fibres(layer.second); }))
       frame =
           frame_fields<Element>(wall_part, frame_boundary<Element>(mesh, wall_part, wall_regions, setup.path.string()));
+    PartOf<Element> wall_here;
+    if (share) {
+      whole->wall = std::make_unique<const PartOf<Element>>(wall_part);
+      whole->wall_here = std::make_unique<const PartRestriction>(*whole->wall, *share);
+      std::vector<int> cells;
+      wall_here = whole->wall_here->part(wall_part, cells);
+      pressurised = whole->wall_here->facets(pressurised);
+      if (!frame.empty()) frame = restricted(std::move(frame), *whole->wall_here);
+    }
     auto wall = std::make_unique<WallProblem<Element>>(
-        wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, layers, cylinder_axis(s),
-        pressurised, frame);
+        share ? std::move(wall_here) : wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)},
+        layers, cylinder_axis(s), std::move(pressurised), frame);
     scene->profile.count("structure elements", static_cast<std::int64_t>(wall->element_count()));
     for (const auto& layer : wall->layers())
       if (!layer.fibres.empty())
         scene->profile.count("elements with fibres", static_cast<std::int64_t>(layer.packs.element_count()));
+    support_wall<Element>(setup, mesh, wall_part, share ? whole->wall_here.get() : nullptr, *wall);
     scene->wall = std::move(wall);
-    support_wall<Element>(setup, mesh, wall_part, *scene->wall);
   }
 
   if (setup.fluid) {
@@ -101,16 +170,38 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     auto boundary =
         fluid_boundary<Element>(openings_of(setup), mesh, part, interface, scene->wall ? &wall_part : nullptr,
                                 scene->wall ? &scene->wall_conditions : nullptr);
+    const PartRestriction* here = nullptr;
+    std::vector<double> stiffness;
+    if (scene->wall) stiffness = mesh_stiffness(part, fluid_nodes_of<n>(boundary.interface), setup.mesh_motion);
+    scene->interface = std::move(boundary.interface);
+    scene->interface_areas = std::move(boundary.interface_areas);
+    PartOf<Element> fluid_here;
+    if (share) {
+      whole->fluid = std::make_unique<const PartOf<Element>>(part);
+      whole->fluid_here = std::make_unique<const PartRestriction>(*whole->fluid, *share);
+      here = whole->fluid_here.get();
+      std::vector<int> cells;
+      fluid_here = here->part(part, cells);
+      stiffness = of_cells(stiffness, cells);
+      boundary.open = openings_here<Element>(boundary.open, fluid_here.nodes, *here);
+      boundary.velocity = restricted(boundary.velocity, *here);
+      boundary.mesh = restricted(boundary.mesh, *here);
+      boundary.mirrored = restricted(boundary.mirrored, *here);
+      if (scene->wall) {
+        restrict_interface(*here, *whole->wall_here, *scene);
+        scene->wall_conditions = restricted(scene->wall_conditions, *whole->wall_here);
+        scene->wall_frames = restricted(scene->wall_frames, *whole->wall_here);
+      }
+    }
     for (InflowNodes& nodes : boundary.inflows) {
-      MadeInflow<n> made = make_inflow<Element>(setup, mesh, part, std::move(nodes));
+      MadeInflow<n> made = make_inflow<Element>(setup, mesh, part, std::move(nodes), here);
       scene->inflows.push_back(std::move(made.inflow));
       if (!made.instead.empty()) scene->notices.push_back(std::move(made.instead));
     }
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
     scene->fluid_frames = boundary.mirrored.frames;
-    scene->interface = std::move(boundary.interface);
-    scene->interface_areas = std::move(boundary.interface_areas);
+    if (share) part = std::move(fluid_here);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
     auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),
                                                          std::move(boundary.mirrored));
@@ -118,8 +209,11 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     const auto openings = openings_of(setup);
     for (std::size_t i = 0; i < openings.size(); ++i)
       if (!fluid->open_boundaries()[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i]));
-    if (scene->wall) build_mesh_motion(setup.mesh_motion, *fluid, *scene);
+    if (scene->wall) build_mesh_motion(setup.mesh_motion, *fluid, std::move(stiffness), *scene);
     scene->fluid = std::move(fluid);
+  } else if (share && scene->wall) {
+    scene->wall_conditions = restricted(scene->wall_conditions, *whole->wall_here);
+    scene->wall_frames = restricted(scene->wall_frames, *whole->wall_here);
   }
 
   if (!setup.supports.empty()) require_common_frames(setup, *scene);
@@ -137,8 +231,9 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   return scene;
 }
 
-#define FSI_INSTANTIATE(Element) \
-  template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, const MeshOf<Element>&);
+#define FSI_INSTANTIATE(Element)                                                                                 \
+  template std::unique_ptr<Scene<Element::components>> build_scene<Element>(const Case&, const MeshOf<Element>&, \
+                                                                            const MeshShare*, WholeParts<Element>*);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -3,15 +3,30 @@
 #include <memory>
 
 #include "case/case.hpp"
+#include "mesh/mesh_share.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
 
+/// The whole parts of a mesh that is shared out, and the ways from their numbers to those here: for all that is found on
+/// the whole and kept in part. Null where there is no such medium.
+template <class Element>
+struct WholeParts {
+  using Part = Submesh<Element::dim, Element::order>;
+  std::unique_ptr<const Part> fluid, wall;
+  std::unique_ptr<const PartRestriction> fluid_here, wall_here;
+};
+
 /// Builds the sub-problems that the case has, discretised by an element, on a checked mesh (check_scene_mesh): boundary
 /// conditions of docs/theory.md, section 2.4, the interface found from the cells.
-/// \param mesh  as read, regions and surface groups by name
+/// \param mesh   as read, regions and surface groups by name; the whole of it at each process
+/// \param share  how its nodes are shared out: the scene has this process's share; null: the scene is whole. Must live
+///               as long as what is left in `whole`
+/// \param whole  where the whole parts go of a mesh that is shared out
 template <class Element>
 std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup,
-                                                        const SimplexMesh<Element::dim, Element::order>& mesh);
+                                                        const SimplexMesh<Element::dim, Element::order>& mesh,
+                                                        const MeshShare* share = nullptr,
+                                                        WholeParts<Element>* whole = nullptr);
 
 }  // namespace fsi

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "mesh/mesh_share.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
 
@@ -16,10 +17,11 @@ struct MadeInflow {
 };
 
 /// Makes the nodal profile that the case asks for at an opening with a flow rate (fluid/inflow_profile.hpp).
-/// \param part  the fluid
+/// \param part  the whole fluid
+/// \param here  the nodes of it that the inflow is made for; null: all
 /// \throws InputError when the fluid sticks at every node of the opening
 template <class Element>
 MadeInflow<Element::components> make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                                            InflowNodes where);
+                                            InflowNodes where, const PartRestriction* here = nullptr);
 
 }  // namespace fsi

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,11 +23,16 @@ struct RigidMotions {
   Point middle{0, 0, 0};
   double size = 0;  ///< mm
 
-  explicit RigidMotions(const std::vector<Point>& nodes) {
-    for (const Point& x : nodes)
-      for (int i = 0; i < 3; ++i) middle[i] += x[i] / static_cast<double>(nodes.size());
-    for (const Point& x : nodes)
+  explicit RigidMotions(const PartNodes& part) {
+    std::int64_t own = 0;
+    for (int a = 0; a < part.node_count(); ++a) own += part.owns(a) ? 1 : 0;
+    const auto count = static_cast<double>(part.processes().sum(own));
+    for (int a = 0; a < part.node_count(); ++a)
+      for (int i = 0; i < 3 && part.owns(a); ++i) middle[i] += part.nodes[a][i] / count;
+    part.processes().sum(middle.data(), middle.size());
+    for (const Point& x : part.nodes)
       for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(x[i] - middle[i]));
+    size = part.processes().largest(size);
   }
   /// Displacement of a point in motion m, along axis i of space.
   double at(int m, const Point& x, int i) const {
@@ -84,12 +90,13 @@ template <int n>
 void require_no_rigid_motion(const Case& setup, const Scene<n>& scene) {
   if (!scene.wall || setup.supports.empty() || (setup.time && !setup.prestress)) return;
   const auto& nodes = scene.wall->nodes().nodes;
-  const RigidMotions rigid(nodes);
+  const RigidMotions rigid(scene.wall->nodes());
+  const Communicator& processes = scene.processes();
   const auto motions = motions_of(scene);
   Square resistance(motions.size(), std::vector<double>(motions.size(), 0.0));
   for (int node = 0; node < scene.wall->node_count(); ++node)
     for (int k = 0; k < n; ++k) {
-      if (!scene.wall_conditions.fixes(node, k)) continue;
+      if (!scene.wall_conditions.fixes(node, k) || !scene.wall->nodes().owns(node)) continue;
       std::vector<double> along;  // of each motion, in the component that is held
       for (const int m : motions) {
         Direction<n> moved;
@@ -110,11 +117,12 @@ void require_no_rigid_motion(const Case& setup, const Scene<n>& scene) {
       fields.push_back(std::move(field));
     }
     double largest = 0;
-    for (const auto& field : fields) largest = std::max(largest, 2 * supports->stored(field));
+    for (const auto& field : fields) largest = std::max(largest, 2 * processes.sum(supports->stored(field)));
     for (std::size_t i = 0; i < fields.size(); ++i)
       for (std::size_t j = 0; j < fields.size(); ++j)
         resistance[i][j] += supports->spring_product(fields[i], fields[j]) / largest;
   }
+  for (auto& row : resistance) processes.sum(row);
   const auto free = unresisted(resistance);
   if (free.empty()) return;
   const auto strongest = static_cast<std::size_t>(

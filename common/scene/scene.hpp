@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,11 @@ class Scene {
   bool coupled() const { return fluid && wall; }
   /// Of its nodes, the first so many are this process's: what sums over the interface count.
   std::size_t owned_interface() const { return interface.size() - interface_copies; }
+  /// Of the whole interface, mm^2.
+  double interface_area() const {
+    const auto own = interface_areas.begin() + static_cast<std::ptrdiff_t>(owned_interface());
+    return processes().sum(std::accumulate(interface_areas.begin(), own, 0.0));
+  }
   /// That solve the scene together.
   const Communicator& processes() const {
     return fluid ? fluid->nodes().processes() : wall ? wall->nodes().processes() : Communicator::alone();
@@ -80,7 +86,7 @@ class Scene {
     mesh_motion_problem->assemble(mesh_motion);
     ++mesh_motion_assemblies;
   }
-  /// The smallest J of a mesh displacement at a quadrature point, and the fluid's cell that it is in.
+  /// The smallest J of a mesh displacement at a quadrature point, and the fluid's cell that it is in, of those here.
   AssemblyResult smallest_volume_ratio(const std::vector<double>& mesh) const {
     return mesh_motion_problem ? mesh_motion_problem->smallest_volume_ratio(mesh)
                                : nonlinear_mesh_motion->smallest_volume_ratio(mesh);

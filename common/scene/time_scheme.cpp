@@ -21,27 +21,31 @@ namespace fsi {
 namespace {
 
 /// Largest distance of nodes from an axis, mm: the same for a tube and a sector of it.
-double largest_radius(const std::vector<Point>& nodes, const Point& origin, const Point& axis) {
+double largest_radius(const PartNodes& part, const Point& origin, const Point& axis) {
   const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
   double largest = 0;
-  for (const Point& x : nodes) {
+  for (const Point& x : part.nodes) {
     double along = 0, distance = 0;
     for (int k = 0; k < 3; ++k) along += (x[k] - origin[k]) * axis[k] / square;
     for (int k = 0; k < 3; ++k) distance += std::pow(x[k] - origin[k] - along * axis[k], 2);
     largest = std::max(largest, distance);
   }
-  return std::sqrt(largest);
+  return std::sqrt(part.processes().largest(largest));
 }
 
 /// Of a fluid without wall, mm: its largest distance from the z axis, where the axis of such a tube lies; half the smaller
 /// extent of a plane one.
-double radius_of_fluid(const Case& setup, const std::vector<Point>& nodes) {
-  if (setup.geometry != Geometry::plane) return largest_radius(nodes, {0, 0, 0}, {0, 0, 1});
+double radius_of_fluid(const Case& setup, const PartNodes& part) {
+  if (setup.geometry != Geometry::plane) return largest_radius(part, {0, 0, 0}, {0, 0, 1});
   double smallest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 2; ++k) {
-    const auto [low, high] =
-        std::minmax_element(nodes.begin(), nodes.end(), [k](const Point& x, const Point& y) { return x[k] < y[k]; });
-    smallest = std::min(smallest, (*high)[k] - (*low)[k]);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double low = infinity, high = -infinity;
+    for (const Point& x : part.nodes) {
+      low = std::min(low, x[k]);
+      high = std::max(high, x[k]);
+    }
+    smallest = std::min(smallest, part.processes().largest(high) - part.processes().smallest(low));
   }
   return smallest / 2;
 }
@@ -64,7 +68,7 @@ double shortest_pulse(const Case& setup) {
 template <int n>
 double midpoint_damping(const Case& setup, const Scene<n>& scene) {
   if (scene.coupled()) {
-    const double area = std::accumulate(scene.interface_areas.begin(), scene.interface_areas.end(), 0.0);
+    const double area = scene.interface_area();
     return midpoint_share * wave_speed(scene) * area / (2 * scene.fluid->volume());
   }
   if (scene.wall) {
@@ -74,11 +78,11 @@ double midpoint_damping(const Case& setup, const Scene<n>& scene) {
       volume += layer.volume;
     }
     return midpoint_share * std::sqrt(stiffness / volume / scene.wall->constants().density) /
-           largest_radius(scene.wall->nodes().nodes, setup.structure->axis_origin, setup.structure->axis_direction);
+           largest_radius(scene.wall->nodes(), setup.structure->axis_origin, setup.structure->axis_direction);
   }
   const AleFluid& form = scene.fluid->form();
   const double decay =
-      form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene.fluid->nodes().nodes), 2);
+      form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene.fluid->nodes()), 2);
   return std::max(decay, midpoint_share / shortest_pulse(setup));
 }
 

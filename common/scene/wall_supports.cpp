@@ -73,7 +73,8 @@ Direction<Element::components> direction_of(const std::string& name) {
 
 /// Integrals of the vectors' shape functions, in the mixed layout, mm^3.
 template <class Element>
-std::vector<double> volume_shares(const PartOf<Element>& part, const Wall<Element::components>& wall) {
+std::vector<double> volume_shares(const WallProblem<Element>& wall) {
+  const auto& part = wall.part();
   std::vector<double> shares(wall.space().mixed_size(), 0.0);
   const ElementPacks<Element> packs(part.nodes, part.cells, all_cells(part), *wall.graph());
   ElementRows<Element, Pack> rows;
@@ -119,11 +120,15 @@ std::vector<HeldSurface<Element::components>> surfaces_held_by_supports(const Ca
 
 template <class Element>
 void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                  Wall<Element::components>& wall) {
+                  const PartRestriction* here, WallProblem<Element>& wall) {
   auto supports = std::make_unique<WallSupports<Element::components>>(*wall.graph());
   const auto& x = wall.nodes().nodes;
+  const auto facets_of = [&](const std::string& surface) {
+    auto facets = in_part<Element>(part, group_facets(mesh, surface));
+    return here ? here->facets(facets) : facets;
+  };
   for (const auto& [name, support] : setup.supports) {
-    const auto facets = in_part<Element>(part, group_facets(mesh, name));
+    const auto facets = facets_of(name);
     const Bedding springs{support.spring, support.normal_spring}, dampers{support.damper, support.normal_damper};
     if (!springs.is_none()) supports->template add_springs<Element>(x, facets, springs);
     if (!dampers.is_none()) supports->template add_dampers<Element>(x, facets, dampers);
@@ -131,11 +136,11 @@ void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<E
   std::vector<double> shares;  // of the nodes in the volume, for all components alike
   for (const SupportLoad& load : support_loads_of(setup)) {
     if (load.surface.empty()) {
-      if (shares.empty()) shares = volume_shares<Element>(part, wall);
+      if (shares.empty()) shares = volume_shares(wall);
       supports->add_force(shares, load.component);
       continue;
     }
-    const auto facets = in_part<Element>(part, group_facets(mesh, load.surface));
+    const auto facets = facets_of(load.surface);
     if (load.component < 0)
       supports->template add_pressure<Element>(x, facets);
     else
@@ -165,7 +170,7 @@ template void require_common_frames<3>(const Case&, const Scene<3>&);
   template std::vector<HeldSurface<Element::components>> surfaces_held_by_supports<Element>(       \
       const Case&, const MeshOf<Element>&, const PartOf<Element>&);                                \
   template void support_wall<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&, \
-                                      Wall<Element::components>&);
+                                      const PartRestriction*, WallProblem<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -13,7 +13,7 @@ class JacobianProduct {
  public:
   explicit JacobianProduct(const JacobianBlocks<n>& blocks);
 
-  /// y = J x, y resized.
+  /// y = J x, y resized to the equations here. \param x  with its copies (Numbering::update_copies)
   void multiply(const std::vector<double>& x, std::vector<double>& y);
 
  private:

@@ -1,5 +1,6 @@
 #include "system/low_rank_solver.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -33,9 +34,10 @@ void LowRankLinearSolver<n>::update() {
     std::vector<double> normals = *terms_[i].normals;
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<MixedLayout<n>>(normals);
     term.rows.assign(size, 0.0);
-    term.columns.assign(size, 0.0);
+    term.columns.assign(numbering.columns(), 0.0);
     add_to_system(numbering.fluid_rows, normals, term.rows);
     add_to_system(numbering.fluid, normals, term.columns);
+    term.columns.resize(size);  // copies have no part in the normals
   }
   prepared_ = false;
 }
@@ -51,9 +53,10 @@ LinearReport LowRankLinearSolver<n>::prepare() {
   }
   const std::size_t m = of_system_.size();
   std::vector<double> matrix(m * m);
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j < m; ++j)
-      matrix[i * m + j] = (i == j ? 1 : 0) + of_system_[i].slope * dot(of_system_[i].columns, of_system_[j].solution);
+  for (std::size_t j = 0; j < m; ++j) {
+    const std::vector<double> answers = flows(of_system_[j].solution);
+    for (std::size_t i = 0; i < m; ++i) matrix[i * m + j] = (i == j ? 1 : 0) + of_system_[i].slope * answers[i];
+  }
   inverse_ = dense_inverse(matrix, static_cast<int>(m));
   report.converged = !inverse_.empty();
   if (inverse_.empty()) report.failure = "the equations of the openings are singular";
@@ -64,8 +67,8 @@ LinearReport LowRankLinearSolver<n>::prepare() {
 template <int n>
 void LowRankLinearSolver<n>::correct(std::vector<double>& z) const {
   const std::size_t m = of_system_.size();
-  std::vector<double> pressures(m);
-  for (std::size_t i = 0; i < m; ++i) pressures[i] = of_system_[i].slope * dot(of_system_[i].columns, z);
+  std::vector<double> pressures = flows(z);
+  for (std::size_t i = 0; i < m; ++i) pressures[i] *= of_system_[i].slope;
   for (std::size_t i = 0; i < m; ++i) {
     double sum = 0;
     for (std::size_t j = 0; j < m; ++j) sum += inverse_[i * m + j] * pressures[j];
@@ -74,11 +77,26 @@ void LowRankLinearSolver<n>::correct(std::vector<double>& z) const {
 }
 
 template <int n>
-double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, const std::vector<double>& x) {
+double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, std::vector<double>& x) {
+  blocks_.numbering.update_copies(x);
   product_.multiply(x, residual_);
-  for (const Term& term : of_system_) axpy(term.slope * dot(term.columns, x), term.rows, residual_);
+  const std::vector<double> flow = flows(x);
+  for (std::size_t i = 0; i < flow.size(); ++i) axpy(of_system_[i].slope * flow[i], of_system_[i].rows, residual_);
   for (std::size_t i = 0; i < b.size(); ++i) residual_[i] = b[i] - residual_[i];
-  return norm(residual_);
+  return norm_of(residual_);
+}
+
+template <int n>
+std::vector<double> LowRankLinearSolver<n>::flows(const std::vector<double>& x) const {
+  std::vector<double> all;
+  for (const Term& term : of_system_) all.push_back(dot(term.columns, x));
+  blocks_.numbering.processes->sum(all);
+  return all;
+}
+
+template <int n>
+double LowRankLinearSolver<n>::norm_of(const std::vector<double>& equations) const {
+  return std::sqrt(blocks_.numbering.processes->sum(dot(equations, equations)));
 }
 
 template <int n>
@@ -93,7 +111,7 @@ LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double 
   iterations += report.iterations;
   if (!report.converged) return report;
   correct(x);
-  if (const double size = norm(b); report.relative_residual > 0 && size > 0) {
+  if (const double size = norm_of(b); report.relative_residual > 0 && size > 0) {
     double left = residual_norm(b, x) / size;
     for (int k = 0; k < most_corrections && left > tolerance; ++k) {
       const LinearReport again = solver_->solve(residual_, 0.5 * tolerance / left, correction_);

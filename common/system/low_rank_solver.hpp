@@ -41,7 +41,7 @@ class LowRankLinearSolver : public LinearSolver {
   /// A term in the unknowns of the numbering.
   struct Term {
     double slope;
-    std::vector<double> rows, columns, solution;  ///< w as equations and as unknowns; A^-1 w
+    std::vector<double> rows, columns, solution;  ///< w as equations and as own unknowns; A^-1 w
   };
 
   /// Finds A^-1 w of all terms. \returns what went wrong, of the first that did
@@ -49,7 +49,10 @@ class LowRankLinearSolver : public LinearSolver {
   /// z - Y (1 + S W^T Y)^-1 S W^T z
   void correct(std::vector<double>& z) const;
   /// |b - (A + sum) x|; leaves b - (A + sum) x in residual_.
-  double residual_norm(const std::vector<double>& b, const std::vector<double>& x);
+  double residual_norm(const std::vector<double>& b, std::vector<double>& x);
+  /// Of all terms W^T x, summed over processes.
+  std::vector<double> flows(const std::vector<double>& x) const;
+  double norm_of(const std::vector<double>& equations) const;
 
   JacobianBlocks<n> blocks_;
   std::unique_ptr<LinearSolver> solver_;

@@ -36,7 +36,7 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
       norm_(norm),
       impedance_(impedance),
       solver_(solver_by(make_solver)),
-      increment_(numbering_.size),
+      increment_(numbering_.columns()),
       weights_(norm_weights()) {}
 
 template <int n>
@@ -90,10 +90,10 @@ double System<n>::evaluate() {
   if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
   const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
   const AssemblyResult result = assemble(false);
-  if (result.inverted()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
   for (double r : residual_) sum += r * r;
-  return std::sqrt(sum);
+  // One number tells all: not a number where an element of any process is inverted.
+  return std::sqrt(processes().sum(result.inverted() ? std::numeric_limits<double>::quiet_NaN() : sum));
 }
 
 template <int n>
@@ -138,12 +138,14 @@ double System<n>::solve(double tolerance) {
   const auto phase = scene_.profile.phase("solve: " + name_);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
+  increment_.resize(numbering_.columns());
+  numbering_.update_copies(increment_);
   double sum = 0;
   for (std::size_t i = 0; i < increment_.size(); ++i) {
     increment_[i] = -increment_[i];
-    sum += weights_[i] * increment_[i] * increment_[i];
+    if (i < weights_.size()) sum += weights_[i] * increment_[i] * increment_[i];
   }
-  return std::sqrt(sum);
+  return std::sqrt(processes().sum(sum));
 }
 
 template <int n>
@@ -182,15 +184,16 @@ void System<n>::add_rows(const UnknownMap& map, const NodalFrames<n>& frames, co
 
 template <int n>
 double System<n>::size() const {
-  return std::sqrt(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
-                   weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
-                   weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty()));
+  return std::sqrt(processes().sum(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
+                                   weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
+                                   weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty())));
 }
 
 template <int n>
 bool System<n>::negligible(double, double share) const {
-  const auto small = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& field,
-                         int entries) {
+  std::vector<double> sums;  // of each field of vectors and of scalars: squares of increment and size
+  const auto measure = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& field,
+                           int entries) {
     for (const bool scalar : {false, true}) {
       double increment = 0, size = 0;
       for (std::size_t i = 0; i < map.size(); ++i) {
@@ -199,14 +202,17 @@ bool System<n>::negligible(double, double share) const {
         increment += volumes[i / entries] * moved * moved;
         size += volumes[i / entries] * field[i] * field[i];
       }
-      if (increment > share * share * size) return false;
+      sums.insert(sums.end(), {increment, size});
     }
-    return true;
   };
-  return small(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries) &&
-         small(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries) &&
-         (numbering_.wall.empty() ||
-          small(numbering_.wall, wall_volumes_, scene_.wall->from_unloaded(state_->now.wall), Mixed::entries));
+  measure(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries);
+  measure(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries);
+  if (!numbering_.wall.empty())
+    measure(numbering_.wall, wall_volumes_, scene_.wall->from_unloaded(state_->now.wall), Mixed::entries);
+  processes().sum(sums);
+  for (std::size_t i = 0; i < sums.size(); i += 2)
+    if (sums[i] > share * share * sums[i + 1]) return false;
+  return true;
 }
 
 template <int n>
@@ -216,8 +222,8 @@ double System<n>::relative_increment() const {
   const Solution& before = two                      ? state_->balances[1]
                            : data_->rates.stage > 0 ? state_->stage_balance
                                                     : state_->last_balance();
-  double largest = 0;
-  const auto compare = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& now,
+  std::vector<double> sums;  // of each field of vectors and of scalars: squares of increment, change and size
+  const auto measure = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& now,
                            const std::vector<double>& old) {
     for (const bool scalar : {false, true}) {
       double increment = 0, change = 0, size = 0;
@@ -229,19 +235,25 @@ double System<n>::relative_increment() const {
         change += volume * (now[i] - old[i]) * (now[i] - old[i]);
         size += volume * now[i] * now[i];
       }
-      const double steps = two ? 4 : 1;  // squared
-      const double worth = std::max(std::min(change / steps, size), smallest_change * smallest_change * size);
-      if (increment > 0) largest = std::max(largest, increment / worth);
+      sums.insert(sums.end(), {increment, change, size});
     }
   };
-  compare(numbering_.fluid, fluid_volumes_, state_->now.fluid, before.fluid);
-  compare(numbering_.wall, wall_volumes_, state_->now.wall, before.wall);
+  measure(numbering_.fluid, fluid_volumes_, state_->now.fluid, before.fluid);
+  measure(numbering_.wall, wall_volumes_, state_->now.wall, before.wall);
+  processes().sum(sums);
+  double largest = 0;
+  for (std::size_t i = 0; i < sums.size(); i += 3) {
+    const double increment = sums[i], change = sums[i + 1], size = sums[i + 2];
+    const double steps = two ? 4 : 1;  // squared
+    const double worth = std::max(std::min(change / steps, size), smallest_change * smallest_change * size);
+    if (increment > 0) largest = std::max(largest, increment / worth);
+  }
   return std::sqrt(largest);
 }
 
 template <int n>
 double System<n>::rounding() {
-  std::vector<double> x(static_cast<std::size_t>(numbering_.size), 0.0), terms(x.size(), 0.0);
+  std::vector<double> x(numbering_.columns(), 0.0), terms(static_cast<std::size_t>(numbering_.size), 0.0);
   // At nodes with a frame the components of space will do: as large as those of the frame but for a factor near one.
   const auto values = [&](const UnknownMap& map, const std::vector<double>& field) {
     for (std::size_t i = 0; i < map.size(); ++i)
@@ -253,7 +265,7 @@ double System<n>::rounding() {
   add_absolute_products(x, terms);
   double sum = 0;
   for (double t : terms) sum += t * t;
-  return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  return std::numeric_limits<double>::epsilon() * std::sqrt(processes().sum(sum));
 }
 
 template <int n>
@@ -361,6 +373,7 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& column = numbering_.fluid[i]; column.index >= 0)
         flow += std::abs((*normals)[i] * column.factor) * x[column.index];
+    flow = processes().sum(flow);
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& row = numbering_.fluid_rows[i]; row.index >= 0)
         terms[row.index] += std::abs((*normals)[i] * row.factor) * slope * flow;
@@ -372,14 +385,20 @@ std::vector<double> System<n>::norm_weights() {
   std::vector<double> weights(static_cast<std::size_t>(numbering_.size), 0.0);
   const auto add = [&](const UnknownMap& map, const std::vector<double>& volumes, int entries) {
     for (std::size_t i = 0; i < map.size(); ++i)
-      if (map[i].index >= 0) weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
+      if (map[i].index >= 0 && map[i].index < numbering_.size)
+        weights[map[i].index] += map[i].factor * map[i].factor * volumes[i / entries];
   };
-  const auto weights_of = [&](const FunctionSpace<n>& space) {
-    return norm_ == SystemNorm::volumes ? space.volumes() : std::vector<double>(space.volumes().size(), 1.0);
+  const auto weights_of = [&](const FunctionSpace<n>& space, const PartNodes& part) {
+    std::vector<double> of_nodes =
+        norm_ == SystemNorm::volumes ? space.volumes() : std::vector<double>(space.volumes().size(), 1.0);
+    for (int a = 0; part.share && a < part.node_count(); ++a)
+      if (!part.owns(a)) of_nodes[a] = 0;  // others count it
+    return of_nodes;
   };
   if ((!numbering_.fluid.empty() || !numbering_.mesh.empty()) && fluid_volumes_.empty())
-    mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->space());
-  if (!numbering_.wall.empty() && wall_volumes_.empty()) wall_volumes_ = weights_of(scene_.wall->space());
+    mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->space(), scene_.fluid->nodes());
+  if (!numbering_.wall.empty() && wall_volumes_.empty())
+    wall_volumes_ = weights_of(scene_.wall->space(), scene_.wall->nodes());
   add(numbering_.mesh, mesh_volumes_, Vector::entries);
   add(numbering_.fluid, fluid_volumes_, Mixed::entries);
   add(numbering_.wall, wall_volumes_, Mixed::entries);

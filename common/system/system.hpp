@@ -33,7 +33,8 @@ enum class SystemNorm {
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
-/// solve, as Newton's method asks for them. Works on a State that it does not own.
+/// solve, as Newton's method asks for them. Works on a State that it does not own. Where the scene is shared out, each
+/// process has the equations of its nodes, all ask together, and all get the same norms.
 template <int n>
 class System : public NewtonProblem {
  public:
@@ -91,6 +92,7 @@ class System : public NewtonProblem {
   double rounding() override;
 
  private:
+  const Communicator& processes() const { return *numbering_.processes; }
   static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
 
   /// The asked-for solver, which knows the openings' pressures that answer the flow where the equations have such.
@@ -143,8 +145,8 @@ class System : public NewtonProblem {
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
-  std::vector<double> rows_;  ///< of a part in its frames
-  std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;
+  std::vector<double> rows_;                                         ///< of a part in its frames
+  std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;  ///< per node; zero at copies
   std::vector<double> weights_;
 };
 

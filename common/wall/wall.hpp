@@ -17,9 +17,9 @@ namespace fsi {
 /// What a layer of the wall is, without its element loops.
 struct LayerData {
   Material material;
-  std::size_t elements = 0;
-  double volume = 0;       ///< at rest, mm^3
-  std::vector<int> nodes;  ///< of the wall's part, ascending
+  std::size_t elements = 0;  ///< of this process's part
+  double volume = 0;         ///< of the whole layer at rest, mm^3
+  std::vector<int> nodes;    ///< of the wall's part here, ascending
 };
 
 /// The wall sub-problem as everything above the element loops sees it, vectors with n components: residual and Jacobian

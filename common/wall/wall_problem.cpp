@@ -15,6 +15,7 @@ template <class Element, class Part>
 double volume_of(const Part& part, const std::vector<int>& cells) {
   double volume = 0;
   for (int c : cells) {
+    if (!part.counted.empty() && part.counted[c] == 0) continue;
     Vec3<Pack> x[Element::nodes];
     for (int a = 0; a < Element::nodes; ++a)
       for (int i = 0; i < 3; ++i) x[a][i] = Pack(part.nodes[part.cells[c][a]][i]);
@@ -26,7 +27,7 @@ double volume_of(const Part& part, const std::vector<int>& cells) {
 
 template <class Element, class Part>
 LayerData measured_layer(const Part& part, const std::vector<int>& cells, const Material& material) {
-  LayerData data{material, cells.size(), volume_of<Element>(part, cells), {}};
+  LayerData data{material, cells.size(), part.processes().sum(volume_of<Element>(part, cells)), {}};
   for (int c : cells) data.nodes.insert(data.nodes.end(), part.cells[c].begin(), part.cells[c].end());
   std::sort(data.nodes.begin(), data.nodes.end());
   data.nodes.erase(std::unique(data.nodes.begin(), data.nodes.end()), data.nodes.end());
@@ -47,7 +48,8 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
     std::vector<int> cells;
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
-    layers_.push_back({ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph()), material, {}});
+    layers_.push_back(
+        {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}});
     layer_cells_.push_back(cells);
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
     if (!has_fibres(material)) continue;
@@ -107,7 +109,7 @@ void WallProblem<Element>::set_prestress(std::vector<double> displacement) {
   std::copy_n(Element::axis, n, axes.begin());
   const std::vector<Point> unloaded = this->unloaded_nodes(axes);
   for (std::size_t i = 0; i < layers_.size(); ++i) {
-    ElementPacks<Element> packs(unloaded, part_.cells, layer_cells_[i], *space_.graph());
+    ElementPacks<Element> packs(unloaded, part_.cells, layer_cells_[i], *space_.graph(), part_.counted);
     packs.keep_sizes_of(layers_[i].packs);
     layers_[i].packs = std::move(packs);
   }
