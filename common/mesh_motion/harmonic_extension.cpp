@@ -56,11 +56,16 @@ HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std:
   assert(inner_.size() == static_cast<std::size_t>(laplacian.graph->rows()) * n);
   values_.resize(inner_.size());
   rows_ = values_;
-  update();
+  build_groups();
 }
 
 template <int n>
 void HarmonicExtension<n>::update() {
+  build_groups();
+}
+
+template <int n>
+void HarmonicExtension<n>::build_groups() {
   groups_.clear();
   for (int k = 0; k < n; ++k) {
     const bool mixed = is_mixed(k);

@@ -71,6 +71,8 @@ class HarmonicExtension : public MeshExtension<n> {
     bool iterative = false;
   };
 
+  /// Sorts the components into groups by their present numbers and makes each group's solver.
+  void build_groups();
   bool same(int i, int k) const;
   /// Some frame is turned out of this component's axis.
   bool is_mixed(int component) const;
