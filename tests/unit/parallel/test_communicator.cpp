@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "parallel/communicator.hpp"
 
 namespace fsi {
@@ -144,6 +146,18 @@ TEST(Communicator, TrafficIsCounted) {
   EXPECT_EQ(now.messages - before.messages, all().size() - 1);
   EXPECT_EQ(now.bytes - before.bytes, 32 * (all().size() - 1));
 }
+
+#ifndef FSI_WITH_MPI
+/// Two processes that know nothing of each other would write to one folder.
+TEST(ProcessGroup, WithoutMpiSeveralProcessesAreRefused) {
+  setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+  EXPECT_THROW(ProcessGroup(), InputError);
+  setenv("OMPI_COMM_WORLD_SIZE", "1", 1);
+  EXPECT_NO_THROW(ProcessGroup());
+  unsetenv("OMPI_COMM_WORLD_SIZE");
+  EXPECT_NO_THROW(ProcessGroup());
+}
+#endif
 
 }  // namespace
 }  // namespace fsi
