@@ -18,6 +18,9 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 # Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found.
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-matplotlib, python3-numpy, python3-h5py")
+if(FSI_MPI)
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "openmpi-bin, openssh-client")  # mpirun, which asks for ssh
+endif()
 if(NOT FSI_PYTHON STREQUAL "/usr/bin/python3")
   message(STATUS "Packages: fsi-compare would run with ${FSI_PYTHON}, which the Debian packages do not bring; "
     "configure with -DFSI_PYTHON=/usr/bin/python3")
@@ -26,7 +29,12 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME fsi-duo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "cmake, pkg-config, libeigen3-dev, libfmt-dev, libspdlog-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, "
-  "libhdf5-dev, libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev")
+  "libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev, ")
+if(FSI_MPI)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libhdf5-openmpi-dev, libopenmpi-dev, petsc-dev, libptscotch-dev")
+else()
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libhdf5-dev")
+endif()
 
 # The first line is the title; a line with a point alone is an empty line.
 set(_programs_text "fluid-structure interaction of an artery, solved twice and compared

@@ -9,6 +9,8 @@
 
 #ifdef FSI_WITH_MPI
 #include "parallel/mpi_handle.hpp"
+#else
+#include "base/error.hpp"
 #endif
 
 namespace fsi {
@@ -257,7 +259,15 @@ std::vector<std::vector<double>> Communicator::send_and_receive(const std::vecto
   return to_each;
 }
 
-ProcessGroup::ProcessGroup() = default;
+ProcessGroup::ProcessGroup() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}) {
+    const char* processes = std::getenv(name);
+    if (processes == nullptr || std::atoi(processes) <= 1) continue;
+    throw InputError("mpirun", "",
+                     std::string("this build is without MPI, and would do the same ") + processes + " times",
+                     "start one process, or build with -DFSI_MPI=ON");
+  }
+}
 ProcessGroup::~ProcessGroup() = default;
 void ProcessGroup::require_mpi() {
   throw std::logic_error("this build is without MPI (FSI_MPI=OFF)");

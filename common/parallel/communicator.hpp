@@ -86,6 +86,7 @@ class Communicator {
 /// program. Without a launcher nothing is begun: a run by itself costs nothing.
 class ProcessGroup {
  public:
+  /// \throws InputError  in a build without MPI that was launched as several processes
   ProcessGroup();
   ~ProcessGroup();
   ProcessGroup(const ProcessGroup&) = delete;

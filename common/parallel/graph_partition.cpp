@@ -35,6 +35,24 @@ class DistributedGraph {
   SCOTCH_Dgraph graph_;
 };
 
+/// One thread, and nothing that depends on which message comes first.
+class Reproducible {
+ public:
+  Reproducible() {
+    require(SCOTCH_contextInit(&context_), "no context");
+    require(SCOTCH_contextOptionSetNum(&context_, SCOTCH_OPTIONNUMDETERMINISTIC, 1), "no context");
+    require(SCOTCH_contextThreadSpawn(&context_, 1, nullptr), "no context");
+    SCOTCH_contextRandomReset(&context_);
+  }
+  ~Reproducible() { SCOTCH_contextExit(&context_); }
+  Reproducible(const Reproducible&) = delete;
+  Reproducible& operator=(const Reproducible&) = delete;
+  SCOTCH_Context* get() const { return &context_; }
+
+ private:
+  mutable SCOTCH_Context context_;
+};
+
 }  // namespace
 
 std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::vector<int>& columns,
@@ -52,7 +70,6 @@ std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::
   }
   edges.reserve(1);
   loads.reserve(1);
-  SCOTCH_randomReset();  // the same answer each time
   std::vector<SCOTCH_Num> owners(static_cast<std::size_t>(last - first) + 1, 0);
   {
     DistributedGraph graph(processes);
@@ -60,9 +77,12 @@ std::vector<int> partition_of_graph(const std::vector<int>& offsets, const std::
     require(SCOTCH_dgraphBuild(graph.get(), 0, last - first, last - first, rows.data(), rows.data() + 1, loads.data(),
                                nullptr, count, count, edges.data(), nullptr, nullptr),
             "the graph is refused");
+    const Reproducible context;
+    DistributedGraph reproducible(processes);
+    require(SCOTCH_contextBindDgraph(context.get(), graph.get(), reproducible.get()), "no context");
     SCOTCH_Strat strategy;
     require(SCOTCH_stratInit(&strategy), "no strategy");
-    const int error = SCOTCH_dgraphPart(graph.get(), processes.size(), &strategy, owners.data());
+    const int error = SCOTCH_dgraphPart(reproducible.get(), processes.size(), &strategy, owners.data());
     SCOTCH_stratExit(&strategy);
     require(error, "no partition");
   }

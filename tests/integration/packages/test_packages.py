@@ -10,7 +10,7 @@ from pathlib import Path
 
 BUILD = Path(os.environ["FSI_BUILD"])
 VERSION = os.environ["FSI_VERSION"]
-NATIVE = os.environ["FSI_NATIVE"] == "1"
+NATIVE, MPI = (os.environ[name] == "1" for name in ("FSI_NATIVE", "FSI_MPI"))
 
 
 def execute(*command, **options):
@@ -66,12 +66,18 @@ class Packages(unittest.TestCase):
         depends = {re.split(r"[ (]", word.strip())[0] for word in self.field(self.programs, "Depends").split(",")}
         self.assertLessEqual({"python3", "python3-matplotlib", "python3-numpy", "python3-h5py"}, depends)
         # Found by dpkg-shlibdeps, under names that carry a version.
-        for library in ("libc6", "libgmsh", "libhdf5", "libumfpack", "libopenblas", "libspdlog", "libfmt"):
+        libraries = ["libc6", "libgmsh", "libhdf5", "libumfpack", "libopenblas", "libspdlog", "libfmt"]
+        if MPI:
+            libraries += ["libhdf5-openmpi", "libopenmpi", "libptscotch"]
+            self.assertIn("openmpi-bin", self.field(self.programs, "Recommends"))
+        for library in libraries:
             self.assertTrue(any(name.startswith(library) for name in depends), f"{library} not in {depends}")
 
     def test_libraries_depend_on_the_headers_they_include(self):
         depends = self.field(self.development, "Depends")
-        for package in ("libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libtomlplusplus-dev", "libhdf5-dev"):
+        for package in ("libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libtomlplusplus-dev"):
+            self.assertIn(package, depends)
+        for package in ("libhdf5-openmpi-dev", "libopenmpi-dev", "petsc-dev") if MPI else ("libhdf5-dev",):
             self.assertIn(package, depends)
 
     def test_contents(self):
