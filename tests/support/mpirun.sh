@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# mpirun.sh PROCESSES SECONDS COMMAND...: runs a command on several processes as the tests do, and ends all of them when
+# the seconds are over. Its exit code is the command's; 110 where time ran out.
+set -euo pipefail
+processes=$1 seconds=$2
+shift 2
+if [ "$(id -u)" -eq 0 ]; then  # Open MPI refuses root otherwise
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+export OMP_NUM_THREADS=1
+# More processes than free cores: those that wait give way, or each message takes a slice of the scheduler's time.
+exec "${FSI_MPIRUN:-mpirun}" -n "$processes" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 \
+  --timeout "$seconds" "$@"
