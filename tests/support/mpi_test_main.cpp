@@ -4,22 +4,27 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <memory>
+#include <string>
 
 #include "parallel/communicator.hpp"
 
 namespace {
 
 class FailuresOfProcess : public testing::EmptyTestEventListener {
+  // GoogleTest does not tell its current test while it reports a failure.
+  void OnTestStart(const testing::TestInfo& test) override {
+    test_ = std::string(test.test_suite_name()) + "." + test.name();
+  }
+
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
     const fsi::Communicator& processes = fsi::Communicator::world();
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::fprintf(stderr, "process %d of %d: %s.%s\n%s:%d: %s\n", processes.rank(), processes.size(),
-                 test ? test->test_suite_name() : "", test ? test->name() : "",
+    std::fprintf(stderr, "process %d of %d: %s\n%s:%d: %s\n", processes.rank(), processes.size(), test_.c_str(),
                  result.file_name() ? result.file_name() : "?", result.line_number(), result.message());
     if (result.fatally_failed() && !processes.is_alone()) fsi::ProcessGroup::abort(1);
   }
+
+  std::string test_;
 };
 
 }  // namespace
