@@ -1,6 +1,8 @@
 #include "driver/field_output.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -8,7 +10,6 @@
 #include "derived/stress_invariants.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/nodal_layout.hpp"
-#include "mesh/mid_edge_nodes.hpp"
 
 namespace fsi {
 
@@ -184,12 +185,15 @@ static_assert(all_asked_for<3>(), "case/choices.hpp owns these names");
 
 template <int n>
 FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
-                            std::vector<FieldGrid> grids, const TimeAxis& axis, const std::filesystem::path& folder,
-                            const std::filesystem::path& restarted_from, double until)
+                            std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
+                            const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
+                            double until)
     : axes_(scene.axes), derived_(derived), profile_(scene.profile) {
   if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics)) return;
   const auto& wanted = setup.output.fields;
-  for (auto& grid : grids) {
+  assert(shares.empty() || shares.size() == grids.size());
+  for (std::size_t g = 0; g < grids.size(); ++g) {
+    FieldGrid& grid = grids[g];
     const bool fluid = grid.name == "fluid";
     const GridFacts facts{fluid, !fluid || scene.coupled(), fluid || !scene.is_static(),
                           derived.stress && derived.stress->has_fibres(), derived.statistics.has_value()};
@@ -197,10 +201,15 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
       if ((field.asked_by.empty() || std::find(wanted.begin(), wanted.end(), field.asked_by) != wanted.end()) &&
           field.exists(facts))
         grid.fields.push_back({std::string(field.name), field.components, field.unit});
-    if (!grid.fields.empty()) grids_.push_back(std::move(grid));
+    if (grid.fields.empty()) continue;
+    grids_.push_back(std::move(grid));
+    if (shares.empty())
+      made_.push_back({nullptr, separate_middles<n>(grids_.back()), {}});
+    else
+      made_.push_back({(fluid ? scene.fluid->nodes() : scene.wall->nodes()).share.get(), std::move(shares[g].middles),
+                       std::move(shares[g].order)});
   }
   if (grids_.empty()) return;
-  for (auto& grid : grids_) middles_.push_back(separate_middles(grid));
   FieldPlan planned;
   if (auto times = output_times(setup); !times.empty())
     planned = {static_cast<std::int64_t>(times.size()), [times = std::move(times)](std::int64_t entry) {
@@ -210,9 +219,9 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
     planned = planned_field_steps(axis.planned_steps(), setup.output.every,
                                   [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
   if (restarted_from.empty())
-    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned);
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, scene.processes());
   else
-    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, until);
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, until, scene.processes());
 }
 
 template <int n>
@@ -228,47 +237,20 @@ bool FieldOutput<n>::write(const State& state) {
         if (known.name != field.name) continue;
         auto numbers = known.values(level, grids_[g].name == "fluid");
         const auto components = static_cast<std::size_t>(field.components);
-        numbers.resize(grids_[g].points.size() * components);
-        for (const Middle& middle : middles_[g])
+        const Grid& made = made_[g];
+        if (made.share && !made.middles.empty()) made.share->exchange.update(numbers, field.components);
+        numbers.resize((made.order ? made.order->items() : grids_[g].points.size()) * components);
+        for (const Middle& middle : made.middles)
           for (std::size_t k = 0; k < components; ++k) {
             const auto at = [&](int point) { return numbers[static_cast<std::size_t>(point) * components + k]; };
             numbers[static_cast<std::size_t>(middle.point) * components + k] =
                 known.of_vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(middle.node);
           }
+        if (made.order) numbers = made.order->to_stretches(numbers.data(), field.components);
         values[{grids_[g].name, field.name}] = std::move(numbers);
       }
   writer_->write(*entry, values);
   return true;
-}
-
-template <int n>
-auto FieldOutput<n>::separate_middles(FieldGrid& grid) -> std::vector<Middle> {
-  constexpr int dim = n;  // of the cells: triangles have two components, tetrahedra three
-  std::vector<Middle> middles;
-  if (grid.nodes_per_cell != nodes_of_simplex(dim, 2)) return middles;
-  std::vector<std::vector<std::size_t>> at(grid.points.size());  // places in `middles` by node
-  for (std::size_t cell = 0; cell < grid.cells.size(); cell += grid.nodes_per_cell)
-    for (std::size_t edge = 0; edge < SimplexEdges<dim>::vertices.size(); ++edge) {
-      int& point = grid.cells[cell + dim + 1 + edge];
-      const auto& [a, b] = SimplexEdges<dim>::vertices[edge];
-      const auto [first, second] = std::minmax(grid.cells[cell + a], grid.cells[cell + b]);
-      const std::array<int, 2> ends{first, second};
-      auto& known = at[point];
-      const auto found =
-          std::find_if(known.begin(), known.end(), [&](std::size_t k) { return middles[k].ends == ends; });
-      if (found != known.end()) {
-        point = middles[*found].point;
-        continue;
-      }
-      const int node = point;
-      if (!known.empty()) {
-        point = static_cast<int>(grid.points.size());
-        grid.points.push_back(grid.points[node]);
-      }
-      known.push_back(middles.size());
-      middles.push_back({point, node, ends});
-    }
-  return middles;
 }
 
 #define FSI_INSTANTIATE(n) template class FieldOutput<n>;

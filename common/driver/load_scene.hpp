@@ -8,6 +8,7 @@
 
 #include "case/case.hpp"
 #include "derived/derived_quantities.hpp"
+#include "driver/grid_share.hpp"
 #include "driver/observation.hpp"
 #include "io/checkpoint.hpp"
 #include "io/fields_writer.hpp"
@@ -31,6 +32,7 @@ struct LoadedScene {
   ObservationPoints points;
   DerivedQuantities<n> derived;         ///< refers to the scene
   std::vector<FieldGrid> grids;         ///< of fluid and wall, where they are, without fields
+  std::vector<GridShare> grid_shares;   ///< of each, where processes share the scene out
   std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };
 

@@ -19,9 +19,6 @@ namespace {
 
 constexpr double most_steps = std::numeric_limits<int>::max();
 
-constexpr const char* memory_prefix = "stepper.";
-constexpr const char* march_prefix = "march.";
-constexpr const char* digest_prefix = "table.";            // bytes and hash of a table's rows
 constexpr const char* insertions_name = "inserted_steps";  // each: step, its end, its length
 constexpr const char* inserted_until = "inserted_until";   // steps 1 to this were all inserted: iterations.csv has them
 constexpr const char* stretches_name = "step_lengths";  // per stretch: step before it, its start, what the case asked
@@ -90,8 +87,8 @@ void require_finite(const fs::path& file, const Checkpoint& checkpoint) {
     if (!std::isfinite(number)) refuse(file, name, "is not finite");
 }
 
-/// What the steppers and the march keep goes by the ends of names: arrays of a linearisation point are as long as the
-/// state's, columns of differences as long as the interface's vectors.
+/// What the steppers and the march keep: arrays of a linearisation point are as long as the state's, columns of
+/// differences as long as the interface's vectors.
 void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_t interface_values,
                   const State& state) {
   const auto require = [&](const std::string& name, std::size_t found, std::size_t size) {
@@ -105,40 +102,46 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
     return found->second.size();
   };
   for (const auto& [name, array] : checkpoint.arrays) {
+    const bool of_march = begins_with(name, march_prefix);
+    if (!of_march && !begins_with(name, memory_prefix)) continue;
+    const auto kind = kind_of_array(name);
+    if (!kind) refuse(file, name, "is unknown", another_version);
     const auto stem = name.substr(0, name.rfind('.'));
-    if (begins_with(name, march_prefix)) {
-      if (name == "march.controller")
-        require(name, array.size(), 3);
-      else if (name == "march.estimate")
-        require(name, array.size(), 4);
-      else
-        refuse(file, name, "is unknown", another_version);
-    } else if (!begins_with(name, memory_prefix)) {
-      continue;
-    } else if (ends_with(name, ".mesh") || ends_with(name, ".mesh_reference")) {
-      require(name, array.size(), state.now.mesh.size());
-    } else if (ends_with(name, ".flow") || ends_with(name, ".flow_reference")) {
-      require(name, array.size(), state.now.fluid.size());
-    } else if (ends_with(name, ".wall")) {
-      require(name, array.size(), state.now.wall.size());
-    } else if (ends_with(name, ".support_loads")) {
-      require(name, array.size(), state.support_loads);
-    } else if (begins_with(name, std::string(memory_prefix) + "load")) {
-      require(name, array.size(), interface_values);
-      for (const char* load : {"load0", "load1", "load2"}) size_of(std::string(memory_prefix) + load);
-    } else if (ends_with(name, ".v") || ends_with(name, ".w")) {
-      require(name, array.size(), size_of(stem + ".age") * interface_values);
-    } else if (ends_with(name, ".age")) {
-      for (const double age : array) whole(file, name, age, 0, most_steps);
-      size_of(stem + ".v");
-      size_of(stem + ".w");
-    } else if (ends_with(name, ".a") || ends_with(name, ".b")) {
-      require(name, array.size(),
-              static_cast<std::size_t>(
-                  whole(file, stem + ".rank", require_real(file, checkpoint, stem + ".rank"), 0, most_steps)) *
-                  interface_values);
-    } else {
-      refuse(file, name, "is unknown", another_version);
+    switch (*kind) {
+      case ArrayKind::mesh:
+        require(name, array.size(), state.now.mesh.size());
+        break;
+      case ArrayKind::flow:
+        require(name, array.size(), state.now.fluid.size());
+        break;
+      case ArrayKind::wall:
+        require(name, array.size(), state.now.wall.size());
+        break;
+      case ArrayKind::interface:
+        require(name, array.size(), interface_values);
+        for (const char* load : {"load0", "load1", "load2"}) size_of(std::string(memory_prefix) + load);
+        break;
+      case ArrayKind::interface_columns: {
+        const bool aged = ends_with(name, ".v") || ends_with(name, ".w");
+        const auto columns =
+            aged ? size_of(stem + ".age")
+                 : static_cast<std::size_t>(
+                       whole(file, stem + ".rank", require_real(file, checkpoint, stem + ".rank"), 0, most_steps));
+        require(name, array.size(), columns * interface_values);
+        break;
+      }
+      default:
+        if (of_march) {
+          require(name, array.size(), ends_with(name, ".controller") ? 3 : 4);
+        } else if (ends_with(name, ".support_loads")) {
+          require(name, array.size(), state.support_loads);
+        } else if (ends_with(name, ".age")) {
+          for (const double age : array) whole(file, name, age, 0, most_steps);
+          size_of(stem + ".v");
+          size_of(stem + ".w");
+        } else {
+          refuse(file, name, "is unknown", another_version);
+        }
     }
     // A linearisation point has all of its parts or none.
     for (const char* part : {".mesh", ".flow", ".wall", ".mesh_reference", ".flow_reference"})

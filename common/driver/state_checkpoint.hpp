@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "driver/checkpoint_arrays.hpp"
 #include "io/checkpoint.hpp"
 #include "io/table_digest.hpp"
 #include "time/state.hpp"
@@ -10,9 +11,6 @@
 #include "time/time_axis.hpp"
 
 namespace fsi {
-
-/// Before the names of the numbers of the statistics over periods, which have a check of their own.
-inline constexpr const char* statistics_prefix = "statistics.";
 
 /// Adds the finished levels of a state, what the stepper keeps between steps, and the steps that led there.
 void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint);

@@ -9,11 +9,16 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_in_place.hpp"
+#include "io/first_process.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/stretch_writer.hpp"
+#include "io/write_error.hpp"
 
 namespace fsi {
 
@@ -27,6 +32,8 @@ constexpr std::size_t block_size = 512;
 constexpr const char* name_of_format = "fsi-duo checkpoint ";
 constexpr const char* signature = "fsi-duo checkpoint 2\nchecksum ";
 constexpr std::size_t longest_text = 60000;  // of an attribute, which HDF5 limits
+constexpr const char* arrays_group = "/arrays/";
+constexpr const char* another_mesh = "restart with the case and mesh of that run";
 using Block = std::array<char, block_size>;
 
 Block block_for(const std::string& checksum) {
@@ -83,6 +90,102 @@ Value single(const fs::path& file, const Hdf5File& hdf5, const std::string& data
   return values[0];
 }
 
+/// An array that is shared out, as its file has it.
+struct SharedStretch {
+  std::uint64_t whole = 0;  ///< numbers of a column, of all processes
+  std::uint64_t first = 0;  ///< of them, this process's
+  std::vector<std::vector<double>> columns;
+};
+using SharedValues = std::map<std::string, SharedStretch>;
+
+/// The stretches that this process writes.
+SharedValues shared_values(const Checkpoint& checkpoint, const Communicator& processes, const ArraySharing& sharing) {
+  std::vector<std::pair<std::string, SharedArray>> found;
+  std::vector<std::int64_t> columns;  // of each, as far as it can be seen here
+  for (const auto& [name, values] : checkpoint.arrays)
+    if (const auto how = sharing(name)) {
+      const std::size_t size = how->order->items() * static_cast<std::size_t>(how->entries);
+      assert(size == 0 ? values.empty() : values.size() % size == 0);
+      found.emplace_back(name, *how);
+      columns.push_back(size == 0 ? 0 : static_cast<std::int64_t>(values.size() / size));
+    }
+  const auto all = processes.gather(columns);
+  SharedValues shared;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& [name, how] = found[i];
+    std::int64_t most = 0;
+    for (std::size_t at = i; at < all.size(); at += found.size()) most = std::max(most, all[at]);
+    assert(most <= 1 || how.columns);
+    SharedStretch& stretch = shared[name];
+    stretch.whole = static_cast<std::uint64_t>(how.order->whole() * how.entries);
+    stretch.first = static_cast<std::uint64_t>(how.order->first() * how.entries);
+    const auto& values = checkpoint.arrays.at(name);
+    for (std::int64_t column = 0; column < most; ++column)
+      stretch.columns.push_back(how.order->to_stretches(
+          values.data() + static_cast<std::size_t>(column) * how.order->items() * static_cast<std::size_t>(how.entries),
+          how.entries));
+  }
+  return shared;
+}
+
+/// Everything but what processes write together, for which there is room then.
+void write_contents(Hdf5File& hdf5, const Checkpoint& checkpoint, const SharedValues& shared) {
+  hdf5.write_attribute("/", "program", checkpoint.program);
+  hdf5.write_attribute("/", "case_hash", checkpoint.case_hash);
+  hdf5.write_attribute("/", "case", checkpoint.case_text.size() <= longest_text ? checkpoint.case_text : "");
+  hdf5.write_attribute("/", "mesh_hash", checkpoint.mesh_hash);
+  hdf5.write_new<std::int64_t>("/step", {1}, &checkpoint.step);
+  hdf5.write_new<double>("/time", {1}, &checkpoint.time);
+  for (const auto& [name, values] : checkpoint.arrays) {
+    assert(name.find('/') == std::string::npos);
+    if (const auto found = shared.find(name); found != shared.end())
+      hdf5.create_dataset<double>(arrays_group + name, {found->second.whole * found->second.columns.size()});
+    else
+      hdf5.write_new<double>(arrays_group + name, {values.size()}, values.data());
+  }
+  for (const auto& [name, value] : checkpoint.integers) hdf5.write_new<std::int64_t>("/integers/" + name, {1}, &value);
+  for (const auto& [name, value] : checkpoint.reals) hdf5.write_new<double>("/reals/" + name, {1}, &value);
+}
+
+/// Writes the arrays that are shared out, and reads this process's stretches back. For all processes together.
+void write_stretches(const fs::path& temporary, const fs::path& file, const SharedValues& shared,
+                     const Communicator& processes) {
+  StretchWriter writer(temporary, file, processes);
+  for (const auto& [name, stretch] : shared)
+    for (std::size_t column = 0; column < stretch.columns.size(); ++column)
+      writer.write(arrays_group + name, column * stretch.whole + stretch.first, stretch.columns[column]);
+  writer.close();
+  const auto again = Hdf5File::open(temporary, false);
+  for (const auto& [name, stretch] : shared)
+    for (std::size_t column = 0; column < stretch.columns.size(); ++column) {
+      const auto& values = stretch.columns[column];
+      const auto read =
+          again.read_part<double>(arrays_group + name, column * stretch.whole + stretch.first, values.size());
+      if (!values.empty() && std::memcmp(read.data(), values.data(), sizeof(double) * values.size()) != 0)
+        throw WriteError(file, "", "reading it back gives other bytes than were written", "check the disk");
+    }
+}
+
+/// The part of an array that belongs to the items here. For all processes together.
+std::vector<double> read_shared(const fs::path& file, const Hdf5File& hdf5, const std::string& name,
+                                const SharedArray& how) {
+  const auto shape = hdf5.shape(arrays_group + name);
+  const std::uint64_t size = shape.size() == 1 ? shape[0] : 0,
+                      whole = static_cast<std::uint64_t>(how.order->whole() * how.entries);
+  const std::uint64_t columns = whole == 0 ? 0 : size / whole;
+  if (columns * whole != size || (columns > 1 && !how.columns))
+    throw InputError(file.string(), name, fmt::format("has {} values, not {}", size, whole), another_mesh);
+  std::vector<double> values;
+  for (std::uint64_t column = 0; column < columns; ++column) {
+    const auto stretch = hdf5.read_part<double>(
+        arrays_group + name, column * whole + static_cast<std::uint64_t>(how.order->first() * how.entries),
+        static_cast<std::uint64_t>(how.order->count() * how.entries));
+    const auto here = how.order->from_stretches(stretch.data(), how.entries);
+    values.insert(values.end(), here.begin(), here.end());
+  }
+  return values;
+}
+
 }  // namespace
 
 fs::path checkpoint_file(const fs::path& folder) {
@@ -93,18 +196,7 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
   std::uint64_t size = 1 << 16;
   for (const auto& entry : checkpoint.arrays) size += sizeof(double) * entry.second.size() + 1024;
   auto hdf5 = Hdf5File::create_in_memory(file, block_size, size);
-  hdf5.write_attribute("/", "program", checkpoint.program);
-  hdf5.write_attribute("/", "case_hash", checkpoint.case_hash);
-  hdf5.write_attribute("/", "case", checkpoint.case_text.size() <= longest_text ? checkpoint.case_text : "");
-  hdf5.write_attribute("/", "mesh_hash", checkpoint.mesh_hash);
-  hdf5.write_new<std::int64_t>("/step", {1}, &checkpoint.step);
-  hdf5.write_new<double>("/time", {1}, &checkpoint.time);
-  for (const auto& [name, values] : checkpoint.arrays) {
-    assert(name.find('/') == std::string::npos);
-    hdf5.write_new<double>("/arrays/" + name, {values.size()}, values.data());
-  }
-  for (const auto& [name, value] : checkpoint.integers) hdf5.write_new<std::int64_t>("/integers/" + name, {1}, &value);
-  for (const auto& [name, value] : checkpoint.reals) hdf5.write_new<double>("/reals/" + name, {1}, &value);
+  write_contents(hdf5, checkpoint, {});
 
   std::string bytes(block_size, '\0');
   bytes.reserve(block_size + size);
@@ -117,8 +209,40 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
   write_atomically(file, bytes, ReadBack::yes);
 }
 
+void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint, const Communicator& processes,
+                      const ArraySharing& sharing) {
+  if (processes.is_alone()) return write_checkpoint(file, checkpoint);
+  const SharedValues shared = shared_values(checkpoint, processes, sharing);
+  const fs::path temporary = temporary_name(file);
+  try {
+    at_first(processes, [&] {
+      remove_temporary(file);
+      auto hdf5 = Hdf5File::create(temporary, file, block_size);
+      write_contents(hdf5, checkpoint, shared);
+      hdf5.close();
+    });
+    do_together(processes, [&] { write_stretches(temporary, file, shared, processes); });
+    at_first(processes, [&] {
+      std::ifstream stream(temporary, std::ios::binary);
+      const Block block = block_for(checksum_behind_block(stream));
+      stream.close();
+      auto changed = FileInPlace(temporary).open();
+      changed.write(0, block.data(), block.size());
+      changed.close();
+      replace_by_temporary(file);
+    });
+  } catch (...) {
+    if (processes.is_first()) remove_temporary(file);
+    throw;
+  }
+}
+
 Checkpoint read_checkpoint(const fs::path& file) {
-  verify(file);
+  return read_checkpoint(file, Communicator::alone(), {});
+}
+
+Checkpoint read_checkpoint(const fs::path& file, const Communicator& processes, const ArraySharing& sharing) {
+  at_first(processes, [&] { verify(file); });
   const auto hdf5 = Hdf5File::open(file, false);
   Checkpoint checkpoint;
   checkpoint.program = hdf5.read_attribute("/", "program");
@@ -128,7 +252,10 @@ Checkpoint read_checkpoint(const fs::path& file) {
   checkpoint.step = single<std::int64_t>(file, hdf5, "/step");
   checkpoint.time = single<double>(file, hdf5, "/time");
   if (hdf5.has("/arrays"))
-    for (const auto& name : hdf5.members("/arrays")) checkpoint.arrays[name] = hdf5.read<double>("/arrays/" + name);
+    for (const auto& name : hdf5.members("/arrays")) {
+      const auto how = processes.is_alone() ? std::nullopt : sharing(name);
+      checkpoint.arrays[name] = how ? read_shared(file, hdf5, name, *how) : hdf5.read<double>(arrays_group + name);
+    }
   if (hdf5.has("/integers"))
     for (const auto& name : hdf5.members("/integers"))
       checkpoint.integers[name] = single<std::int64_t>(file, hdf5, "/integers/" + name);
@@ -163,7 +290,7 @@ const std::vector<double>& require_size(const fs::path& file, const Checkpoint& 
   if (found == checkpoint.arrays.end()) refuse_lacking(file, name);
   if (found->second.size() != size)
     throw InputError(file.string(), name, fmt::format("has {} values, not {}", found->second.size(), size),
-                     "restart with the case and mesh of that run");
+                     another_mesh);
   return found->second;
 }
 

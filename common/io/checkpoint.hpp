@@ -3,9 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "parallel/whole_order.hpp"
 
 namespace fsi {
 
@@ -33,6 +37,24 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 /// \throws InputError when the file is missing, no checkpoint, one of another version's format, truncated, or its
 /// checksum does not match
 Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+/// How processes hold an array of a checkpoint that they share out: each has the numbers of the items that are with it. In
+/// the file the array stands in the whole order, as one process writes it. An array may be empty, at all of them.
+struct SharedArray {
+  const WholeOrder* order;
+  int entries;           ///< numbers per item
+  bool columns = false;  ///< any number of such arrays one after the other, in place of one
+};
+/// How an array of a name is held; none: all processes have the same.
+using ArraySharing = std::function<std::optional<SharedArray>(const std::string& name)>;
+
+/// The same by all processes together, each with its part of the arrays: `sharing` says which are shared out. The file is
+/// that of one process, and can be read by any number of them.
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint, const Communicator& processes,
+                      const ArraySharing& sharing);
+/// \throws InputError also when an array is not of the size of the whole order
+Checkpoint read_checkpoint(const std::filesystem::path& file, const Communicator& processes,
+                           const ArraySharing& sharing);
 
 /// Refuses a checkpoint of another program, case or mesh; `file` names it in the message.
 /// \param difference  of the cases, as difference_of_cases() tells it, if they differ \throws InputError

@@ -30,10 +30,12 @@ void check_grids(const Hdf5File& h5, const fs::path& file, const std::vector<Fie
     if (!h5.has(points)) continue;  // no field of this medium was wanted
     const auto corners = static_cast<std::uint64_t>(grid.nodes_per_cell);
     const auto shape = h5.shape(points);
-    if (!h5.has(cells) || h5.shape(cells) != std::vector<std::uint64_t>{grid.cells.size() / corners, corners} ||
-        shape.size() != 2 || shape[1] != 3 || shape[0] < grid.points.size())
+    if (!h5.has(cells) || h5.shape(cells) != std::vector<std::uint64_t>{cell_count(grid), corners} ||
+        shape.size() != 2 || shape[1] != 3 || shape[0] < point_count(grid))
       refuse(file, grid.name, "is the grid of another mesh");
-    const auto stored = h5.read<double>(points);
+    const auto stored = grid.stretch
+                            ? h5.read_part<double>(points, 3 * grid.stretch->first_point, 3 * grid.points.size())
+                            : h5.read<double>(points);
     for (std::size_t i = 0; i < grid.points.size(); ++i)
       if (!std::equal(grid.points[i].begin(), grid.points[i].end(),
                       stored.begin() + static_cast<std::ptrdiff_t>(3 * i)))

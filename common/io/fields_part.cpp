@@ -10,7 +10,9 @@
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/first_process.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/stretch_writer.hpp"
 
 namespace fsi {
 
@@ -42,13 +44,13 @@ FieldFlags no_fields(const std::vector<FieldGrid>& grids) {
 void require_same_grids(const Hdf5File& old, const fs::path& file, const std::vector<FieldGrid>& grids) {
   for (const auto& grid : grids) {
     const auto points = "/" + grid.name + "/points", cells = "/" + grid.name + "/cells";
-    const std::uint64_t corners = static_cast<std::uint64_t>(grid.nodes_per_cell);
+    const auto corners = static_cast<std::uint64_t>(grid.nodes_per_cell);
     if (!old.has(points) || !old.has(cells))
       throw InputError(file.string(), grid.name, "no grid of this name", "restart from a run of the same scene");
-    if (old.shape(points) != std::vector<std::uint64_t>{grid.points.size(), 3} ||
-        old.shape(cells) != std::vector<std::uint64_t>{grid.cells.size() / corners, corners})
+    if (old.shape(points) != std::vector<std::uint64_t>{point_count(grid), 3} ||
+        old.shape(cells) != std::vector<std::uint64_t>{cell_count(grid), corners})
       throw InputError(file.string(), grid.name,
-                       fmt::format("has {} points, not {}", old.shape(points).at(0), grid.points.size()),
+                       fmt::format("has {} points, not {}", old.shape(points).at(0), point_count(grid)),
                        "restart from a run on the same mesh");
   }
 }
@@ -73,6 +75,12 @@ std::vector<WrittenEntry> read_entries(const Hdf5File& file, const fs::path& pat
       for (std::size_t i = 0; i < flags.size(); ++i) entries[i].fields[g][f] = flags[i];
     }
   return entries;
+}
+
+[[noreturn]] void refuse_other_number(const fs::path& file, const std::string& dataset) {
+  throw InputError(file.string(), dataset, "has another number of values than the grid asks for",
+                   "the file is damaged; run from the start, or restart without fields: "
+                   "--set output.every=0");
 }
 
 }  // namespace
@@ -102,26 +110,32 @@ std::optional<std::int64_t> FieldsPart::number_of(const std::string& file) {
 }
 
 void FieldsPart::prepare(const fs::path& path, const std::vector<FieldGrid>& grids,
-                         const std::vector<FieldStep>& entries, const std::vector<Source>& sources) {
+                         const std::vector<FieldStep>& entries, const std::vector<Source>& sources,
+                         const Communicator& processes) {
   try {
-    make(path, grids, entries, sources);
+    at_first(processes, [&] { make(path, grids, entries, sources, processes.is_alone()); });
+    if (!processes.is_alone()) do_together(processes, [&] { fill(path, grids, entries, sources, processes); });
   } catch (...) {
-    remove_temporary(path);
+    if (processes.is_first()) remove_temporary(path);
     throw;
   }
 }
 
 void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids, const std::vector<FieldStep>& entries,
-                      const std::vector<Source>& sources) {
+                      const std::vector<Source>& sources, bool with_values) {
   assert(sources.size() <= entries.size());
   auto file = Hdf5File::create(temporary_name(path));
   for (std::size_t g = 0; g < grids.size(); ++g) {
     const FieldGrid& grid = grids[g];
-    const std::uint64_t n = grid.points.size(), corners = static_cast<std::uint64_t>(grid.nodes_per_cell);
+    const std::uint64_t n = point_count(grid), cells = cell_count(grid),
+                        corners = static_cast<std::uint64_t>(grid.nodes_per_cell);
     const auto prefix = "/" + grid.name;
-    file.write_new<double>(prefix + "/points", {n, 3}, n == 0 ? nullptr : grid.points.front().data());
-    file.write_new<std::int32_t>(prefix + "/cells", {grid.cells.size() / corners, corners}, grid.cells.data());
-    if (!grid.layer.empty()) file.write_new<std::int32_t>(prefix + "/layer", {grid.layer.size()}, grid.layer.data());
+    file.create_dataset<double>(prefix + "/points", {n, 3});
+    if (with_values && n > 0) file.write(prefix + "/points", grid.points.front().data());
+    file.create_dataset<std::int32_t>(prefix + "/cells", {cells, corners});
+    if (with_values) file.write(prefix + "/cells", grid.cells.data());
+    if (is_layered(grid)) file.create_dataset<std::int32_t>(prefix + "/layer", {cells});
+    if (is_layered(grid) && with_values) file.write(prefix + "/layer", grid.layer.data());
     for (std::size_t f = 0; f < grid.fields.size(); ++f) {
       const FieldDescription& field = grid.fields[f];
       std::vector<std::uint64_t> shape{places_of(grid, field)};
@@ -144,7 +158,7 @@ void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids,
   file.write_new<double>("/steps/time", {entries.size()}, times.data());
 
   std::optional<Hdf5File> old;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
+  for (std::size_t i = 0; with_values && i < sources.size(); ++i) {
     if (i == 0 || sources[i].file != sources[i - 1].file) old = Hdf5File::open(sources[i].file, false);
     for (std::size_t g = 0; g < grids.size(); ++g)
       for (std::size_t f = 0; f < grids[g].fields.size(); ++f) {
@@ -153,13 +167,45 @@ void FieldsPart::make(const fs::path& path, const std::vector<FieldGrid>& grids,
         const auto values = old->read<double>(dataset);
         const FieldDescription& field = grids[g].fields[f];
         if (values.size() != places_of(grids[g], field) * static_cast<std::size_t>(field.components))
-          throw InputError(sources[i].file.string(), dataset, "has another number of values than the grid asks for",
-                           "the file is damaged; run from the start, or restart without fields: "
-                           "--set output.every=0");
+          refuse_other_number(sources[i].file, dataset);
         file.write(dataset, values.data());
       }
   }
   file.close();
+}
+
+/// The values of a part that processes make together: grids, and entries from sources, each its stretches.
+void FieldsPart::fill(const fs::path& path, const std::vector<FieldGrid>& grids, const std::vector<FieldStep>& entries,
+                      const std::vector<Source>& sources, const Communicator& processes) {
+  StretchWriter writer(temporary_name(path), path, processes);
+  for (const FieldGrid& grid : grids) {
+    const FieldGrid::Stretch& here = grid.stretch.value();
+    std::vector<double> points;
+    for (const Point& point : grid.points) points.insert(points.end(), point.begin(), point.end());
+    writer.write("/" + grid.name + "/points", 3 * here.first_point, points);
+    writer.write("/" + grid.name + "/cells", here.first_cell * static_cast<std::uint64_t>(grid.nodes_per_cell),
+                 std::vector<std::int32_t>(grid.cells.begin(), grid.cells.end()));
+    if (here.layered)
+      writer.write("/" + grid.name + "/layer", here.first_cell,
+                   std::vector<std::int32_t>(grid.layer.begin(), grid.layer.end()));
+  }
+  std::optional<Hdf5File> old;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (i == 0 || sources[i].file != sources[i - 1].file) old = Hdf5File::open(sources[i].file, false);
+    for (std::size_t g = 0; g < grids.size(); ++g)
+      for (std::size_t f = 0; f < grids[g].fields.size(); ++f) {
+        if (sources[i].fields[g][f] == 0) continue;
+        const FieldDescription& field = grids[g].fields[f];
+        const auto dataset = field_dataset(grids[g].name, field.name, entries[i].step);
+        const auto components = static_cast<std::uint64_t>(field.components);
+        std::uint64_t size = 1;
+        for (const auto extent : old->shape(dataset)) size *= extent;
+        if (size != places_of(grids[g], field) * components) refuse_other_number(sources[i].file, dataset);
+        const std::uint64_t first = first_place(grids[g], field) * components;
+        writer.write(dataset, first, old->read_part<double>(dataset, first, places_here(grids[g], field) * components));
+      }
+  }
+  writer.close();
 }
 
 std::vector<WrittenEntry> FieldsPart::entries_of(const fs::path& path, const std::vector<FieldGrid>& grids) {
@@ -168,7 +214,8 @@ std::vector<WrittenEntry> FieldsPart::entries_of(const fs::path& path, const std
   return read_entries(file, path, grids);
 }
 
-FieldsPart::FieldsPart(const fs::path& path, const std::vector<FieldGrid>& grids) : file_(path) {
+FieldsPart::FieldsPart(const fs::path& path, const std::vector<FieldGrid>& grids, const Communicator& processes)
+    : processes_(&processes), file_(path) {
   const auto file = Hdf5File::open(path, false);
   const auto entries = read_entries(file, path, grids);
   for (const auto& entry : entries) flags_.push_back(entry.fields);
@@ -178,13 +225,30 @@ FieldsPart::FieldsPart(const fs::path& path, const std::vector<FieldGrid>& grids
       auto& of_field = of_grid.emplace_back();
       if (!file.has(flags_dataset(grid, field))) continue;
       of_field.flags = file.place_of(flags_dataset(grid, field));
-      for (const auto& entry : entries)
-        of_field.values.push_back(file.place_of(field_dataset(grid.name, field.name, entry.step.step)));
+      of_field.first = first_place(grid, field) * static_cast<std::uint64_t>(field.components);
+      for (const auto& entry : entries) {
+        const auto dataset = field_dataset(grid.name, field.name, entry.step.step);
+        of_field.values.push_back(file.place_of(dataset));
+        if (grid.stretch) of_field.datasets.push_back(dataset);
+      }
     }
   }
 }
 
 void FieldsPart::write(std::int64_t place, const std::vector<std::vector<const std::vector<double>*>>& values) {
+  if (processes_->is_alone()) {
+    write_values(place, values);
+  } else {
+    at_first(*processes_, [&] { file_.open().close(); });  // it is still there
+    do_together(*processes_, [&] { write_stretches(place, values); });
+    at_first(*processes_, [&] { write_flags(place); });
+  }
+  for (std::size_t g = 0; g < places_.size(); ++g)
+    for (std::size_t f = 0; f < places_[g].size(); ++f)
+      if (!places_[g][f].values.empty()) flags_[static_cast<std::size_t>(place)][g][f] = 1;
+}
+
+void FieldsPart::write_values(std::int64_t place, const std::vector<std::vector<const std::vector<double>*>>& values) {
   const auto i = static_cast<std::size_t>(place);
   auto file = file_.open();
   for (std::size_t g = 0; g < places_.size(); ++g)
@@ -192,15 +256,36 @@ void FieldsPart::write(std::int64_t place, const std::vector<std::vector<const s
       if (const Places& at = places_[g][f]; !at.values.empty())
         file.write(at.values.at(i), values[g][f]->data(), sizeof(double) * values[g][f]->size());
   file.sync();
+  write_flags(file, i);
+  file.close();
+}
+
+void FieldsPart::write_stretches(std::int64_t place,
+                                 const std::vector<std::vector<const std::vector<double>*>>& values) {
+  const auto i = static_cast<std::size_t>(place);
+  StretchWriter writer(file_.path(), file_.path(), *processes_);
   for (std::size_t g = 0; g < places_.size(); ++g)
-    for (std::size_t f = 0; f < places_[g].size(); ++f) {
-      if (places_[g][f].values.empty()) continue;
+    for (std::size_t f = 0; f < places_[g].size(); ++f)
+      if (const Places& at = places_[g][f]; !at.values.empty())
+        writer.write(at.datasets.at(i), at.first, *values[g][f]);
+  writer.close();
+}
+
+void FieldsPart::write_flags(std::int64_t place) {
+  auto file = file_.open();
+  write_flags(file, static_cast<std::size_t>(place));
+  file.close();
+}
+
+/// What vouches for the values of an entry.
+void FieldsPart::write_flags(FileInPlace::Opened& file, std::size_t place) const {
+  for (const auto& of_grid : places_)
+    for (const Places& at : of_grid) {
+      if (at.values.empty()) continue;
       const std::uint8_t written = 1;
-      file.write(places_[g][f].flags + i, &written, 1);
-      flags_[i][g][f] = 1;
+      file.write(at.flags + place, &written, 1);
     }
   file.sync();
-  file.close();
 }
 
 }  // namespace fsi

@@ -11,6 +11,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/fields_part.hpp"
+#include "io/first_process.hpp"
 #include "io/write_error.hpp"
 #include "io/xdmf.hpp"
 
@@ -29,7 +30,7 @@ bool later(double a, double b) {
   return grid.nodes_per_cell > 0 && grid.cells.size() % grid.nodes_per_cell == 0 &&
          (grid.layer.empty() || grid.layer.size() * grid.nodes_per_cell == grid.cells.size()) &&
          std::all_of(grid.cells.begin(), grid.cells.end(), [&](std::int32_t node) {
-           return node >= 0 && static_cast<std::size_t>(node) < grid.points.size();
+           return node >= 0 && static_cast<std::uint64_t>(node) < point_count(grid);
          });
 }
 
@@ -81,9 +82,10 @@ struct FieldsWriter::Implementation {
   std::int64_t parts = 0;               ///< on disk
   std::int64_t open_part = -1;
   std::optional<FieldsPart> part;
+  const Communicator& processes;
 
-  Implementation(fs::path folder_, std::vector<FieldGrid> grids_, FieldPlan plan_)
-      : folder(std::move(folder_)), grids(std::move(grids_)), plan(std::move(plan_)) {
+  Implementation(fs::path folder_, std::vector<FieldGrid> grids_, FieldPlan plan_, const Communicator& processes_)
+      : folder(std::move(folder_)), grids(std::move(grids_)), plan(std::move(plan_)), processes(processes_) {
     documents.emplace_back(folder / "fields.xdmf", grids);
     for (std::size_t medium = 0; medium < grids.size(); ++medium)
       documents.emplace_back(folder / (grids[medium].name + ".xdmf"), grids, medium);
@@ -118,23 +120,26 @@ struct FieldsWriter::Implementation {
     std::vector<FieldStep> steps;
     const std::int64_t first = number * FieldsPart::capacity;
     for (std::int64_t i = first; i < std::min(total(), first + FieldsPart::capacity); ++i) steps.push_back(entry(i));
-    FieldsPart::prepare(file_of(number), grids, steps, sources);
+    FieldsPart::prepare(file_of(number), grids, steps, sources, processes);
   }
 
   /// Makes the documents with the first `count` entries.
   void list(std::int64_t count, const std::function<ListedEntry(std::int64_t)>& entry_of) {
-    for (auto& document : documents) document.replace(count, entry_of, total());
+    at_first(processes, [&] {
+      for (auto& document : documents) document.replace(count, entry_of, total());
+    });
   }
 
   void create() {
     prepare(0, {});
-    replace_by_temporary(file_of(0));
+    at_first(processes, [&] { replace_by_temporary(file_of(0)); });
     parts = 1;
     list(0, nullptr);
   }
 
   void continue_from(const fs::path& from, double until) {
-    const Kept old = kept_of(from, grids, until);
+    Kept old;
+    do_together(processes, [&] { old = kept_of(from, grids, until); });
     for (const auto& found : old.entries) kept.push_back(found.step);
     first_planned = first_that(plan.entries, [&](std::int64_t i) { return later(plan.at(i).time, until); });
     const auto listed = [&](std::int64_t i) {
@@ -144,19 +149,23 @@ struct FieldsWriter::Implementation {
     const bool in_place = fs::exists(folder, error) && fs::equivalent(from, folder, error);
     // A list that is here already must not hold, in between, entries that their file has lost.
     if (in_place) list(old.whole * FieldsPart::capacity, listed);
-    if (!in_place)
-      for (std::int64_t number = 0; number < old.whole; ++number) {
-        fs::copy_file(from / FieldsPart::name(number), temporary_name(file_of(number)),
-                      fs::copy_options::overwrite_existing, error);
-        if (error) {
-          remove_temporary(file_of(number));
-          throw WriteError(file_of(number), error.value());
-        }
-        replace_by_temporary(file_of(number));
-      }
+    if (!in_place) at_first(processes, [&] { copy_whole_parts(from, old.whole); });
     move_entries(old);
-    remove_others();
+    at_first(processes, [&] { remove_others(); });
     list(kept_count(), listed);
+  }
+
+  void copy_whole_parts(const fs::path& from, std::int64_t count) const {
+    std::error_code error;
+    for (std::int64_t number = 0; number < count; ++number) {
+      fs::copy_file(from / FieldsPart::name(number), temporary_name(file_of(number)),
+                    fs::copy_options::overwrite_existing, error);
+      if (error) {
+        remove_temporary(file_of(number));
+        throw WriteError(file_of(number), error.value());
+      }
+      replace_by_temporary(file_of(number));
+    }
   }
 
   /// Removes what an earlier run has left behind the last part.
@@ -186,18 +195,20 @@ struct FieldsWriter::Implementation {
       prepare(parts, sources);
     }
     // In the order in which a kill in between leaves each entry in one part at least.
-    for (std::int64_t k = 0; k < parts - old.whole; ++k)
-      replace_by_temporary(file_of(downwards ? parts - 1 - k : old.whole + k));
+    at_first(processes, [&] {
+      for (std::int64_t k = 0; k < parts - old.whole; ++k)
+        replace_by_temporary(file_of(downwards ? parts - 1 - k : old.whole + k));
+    });
   }
 
   /// Opens a part, which is made if it is the next one.
   FieldsPart& opened(std::int64_t number) {
     for (; parts <= number; ++parts) {
       prepare(parts, {});
-      replace_by_temporary(file_of(parts));
+      at_first(processes, [&] { replace_by_temporary(file_of(parts)); });
     }
     if (open_part != number) {
-      part.emplace(file_of(number), grids);
+      part.emplace(file_of(number), grids, processes);
       open_part = number;
     }
     return *part;
@@ -211,7 +222,7 @@ struct FieldsWriter::Implementation {
       auto& of_grid = arrays.emplace_back();
       for (const auto& field : grid.fields) {
         const auto& data = values.at({grid.name, field.name});
-        if (data.size() != places_of(grid, field) * static_cast<std::size_t>(field.components))
+        if (data.size() != places_here(grid, field) * static_cast<std::size_t>(field.components))
           throw std::logic_error(grid.name + "." + field.name + " has the wrong number of values");
         of_grid.push_back(&data);
       }
@@ -222,18 +233,21 @@ struct FieldsWriter::Implementation {
     file.write(place, arrays);
     if (listed) return;
     const ListedEntry finished{{entry(i), file.fields_of(place)}, FieldsPart::name(number)};
-    for (auto& document : documents) document.add(finished);
+    at_first(processes, [&] {
+      for (auto& document : documents) document.add(finished);
+    });
   }
 };
 
-FieldsWriter::FieldsWriter(const fs::path& folder, std::vector<FieldGrid> grids, FieldPlan plan)
-    : self_(std::make_unique<Implementation>(folder, std::move(grids), std::move(plan))) {
+FieldsWriter::FieldsWriter(const fs::path& folder, std::vector<FieldGrid> grids, FieldPlan plan,
+                           const Communicator& processes)
+    : self_(std::make_unique<Implementation>(folder, std::move(grids), std::move(plan), processes)) {
   self_->create();
 }
 
 FieldsWriter::FieldsWriter(const fs::path& folder, std::vector<FieldGrid> grids, FieldPlan plan, const fs::path& from,
-                           double until)
-    : self_(std::make_unique<Implementation>(folder, std::move(grids), std::move(plan))) {
+                           double until, const Communicator& processes)
+    : self_(std::make_unique<Implementation>(folder, std::move(grids), std::move(plan), processes)) {
   std::error_code error;
   if (fs::exists(from / FieldsPart::name(0), error))
     self_->continue_from(from, until);

@@ -8,6 +8,7 @@
 
 #include "io/field_grid.hpp"
 #include "io/fields_plan.hpp"
+#include "parallel/communicator.hpp"
 
 namespace fsi {
 
@@ -18,14 +19,16 @@ namespace fsi {
 class FieldsWriter {
  public:
   /// Creates the first HDF5 file and the list. \throws WriteError
-  FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, FieldPlan plan);
+  /// \param processes  that share the grids out: they make and use their writers together, and must outlive them
+  FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, FieldPlan plan,
+               const Communicator& processes = Communicator::alone());
 
   /// Continues the fields in folder `from` (may be the same folder): entries up to the time `until` (ms) are kept,
   /// planned ones up to there are not written again; those behind get numbers behind the kept ones. A missing fields.h5
   /// in `from` means that nothing is kept. \throws InputError when `from` holds grids of another size or an unreadable
   /// file
   FieldsWriter(const std::filesystem::path& folder, std::vector<FieldGrid> grids, FieldPlan plan,
-               const std::filesystem::path& from, double until);
+               const std::filesystem::path& from, double until, const Communicator& processes = Communicator::alone());
 
   ~FieldsWriter();
   FieldsWriter(FieldsWriter&&) noexcept;

@@ -9,6 +9,10 @@
 #include "base/error.hpp"
 #include "io/write_error.hpp"
 
+#ifdef FSI_WITH_MPI
+#include "parallel/mpi_handle.hpp"
+#endif
+
 namespace fsi {
 
 namespace {
@@ -73,10 +77,14 @@ Hdf5File::Unfinished::~Unfinished() {
   if (!file_.empty()) ::unlink(file_.c_str());
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+Hdf5File Hdf5File::create(const std::filesystem::path& file, const std::filesystem::path& shown_as,
+                          std::uint64_t user_block) {
   const auto access = access_properties();
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (user_block > 0) H5Pset_userblock(creation.id(), user_block);
   errno = 0;
-  Hdf5File created(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose});
+  Hdf5File created(shown_as.empty() ? file : shown_as,
+                   {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose});
   created.unfinished_ = Unfinished(file);  // whether or not it is valid: the library makes the file, then writes to it
   if (!created.file_.valid()) created.refuse_writing("");
   return created;
@@ -105,6 +113,26 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file, bool for_writing) {
   Hdf5File opened(file, {H5Fopen(file.c_str(), for_writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()), H5Fclose});
   if (!opened.file_.valid() && for_writing && errno != 0) opened.refuse_writing("");
   if (!opened.file_.valid()) opened.refuse_reading("");
+  return opened;
+}
+
+Hdf5File Hdf5File::open_together(const std::filesystem::path& file, const std::filesystem::path& shown_as,
+                                 const Communicator& processes) {
+  const auto access = access_properties();
+  Hdf5Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+#ifdef FSI_WITH_MPI
+  if (!processes.is_alone()) {
+    H5Pset_fapl_mpio(access.id(), mpi_of(processes), MPI_INFO_NULL);
+    H5Pset_all_coll_metadata_ops(access.id(), true);  // one reads them for all
+    H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+  }
+#else
+  static_cast<void>(processes);
+#endif
+  errno = 0;
+  Hdf5File opened(shown_as, {H5Fopen(file.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose});
+  opened.transfer_ = std::move(transfer);
+  if (!opened.file_.valid()) opened.refuse_writing("");
   return opened;
 }
 
@@ -189,6 +217,60 @@ std::vector<Value> Hdf5File::read(const std::string& dataset) const {
   return values;
 }
 
+namespace {
+
+/// A dataset with a stretch of its numbers chosen in it, which must be whole rows.
+struct Part {
+  Part(hid_t file, const std::string& dataset, std::uint64_t first, std::uint64_t count)
+      : data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose) {
+    if (!data.valid()) return;
+    there = Hdf5Handle(H5Dget_space(data.id()), H5Sclose);
+    std::vector<hsize_t> from(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(there.id()), 1)), 0),
+        size = from;
+    H5Sget_simple_extent_dims(there.id(), size.data(), nullptr);
+    std::uint64_t row = 1;
+    for (std::size_t k = 1; k < size.size(); ++k) row *= size[k];
+    from[0] = first / row;
+    size[0] = count / row;
+    const hsize_t numbers = count;
+    here = Hdf5Handle(H5Screate_simple(1, &numbers, nullptr), H5Sclose);
+    if (count == 0) {
+      chosen = H5Sselect_none(there.id()) >= 0 && H5Sselect_none(here.id()) >= 0;
+    } else {
+      chosen = first % row == 0 && count % row == 0 &&
+               H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) >= 0;
+    }
+  }
+
+  Hdf5Handle data, there, here;
+  bool chosen = false;
+};
+
+}  // namespace
+
+template <class Value>
+bool Hdf5File::write_part(const std::string& dataset, std::uint64_t first, std::uint64_t count, const Value* values) {
+  Part part(file_.id(), dataset, first, count);
+  errno = 0;
+  return part.chosen &&
+         H5Dwrite(part.data.id(), native_type<Value>(), part.here.id(), part.there.id(), transfer_.id(), values) >= 0;
+}
+
+template <class Value>
+std::vector<Value> Hdf5File::read_part(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
+  std::vector<Value> values(count);
+  const Part part(file_.id(), dataset, first, count);
+  if (!part.chosen || (count > 0 && H5Dread(part.data.id(), native_type<Value>(), part.here.id(), part.there.id(),
+                                            H5P_DEFAULT, values.data()) < 0))
+    refuse_reading(dataset);
+  return values;
+}
+
+bool Hdf5File::sync_together() {
+  errno = 0;
+  return H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0;  // with MPI that is MPI_File_sync
+}
+
 template void Hdf5File::create_dataset<double>(const std::string&, const std::vector<std::uint64_t>&);
 template void Hdf5File::create_dataset<std::int32_t>(const std::string&, const std::vector<std::uint64_t>&);
 template void Hdf5File::create_dataset<std::int64_t>(const std::string&, const std::vector<std::uint64_t>&);
@@ -197,6 +279,9 @@ template void Hdf5File::write<double>(const std::string&, const double*);
 template void Hdf5File::write<std::int32_t>(const std::string&, const std::int32_t*);
 template void Hdf5File::write<std::int64_t>(const std::string&, const std::int64_t*);
 template void Hdf5File::write<std::uint8_t>(const std::string&, const std::uint8_t*);
+template bool Hdf5File::write_part<double>(const std::string&, std::uint64_t, std::uint64_t, const double*);
+template bool Hdf5File::write_part<std::int32_t>(const std::string&, std::uint64_t, std::uint64_t, const std::int32_t*);
+template std::vector<double> Hdf5File::read_part<double>(const std::string&, std::uint64_t, std::uint64_t) const;
 template std::vector<double> Hdf5File::read<double>(const std::string&) const;
 template std::vector<std::int32_t> Hdf5File::read<std::int32_t>(const std::string&) const;
 template std::vector<std::int64_t> Hdf5File::read<std::int64_t>(const std::string&) const;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/communicator.hpp"
+
 namespace fsi {
 
 /// An HDF5 identifier that closes itself.
@@ -43,13 +45,20 @@ class Hdf5Handle {
 class Hdf5File {
  public:
   /// A new file in place of an old one. It is removed again if it is not closed by close(), because of an error.
-  static Hdf5File create(const std::filesystem::path& file);
+  /// \param shown_as    name in messages; empty: the file's
+  /// \param user_block  bytes before what the library writes: 0, or a power of two from 512
+  static Hdf5File create(const std::filesystem::path& file, const std::filesystem::path& shown_as = {},
+                         std::uint64_t user_block = 0);
   /// A file that is only ever in memory; see append_image().
   /// \param shown_as    name in messages
   /// \param user_block  bytes that will stand before the image in a file: 0, or a power of two from 512
   /// \param size        bytes expected in it; more are possible
   static Hdf5File create_in_memory(const std::filesystem::path& shown_as, std::uint64_t user_block, std::uint64_t size);
   static Hdf5File open(const std::filesystem::path& file, bool for_writing);
+  /// For writing, by all processes together; what they do with it they do together, in one order, and close it so.
+  /// \param shown_as  name in messages
+  static Hdf5File open_together(const std::filesystem::path& file, const std::filesystem::path& shown_as,
+                                const Communicator& processes);
 
   bool has(const std::string& path) const;
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
@@ -64,6 +73,19 @@ class Hdf5File {
   void write(const std::string& dataset, const Value* values);
   template <class Value>
   std::vector<Value> read(const std::string& dataset) const;
+
+  /// The numbers from `first` on of a dataset, one row after the other. In a file that is open together each process
+  /// writes its own ones, collectively, perhaps none. \returns false where that failed: then all must still come to the
+  /// next call, and nobody may close the file but abandon it.
+  template <class Value>
+  [[nodiscard]] bool write_part(const std::string& dataset, std::uint64_t first, std::uint64_t count,
+                                const Value* values);
+  template <class Value>
+  std::vector<Value> read_part(const std::string& dataset, std::uint64_t first, std::uint64_t count) const;
+  /// Onto the disk, of a file that is open together. \returns false where that failed
+  [[nodiscard]] bool sync_together();
+  /// Leaves a file that could not be written as it is.
+  void abandon() { file_.abandon(); }
 
   template <class Value>
   void write_new(const std::string& dataset, const std::vector<std::uint64_t>& shape, const Value* values) {
@@ -110,6 +132,7 @@ class Hdf5File {
   std::filesystem::path path_;
   Unfinished unfinished_;  // before the handle, which is closed first
   Hdf5Handle file_;
+  Hdf5Handle transfer_;  ///< how parts are written: together or not
 };
 
 }  // namespace fsi

@@ -20,6 +20,11 @@ class WriteError : public InputError {
   /// The same, its remedy followed by ", then WHAT".
   WriteError then(const std::string& what) const;
 
+  const std::filesystem::path& file() const { return file_; }
+  const std::string& key() const { return key_; }
+  const std::string& reason() const { return reason_; }
+  const std::string& remedy() const { return remedy_; }
+
  private:
   std::filesystem::path file_;
   std::string key_, reason_, remedy_;

@@ -86,7 +86,7 @@ ListedEntry longest_entry(const FieldGrid& grid, std::size_t place) {
 /// One entry in the list of a grid.
 std::string grid_text(const FieldGrid& grid, std::size_t cells, bool layered, const ListedEntry& listed,
                       std::size_t place) {
-  const auto nodes = grid.points.size();
+  const auto nodes = point_count(grid);
   const FieldStep& step = listed.entry.step;
   const auto& file = listed.file;
   const auto prefix = "/" + grid.name;
@@ -148,8 +148,8 @@ XdmfDocument::XdmfDocument(std::filesystem::path file, const std::vector<FieldGr
 void XdmfDocument::prepare(const std::string& first_head) {
   for (std::size_t g = 0; g < grids_.size(); ++g) {
     FieldGrid& grid = grids_[g];
-    cells_.push_back(grid.cells.size() / static_cast<std::size_t>(grid.nodes_per_cell));
-    layered_.push_back(!grid.layer.empty());
+    cells_.push_back(cell_count(grid));
+    layered_.push_back(is_layered(grid));
     grid.cells = {};
     grid.layer = {};
     head_.push_back(fmt::format("{}      <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",

@@ -1,0 +1,118 @@
+#include "io/first_process.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "io/write_error.hpp"
+
+namespace fsi {
+
+namespace {
+
+enum class Kind { none, bad_input, not_written, not_converged, other };
+
+/// An error as its process puts it, which is not to be shortened once more.
+template <class Error>
+class SaidElsewhere : public Error {
+ public:
+  SaidElsewhere(Error error, std::string said) : Error(std::move(error)), said_(std::move(said)) {}
+  const char* what() const noexcept override { return said_.c_str(); }
+
+ private:
+  std::string said_;
+};
+
+struct Failure {
+  Kind kind = Kind::none;
+  std::vector<std::string> parts{};  ///< of a WriteError what it is made of, else the message
+};
+
+Failure failure_of(const std::exception_ptr& exception) {
+  if (!exception) return {};
+  try {
+    std::rethrow_exception(exception);
+  } catch (const WriteError& error) {
+    return {Kind::not_written, {error.file().string(), error.key(), error.reason(), error.remedy()}};
+  } catch (const InputError& error) {
+    return {Kind::bad_input, {error.what()}};
+  } catch (const ConvergenceError& error) {
+    return {Kind::not_converged, {error.what()}};
+  } catch (const std::exception& error) {
+    return {Kind::other, {error.what()}};
+  } catch (...) {
+    return {Kind::other, {"unknown exception"}};
+  }
+}
+
+[[noreturn]] void throw_again(const Failure& failure) {
+  const std::string& said = failure.parts.at(0);
+  switch (failure.kind) {
+    case Kind::not_written:
+      throw WriteError(said, failure.parts.at(1), failure.parts.at(2), failure.parts.at(3));
+    case Kind::bad_input:
+      throw SaidElsewhere<InputError>(InputError("", "", said, ""), said);
+    case Kind::not_converged:
+      throw SaidElsewhere<ConvergenceError>(ConvergenceError(said, ""), said);
+    default:
+      throw std::runtime_error(said);
+  }
+}
+
+/// What the process `rank` has to say, at all of them: each text's length, then its characters.
+Failure shared(const Communicator& processes, int rank, Kind kind, const Failure& mine) {
+  std::vector<int> numbers;
+  if (processes.rank() == rank)
+    for (const std::string& part : mine.parts) {
+      numbers.push_back(static_cast<int>(part.size()));
+      numbers.insert(numbers.end(), part.begin(), part.end());
+    }
+  numbers = processes.gather(numbers);
+  Failure failure{kind};
+  for (auto at = numbers.begin(); at != numbers.end();) {
+    const int length = *at++;
+    failure.parts.emplace_back(at, at + length);
+    at += length;
+  }
+  return failure;
+}
+
+std::exception_ptr exception_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (...) {
+    return std::current_exception();
+  }
+  return {};
+}
+
+}  // namespace
+
+void agree_on_failure(const Communicator& processes, const std::exception_ptr& mine) {
+  if (processes.is_alone()) {
+    if (mine) std::rethrow_exception(mine);
+    return;
+  }
+  const Failure failure = failure_of(mine);
+  const auto kinds = processes.gather(static_cast<std::int64_t>(failure.kind));
+  for (int rank = 0; rank < processes.size(); ++rank)
+    if (const auto kind = static_cast<Kind>(kinds[static_cast<std::size_t>(rank)]); kind != Kind::none)
+      throw_again(shared(processes, rank, kind, failure));
+}
+
+void do_together(const Communicator& processes, const std::function<void()>& action) {
+  if (processes.is_alone())
+    action();
+  else
+    agree_on_failure(processes, exception_of(action));
+}
+
+void at_first(const Communicator& processes, const std::function<void()>& action) {
+  do_together(processes, [&] {
+    if (processes.is_first()) action();
+  });
+}
+
+}  // namespace fsi

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "parallel/communicator.hpp"
+
+namespace fsi {
+
+/// How many of the processes run on the host of this one, it included. For all processes together.
+int processes_on_host(const Communicator& processes);
+
+}  // namespace fsi
