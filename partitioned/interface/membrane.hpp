@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 #include "materials/material.hpp"
@@ -52,8 +51,7 @@ template <int n>
 Membrane membrane_of(const Scene<n>& scene) {
   Membrane m;
   m.node_areas = scene.interface_areas;
-  for (std::size_t i = 0; i < scene.owned_interface(); ++i) m.area += m.node_areas[i];
-  m.area = scene.processes().sum(m.area);
+  m.area = scene.interface_area();
   m.density = scene.wall->constants().density;
   m.radius = 2 * scene.fluid->volume() / m.area;
   for (const auto& layer : scene.wall->layer_data()) {
