@@ -12,6 +12,20 @@
 
 namespace fsi {
 
+namespace {
+
+volatile std::sig_atomic_t silent_now = 0;
+
+}  // namespace
+
+void keep_streams_silent(bool silent) noexcept {
+  silent_now = silent ? 1 : 0;
+}
+
+bool streams_are_silent() noexcept {
+  return silent_now != 0;
+}
+
 void guard_standard_streams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
@@ -29,6 +43,7 @@ bool nobody_reads(int error) {
 }
 
 int try_to_print(const std::string& text) {
+  if (streams_are_silent()) return 0;
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (std::fflush(stdout) == 0 && written) return 0;
@@ -42,6 +57,7 @@ void print(const std::string& text) {
 }
 
 void print_error(const char* line) noexcept {
+  if (streams_are_silent()) return;
   std::fflush(stdout);
   std::size_t left = std::strlen(line);
   while (left > 0) {

@@ -10,6 +10,12 @@ namespace fsi {
 /// program.
 void guard_standard_streams();
 
+/// From now on, or no longer, nothing is printed by the functions below: for all but one of several processes that would
+/// print the same.
+void keep_streams_silent(bool silent) noexcept;
+/// May be asked by a signal handler.
+bool streams_are_silent() noexcept;
+
 /// Whether a write to a standard stream failed because nobody is there to read it: the reader has closed its end of a
 /// pipe, or the stream was closed when the program began. \param error  errno of the write
 bool nobody_reads(int error);

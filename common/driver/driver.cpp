@@ -25,6 +25,7 @@
 #include "diagnostics/energy_balance.hpp"
 #include "diagnostics/failure_hint.hpp"
 #include "diagnostics/ringing_monitor.hpp"
+#include "driver/checkpoint_arrays.hpp"
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
 #include "driver/field_output.hpp"
@@ -34,20 +35,22 @@
 #include "driver/observables.hpp"
 #include "driver/opening_observer.hpp"
 #include "driver/prestress.hpp"
+#include "driver/process_summary.hpp"
+#include "driver/process_threads.hpp"
 #include "driver/program.hpp"
 #include "driver/state_checkpoint.hpp"
 #include "io/earlier_fields.hpp"
+#include "io/first_process.hpp"
 #include "io/folder_lock.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
 #include "io/write_error.hpp"
-#include "system/numbering.hpp"
+#include "parallel/communicator.hpp"
 
 namespace fsi {
 
 namespace {
 
-constexpr const char* march_prefix = "march.";               // of its numbers in a checkpoint
 constexpr const char* field_entries_name = "field_entries";  // written up to the last level observed
 
 using Clock = std::chrono::steady_clock;
@@ -67,19 +70,20 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   json["threads"] = threads();
   json["element"] = element_pairs().name_of(setup.element);
   json["geometry"] = geometries().name_of(setup.geometry);
+  const SceneSize size = size_of(scene);
+  json["processes"] = scene.processes().size();
   json["mesh"] = {{"name", mesh.name},
                   {"hash", mesh.hash},
                   {"nodes", mesh.nodes},
                   {mesh.cell, mesh.cells},
-                  {"fluid_nodes", scene.fluid ? scene.fluid->node_count() : 0},
-                  {"wall_nodes", scene.wall ? scene.wall->node_count() : 0},
-                  {"interface_nodes", scene.interface.size()}};
-  const auto fluid = scene.fluid ? number_fluid(scene).size : 0;
-  const auto wall = scene.wall ? number_wall(scene).size : 0;
-  const auto mesh_motion = scene.coupled() ? number_mesh_motion(scene).size : 0;
+                  {"fluid_nodes", size.fluid_nodes},
+                  {"wall_nodes", size.wall_nodes},
+                  {"interface_nodes", size.interface_nodes}};
   // The interface counts once, with the wall: the sub-problems share no unknowns.
-  json["unknowns"] = {
-      {"coupled", fluid + wall + mesh_motion}, {"fluid", fluid}, {"wall", wall}, {"mesh_motion", mesh_motion}};
+  json["unknowns"] = {{"coupled", size.fluid_unknowns + size.wall_unknowns + size.mesh_unknowns},
+                      {"fluid", size.fluid_unknowns},
+                      {"wall", size.wall_unknowns},
+                      {"mesh_motion", size.mesh_unknowns}};
   return json;
 }
 
@@ -130,16 +134,23 @@ template <int n>
 class Run {
  public:
   /// \param watch  of the cores, from the program's start on
-  /// \param lock   of the result folder
+  /// \param lock   of the result folder; empty at all processes but the first
   Run(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
-      const CoreWatch& watch, const FolderLock& lock)
+      const CoreWatch& watch, const std::optional<FolderLock>& lock)
       : program_(program),
         line_(line),
         lock_(lock),
         setup_(setup),
-        loaded_(load_scene<n>(
-            setup, [&](std::size_t cells) { threads_ = set_as_chosen(choose_threads(line.threads, cells, watch)); })),
+        loaded_(load_scene<n>(setup,
+                              [&](std::size_t cells) {
+                                threads_ = set_as_chosen(
+                                    threads_of_process(line.threads, cells, watch, Communicator::world()));
+                              })),
         scene_(loaded_.scene.get()),
+        processes_(shared_by_all(*scene_)),
+        first_(processes_),
+        about_processes_(*scene_),
+        orders_(*scene_, loaded_.derived.statistics ? &loaded_.derived.shear->nodes() : nullptr),
         loads_(setup),
         stepper_(make_stepper.make(*scene_, loads_, setup)),
         march_(setup, *scene_, *stepper_, loads_, [this](const std::string& said) { say(said); }),
@@ -172,17 +183,20 @@ class Run {
       energy_.emplace(*scene_, state_);
     }
     stepper_->keep_balances(energy_ || loaded_.derived.forces);
-    note_signals();  // until here nothing has been written
-    ResultFolder folder = earlier ? ResultFolder(line_.output, tables, *earlier) : ResultFolder(line_.output, tables);
+    note_signals();     // until here nothing has been written
+    processes_.wait();  // until all have read
+    ResultFolder folder =
+        earlier ? ResultFolder(line_.output, tables, *earlier, first_) : ResultFolder(line_.output, tables, first_);
     earlier.reset();
-    RunLog log(line_.output, in_place(line_));
+    RunLog log(line_.output, in_place(line_), first_);
     log_ = &log;
-    if (loaded_.prestress) write_checkpoint(prestress_file(line_.output), *loaded_.prestress);
-    FieldOutput<n> fields(setup_, *scene_, loaded_.derived, loaded_.grids, loads_.axis(), line_.output, line_.restart,
-                          restarted ? observed_until() : 0);
-    Console console(loads_.steps(), Console::style_for(line_.quiet));
+    if (loaded_.prestress)
+      write_checkpoint(prestress_file(line_.output), *loaded_.prestress, processes_, orders_.sharing());
+    FieldOutput<n> fields(setup_, *scene_, loaded_.derived, loaded_.grids, std::move(loaded_.grid_shares),
+                          loads_.axis(), line_.output, line_.restart, restarted ? observed_until() : 0);
+    Console console(loads_.steps(), Console::style_for(line_.quiet || !first_.is_here()));
 
-    if (restarted) require_no_run_in_source(line_);  // while it was read
+    if (restarted) first_.now([&] { require_no_run_in_source(line_); });  // while it was read
     summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
     if (restarted) summary_["restarted_from_step"] = state_.step;
     write("running");
@@ -192,14 +206,15 @@ class Run {
     if (!restarted && fields.write(state_)) field_entries_ = 1;
     if (restarted) vouch(folder);
     if (restarted && wants_fields())
-      field_entries_ = checked_field_entries(line_.output, loaded_.grids, observed_until());
+      field_entries_ = found_field_entries(line_.output);
     else if (restarted && !std::filesystem::exists(line_.output / "fields.h5"))
       field_entries_ = 0;
     // A new folder can be gone on from as soon as it holds all that the earlier one has.
     if (restarted && setup_.output.checkpoint_every > 0 && !in_place(line_)) save();
     if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
-      while (state_.step < loads_.steps() && noted_signal() == 0) step(folder, fields, console, log);
+      about_processes_.steps_begin();
+      while (state_.step < loads_.steps() && !is_stopped()) step(folder, fields, console, log);
     } catch (const ConvergenceError& failure) {
       const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
       std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
@@ -228,7 +243,7 @@ class Run {
       throw;
     }
     folder.close();
-    if (state_.step < loads_.steps()) return interrupted(noted_signal(), log);
+    if (state_.step < loads_.steps()) return interrupted(signal_, log);
     if (const std::string open = stepper_->unchecked(); !open.empty()) {
       summary_["unchecked"] = open;
       log.warning(open);
@@ -244,6 +259,18 @@ class Run {
   static ThreadChoice set_as_chosen(const ThreadChoice& choice) {
     set_threads(choice.count);
     return choice;
+  }
+
+  /// \throws InputError where a scene is not shared out by all processes
+  static const Communicator& shared_by_all(const Scene<n>& scene) {
+    if (scene.processes().size() == Communicator::world().size()) return scene.processes();
+    throw InputError("", "mpirun", "this scene works on one process", "start the program by itself");
+  }
+
+  /// Whether a signal has come to one of the processes: they stop after the same step.
+  bool is_stopped() {
+    signal_ = static_cast<int>(processes_.largest(noted_signal()));
+    return signal_ != 0;
   }
 
   /// Leaves a folder that a later run goes on from.
@@ -270,7 +297,7 @@ class Run {
     }();
     const Activity activity("writing results");
     watch_ringing(console, log);
-    lock_.require_held();
+    first_.later([&] { lock_->require_held(); });
     StepRecord record;
     record.step = state_.step;
     record.time = state_.time;
@@ -296,6 +323,7 @@ class Run {
       if (lagging()) vouch(folder);
       if (!lagging() || state_.step == loads_.steps()) observe(state_, folder, fields);
       if (!lagging()) vouch(folder);
+      first_.agree();  // the tables hold what the checkpoint says
       const int every = setup_.output.checkpoint_every;
       if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
@@ -306,6 +334,7 @@ class Run {
     console.expect(loads_.steps());
     for (const auto& entry : report.history) log.info("  " + entry);
     console.step_done(record);
+    step_seconds_ += seconds_since(start);
     watch_console(console, log);
   }
 
@@ -407,12 +436,13 @@ class Run {
   }
 
   void announce(Console& console, RunLog& log) {
-    const auto text =
-        fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {} threads, {}", program_, version,
-                    shortened(setup_.title, 200), loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell,
-                    summary_["unknowns"]["coupled"].get<long>(), threads(),
-                    loads_.axis().is_adaptive() ? fmt::format("adaptive steps, tolerance {:g}", setup_.time->tolerance)
-                                                : fmt::format("{} steps", loads_.steps()));
+    const auto text = fmt::format(
+        "{} {}: {} | {} nodes, {} {}, {} unknowns, {}{} threads{}, {}", program_, version, shortened(setup_.title, 200),
+        loaded_.mesh.nodes, loaded_.mesh.cells, loaded_.mesh.cell, summary_["unknowns"]["coupled"].get<long>(),
+        processes_.is_alone() ? "" : fmt::format("{} processes, ", processes_.size()), threads(),
+        processes_.is_alone() ? "" : " each",
+        loads_.axis().is_adaptive() ? fmt::format("adaptive steps, tolerance {:g}", setup_.time->tolerance)
+                                    : fmt::format("{} steps", loads_.steps()));
     console.line(text);
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
@@ -427,7 +457,7 @@ class Run {
       log.warning(warning);
       warn(program_, warning);
     }
-    if (!lock_.said().empty()) log.warning(lock_.said());
+    if (lock_ && !lock_->said().empty()) log.warning(lock_->said());
     if (state_.step == 0) return;
     log.info(fmt::format("restarted after step {}, t = {:g} ms", state_.step, state_.time));
     if (!statistics_begin_.empty()) log.warning(statistics_begin_);
@@ -450,18 +480,22 @@ class Run {
         checkpoint.arrays[statistics_prefix + name] = numbers;
     store(digests_, checkpoint);
     if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
-    for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
-    write_checkpoint(checkpoint_file(line_.output), checkpoint);
+    require_kinds(checkpoint);
+    do_together(processes_, [&] {
+      for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
+    });
+    write_checkpoint(checkpoint_file(line_.output), checkpoint, processes_, orders_.sharing());
   }
 
   /// Takes over what the run in line_.restart has left, if it can be believed: its checkpoint, and the tables, which are
   /// only read. \throws InputError
   EarlierTables recall(const ResultTables& tables) {
     const auto file = checkpoint_file(line_.restart);
-    const Checkpoint checkpoint = read_checkpoint(file);
+    const Checkpoint checkpoint = read_checkpoint(file, processes_, orders_.sharing());
     require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash,
                      difference_of_cases(checkpoint.case_text, readable_dump(setup_)));
-    Memory memory = restore(file, checkpoint, n * scene_->interface.size(), state_);
+    Memory memory;
+    do_together(processes_, [&] { memory = restore(file, checkpoint, n * scene_->interface.size(), state_); });
     require_not_beyond(file, state_, setup_.time ? setup_.time->end : 1);
     const EarlierSteps past{checkpoint.step,
                             state_.time,
@@ -485,7 +519,7 @@ class Run {
     recall_statistics(checkpoint);
     if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
-    complete_ = state_.step;
+    complete_ = first_step_ = state_.step;
     return earlier;
   }
 
@@ -497,8 +531,18 @@ class Run {
     const std::string prefix = statistics_prefix;
     for (const auto& [name, numbers] : checkpoint.arrays)
       if (name.rfind(prefix, 0) == 0) memory[name.substr(prefix.size())] = numbers;
-    if (!loaded_.derived.statistics->recall(memory, loaded_.derived.shear->nodes().size()))
-      statistics_begin_ = "the statistics begin anew: the earlier run had none of this period";
+    auto& statistics = loaded_.derived.statistics;
+    const bool recalled = statistics->recall(memory, loaded_.derived.shear->nodes().size());
+    if (!processes_.any(!recalled)) return;
+    if (recalled) statistics.emplace(setup_.output.derived.period.value());  // as at the others
+    statistics_begin_ = "the statistics begin anew: the earlier run had none of this period";
+  }
+
+  /// Entries of fields in a folder up to the last level observed.
+  std::int64_t found_field_entries(const std::filesystem::path& folder) const {
+    std::int64_t found = 0;
+    do_together(processes_, [&] { found = checked_field_entries(folder, loaded_.grids, observed_until()); });
+    return found;
   }
 
   /// The fields of the earlier run, as far as this one goes on with them.
@@ -506,16 +550,14 @@ class Run {
     const auto stored = checkpoint.integers.find(field_entries_name);
     field_entries_ = stored == checkpoint.integers.end() ? 0 : stored->second;
     if (!wants_fields()) return;
-    const auto found = checked_field_entries(line_.restart, loaded_.grids, observed_until());
+    const auto found = found_field_entries(line_.restart);
     if (found < field_entries_)
       throw InputError((line_.restart / "fields.h5").string(), "",
                        fmt::format("{} of {} entries up to {:g} ms are missing, which {} knows of",
                                    field_entries_ - found, field_entries_, observed_until(), file.string()),
                        "bring the file back, or continue without fields by --set output.every=0");
   }
-  bool wants_fields() const {
-    return setup_.output.every > 0 && (!setup_.output.fields.empty() || loaded_.derived.statistics);
-  }
+  bool wants_fields() const { return writes_fields(setup_); }
 
   /// "time.step is 0.0625 ms from step 3 on, 0.125 ms before: 8 steps to come"
   std::string text_of_change(const Stretch& before) const {
@@ -545,17 +587,23 @@ class Run {
                           {"wall_s", seconds_since(start_)}};
     summary_["peak_memory_MiB"] = peak_memory_mib();
     summary_.update(profile_json(scene_->profile));
-    write_summary(line_.output, summary_);
+    if (!processes_.is_alone())
+      summary_["per_process"] = about_processes_.json(state_.step - first_step_, step_seconds_);
+    first_.now([&] { write_summary(line_.output, summary_); });
   }
 
   Clock::time_point start_ = Clock::now();
   std::string program_;
   const CommandLine& line_;
-  const FolderLock& lock_;
+  const std::optional<FolderLock>& lock_;
   const Case& setup_;
   ThreadChoice threads_;
   LoadedScene<n> loaded_;
   Scene<n>* scene_;
+  const Communicator& processes_;
+  FirstProcess first_;
+  ProcessSummary<n> about_processes_;
+  ArrayOrders<n> orders_;
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;
   March<n> march_;
@@ -564,6 +612,9 @@ class Run {
   std::optional<RingingMonitor> ringing_;
   double ringing_amplitude_ = 0;  ///< kPa, the largest so far
   int complete_ = 0;              ///< last step whose rows are all written
+  int first_step_ = 0;            ///< of this program: the one before
+  double step_seconds_ = 0;       ///< of all steps of this program, their output included
+  int signal_ = 0;                ///< that has come to one of the processes
   State state_;
   State shown_;  ///< a finished level, for output
   TableDigests digests_;
@@ -576,6 +627,13 @@ class Run {
   std::string step_change_;       ///< said when the run goes on with another step
   nlohmann::json summary_;
 };
+
+/// What is done in place of a run is done by one process.
+void require_no_other_task(const OtherTask& other) {
+  for (const ExtraOption& option : other.options)
+    if ((option.flag != nullptr && *option.flag) || (option.text != nullptr && !option.text->empty()))
+      throw InputError("", option.name, "works on one process", "start the program by itself");
+}
 
 /// What to do once a file can be written again.
 std::string way_on(const CommandLine& line) {
@@ -591,21 +649,29 @@ int run_driver(const std::string& program, const std::string& description, int a
   guard_standard_streams();
   wait_briefly(argv);
   end_at_signals(program, "before the first step; nothing is lost by starting again");
+  std::optional<ProcessGroup> group;  // to the last words
   return run_program(program, [&] {
     const CoreWatch watch;
+    group.emplace();
+    const Communicator& processes = Communicator::world();
+    keep_streams_silent(!processes.is_first());
     const auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
     set_threads(line->threads);  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
     for (const auto& warning : setup.warnings) warn(program, warning);
+    if (!processes.is_alone()) require_no_other_task(other);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;
-    require_no_run_in_source(*line);
-    require_no_run_in(line->output, "wait for its end, or give -o another folder");
-    require_folder(*line);
-    const FolderLock lock(line->output, program);
-    if (!lock.said().empty()) warn(program, lock.said());
-    require_folder(*line);  // again: a run may have ended in it meanwhile
+    std::optional<FolderLock> lock;
+    at_first(processes, [&] {
+      require_no_run_in_source(*line);
+      require_no_run_in(line->output, "wait for its end, or give -o another folder");
+      require_folder(*line);
+      lock.emplace(line->output, program);
+      if (!lock->said().empty()) warn(program, lock->said());
+      require_folder(*line);  // again: a run may have ended in it meanwhile
+    });
     const Activity activity("reading the mesh and building the scene");
     try {
       return components_of(setup) == 2 ? Run<2>(program, *line, setup, make_stepper, watch, lock).march()

@@ -14,6 +14,12 @@
 
 namespace fsi {
 
+/// Whether a case wants fields of any kind.
+inline bool writes_fields(const Case& setup) {
+  const auto& output = setup.output;
+  return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period));
+}
+
 /// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
 /// keep their mid-edge nodes; there pressures and stresses are the mean of the edge's ends, as the pressure's shape
 /// functions have it. Where layers have vertices of their own, the nodes between these are written once for each.

@@ -34,7 +34,7 @@ extern "C" void end_at_once(int number) {
   remove_what_a_signal_leaves();
   std::size_t length = 0;
   while (length < last_words.size() && last_words[length] != '\0') ++length;
-  if (::write(STDERR_FILENO, last_words.data(), length) < 0) {
+  if (!streams_are_silent() && ::write(STDERR_FILENO, last_words.data(), length) < 0) {
   }  // there is nobody left to tell
   ::_exit(interrupted_exit_code(number));
 }

@@ -10,6 +10,8 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "case/case_hash.hpp"
+#include "driver/field_output.hpp"
 #include "driver/mesh_units.hpp"
 #include "driver/observation_points.hpp"
 #include "driver/prestress.hpp"
@@ -23,6 +25,7 @@
 #include "mesh/group_names.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_hash.hpp"
+#include "mesh/mesh_share.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/renumber.hpp"
@@ -165,6 +168,36 @@ FieldGrid grid_of(const std::string& name, const Part& part) {
   return grid;
 }
 
+/// The grid of a medium, if the scene has it; of a scene that is shared out what this process writes of it, if the run
+/// writes fields at all. \param whole  of such a scene
+template <class Part, int n>
+void add_grid(const std::string& name, const Case& setup, const Part* here, const Part* whole, LoadedScene<n>& loaded) {
+  if (here == nullptr) return;
+  if (!here->share) {
+    loaded.grids.push_back(grid_of(name, *here));
+  } else if (writes_fields(setup)) {
+    FieldGrid grid = grid_of(name, *whole);
+    loaded.grid_shares.push_back(share_out<n>(grid, *here));
+    loaded.grids.push_back(std::move(grid));
+  }
+}
+
+/// Processes solve one scene: all must have read the same, and none of them can be of use without nodes.
+template <class Mesh>
+void require_alike(const Case& setup, const Mesh& mesh, const Communicator& processes) {
+  if (processes.is_alone()) return;
+  const std::string mine = hash_of_case(setup) + hash_of_mesh(mesh);
+  std::string of_first = mine;
+  processes.broadcast(of_first);
+  if (processes.any(mine != of_first))
+    throw InputError(mesh_source(setup), "", "is not the same on all hosts, or the case file is not",
+                     "give files that all processes see");
+  if (static_cast<std::size_t>(processes.size()) > mesh.nodes.size())
+    throw InputError(
+        mesh_source(setup), "", fmt::format("has {} nodes for {} processes", mesh.nodes.size(), processes.size()),
+        fmt::format("start at most {} processes; a thousand nodes for each are of use", mesh.nodes.size()));
+}
+
 /// Of the circle that has the area of the widest opening, mm; in plane scenes the length of it.
 template <class Element>
 double widest_opening(const Case& setup, const MeshOf<Element>& mesh) {
@@ -189,11 +222,17 @@ double widest_opening(const Case& setup, const MeshOf<Element>& mesh) {
 template <class Element>
 LoadedScene<Element::components> load(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
   const auto mesh = load_mesh<Element>(setup);
+  const Communicator& processes = Communicator::world();
+  require_alike(setup, mesh, processes);
   if (mesh_known) mesh_known(mesh.cells.size());
   LoadedScene<Element::components> loaded;
   loaded.mesh = {mesh_name(setup), hash_of_mesh(mesh), mesh.nodes.size(), mesh.cells.size(),
                  Element::dim == 3 ? "tetrahedra" : "triangles"};
-  loaded.scene = build_scene<Element>(setup, mesh);
+  MeshShare share;
+  WholeParts<Element> whole;
+  if (!processes.is_alone()) share = share_mesh(mesh, processes);
+  loaded.scene =
+      processes.is_alone() ? build_scene<Element>(setup, mesh) : build_scene<Element>(setup, mesh, &share, &whole);
   if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
   loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene);
   const auto& scene = *loaded.scene;
@@ -204,8 +243,8 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   loaded.points.requested = requested_samples<Element>(setup, mesh, parts, loaded.points);
   if (const auto slip = unit_slip_of_mesh(setup, widest_opening<Element>(setup, mesh)))
     loaded.points.warnings.push_back(mesh_source(setup) + ": " + *slip);
-  if (parts.fluid) loaded.grids.push_back(grid_of("fluid", *parts.fluid));
-  if (parts.wall) loaded.grids.push_back(grid_of("wall", *parts.wall));
+  add_grid("fluid", setup, parts.fluid, whole.fluid.get(), loaded);
+  add_grid("wall", setup, parts.wall, whole.wall.get(), loaded);
   return loaded;
 }
 

@@ -9,8 +9,9 @@
 #include "case/case_hash.hpp"
 #include "case/case_keys.hpp"
 #include "case/support_loads.hpp"
-#include "petsc_solver/general_solvers.hpp"
+#include "driver/checkpoint_arrays.hpp"
 #include "fem/dimensions.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "system/prestress.hpp"
 
 namespace fsi {
@@ -53,14 +54,17 @@ std::string hash_of(const std::string& text) {
 
 constexpr const char* remedy = "leave prestress.file out to find the prestress of this case";
 
-Checkpoint earlier_prestress(const Case& setup, const std::string& text, const std::string& mesh_hash) {
+template <int n>
+Checkpoint earlier_prestress(const Case& setup, const std::string& text, const std::string& mesh_hash,
+                             const Scene<n>& scene) {
   const std::filesystem::path& file = setup.prestress->file;
   std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw InputError(setup.path.string(), "prestress.file", "there is no file " + file.string(), remedy);
   Checkpoint earlier;
   try {
-    earlier = read_checkpoint(file);
+    const ArrayOrders<n> orders(scene);
+    earlier = read_checkpoint(file, orders.processes(), orders.sharing());
   } catch (const InputError&) {
     throw InputError(file.string(), "", "cannot be read: it is damaged, or of another version", remedy);
   }
@@ -82,7 +86,7 @@ Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scen
   const std::string text = wall_text(setup, scene);
   Checkpoint kept;
   if (!data.file.empty()) {
-    kept = earlier_prestress(setup, text, mesh_hash);
+    kept = earlier_prestress(setup, text, mesh_hash, scene);
     require_size(data.file, kept, displacement_name, scene.wall->space().vector_size());
     require_size(data.file, kept, wall_name, scene.wall->space().mixed_size());
   } else {

@@ -10,6 +10,7 @@
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
+#include "parallel/communicator.hpp"
 
 namespace fsi {
 
@@ -17,14 +18,38 @@ namespace {
 
 constexpr std::size_t unexpected_limit = 1000;  // characters of a message of another library, and of a warning
 
-void say(const std::string& name, const char* kind, const std::string& message) {
+void say(const std::string& name, const std::string& kind, const std::string& message) {
   print_error((name + ": " + kind + ": " + message + "\n").c_str());
 }
 
+/// Of several processes one speaks for all if all end with this code. If they do not, a process that fails says so itself
+/// and ends the others, which may wait for it.
+struct LastWords {
+  explicit LastWords(int exit_code) : code(exit_code), alike(ProcessGroup::all_end_with(exit_code, patience)) {
+    if (!alike) keep_streams_silent(false);
+  }
+  ~LastWords() {
+    if (!alike) ProcessGroup::abort(code);
+  }
+  LastWords(const LastWords&) = delete;
+  LastWords& operator=(const LastWords&) = delete;
+  /// "error", or "error (process 2 of 3)".
+  std::string kind() const {
+    const Communicator& world = Communicator::world();
+    return alike ? "error"
+                 : "error (process " + std::to_string(world.rank() + 1) + " of " + std::to_string(world.size()) + ")";
+  }
+
+  static constexpr double patience = 6;  // seconds
+  int code;
+  bool alike;
+};
+
 int failure(const std::string& name, const std::string& message, ExitCode code) {
+  const LastWords last(code);
   // What is wrong with the command line has the program's name as its file, which stands there already.
   const std::string own = name + ": ";
-  say(name, "error", message.compare(0, own.size(), own) == 0 ? message.substr(own.size()) : message);
+  say(name, last.kind(), message.compare(0, own.size(), own) == 0 ? message.substr(own.size()) : message);
   return code;
 }
 
@@ -34,7 +59,9 @@ int out_of_memory(const std::string& name) {
   std::snprintf(line.data(), line.size(),
                 "%.100s: error: out of memory; take a coarser mesh, an iterative linear solver or a larger machine\n",
                 name.c_str());
+  keep_streams_silent(false);
   print_error(line.data());
+  if (!Communicator::world().is_alone()) ProcessGroup::abort(exit_bad_input);  // the others know nothing of it
   return exit_bad_input;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "base/error.hpp"
@@ -260,6 +261,11 @@ void store(const State& state, const Memory& memory, const TimeAxis& axis, Check
                  [&](const std::string& name, const std::vector<double>& array) { checkpoint.arrays[name] = array; });
   for (const auto& [name, array] : memory.arrays) checkpoint.arrays[memory_prefix + name] = array;
   for (const auto& [name, number] : memory.numbers) checkpoint.reals[memory_prefix + name] = number;
+}
+
+void require_kinds(const Checkpoint& checkpoint) {
+  for (const auto& [name, array] : checkpoint.arrays)
+    if (!kind_of_array(name)) throw std::logic_error("checkpoint_arrays.cpp does not know the kind of " + name);
 }
 
 Memory restore(const fs::path& file, const Checkpoint& checkpoint, std::size_t interface_values, State& state) {

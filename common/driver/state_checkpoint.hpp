@@ -15,6 +15,9 @@ namespace fsi {
 /// Adds the finished levels of a state, what the stepper keeps between steps, and the steps that led there.
 void store(const State& state, const Memory& memory, const TimeAxis& axis, Checkpoint& checkpoint);
 
+/// That the kind of every array is known (checkpoint_arrays.hpp), as those who read it need. \throws std::logic_error
+void require_kinds(const Checkpoint& checkpoint);
+
 /// The reverse. Nothing is believed: every number is finite and in its range, every array has the size that the scene
 /// gives it, none is missing and none is unknown.
 /// \param state             comes at rest, for the sizes

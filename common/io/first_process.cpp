@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -113,6 +114,25 @@ void at_first(const Communicator& processes, const std::function<void()>& action
   do_together(processes, [&] {
     if (processes.is_first()) action();
   });
+}
+
+FirstProcess& FirstProcess::alone() {
+  static FirstProcess by_itself(Communicator::alone());
+  return by_itself;
+}
+
+void FirstProcess::later(const std::function<void()>& action) {
+  if (processes_.is_alone()) return action();
+  if (!is_here() || failure_) return;
+  try {
+    action();
+  } catch (const InputError&) {
+    failure_ = std::current_exception();
+  }
+}
+
+void FirstProcess::agree() {
+  if (!processes_.is_alone()) agree_on_failure(processes_, std::exchange(failure_, {}));
 }
 
 }  // namespace fsi

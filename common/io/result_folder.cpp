@@ -102,12 +102,6 @@ std::string results_without_steps(const fs::path& folder, const std::string& sta
   return {};
 }
 
-/// \throws ConvergenceError before anything is written when a number is not finite
-void write_rows(CsvFile& file, const std::string& name, const std::vector<std::vector<double>>& rows) {
-  for (const auto& row : rows) require_finite(row, "a number of " + name);
-  file.write(rows);
-}
-
 }  // namespace
 
 void require_results_only(const fs::path& folder) {
@@ -155,42 +149,59 @@ void require_no_results(const fs::path& folder, const std::string& go_on) {
       (saved ? "continue it with " + go_on + ", " : "") + "give -o another folder, or replace it with --force");
 }
 
-ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables) : folder_(std::move(folder)) {
-  prepare(folder_);
-  remove_old_results(folder_);
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, FirstProcess& first)
+    : first_(&first), folder_(std::move(folder)) {
+  first_->now([&] {
+    prepare(folder_);
+    remove_old_results(folder_);
+  });
   open_tables(tables, false);
 }
 
-ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const EarlierTables& earlier)
-    : folder_(std::move(folder)) {
-  prepare(folder_);
-  std::error_code error;
-  if (!fs::equivalent(folder_, earlier.folder(), error)) remove_old_results(folder_);
-  earlier.copy_to(folder_);
+ResultFolder::ResultFolder(fs::path folder, const ResultTables& tables, const EarlierTables& earlier,
+                           FirstProcess& first)
+    : first_(&first), folder_(std::move(folder)) {
+  first_->now([&] {
+    prepare(folder_);
+    std::error_code error;
+    if (!fs::equivalent(folder_, earlier.folder(), error)) remove_old_results(folder_);
+    earlier.copy_to(folder_);
+  });
   open_tables(tables, true);
 }
 
 void ResultFolder::open_tables(const ResultTables& tables, bool append) {
+  opening_names_ = tables.openings;
+  energy_parts_ = tables.energy;
   const auto open = [&](std::optional<CsvFile>& place, const ResultTable& table) {
     place.emplace(folder_ / table.file, table.header, append);
   };
-  open(iterations_, iterations_table());
-  if (tables.centerline_pressure) open(centerline_, centerline_table());
-  if (tables.wall_displacement) open(wall_, wall_table());
-  if (tables.flow) open(flow_, flow_table());
-  opening_names_ = tables.openings;
-  if (!opening_names_.empty()) open(openings_, openings_table(opening_names_));
-  if (tables.coupling) open(coupling_, coupling_table());
-  energy_parts_ = tables.energy;
-  if (energy_parts_) open(energy_, energy_table(*energy_parts_));
-  if (!tables.surfaces.empty()) open(surfaces_, surfaces_table(tables.surfaces));
-  for (const SampledTable& table : tables.sampled)
-    sampled_.try_emplace(table.file, folder_ / table.file, table.header, append);
-  for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
+  first_->now([&] {
+    open(iterations_, iterations_table());
+    if (tables.centerline_pressure) open(centerline_, centerline_table());
+    if (tables.wall_displacement) open(wall_, wall_table());
+    if (tables.flow) open(flow_, flow_table());
+    if (!opening_names_.empty()) open(openings_, openings_table(opening_names_));
+    if (tables.coupling) open(coupling_, coupling_table());
+    if (energy_parts_) open(energy_, energy_table(*energy_parts_));
+    if (!tables.surfaces.empty()) open(surfaces_, surfaces_table(tables.surfaces));
+    for (const SampledTable& table : tables.sampled)
+      sampled_.try_emplace(table.file, folder_ / table.file, table.header, append);
+    for (const ResultTable& table : tables_of(tables)) digests_.emplace(table.file, TableDigest(folder_ / table.file));
+  });
+}
+
+/// \throws ConvergenceError before anything is written when a number is not finite
+void ResultFolder::write(std::optional<CsvFile>& table, const std::string& name, const Rows& rows,
+                         const std::vector<std::string>& names) {
+  for (const auto& row : rows) require_finite(row, "a number of " + name);
+  first_->later([&] { table.value().write(rows, names); });
 }
 
 void ResultFolder::take_digests() {
-  for (auto& [file, digest] : digests_) digest.take();
+  first_->later([&] {
+    for (auto& [file, digest] : digests_) digest.take();
+  });
 }
 
 TableDigests ResultFolder::digests() const {
@@ -203,7 +214,7 @@ void ResultFolder::write_centerline(double time, const std::vector<double>& z, c
   assert(pressure.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], pascal_per_kilopascal * pressure.at(i)});
-  write_rows(*centerline_, centerline_table().file, rows);
+  write(centerline_, centerline_table().file, rows);
 }
 
 void ResultFolder::write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
@@ -211,50 +222,49 @@ void ResultFolder::write_wall(double time, const std::vector<double>& z, const s
   assert(radial.size() == z.size() && axial.size() == z.size());
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
-  write_rows(*wall_, wall_table().file, rows);
+  write(wall_, wall_table().file, rows);
 }
 
 void ResultFolder::write_sampled(const SampledTable& table, double time, const std::vector<SampledRow>& rows) {
-  sampled_.at(table.file).write_text(sampled_text(table, time, rows));
+  const std::string text = sampled_text(table, time, rows);
+  first_->later([&] { sampled_.at(table.file).write_text(text); });
 }
 
 void ResultFolder::write_flow(double time, const FlowRecord& flow) {
-  write_rows(*flow_, flow_table().file,
-             {{time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
-               pascal_per_kilopascal * flow.outlet_pressure}});
+  write(flow_, flow_table().file,
+        {{time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
+          pascal_per_kilopascal * flow.outlet_pressure}});
 }
 
 void ResultFolder::write_openings(double time, const std::vector<OpeningRecord>& openings) {
-  const std::string file = openings_table({}).file;
   std::vector<std::vector<double>> rows;
   for (const OpeningRecord& opening : openings) {
     rows.push_back({time, opening.flow, pascal_per_kilopascal * opening.mean_pressure,
                     pascal_per_kilopascal * opening.windkessel_pressure});
-    require_finite(rows.back(), "a number of " + file);
   }
-  openings_->write(rows, opening_names_);
+  write(openings_, openings_table({}).file, rows, opening_names_);
 }
 
 void ResultFolder::write_iterations(const StepRecord& record) {
-  write_rows(*iterations_, iterations_table().file,
-             {{static_cast<double>(record.step), record.time, static_cast<double>(record.outer_iterations),
-               static_cast<double>(record.newton_iterations), static_cast<double>(record.linear_iterations),
-               record.wall_seconds, record.solver_error}});
+  write(iterations_, iterations_table().file,
+        {{static_cast<double>(record.step), record.time, static_cast<double>(record.outer_iterations),
+          static_cast<double>(record.newton_iterations), static_cast<double>(record.linear_iterations),
+          record.wall_seconds, record.solver_error}});
 }
 
 void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& c) {
   const auto number = [](auto count) { return static_cast<double>(count); };
-  write_rows(*coupling_, coupling_table().file,
-             {{number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes), c.relaxation,
-               number(c.columns), c.displacement_residual, c.displacement_gap, c.force_residual,
-               number(c.fluid_newton_iterations), number(c.wall_newton_iterations), number(c.fluid_linear_iterations),
-               number(c.wall_linear_iterations), c.fluid_seconds, c.wall_seconds, c.mesh_seconds, c.algebra_seconds,
-               c.pressure_residual}});
+  write(coupling_, coupling_table().file,
+        {{number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes), c.relaxation,
+          number(c.columns), c.displacement_residual, c.displacement_gap, c.force_residual,
+          number(c.fluid_newton_iterations), number(c.wall_newton_iterations), number(c.fluid_linear_iterations),
+          number(c.wall_linear_iterations), c.fluid_seconds, c.wall_seconds, c.mesh_seconds, c.algebra_seconds,
+          c.pressure_residual}});
 }
 
 void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {
-  write_rows(*energy_, energy_table(*energy_parts_).file,
-             {energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy)});
+  write(energy_, energy_table(*energy_parts_).file,
+        {energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy)});
 }
 
 void ResultFolder::write_surfaces(double time, const std::vector<SurfaceRecord>& surfaces) {
@@ -263,16 +273,18 @@ void ResultFolder::write_surfaces(double time, const std::vector<SurfaceRecord>&
   for (const SurfaceRecord& s : surfaces) {
     const auto &f = s.force, &p = s.pressure;
     rows.push_back({time, s.area, f[0], f[1], f[2], p[0], p[1], p[2], f[0] - p[0], f[1] - p[1], f[2] - p[2]});
-    require_finite(rows.back(), "a number of surfaces.csv");
     names.push_back(s.surface);
   }
-  surfaces_->write(rows, names);
+  write(surfaces_, "surfaces.csv", rows, names);
 }
 
 void ResultFolder::close() {
-  for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_, &surfaces_})
-    if (*table) (*table)->close();
-  for (auto& [file, table] : sampled_) table.close();
+  first_->agree();
+  first_->now([&] {
+    for (auto* table : {&centerline_, &wall_, &flow_, &openings_, &iterations_, &coupling_, &energy_, &surfaces_})
+      if (*table) (*table)->close();
+    for (auto& [file, table] : sampled_) table.close();
+  });
 }
 
 }  // namespace fsi

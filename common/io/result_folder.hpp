@@ -9,6 +9,7 @@
 #include "diagnostics/energy_record.hpp"
 #include "io/csv_file.hpp"
 #include "io/earlier_tables.hpp"
+#include "io/first_process.hpp"
 #include "io/result_tables.hpp"
 #include "io/step_record.hpp"
 #include "io/surface_record.hpp"
@@ -47,16 +48,20 @@ void require_results_only(const std::filesystem::path& folder);
 /// \throws InputError
 void require_regular_results(const std::filesystem::path& folder, bool follow);
 
-/// The folder of one run and its CSV tables, each row on disk when its step is done.
+/// The folder of one run and its CSV tables, each row on disk when its step is done. Of several processes the first one
+/// writes: the others have a folder of this class, too, to which they hand over the same rows.
 class ResultFolder {
  public:
   /// A new run. Creates the folder; one that holds nothing but result files is emptied.
   /// \throws InputError when the folder holds anything else, or cannot be created or written
-  ResultFolder(std::filesystem::path folder, const ResultTables& tables);
+  /// \param first  tells the processes, which make and close the folder together, of rows that could not be written;
+  ///               must outlive this
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, FirstProcess& first = FirstProcess::alone());
 
   /// Continues a run whose tables have been checked: they are copied, or in place cut behind its checkpoint.
   /// \throws InputError as above
-  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const EarlierTables& earlier);
+  ResultFolder(std::filesystem::path folder, const ResultTables& tables, const EarlierTables& earlier,
+               FirstProcess& first = FirstProcess::alone());
 
   const std::filesystem::path& path() const { return folder_; }
 
@@ -84,6 +89,11 @@ class ResultFolder {
  private:
   void open_tables(const ResultTables& tables, bool append);
 
+  using Rows = std::vector<std::vector<double>>;
+  void write(std::optional<CsvFile>& table, const std::string& name, const Rows& rows,
+             const std::vector<std::string>& names = {});
+
+  FirstProcess* first_;
   std::filesystem::path folder_;
   std::optional<EnergyParts> energy_parts_;
   std::map<std::string, TableDigest> digests_;

@@ -33,9 +33,11 @@ class CheckedSink final : public spdlog::sinks::base_sink<spdlog::details::null_
 
 }  // namespace
 
-RunLog::RunLog(const std::filesystem::path& folder, bool append) {
+RunLog::RunLog(const std::filesystem::path& folder, bool append, FirstProcess& first) : first_(&first) {
   const auto file = folder / "run.log";
-  file_ = std::make_shared<CheckedFile>(append ? CheckedFile::append(file) : CheckedFile::create(file));
+  first.now(
+      [&] { file_ = std::make_shared<CheckedFile>(append ? CheckedFile::append(file) : CheckedFile::create(file)); });
+  if (!file_) return;
   logger_ = std::make_shared<spdlog::logger>("run", std::make_shared<CheckedSink>(file_));
   logger_->set_pattern("%Y-%m-%d %H:%M:%S.%e %-7l %v");
   // The logger catches what a sink throws and calls this from the handler: the error goes on to who has logged.
@@ -48,19 +50,22 @@ RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
 // One entry, one line. Text goes through "{}": a brace in it is no format directive.
 void RunLog::info(const std::string& line) {
-  logger_->info("{}", printable(line));
+  first_->later([&] { logger_->info("{}", printable(line)); });
 }
 void RunLog::warning(const std::string& line) {
-  logger_->warn("{}", printable(line));
+  first_->later([&] { logger_->warn("{}", printable(line)); });
 }
 void RunLog::error(const std::string& line) {
-  logger_->error("{}", printable(line));
+  first_->later([&] { logger_->error("{}", printable(line)); });
 }
 
 void RunLog::close() {
-  file_->require_in_place();
-  file_->synchronise();
-  file_->close();
+  first_->agree();
+  first_->now([&] {
+    file_->require_in_place();
+    file_->synchronise();
+    file_->close();
+  });
 }
 
 }  // namespace fsi
