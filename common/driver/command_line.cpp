@@ -85,8 +85,10 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 std::string restart_command(const CommandLine& line) {
-  std::vector<std::string> words{line.program, line.case_file.string(), "--restart", line.output.string(),
-                                 "-o",         line.output.string()};
+  std::vector<std::string> words;
+  if (line.processes > 1) words = {"mpirun", "-n", std::to_string(line.processes)};  // any number will do
+  words.insert(words.end(),
+               {line.program, line.case_file.string(), "--restart", line.output.string(), "-o", line.output.string()});
   for (const auto& entry : line.overrides) words.insert(words.end(), {"--set", entry});
   if (line.threads > 0) words.insert(words.end(), {"--threads", std::to_string(line.threads)});
   if (line.quiet) words.emplace_back("-q");

@@ -26,6 +26,7 @@ struct CommandLine {
   bool force = false;                  ///< results in `output` may be replaced
   bool quiet = false;
   std::string program;  ///< as it was called
+  int processes = 1;    ///< that were started together
 };
 
 /// The command that continues the run of this command line in its result folder, ready to be pasted into a shell.

@@ -655,8 +655,9 @@ int run_driver(const std::string& program, const std::string& description, int a
     group.emplace();
     const Communicator& processes = Communicator::world();
     keep_streams_silent(!processes.is_first());
-    const auto line = parse_command_line(program, description, argc, argv, other.options);
+    auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
+    line->processes = processes.size();
     set_threads(line->threads);  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
     for (const auto& warning : setup.warnings) warn(program, warning);

@@ -11,6 +11,7 @@
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/end_together.hpp"
 
 namespace fsi {
 
@@ -25,7 +26,7 @@ void say(const std::string& name, const std::string& kind, const std::string& me
 /// Of several processes one speaks for all if all end with this code. If they do not, a process that fails says so itself
 /// and ends the others, which may wait for it.
 struct LastWords {
-  explicit LastWords(int exit_code) : code(exit_code), alike(ProcessGroup::all_end_with(exit_code, patience)) {
+  explicit LastWords(int exit_code) : code(exit_code), alike(all_end_with(exit_code, patience)) {
     if (!alike) keep_streams_silent(false);
   }
   ~LastWords() {

@@ -1,12 +1,10 @@
 #include "parallel/communicator.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #ifdef FSI_WITH_MPI
@@ -24,9 +22,6 @@ struct Communicator::Handle {};
 namespace {
 
 const Communicator* of_program = nullptr;
-#ifdef FSI_WITH_MPI
-MPI_Comm of_the_end = MPI_COMM_NULL;  // what is said there is not mixed with what processes say while they work
-#endif
 
 }  // namespace
 
@@ -215,7 +210,6 @@ ProcessGroup::ProcessGroup() {
   if (!has_begun()) require_mpi();
   auto handle = std::make_unique<Communicator::Handle>();
   MPI_Comm_dup(MPI_COMM_WORLD, &handle->communicator);
-  MPI_Comm_dup(MPI_COMM_WORLD, &of_the_end);
   of_program = new Communicator(std::move(handle));
 }
 
@@ -224,7 +218,6 @@ ProcessGroup::~ProcessGroup() {
     MPI_Comm communicator = of_program->handle()->communicator;
     delete std::exchange(of_program, nullptr);
     MPI_Comm_free(&communicator);
-    MPI_Comm_free(&of_the_end);
   }
   int ended = 0;
   MPI_Finalized(&ended);
@@ -235,24 +228,6 @@ void ProcessGroup::require_mpi() {
   if (has_begun()) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-}
-
-bool ProcessGroup::all_end_with(int exit_code, double seconds) {
-  if (of_program == nullptr || of_program->is_alone()) return true;
-  std::vector<int> codes(static_cast<std::size_t>(of_program->size()));
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallgather(&exit_code, 1, MPI_INT, codes.data(), 1, MPI_INT, of_the_end, &request);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  for (int came = 0;;) {
-    MPI_Test(&request, &came, MPI_STATUS_IGNORE);
-    if (came != 0) return std::all_of(codes.begin(), codes.end(), [exit_code](int code) { return code == exit_code; });
-    if (std::chrono::steady_clock::now() > end) {
-      static std::vector<int> left_behind;  // the request may still write to it
-      left_behind.swap(codes);
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
 }
 
 void ProcessGroup::abort(int exit_code) {
@@ -296,9 +271,6 @@ ProcessGroup::ProcessGroup() {
 ProcessGroup::~ProcessGroup() = default;
 void ProcessGroup::require_mpi() {
   throw std::logic_error("this build is without MPI (FSI_MPI=OFF)");
-}
-bool ProcessGroup::all_end_with(int, double) {
-  return true;
 }
 void ProcessGroup::abort(int exit_code) {
   std::_Exit(exit_code);

@@ -96,11 +96,6 @@ class ProcessGroup {
   /// \throws std::logic_error in a build without MPI
   static void require_mpi();
 
-  /// Whether all processes end with this same exit code, as they all call this to say within so many seconds. Then they
-  /// can end in order; else one of them knows of something that the others do not, who go on and may wait for it in vain.
-  /// True at once for a process that is alone.
-  static bool all_end_with(int exit_code, double seconds);
-
   /// Ends all processes at once, with this code: for what only some of them know.
   [[noreturn]] static void abort(int exit_code);
 };
