@@ -23,10 +23,12 @@ struct DerivedQuantities {
 
 /// \param mesh   that the scene was built on
 /// \param scene  must outlive what is made
+/// \param whole  parts of a mesh that is shared out; empty: the scene has them
 /// \throws InputError for surfaces that the fluid does not have
 template <class Element>
 DerivedQuantities<Element::components> make_derived_quantities(const Case& setup, const MeshOf<Element>& mesh,
-                                                               const Scene<Element::components>& scene) {
+                                                               const Scene<Element::components>& scene,
+                                                               const WholeParts<Element>& whole = {}) {
   const auto& output = setup.output;
   const auto wants = [&](std::initializer_list<const char*> names) {
     return output.every > 0 && std::find_first_of(output.fields.begin(), output.fields.end(), names.begin(),
@@ -35,14 +37,15 @@ DerivedQuantities<Element::components> make_derived_quantities(const Case& setup
   DerivedQuantities<Element::components> derived;
   if (scene.fluid && (output.derived.statistics || wants({"wall_shear_stress"}))) {
     const auto phase = scene.profile.phase("wall shear stress: setup");
-    derived.shear = make_wall_shear_stress<Element>(setup, mesh, scene);
-    scene.profile.count("nodes with wall shear stress", static_cast<std::int64_t>(derived.shear->nodes().size()));
+    derived.shear = make_wall_shear_stress<Element>(setup, mesh, scene, whole);
+    const auto nodes = static_cast<std::int64_t>(derived.shear->nodes().size());
+    scene.profile.count("nodes with wall shear stress", scene.processes().sum(nodes));
   }
   if (scene.wall && wants({"cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"})) {
     const auto phase = scene.profile.phase("wall stress: setup");
-    derived.stress = make_wall_stress<Element>(setup, mesh, scene);
+    derived.stress = make_wall_stress<Element>(setup, mesh, scene, whole);
   }
-  derived.forces = make_surface_forces<Element>(setup, mesh, scene);
+  derived.forces = make_surface_forces<Element>(setup, mesh, scene, whole);
   if (derived.forces)
     scene.profile.count("surfaces with forces", static_cast<std::int64_t>(derived.forces->names().size()));
   if (output.derived.statistics && output.derived.period) derived.statistics.emplace(*output.derived.period);

@@ -17,6 +17,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/symmetry_planes.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/build_scene.hpp"
 
 namespace fsi {
 
@@ -62,6 +63,7 @@ struct FluidSurface {
   }
 };
 
+/// \param fluid  the whole fluid
 template <class Element>
 FluidSurface<Element> fluid_surface(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& fluid) {
   FluidSurface<Element> surface;
@@ -82,25 +84,35 @@ FluidSurface<Element> fluid_surface(const Case& setup, const MeshOf<Element>& me
   return surface;
 }
 
-/// The fluid's part of the mesh. \pre the scene has a fluid, discretised by this element
+/// The fluid's part of the mesh here. \pre the scene has a fluid, discretised by this element
 template <class Element>
 const PartOf<Element>& fluid_part(const Scene<Element::components>& scene) {
   return static_cast<const FluidProblem<Element>&>(*scene.fluid).part();
 }
+/// The whole of it.
+template <class Element>
+const PartOf<Element>& whole_fluid(const Scene<Element::components>& scene, const WholeParts<Element>& whole) {
+  return whole.fluid ? *whole.fluid : fluid_part<Element>(scene);
+}
 
 /// Gradients of the fluid's fields at some of its nodes.
+/// \param part  the whole fluid
+/// \param at    nodes of it that are here
+/// \param here  what of the fluid this process has; null: all
 template <class Element>
-GradientRecovery fluid_gradients(const PartOf<Element>& part, std::vector<int> at) {
+GradientRecovery fluid_gradients(const PartOf<Element>& part, std::vector<int> at, const PartRestriction* here) {
   RecoveryCells cells{
       part.nodes,           {}, Element::nodes, Element::order, {std::begin(Element::axis), std::end(Element::axis)},
       Element::axisymmetric};
   for (const auto& cell : part.cells) cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
-  return {cells, std::move(at)};
+  GradientRecovery gradients(cells, std::move(at));
+  if (here) gradients.restrict_to(*here);
+  return gradients;
 }
 
 /// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa.
-/// \param mesh  displacement of the domain, vector layout; empty where it is rigid
-/// \param flow  (u, p), mixed layout
+/// \param mesh  displacement of the domain, vector layout; empty where it is rigid. As GradientRecovery::reach() has it
+/// \param flow  (u, p), mixed layout, likewise
 template <int n>
 Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, double viscosity,
                             const std::vector<double>& mesh, const std::vector<double>& flow) {

@@ -190,4 +190,10 @@ GradientRecovery::GradientRecovery(const RecoveryCells& cells, std::vector<int> 
   }
 }
 
+void GradientRecovery::restrict_to(const PartRestriction& here) {
+  far_.emplace(here, patch_);
+  for (int& node : patch_) node = far_->number(here, node);
+  for (int& node : at_) node = here.local(node);
+}
+
 }  // namespace fsi

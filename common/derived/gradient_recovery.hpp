@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "math/tensor.hpp"
+#include "mesh/far_nodes.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -30,12 +32,29 @@ struct RecoveryCells {
 /// element's own degree. There the gradient has the order of the element's own.
 ///
 /// The weights depend on reference positions alone and are found once; a gradient is then a short sum.
+///
+/// Where a medium is shared out among processes, the weights are found on all of its cells and each process keeps those
+/// of some nodes that it holds. Patches reach further than these: fields are then given with values at far nodes, too
+/// (reach()).
 class GradientRecovery {
  public:
   static constexpr double largest_weights = 16;
 
   /// \param at  nodes of the cells, each once: where gradients are wanted
   GradientRecovery(const RecoveryCells& cells, std::vector<int> at);
+
+  /// Puts the numbers of the nodes that a process holds in place of those of the whole part, which they were so far. The
+  /// gradients are at nodes that it holds. All processes do so together.
+  void restrict_to(const PartRestriction& here);
+
+  /// The field as gradient() wants it; none stays none. All processes ask together. \param buffer  storage, which may be
+  /// returned
+  template <class Layout>
+  const std::vector<double>& reach(const std::vector<double>& field, std::vector<double>& buffer) const {
+    if (!far_ || field.empty()) return field;
+    buffer = far_->with_far<Layout>(field);
+    return buffer;
+  }
 
   const std::vector<int>& nodes() const { return at_; }
   std::size_t size() const { return at_.size(); }
@@ -44,6 +63,7 @@ class GradientRecovery {
 
   /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry i
   /// of nodes().
+  /// \param field    of reach()
   /// \tparam Layout  of the field (fem/nodal_layout.hpp), its vectors of `axes.size()` components
   template <class Layout>
   Mat3<double> gradient(std::size_t i, const std::vector<double>& field) const {
@@ -67,6 +87,7 @@ class GradientRecovery {
   std::vector<int> patch_;                      ///< nodes
   std::vector<std::array<double, 3>> weights_;  ///< 1/mm, per node of a patch and coordinate
   std::size_t fallbacks_ = 0;
+  std::optional<FarNodes> far_;  ///< none: all nodes of the patches are here
 };
 
 }  // namespace fsi

@@ -10,6 +10,7 @@
 #include "base/names.hpp"
 #include "derived/fluid_surface.hpp"
 #include "fem/elements.hpp"
+#include "parallel/partial_sums.hpp"
 
 namespace fsi {
 
@@ -51,16 +52,23 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
   using Mixed = MixedLayout<n>;
   using Facet = typename MeshOf<Element>::Facet;
 
-  SurfaceForcesOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
+  SurfaceForcesOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene,
+                  const WholeParts<Element>& whole)
       : scene_(scene), part_(fluid_part<Element>(scene)) {
-    const auto surface = fluid_surface<Element>(setup, mesh, part_);
+    // All is found on the whole fluid.
+    const PartOf<Element>& fluid = whole_fluid(scene, whole);
+    const PartRestriction* here = whole.fluid_here.get();
+    const auto surface = fluid_surface<Element>(setup, mesh, fluid);
     facets_ = surface.facets;
     // Openings with velocities that are not prescribed: all of them, or their corners alone are held by the walls.
     std::vector<char> is_free(facets_.size(), 0);
     for (const auto& opening : openings_of(setup)) {
       const auto places = surface.places(group_facets(mesh, opening.surface));
       const auto nodes = surface.nodes(places);
-      if (!std::all_of(nodes.begin(), nodes.end(), [&](int node) { return is_held(node); }))
+      const auto held = [&](int node) {
+        return here ? here->local(node) < 0 || is_held(here->local(node)) : is_held(node);
+      };
+      if (scene.processes().any(!std::all_of(nodes.begin(), nodes.end(), held)))
         for (const int f : places) is_free[f] = 1;
     }
     std::set<int> stressed;  // nodes where gradients are needed
@@ -81,7 +89,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
         set.nodes = surface.nodes(set.facets);
         // The rows of nodes on the rim hold a share of the traction beside the surface. Where that is not given it is
         // taken out again, a strip one element wide.
-        std::vector<char> inside(facets_.size(), 0), on(part_.nodes.size(), 0);
+        std::vector<char> inside(facets_.size(), 0), on(fluid.nodes.size(), 0);
         for (const int f : set.facets) inside[f] = 1;
         for (const int node : set.nodes) on[node] = 1;
         for (std::size_t f = 0; f < facets_.size(); ++f) {
@@ -90,6 +98,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
           set.beside.push_back(static_cast<int>(f));
         }
       }
+      if (here) restrict_to(*here, set);
       for (const int f : set.by_equations ? set.beside : set.facets)
         stressed.insert(facets_[f].begin(), facets_[f].end());
       names_.push_back(name);
@@ -98,7 +107,10 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     for (const auto& name : setup.output.derived.surfaces) add(name, "output.surfaces", {name});
     for (const auto& [name, members] : setup.output.derived.forces)
       add(name, "output.forces." + name + ".surfaces", members);
-    gradients_.emplace(fluid_gradients<Element>(part_, {stressed.begin(), stressed.end()}));
+    gradients_.emplace(fluid_gradients<Element>(fluid, {stressed.begin(), stressed.end()}, here));
+    if (here)
+      for (Facet& facet : facets_)
+        for (int& node : facet) node = here->local(node);
     entry_.assign(part_.nodes.size(), -1);
     for (std::size_t i = 0; i < gradients_->size(); ++i) entry_[gradients_->nodes()[i]] = static_cast<int>(i);
   }
@@ -107,8 +119,9 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
 
   std::vector<SurfaceForce> at(const Balance& balance) const override {
     assert(scene_.fluid);
-    const auto &mesh = balance.at.mesh, &flow = balance.at.fluid;
-    std::vector<double> residual;
+    std::vector<double> mesh_buffer, flow_buffer, residual;
+    const auto& mesh = gradients_->template reach<Vector>(balance.at.mesh, mesh_buffer);
+    const auto& flow = gradients_->template reach<Mixed>(balance.at.fluid, flow_buffer);
     scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures,
                            residual);
     std::vector<Mat3<double>> stress;
@@ -122,16 +135,27 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
         on.assign(part_.nodes.size(), 0);
         for (const int node : set.nodes) {
           on[node] = 1;
-          for (int k = 0; k < n; ++k) force.force[Element::axis[k]] -= residual[Mixed::vector(node, k)];
+          for (int k = 0; k < n && part_.owns(node); ++k)
+            force.force[Element::axis[k]] -= residual[Mixed::vector(node, k)];
         }
         for (const int f : set.beside) force.force = force.force - traction(f, mesh, flow, stress, &on);
       } else {
         for (const int f : set.facets) force.force = force.force + traction(f, mesh, flow, stress, nullptr);
       }
       for (const int f : set.facets) add_pressure(f, mesh, flow, force);
-      if constexpr (Element::axisymmetric) force.force[0] = force.pressure[0] = 0;  // all round they cancel
       forces.push_back(force);
     }
+    PartialSums sums;
+    for (SurfaceForce& force : forces) {
+      sums.include(force.area);
+      for (int i = 0; i < 3; ++i) {
+        sums.include(force.force[i]);
+        sums.include(force.pressure[i]);
+      }
+    }
+    sums.add_up(scene_.processes());
+    if constexpr (Element::axisymmetric)
+      for (SurfaceForce& force : forces) force.force[0] = force.pressure[0] = 0;  // all round they cancel
     return forces;
   }
 
@@ -139,9 +163,17 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
   struct Set {
     bool by_equations = true;
     std::vector<int> facets;  ///< places
-    std::vector<int> nodes;   ///< of the facets
+    std::vector<int> nodes;   ///< of the surface; copies of other processes' too
     std::vector<int> beside;  ///< facets that touch these nodes, with a traction that is not given
   };
+
+  /// Leaves the facets that sums count here, and the nodes that are here.
+  void restrict_to(const PartRestriction& here, Set& set) const {
+    for (auto* places : {&set.facets, &set.beside})
+      places->erase(std::remove_if(places->begin(), places->end(), [&](int f) { return !here.counts(facets_[f]); }),
+                    places->end());
+    set.nodes = here.nodes(set.nodes);
+  }
 
   bool is_held(int node) const {
     for (int k = 0; k < n; ++k)
@@ -195,7 +227,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
 
   const Scene<n>& scene_;
   const PartOf<Element>& part_;
-  std::vector<Facet> facets_;  ///< of the fluid's boundary, normals outward
+  std::vector<Facet> facets_;  ///< of the fluid's boundary, normals outward; numbers here, -1 at nodes elsewhere
   std::vector<std::string> names_;
   std::vector<Set> sets_;
   std::optional<GradientRecovery> gradients_;
@@ -206,17 +238,18 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
 
 template <class Element>
 std::unique_ptr<SurfaceForces<Element::components>> make_surface_forces(const Case& setup, const MeshOf<Element>& mesh,
-                                                                        const Scene<Element::components>& scene) {
+                                                                        const Scene<Element::components>& scene,
+                                                                        const WholeParts<Element>& whole) {
   if (setup.output.derived.surfaces.empty() && setup.output.derived.forces.empty()) return nullptr;
   if (!scene.fluid)
     throw InputError(setup.path.string(), setup.output.derived.surfaces.empty() ? "output.forces" : "output.surfaces",
                      "asks for forces of the fluid, and the scene has none", "remove it");
-  return std::make_unique<SurfaceForcesOf<Element>>(setup, mesh, scene);
+  return std::make_unique<SurfaceForcesOf<Element>>(setup, mesh, scene, whole);
 }
 
 #define FSI_INSTANTIATE(Element)                                                             \
   template std::unique_ptr<SurfaceForces<Element::components>> make_surface_forces<Element>( \
-      const Case&, const MeshOf<Element>&, const Scene<Element::components>&);
+      const Case&, const MeshOf<Element>&, const Scene<Element::components>&, const WholeParts<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -7,6 +7,7 @@
 #include "case/case.hpp"
 #include "math/tensor.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/build_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -22,7 +23,8 @@ struct SurfaceForce {
 /// momentum rows over the surface's nodes, which is what holds the velocity there, not an integral of differentiated
 /// velocities. So forces balance pressures, flows of momentum and inertia to the tolerance of the solver
 /// [Gresho1987, John2001] (docs/theory.md, section 11a). On openings with free velocities, which nothing holds, it is the
-/// integral of p n - mu (grad u + grad u^T) n with recovered gradients.
+/// integral of p n - mu (grad u + grad u^T) n with recovered gradients. Processes that share the fluid ask together, and get
+/// the same.
 template <int n>
 class SurfaceForces {
  public:
@@ -35,9 +37,11 @@ class SurfaceForces {
 /// Of output.surfaces and output.forces; null when the case names none.
 /// \param mesh   that the scene was built on
 /// \param scene  must outlive this
+/// \param whole  parts of a mesh that is shared out; empty: the scene has them
 /// \throws InputError naming the key for a surface that is none of the fluid's
 template <class Element>
 std::unique_ptr<SurfaceForces<Element::components>> make_surface_forces(const Case& setup, const MeshOf<Element>& mesh,
-                                                                        const Scene<Element::components>& scene);
+                                                                        const Scene<Element::components>& scene,
+                                                                        const WholeParts<Element>& whole = {});
 
 }  // namespace fsi

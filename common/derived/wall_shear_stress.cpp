@@ -1,10 +1,12 @@
 #include "derived/wall_shear_stress.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "derived/fluid_surface.hpp"
 #include "fem/elements.hpp"
+#include "scene/restricted_conditions.hpp"
 
 namespace fsi {
 
@@ -16,17 +18,26 @@ class WallShearStressOf : public WallShearStress<Element::components> {
   static constexpr int n = Element::components;
   using Facet = typename MeshOf<Element>::Facet;
 
-  WallShearStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
+  WallShearStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene,
+                    const WholeParts<Element>& whole)
       : part_(fluid_part<Element>(scene)),
         viscosity_(scene.fluid->form().viscosity),
-        mirrored_(mirrored_components<Element>(mesh, part_)),
-        facets_(solid_facets(fluid_surface<Element>(setup, mesh, part_))),
-        gradients_(fluid_gradients<Element>(part_, facet_nodes(facets_))) {}
+        mirrored_(mirrored_components<Element>(mesh, whole_fluid(scene, whole))),
+        facets_(solid_facets(fluid_surface<Element>(setup, mesh, whole_fluid(scene, whole)))),
+        gradients_(fluid_gradients<Element>(whole_fluid(scene, whole), own_nodes(facets_, whole.fluid_here.get()),
+                                            whole.fluid_here.get())) {
+    if (!whole.fluid_here) return;
+    mirrored_ = restricted(mirrored_, *whole.fluid_here);
+    facets_ = whole.fluid_here->facets(facets_);
+  }
 
   const std::vector<int>& nodes() const override { return gradients_.nodes(); }
 
   std::vector<double> at_nodes(const Solution& level) const override {
     const std::vector<double> normals = nodal_normals(level.mesh);
+    std::vector<double> mesh_buffer, flow_buffer;
+    const auto& mesh = gradients_.template reach<VectorLayout<n>>(level.mesh, mesh_buffer);
+    const auto& flow = gradients_.template reach<MixedLayout<n>>(level.fluid, flow_buffer);
     std::vector<double> shear(VectorLayout<n>::size(part_.node_count()), 0.0);
     for (std::size_t i = 0; i < nodes().size(); ++i) {
       const int node = nodes()[i];
@@ -35,7 +46,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
       const double length = std::sqrt(dot(normal, normal));
       if (length == 0) continue;
       normal = (1 / length) * normal;
-      const Vec3<double> traction = viscous_stress<n>(gradients_, i, viscosity_, level.mesh, level.fluid) * normal;
+      const Vec3<double> traction = viscous_stress<n>(gradients_, i, viscosity_, mesh, flow) * normal;
       const double along = dot(traction, normal);
       for (int k = 0; k < n; ++k)
         shear[VectorLayout<n>::vector(node, k)] = along * normal[Element::axis[k]] - traction[Element::axis[k]];
@@ -50,6 +61,14 @@ class WallShearStressOf : public WallShearStress<Element::components> {
   }
 
  private:
+  /// Nodes of facets, of the whole fluid; where that is shared out, this process's.
+  static std::vector<int> own_nodes(const std::vector<Facet>& facets, const PartRestriction* here) {
+    auto nodes = facet_nodes(facets);
+    if (here)
+      nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](int node) { return !here->owns_whole(node); }),
+                  nodes.end());
+    return nodes;
+  }
   static std::vector<Facet> solid_facets(const FluidSurface<Element>& surface) {
     std::vector<Facet> facets;
     for (const int f : surface.places(FluidFacetKind::solid)) facets.push_back(surface.facets[f]);
@@ -88,13 +107,14 @@ class WallShearStressOf : public WallShearStress<Element::components> {
 template <class Element>
 std::unique_ptr<WallShearStress<Element::components>> make_wall_shear_stress(const Case& setup,
                                                                              const MeshOf<Element>& mesh,
-                                                                             const Scene<Element::components>& scene) {
-  return std::make_unique<WallShearStressOf<Element>>(setup, mesh, scene);
+                                                                             const Scene<Element::components>& scene,
+                                                                             const WholeParts<Element>& whole) {
+  return std::make_unique<WallShearStressOf<Element>>(setup, mesh, scene, whole);
 }
 
 #define FSI_INSTANTIATE(Element)                                                                  \
   template std::unique_ptr<WallShearStress<Element::components>> make_wall_shear_stress<Element>( \
-      const Case&, const MeshOf<Element>&, const Scene<Element::components>&);
+      const Case&, const MeshOf<Element>&, const Scene<Element::components>&, const WholeParts<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

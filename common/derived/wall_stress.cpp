@@ -8,6 +8,7 @@
 
 #include "derived/gradient_recovery.hpp"
 #include "fem/elements.hpp"
+#include "parallel/whole_field.hpp"
 #include "wall/hyperelastic.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -35,6 +36,7 @@ struct StressLayer {
   ElementLaw law;
   double bulk_modulus;  ///< kPa
   GradientRecovery gradients;
+  bool has_fibres;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
 };
 
@@ -81,16 +83,18 @@ class WallStressOf : public WallStress<Element::components> {
   static constexpr int n = Element::components;
   using Mixed = MixedLayout<n>;
 
-  WallStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene)
+  WallStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene, const WholeParts<Element>& whole)
       : wall_(*scene.wall), node_count_(scene.wall->node_count()) {
     const auto& problem = static_cast<const WallProblem<Element>&>(*scene.wall);
-    const auto& part = problem.part();
+    const PartRestriction* here = whole.wall_here.get();
+    const auto& part = whole.wall ? *whole.wall : problem.part();
+    const std::vector<Point> unloaded = unloaded_nodes(scene, part);
     share_.assign(static_cast<std::size_t>(node_count_), 0.0);
     fibre_share_ = share_;
     std::size_t index = 0;
     for (const auto& [name, data] : setup.structure->layers) {
       const WallLayer<Element>& layer = problem.layers()[index++];
-      RecoveryCells cells{scene.wall->unloaded_nodes(scene.axes),
+      RecoveryCells cells{unloaded,
                           {},
                           Element::nodes,
                           Element::order,
@@ -106,15 +110,21 @@ class WallStressOf : public WallStress<Element::components> {
       }
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-      for (const int node : vertices) {
-        ++share_[node];
-        if (!layer.fibres.empty()) ++fibre_share_[node];
-      }
+      if (here)
+        vertices.erase(
+            std::remove_if(vertices.begin(), vertices.end(), [&](int node) { return !here->owns_whole(node); }),
+            vertices.end());
       StressLayer stress{element_law(layer.material),
                          bulk_modulus(layer.material, scene.wall->constants().bulk_modulus),
                          GradientRecovery(cells, std::move(vertices)),
+                         fsi::has_fibres(layer.material),
                          {}};
-      if (!layer.fibres.empty()) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
+      if (here) stress.gradients.restrict_to(*here);
+      for (const int node : stress.gradients.nodes()) {
+        ++share_[node];
+        if (stress.has_fibres) ++fibre_share_[node];
+      }
+      if (stress.has_fibres) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
       layers_.push_back(std::move(stress));
     }
     for (auto* shares : {&share_, &fibre_share_})
@@ -122,7 +132,7 @@ class WallStressOf : public WallStress<Element::components> {
   }
 
   bool has_fibres() const override {
-    return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return !layer.fibres.empty(); });
+    return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.has_fibres; });
   }
 
   WallStresses of(const std::vector<double>& now) const override {
@@ -132,13 +142,40 @@ class WallStressOf : public WallStress<Element::components> {
     if (has_fibres())
       for (auto& family : all.of_fibres) family.assign(static_cast<std::size_t>(node_count_), 0.0);
     for (const auto& layer : layers_) std::visit([&](const auto& law) { add(law, layer, wall, all); }, layer.law);
+    if (wall_.nodes().share) update_copies(all);
     return all;
   }
 
  private:
+  /// Where the nodes of the whole wall are without load.
+  static std::vector<Point> unloaded_nodes(const Scene<n>& scene, const PartOf<Element>& whole) {
+    const auto& share = scene.wall->nodes().share;
+    if (!share) return scene.wall->unloaded_nodes(scene.axes);
+    std::vector<Point> unloaded = whole.nodes;
+    if (!scene.processes().any(!scene.wall->prestress().empty())) return unloaded;
+    const auto first = whole_field(*share, scene.wall->prestress(), n);
+    for (std::size_t i = 0; i < first.size(); ++i) unloaded[i / n][scene.axes[i % n]] -= first[i];
+    return unloaded;
+  }
+
+  void update_copies(WallStresses& all) const {
+    const Exchange& exchange = wall_.nodes().share->exchange;
+    std::vector<double> numbers;
+    numbers.reserve(9 * all.cauchy.size());
+    for (const auto& stress : all.cauchy)
+      for (int i = 0; i < 9; ++i) numbers.push_back(stress(i / 3, i % 3));
+    exchange.update(numbers, 9);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      all.cauchy[i / 9](static_cast<int>(i % 9) / 3, static_cast<int>(i % 9) % 3) = numbers[i];
+    for (auto& family : all.of_fibres)
+      if (has_fibres()) exchange.update(family);
+  }
+
   template <class Law>
   void add(const Law& law, const StressLayer& layer, const std::vector<double>& wall, WallStresses& all) const {
     const auto& nodes = layer.gradients.nodes();
+    std::vector<double> buffer;
+    const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
     for (std::size_t first = 0; first < nodes.size(); first += pack_width) {
       const std::size_t filled = std::min<std::size_t>(pack_width, nodes.size() - first);
       Mat3<Pack> grad_d;
@@ -147,13 +184,13 @@ class WallStressOf : public WallStress<Element::components> {
       for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t i = first + std::min(lane, filled - 1);
         const auto l = static_cast<int>(lane);
-        const auto h = layer.gradients.gradient<Mixed>(i, wall);
+        const auto h = layer.gradients.gradient<Mixed>(i, reached);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) grad_d(r, c).set(l, h(r, c));
         pressure.set(l, wall[Mixed::scalar(nodes[i])]);
         for (int family = 0; family < 2; ++family)
           for (int k = 0; k < 3; ++k)
-            fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
+            fibres.direction[family][k].set(l, !layer.has_fibres ? 0.0 : layer.fibres[i][family][k]);
       }
       const Mat3<Pack> piola = piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
       const Deformation<Pack> f = deformation(grad_d);
@@ -167,7 +204,7 @@ class WallStressOf : public WallStress<Element::components> {
         for (int r = 0; r < 3; ++r)  // symmetric but for rounding
           for (int c = 0; c < 3; ++c) sigma(r, c) = 0.5 * (cauchy(r, c)[l] + cauchy(c, r)[l]);
         all.cauchy[node] = all.cauchy[node] + share_[node] * sigma;
-        if (layer.fibres.empty()) continue;
+        if (!layer.has_fibres) continue;
         for (std::size_t family = 0; family < 2; ++family) {
           Vec3<double> a{};
           for (int r = 0; r < 3; ++r)
@@ -189,13 +226,14 @@ class WallStressOf : public WallStress<Element::components> {
 
 template <class Element>
 std::unique_ptr<WallStress<Element::components>> make_wall_stress(const Case& setup, const MeshOf<Element>& mesh,
-                                                                  const Scene<Element::components>& scene) {
-  return std::make_unique<WallStressOf<Element>>(setup, mesh, scene);
+                                                                  const Scene<Element::components>& scene,
+                                                                  const WholeParts<Element>& whole) {
+  return std::make_unique<WallStressOf<Element>>(setup, mesh, scene, whole);
 }
 
 #define FSI_INSTANTIATE(Element)                                                       \
   template std::unique_ptr<WallStress<Element::components>> make_wall_stress<Element>( \
-      const Case&, const MeshOf<Element>&, const Scene<Element::components>&);
+      const Case&, const MeshOf<Element>&, const Scene<Element::components>&, const WholeParts<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

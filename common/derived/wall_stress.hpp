@@ -7,6 +7,7 @@
 #include "case/case.hpp"
 #include "math/tensor.hpp"
 #include "scene/boundary_conditions.hpp"
+#include "scene/build_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace fsi {
@@ -20,7 +21,8 @@ struct WallStresses {
 /// The Cauchy stress of the wall, sigma = P F^T / J with the first Piola-Kirchhoff stress P = F S' - p J F^-T of its
 /// weak form, from displacement gradients recovered at the vertices and the pressure there (docs/theory.md, section 11a).
 /// Gradients are recovered on the cells of one layer. Where layers have vertices of their own, each has its own stress;
-/// a vertex that layers share has their mean.
+/// a vertex that layers share has their mean. All processes that share the wall ask together, and each gets the stresses at
+/// all its nodes, copies too.
 template <int n>
 class WallStress {
  public:
@@ -30,9 +32,11 @@ class WallStress {
   virtual bool has_fibres() const = 0;
 };
 
-/// \param mesh  that the scene was built on
+/// \param mesh   that the scene was built on
+/// \param whole  parts of a mesh that is shared out; empty: the scene has them
 template <class Element>
 std::unique_ptr<WallStress<Element::components>> make_wall_stress(const Case& setup, const MeshOf<Element>& mesh,
-                                                                  const Scene<Element::components>& scene);
+                                                                  const Scene<Element::components>& scene,
+                                                                  const WholeParts<Element>& whole = {});
 
 }  // namespace fsi

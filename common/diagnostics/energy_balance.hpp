@@ -11,19 +11,24 @@ namespace fsi {
 
 /// Follows the energy of a scene from step to step (docs/energy.md). Reads states and balances only: it can change no
 /// solution. What it keeps of the last step it can make again of a restored state, bit for bit.
+///
+/// Processes that share a scene call it together. Each sums over the elements, facets and nodes that it counts, and the
+/// parts of a record are added up here, once a step: what others sum up themselves goes into that of the first process.
 template <int n>
 class EnergyBalance {
  public:
   /// \param state  the one that the next step starts from
-  EnergyBalance(const Scene<n>& scene, const State& state) : scene_(scene) {
+  EnergyBalance(const Scene<n>& scene, const State& state) : scene_(scene), quadratic_(parts_of(scene).quadratic) {
     keep(state);
-    energy_ = energies(state).energy();
+    EnergyRecord record = energies(state);
+    sum_over(scene_.processes(), record);
+    energy_ = record.energy();
   }
 
   /// What of it a scene has.
   static EnergyParts parts_of(const Scene<n>& scene) {
-    EnergyParts parts{scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(), quadratic(scene),
-                      scene.fluid && scene.fluid->stabilises_backflow()};
+    EnergyParts parts{scene.fluid != nullptr, scene.wall != nullptr, !scene.is_static(),
+                      scene.processes().any(quadratic(scene)), scene.fluid && scene.fluid->stabilises_backflow()};
     if (const auto* supports = scene.wall ? scene.wall->supports() : nullptr) {
       parts.springs = supports->has_springs();
       parts.dampers = supports->has_dampers();
@@ -44,7 +49,8 @@ class EnergyBalance {
       add(state, balance, rates.weight, rates.step, wall_before, record);
       wall_before = &balance.at.wall;
     }
-    if (quadratic(scene_)) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
+    sum_over(scene_.processes(), record);
+    if (quadratic_) record.fluid_quadrature -= record.outlet_kinetic - record.inlet_kinetic;
     record.remainder =
         record.supply() - (record.energy() - energy_) - record.viscous - record.damping - record.numerical();
     record.remainder -= record.backflow;
@@ -54,7 +60,7 @@ class EnergyBalance {
   }
 
  private:
-  /// Whether there are nodes without pressure. Linear elements integrate convection exactly, also where they move.
+  /// Whether there are nodes without pressure here. Linear elements integrate convection exactly, also where they move.
   static bool quadratic(const Scene<n>& scene) {
     for (int a = 0; scene.fluid && a < scene.fluid->node_count(); ++a)
       if (!scene.fluid->space().carries_scalar(a)) return true;
@@ -68,7 +74,7 @@ class EnergyBalance {
     again_ = scene_.integrator->balance_again(state);
   }
 
-  /// Energies of the last level, with pressures of the last balance.
+  /// Energies of the last level, with pressures of the last balance: this process's part.
   EnergyRecord energies(const State& state) const {
     EnergyRecord record;
     const Solution& level = state.before[0];
@@ -112,33 +118,37 @@ class EnergyBalance {
     record.fluid_mesh_motion += work.mesh_motion;
     record.fluid_divergence += work.divergence;
     record.fluid_stabilisation += work.stabilisation;
-    if (quadratic(scene_)) record.fluid_quadrature += work.convection;
+    if (quadratic_) record.fluid_quadrature += work.convection;
+    // Integrals over openings are those of all processes.
+    const double share = scene_.processes().is_first() ? in.duration : 0;
     const auto& open = scene_.fluid->open_boundaries();
     const auto& pressures = balance.data.opening_pressures;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      const double kinetic = in.duration * scene_.fluid->kinetic_outflow(open[i], balance.at.fluid);
+      const double kinetic = share * scene_.fluid->kinetic_outflow(open[i], balance.at.fluid);
       if (open[i].name() == group::inlet)
         record.inlet_kinetic -= kinetic;
       else
         record.outlet_kinetic += kinetic;
       const double pressure = open[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in.balance);
-      if (pressure != 0) record.inlet_work -= in.duration * pressure * open[i].outflow(balance.at.fluid);
+      if (pressure != 0) record.inlet_work -= share * pressure * open[i].outflow(balance.at.fluid);
     }
     if (!scene_.inflows.empty()) record.inlet_work += in.duration * inflow_power(balance);
   }
 
-  /// Of the forces that make the velocities at openings whose flow is given, uJ/ms: the rows of the equations there are
-  /// what these forces are.
+  /// Of the forces that make the velocities at openings whose flow is given, at own nodes, uJ/ms: the rows of the
+  /// equations there are what these forces are.
   double inflow_power(const Balance& balance) const {
     std::vector<double> rows;
     scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures, rows);
     double power = 0;
     for (const auto& inflow : scene_.inflows)
-      for (const int node : inflow.nodes())
+      for (const int node : inflow.nodes()) {
+        if (!scene_.fluid->nodes().owns(node)) continue;
         for (int k = 0; k < n; ++k) {
           const std::size_t at = MixedLayout<n>::vector(node, k);
           power += rows[at] * balance.at.fluid[at];
         }
+      }
     return power;
   }
 
@@ -176,6 +186,7 @@ class EnergyBalance {
   }
 
   const Scene<n>& scene_;
+  bool quadratic_;
   double energy_ = 0;                  ///< at the last step's end
   std::vector<double> wall_before_;    ///< at the last balance
   std::vector<double> wall_velocity_;  ///< at the last step's end

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstring>
+#include <type_traits>
+
+#include "parallel/communicator.hpp"
+
 namespace fsi {
 
 /// Energy balance of one step: a row of energy.csv, docs/energy.md. Everything in uJ = mm^3 kPa. Energies are those at
@@ -34,6 +40,17 @@ struct EnergyRecord {
            wall_inertia + wall_stress + wall_stabilisation + support_springs;
   }
 };
+
+/// Of each process's part of a record the sum, at all of them: each number by itself, all in one message.
+inline void sum_over(const Communicator& processes, EnergyRecord& record) {
+  if (processes.is_alone()) return;
+  static_assert(std::is_trivially_copyable_v<EnergyRecord> && sizeof(EnergyRecord) % sizeof(double) == 0,
+                "nothing but numbers");
+  std::array<double, sizeof(EnergyRecord) / sizeof(double)> numbers;
+  std::memcpy(numbers.data(), &record, sizeof record);
+  processes.sum(numbers.data(), numbers.size());
+  std::memcpy(static_cast<void*>(&record), numbers.data(), sizeof record);
+}
 
 /// What of it a scene has.
 struct EnergyParts {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,16 @@ struct Extreme {
   double value;
   Point where;
 };
+
+/// Of each process's the one that comes first, `less` telling which of two values does; of several the first process's.
+template <class Less>
+Extreme first_of(const Communicator& processes, const Extreme& mine, Less less) {
+  const auto all = processes.gather(std::vector<double>{mine.value, mine.where[0], mine.where[1], mine.where[2]});
+  std::size_t first = 0;
+  for (std::size_t at = 4; at < all.size(); at += 4)
+    if (less(all[at], all[first])) first = at;
+  return {all[first], {all[first + 1], all[first + 2], all[first + 3]}};
+}
 
 /// Positions of the nodes after their displacement; `stride` numbers per node, the components along `axes`.
 template <std::size_t n>
@@ -67,33 +78,42 @@ std::string remedy_of(MeshMotionMethod method) {
   return {};
 }
 
+/// The smallest J of a mesh displacement and the centre of the cell that it is in. NaN where one is.
+template <int n>
+Extreme smallest_volume_ratio(const Scene<n>& scene, const std::vector<double>& mesh) {
+  const AssemblyResult here = scene.smallest_volume_ratio(mesh);
+  Extreme smallest{here.smallest_volume_ratio, {0, 0, 0}};
+  if (here.cell >= 0) {
+    const auto vertices = scene.fluid->cell_vertices();
+    const auto& at_rest = scene.fluid->nodes().nodes;
+    for (int a = 0; a <= n; ++a)
+      smallest.where = smallest.where + (1.0 / (n + 1)) * at_rest[vertices[here.cell * (n + 1) + a]];
+  }
+  return first_of(scene.processes(), smallest,
+                  [](double a, double b) { return !std::isnan(b) && (std::isnan(a) || a < b); });
+}
+
 /// Of an element that the mesh motion is about to fold: it is small at the last level, or would be folded at the next
 /// one if the mesh went on as in the last step.
 template <int n>
 std::string mesh_hint(const Case& setup, const Scene<n>& scene, const State& state, const AxisFrame& frame) {
   const auto &now = state.before[0].mesh, &last = state.before[1].mesh;
-  AssemblyResult smallest = scene.smallest_volume_ratio(now);
-  const bool small = !(smallest.smallest_volume_ratio > squeezed);
+  Extreme smallest = smallest_volume_ratio(scene, now);
+  const bool small = !(smallest.value > squeezed);
   if (!small) {
     std::vector<double> next(now.size());
     for (std::size_t i = 0; i < next.size(); ++i) next[i] = 2 * now[i] - last[i];
-    const AssemblyResult then = scene.smallest_volume_ratio(next);
-    if (!then.inverted()) return {};
-    smallest.cell = then.cell;
+    const Extreme then = smallest_volume_ratio(scene, next);
+    if (then.value > 0) return {};
+    smallest.where = then.where;
   }
-  if (smallest.cell < 0) return {};
-  const auto vertices = scene.fluid->cell_vertices();
-  const auto& at_rest = scene.fluid->nodes().nodes;
-  Point centre{0, 0, 0};
-  for (int a = 0; a <= n; ++a) centre = centre + (1.0 / (n + 1)) * at_rest[vertices[smallest.cell * (n + 1) + a]];
-  const std::string what = !small ? "folds as the wall moves on"
-                           : smallest.inverted()
-                               ? "is folded"
-                               : fmt::format("has {:.2g} % of its volume left", 100 * smallest.smallest_volume_ratio);
+  const std::string what = !small               ? "folds as the wall moves on"
+                           : smallest.value > 0 ? fmt::format("has {:.2g} % of its volume left", 100 * smallest.value)
+                                                : "is folded";
   return fmt::format(
       "a mesh element of the fluid near z = {:.1f} mm {}: the mesh cannot follow this motion much "
       "further{}",
-      frame.axial(centre), what, remedy_of(setup.mesh_motion.method));
+      frame.axial(smallest.where), what, remedy_of(setup.mesh_motion.method));
 }
 
 /// What is known of a wall that gave way.
@@ -154,8 +174,10 @@ std::string failure_hint(const Case& setup, const Scene<n>& scene, const Loads& 
     const auto& at_rest = scene.wall->nodes().nodes;
     std::array<Extreme, 3> levels;
     for (int k = 0; k < 3; ++k)
-      levels[k] = largest_stretch(vertices, per_cell, at_rest,
-                                  moved(at_rest, state.before[k].wall, MixedLayout<n>::entries, scene.axes));
+      levels[k] = first_of(scene.processes(),
+                           largest_stretch(vertices, per_cell, at_rest,
+                                           moved(at_rest, state.before[k].wall, MixedLayout<n>::entries, scene.axes)),
+                           [](double a, double b) { return a > b; });
     WallAtFailure wall{levels[0]};
     wall.growing = state.step >= 3 && levels[0].value > levels[1].value && levels[1].value > levels[2].value &&
                    levels[2].value > already_stretched;

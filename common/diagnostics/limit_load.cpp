@@ -26,16 +26,19 @@ struct TubeLayer {
   }
 };
 
-TubeLayer measure(const LayerData& data, const std::vector<Point>& points, const AxisFrame& frame) {
+TubeLayer measure(const LayerData& data, const PartNodes& wall, const AxisFrame& frame) {
   TubeLayer layer;
   layer.volume = data.volume;
   for (const int node : data.nodes) {
-    const double radius = frame.radius(points[node]), along = frame.axial(points[node]);
+    const double radius = frame.radius(wall.nodes[node]), along = frame.axial(wall.nodes[node]);
     layer.inner = std::min(layer.inner, radius);
     layer.outer = std::max(layer.outer, radius);
     layer.first = std::min(layer.first, along);
     layer.last = std::max(layer.last, along);
   }
+  const Communicator& processes = wall.processes();
+  for (double* lowest : {&layer.inner, &layer.first}) *lowest = processes.smallest(*lowest);
+  for (double* highest : {&layer.outer, &layer.last}) *highest = processes.largest(*highest);
   return layer;
 }
 
@@ -48,7 +51,7 @@ std::optional<double> tube_limit_load(const StructureData& data, const Wall<n>& 
   for (const LayerData& measured : wall.layer_data()) {
     const auto modulus = inflation_modulus(measured.material);
     if (!modulus) return std::nullopt;
-    const TubeLayer layer = measure(measured, wall.nodes().nodes, frame);
+    const TubeLayer layer = measure(measured, wall.nodes(), frame);
     if (!layer.is_tube()) return std::nullopt;
     limit += *modulus * std::log(layer.outer / layer.inner);
   }

@@ -357,15 +357,8 @@ class Run {
   /// Names a pressure that alternates from step to step, once, and keeps the largest of it.
   void watch_ringing(Console& console, RunLog& log) {
     if (scene_->is_static() || loaded_.points.centre_line.empty()) return;
-    const auto& at = state_.last_balance().fluid;
     // On the centre line: at the rim of the inlet, where the pressure is singular, nodes always tremble.
-    std::vector<double> pressures;
-    for (const NodalSample& sample : loaded_.points.centre_line) {
-      double pressure = 0;
-      for (std::size_t a = 0; a < sample.nodes.size(); ++a)
-        pressure += sample.weights[a] * at[MixedLayout<n>::scalar(sample.nodes[a])];
-      pressures.push_back(pressure);
-    }
+    const auto pressures = observables_.centre_line_pressure(state_.last_balance().fluid);
     const auto amplitude = ringing_->look(state_.has_balances() ? state_.balance_times[0] : state_.time, pressures);
     if (loads_.axis().jumps_at(state_.time)) ringing_->restart();
     if (!amplitude || *amplitude <= ringing_amplitude_) return;

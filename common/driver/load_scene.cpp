@@ -16,6 +16,7 @@
 #include "driver/observation_points.hpp"
 #include "driver/prestress.hpp"
 #include "driver/requested_samples.hpp"
+#include "driver/shared_samples.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "mesh/artery/curved_edges.hpp"
@@ -228,21 +229,26 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   LoadedScene<Element::components> loaded;
   loaded.mesh = {mesh_name(setup), hash_of_mesh(mesh), mesh.nodes.size(), mesh.cells.size(),
                  Element::dim == 3 ? "tetrahedra" : "triangles"};
+  // Processes find on the whole mesh what each then keeps of its share: that is all that is left after this routine.
   MeshShare share;
   WholeParts<Element> whole;
   if (!processes.is_alone()) share = share_mesh(mesh, processes);
   loaded.scene =
       processes.is_alone() ? build_scene<Element>(setup, mesh) : build_scene<Element>(setup, mesh, &share, &whole);
   if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
-  loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene);
+  loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene, whole);
   const auto& scene = *loaded.scene;
-  VesselParts<Element> parts;
-  if (scene.fluid) parts.fluid = &static_cast<FluidProblem<Element>&>(*scene.fluid).part();
-  if (scene.wall) parts.wall = &static_cast<WallProblem<Element>&>(*scene.wall).part();
+  VesselParts<Element> here;
+  if (scene.fluid) here.fluid = &static_cast<FluidProblem<Element>&>(*scene.fluid).part();
+  if (scene.wall) here.wall = &static_cast<WallProblem<Element>&>(*scene.wall).part();
+  VesselParts<Element> parts = here;
+  if (whole.fluid) parts.fluid = whole.fluid.get();
+  if (whole.wall) parts.wall = whole.wall.get();
   loaded.points = observation_points<Element>(setup, mesh, parts, mesh_source(setup));
   loaded.points.requested = requested_samples<Element>(setup, mesh, parts, loaded.points);
   if (const auto slip = unit_slip_of_mesh(setup, widest_opening<Element>(setup, mesh)))
     loaded.points.warnings.push_back(mesh_source(setup) + ": " + *slip);
+  if (!processes.is_alone()) restrict_samples(whole.fluid_here.get(), whole.wall_here.get(), here.fluid, loaded.points);
   add_grid("fluid", setup, parts.fluid, whole.fluid.get(), loaded);
   add_grid("wall", setup, parts.wall, whole.wall.get(), loaded);
   return loaded;

@@ -31,12 +31,13 @@ struct LoadedScene {
   std::unique_ptr<Scene<n>> scene;
   ObservationPoints points;
   DerivedQuantities<n> derived;         ///< refers to the scene
-  std::vector<FieldGrid> grids;         ///< of fluid and wall, where they are, without fields
+  std::vector<FieldGrid> grids;         ///< of fluid and wall here, where they are, without fields
   std::vector<GridShare> grid_shares;   ///< of each, where processes share the scene out
   std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };
 
-/// Reads or makes the mesh of a case, checks it and builds the scene on it.
+/// Reads or makes the mesh of a case, checks it and builds the scene on it. Of several processes each has its share of the
+/// scene; the whole mesh is there no longer.
 /// \tparam n          2 for plane and axisymmetric scenes, 3 otherwise: components_of(setup)
 /// \param mesh_known  called with the number of cells before the scene is built
 /// \throws InputError

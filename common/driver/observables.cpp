@@ -35,23 +35,19 @@ template <int n>
 typename Observables<n>::Seen Observables<n>::look(const State& level) const {
   using Mixed = MixedLayout<n>;
   Seen seen;
-  seen.pressure.resize(points_.centre_line.size(), 0.0);
-  for (std::size_t i = 0; i < seen.pressure.size(); ++i) {
-    const NodalSample& sample = points_.centre_line[i];
-    for (std::size_t a = 0; a < sample.nodes.size(); ++a)
-      seen.pressure[i] += sample.weights[a] * level.now.fluid[Mixed::scalar(sample.nodes[a])];
-  }
+  seen.pressure = centre_line_part(level.now.fluid);
   if (scene_.fluid) {
     const auto *inlet = scene_.fluid->open_boundary(group::inlet), *outlet = scene_.fluid->open_boundary(group::outlet);
     const auto& fluid = level.now.fluid;
     seen.flow = {inlet ? -inlet->outflow(fluid) : 0.0, outlet ? outlet->outflow(fluid) : 0.0,
                  inlet ? inlet->mean_pressure(fluid) : 0.0, outlet ? outlet->mean_pressure(fluid) : 0.0};
   }
-  if (points_.wall_line.empty()) return seen;
-  const AxisFrame frame(points_.axis);
+  const AxisFrame frame(points_.wall_line.empty() ? Axis{} : points_.axis);  // of plane scenes there may be none
   const int angles = points_.angles;
-  seen.radial.resize(points_.wall_z.size(), 0.0);
-  seen.axial.resize(points_.wall_z.size(), 0.0);
+  if (!points_.wall_line.empty()) {
+    seen.radial.resize(points_.wall_z.size(), 0.0);
+    seen.axial.resize(points_.wall_z.size(), 0.0);
+  }
   for (std::size_t i = 0; i < points_.wall_line.size(); ++i) {
     const InnerWallSample& sample = points_.wall_line[i];
     for (std::size_t a = 0; a < sample.at.nodes.size(); ++a)
@@ -61,7 +57,29 @@ typename Observables<n>::Seen Observables<n>::look(const State& level) const {
         seen.axial[i / angles] += d * frame.along[scene_.axes[k]];
       }
   }
+  PartialSums sums;
+  for (auto* values : {&seen.pressure, &seen.radial, &seen.axial}) sums.include(*values);
+  seen.samples = samples_.rows(level, sums);
+  sums.add_up(scene_.processes());
   return seen;
+}
+
+template <int n>
+std::vector<double> Observables<n>::centre_line_part(const std::vector<double>& fluid) const {
+  std::vector<double> pressure(points_.centre_line.size(), 0.0);
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    const NodalSample& sample = points_.centre_line[i];
+    for (std::size_t a = 0; a < sample.nodes.size(); ++a)
+      pressure[i] += sample.weights[a] * fluid[MixedLayout<n>::scalar(sample.nodes[a])];
+  }
+  return pressure;
+}
+
+template <int n>
+std::vector<double> Observables<n>::centre_line_pressure(const std::vector<double>& fluid) const {
+  std::vector<double> pressure = centre_line_part(fluid);
+  scene_.processes().sum(pressure);
+  return pressure;
 }
 
 template <int n>
@@ -70,8 +88,8 @@ void Observables<n>::write(const State& state, ResultFolder& folder) const {
   if (!points_.centre_line.empty()) folder.write_centerline(state.time, points_.centre_z, seen.pressure);
   if (scene_.fluid) folder.write_flow(state.time, seen.flow);
   if (!points_.wall_line.empty()) folder.write_wall(state.time, points_.wall_z, seen.radial, seen.axial);
-  for (const SampledTable& table : samples_.tables())
-    folder.write_sampled(table, state.time, samples_.rows(table, state));
+  for (std::size_t i = 0; i < seen.samples.size(); ++i)
+    folder.write_sampled(samples_.tables()[i], state.time, seen.samples[i]);
 }
 
 template <int n>
@@ -108,9 +126,10 @@ void Observables<n>::require_same(const State& level, const EarlierTables& earli
   compare(wall_table(), 4, {{2, seen.radial}, {3, seen.axial}});
   compare(flow_table(), 5, {{1, in}, {2, out}});
   compare(flow_table(), 5, {{3, pressure_in}, {4, pressure_out}});
-  for (const SampledTable& table : samples_.tables()) {
+  for (std::size_t t = 0; t < seen.samples.size(); ++t) {
+    const SampledTable& table = samples_.tables()[t];
     const auto& before = earlier.last_level(table.file);
-    const auto now = samples_.rows(table, level);
+    const auto& now = seen.samples[t];
     std::map<int, std::pair<double, double>> by_kind;  // how far apart, largest
     for (std::size_t i = 0; i < before.size(); ++i) {
       const auto& value = now.at(i / table.kinds.size()).at(i % table.kinds.size());

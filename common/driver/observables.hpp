@@ -8,7 +8,7 @@
 namespace fsi {
 
 /// What the CSV tables show of a state: centre-line pressure, inner-wall displacement, flow, samples. Parts that a scene does
-/// not have cost nothing.
+/// not have cost nothing. Processes that share the scene look together, and all see the same.
 template <int n>
 class Observables {
  public:
@@ -16,6 +16,8 @@ class Observables {
 
   ResultTables tables() const;
   const ObservationPoints& points() const { return points_; }
+  /// kPa, at the points of the centre line. \param fluid  (u, p)
+  std::vector<double> centre_line_pressure(const std::vector<double>& fluid) const;
   /// Adds the rows of the state's current time level.
   void write(const State& state, ResultFolder& folder) const;
   /// Compares a level with the last rows of an earlier run's tables, which its checkpoint must reproduce.
@@ -28,8 +30,11 @@ class Observables {
     std::vector<double> pressure;       ///< kPa, on the centre line
     std::vector<double> radial, axial;  ///< mm, of the inner wall
     FlowRecord flow;
+    std::vector<std::vector<SampledRow>> samples;  ///< of each sampled table
   };
   Seen look(const State& level) const;
+  /// This process's part.
+  std::vector<double> centre_line_part(const std::vector<double>& fluid) const;
 
   const Scene<n>& scene_;
   ObservationPoints points_;

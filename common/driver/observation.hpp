@@ -9,7 +9,8 @@
 
 namespace fsi {
 
-/// Interpolation of a nodal field at one point: the sum of weights times the values at the nodes of a part.
+/// Interpolation of a nodal field at one point: the sum of weights times the values at the nodes of a part. Where the part
+/// is shared out among processes, each has the entries of its own nodes, and the value is the sum over the processes.
 struct NodalSample {
   std::vector<int> nodes;
   std::vector<double> weights;

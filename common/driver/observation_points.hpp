@@ -11,7 +11,7 @@
 
 namespace fsi {
 
-/// The parts of a mesh that a scene has problems on; null where there is none.
+/// The whole parts of a mesh that a scene has problems on; null where there is none.
 template <class Element>
 struct VesselParts {
   const PartOf<Element>* fluid = nullptr;

@@ -84,8 +84,9 @@ template <int n>
 std::vector<SampledRow> SampleTables<n>::rows(const SampledTable& table, const State& level) const {
   std::vector<SampledRow> rows;
   if (table.file == planes_file) {
-    for (const SampledPlane& plane : samples_.planes) {
-      const PlaneRow seen = plane.cut->look(level.now.mesh, level.now.fluid);
+    std::vector<const PlaneCut*> planes;
+    for (const SampledPlane& plane : samples_.planes) planes.push_back(plane.cut.get());
+    for (const PlaneRow& seen : look_at(planes, level.now.mesh, level.now.fluid, scene_.processes())) {
       rows.push_back({seen.flow, std::nullopt, seen.area});
       if (seen.area > 0) rows.back()[1] = pascal_per_kilopascal * seen.pressure;
     }
@@ -94,6 +95,19 @@ std::vector<SampledRow> SampleTables<n>::rows(const SampledTable& table, const S
       rows.push_back(row(sample, level));
   }
   return rows;
+}
+
+template <int n>
+std::vector<std::vector<SampledRow>> SampleTables<n>::rows(const State& level, PartialSums& sums) const {
+  std::vector<std::vector<SampledRow>> all;
+  for (const SampledTable& table : tables_) {
+    all.push_back(rows(table, level));
+    if (table.file == planes_file) continue;  // whole already
+    for (SampledRow& row : all.back())
+      for (auto& value : row)
+        if (value) sums.include(*value);
+  }
+  return all;
 }
 
 #define FSI_INSTANTIATE(n) template class SampleTables<n>;

@@ -4,6 +4,7 @@
 
 #include "driver/observation.hpp"
 #include "io/sampled_table.hpp"
+#include "parallel/partial_sums.hpp"
 #include "scene/scene.hpp"
 #include "time/state.hpp"
 
@@ -19,11 +20,13 @@ class SampleTables {
 
   /// In the order points, lines, planes; those without a sample are left out.
   const std::vector<SampledTable>& tables() const { return tables_; }
-  /// The rows of one of them at a level.
-  std::vector<SampledRow> rows(const SampledTable& table, const State& level) const;
+  /// The rows of each of them at a level. Processes that share the scene ask for them together: what they have to add up
+  /// goes into `sums`, and the rows are those of all processes when that is done.
+  std::vector<std::vector<SampledRow>> rows(const State& level, PartialSums& sums) const;
 
  private:
   void add(const char* file, const std::vector<SampledPoint>& samples, bool along_line);
+  std::vector<SampledRow> rows(const SampledTable& table, const State& level) const;
   SampledRow row(const SampledPoint& sample, const State& level) const;
 
   const Scene<n>& scene_;

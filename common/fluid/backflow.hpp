@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "fluid/fluid_input.hpp"
 #include "math/dual.hpp"
 #include "math/tensor.hpp"
+#include "mesh/submesh.hpp"
 
 namespace fsi {
 
@@ -43,16 +45,15 @@ class BackflowFacets {
   static constexpr int n = Element::components;
   static constexpr int facet_nodes = Element::Facet::nodes;
 
-  /// \param positions   of the fluid's nodes, mm
+  /// \param part        the fluid's nodes
   /// \param facets      their numbers, facet_nodes for each facet, normals outward
   /// \param graph       of the fluid's matrix
-  BackflowFacets(double coefficient, const std::vector<Point>& positions, const std::vector<int>& facets,
-                 const NodeGraph& graph)
+  BackflowFacets(double coefficient, const PartNodes& part, const std::vector<int>& facets, const NodeGraph& graph)
       : coefficient_(coefficient), packs_((facets.size() / facet_nodes + pack_width - 1) / pack_width) {
     for (std::size_t p = 0; p < packs_.size(); ++p)
       for (int lane = 0; lane < pack_width; ++lane) {
         const std::size_t first = (p * pack_width + static_cast<std::size_t>(lane)) * facet_nodes;
-        fill(packs_[p], lane, first < facets.size() ? &facets[first] : nullptr, facets.data(), positions, graph);
+        fill(packs_[p], lane, first < facets.size() ? &facets[first] : nullptr, facets.data(), part, graph);
       }
   }
 
@@ -67,7 +68,7 @@ class BackflowFacets {
       add_terms<Pack>(density, flow, residual, nullptr);
   }
 
-  /// What it takes from the flow, uJ/ms: beta rho <(u . n)_-, |u|^2>.
+  /// What it takes from the flow, uJ/ms: beta rho <(u . n)_-, |u|^2>, over the facets that sums count here.
   double power(double density, const double* flow) const {
     double sum = 0;
     for (const auto& pack : packs_) {
@@ -76,7 +77,8 @@ class BackflowFacets {
         const Vec3<Pack> u = velocity<Pack>(pack, flow, q);
         taken += dot(u, BackflowTraction{density, coefficient_}(u, pack.normal[q]));
       }
-      for (int lane = 0; lane < pack_width; ++lane) sum += taken[lane];
+      for (int lane = 0; lane < pack_width; ++lane)
+        if (pack.counted[lane]) sum += taken[lane];
     }
     return sum;
   }
@@ -90,17 +92,19 @@ class BackflowFacets {
     Lanes node[facet_nodes];
     Lanes position[facet_nodes * facet_nodes];  ///< of block (a, b); -1 in an empty lane
     Vec3<Pack> normal[Shapes::points];          ///< times weights, mm^2; zero in an empty lane
+    std::array<bool, pack_width> counted;       ///< by this process, in sums over facets
   };
 
-  static void fill(FacetPack& pack, int lane, const int* facet, const int* any, const std::vector<Point>& positions,
+  static void fill(FacetPack& pack, int lane, const int* facet, const int* any, const PartNodes& part,
                    const NodeGraph& graph) {
     typename Shapes::Positions x{};
     for (int a = 0; a < facet_nodes; ++a) {
       pack.node[a][lane] = facet ? facet[a] : any[a];
-      x[a] = positions[static_cast<std::size_t>(pack.node[a][lane])];
+      x[a] = part.nodes[static_cast<std::size_t>(pack.node[a][lane])];
       for (int b = 0; b < facet_nodes; ++b)
         pack.position[a * facet_nodes + b][lane] = facet ? graph.find(facet[a], facet[b]) : -1;
     }
+    pack.counted[lane] = facet && part.owns(*std::min_element(facet, facet + facet_nodes));  // PartRestriction::counts
     for (int q = 0; q < Shapes::points; ++q) {
       const Point normal = facet ? Shapes::weighted_normal(x, q) : Point{0, 0, 0};
       for (int i = 0; i < 3; ++i) pack.normal[q][i].set(lane, normal[i]);

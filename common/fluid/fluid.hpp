@@ -54,7 +54,8 @@ class Fluid {
   /// the matrix (system/low_rank_solver.hpp). Storage appears with the first request.
   virtual FluidJacobian<n>& jacobian(FluidDerivatives derivatives) = 0;
 
-  /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p).
+  /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p). Of the elements that sums count
+  /// here, as work() is of these and of the openings' facets.
   virtual double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const = 0;
   virtual FluidWork work(FluidStep step) const = 0;
   /// Kinetic energy that flows out through an open boundary, uJ/ms, for flow arrays (u, p).

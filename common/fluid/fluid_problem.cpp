@@ -44,7 +44,7 @@ void FluidProblem<Element>::stabilise_backflow(std::size_t open, double coeffici
   backflow_.erase(open);
   if (coefficient != 0)
     backflow_.emplace(open,
-                      BackflowFacets<Element>(coefficient, part_.nodes, open_.at(open).facets(), *space_.graph()));
+                      BackflowFacets<Element>(coefficient, part_, open_.at(open).facets(), *space_.graph()));
 }
 
 template <class Element>

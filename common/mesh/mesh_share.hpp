@@ -50,6 +50,8 @@ class PartRestriction {
   /// Here, of a node of the whole part; -1: not here.
   int local(int whole_node) const { return local_[whole_node]; }
   bool owns_whole(int whole_node) const { return local_[whole_node] >= 0 && share_->owned[local_[whole_node]] != 0; }
+  /// The process that owns it.
+  int owner(int whole_node) const { return mesh_.owner[whole_.mesh_node[whole_node]]; }
   const NodeShare& share() const { return *share_; }
 
   /// A nodal array of the whole part, `entries` numbers a node, as far as its nodes are here. An empty one stays empty.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fem/nodal_layout.hpp"
+#include "mesh/disjoint_sets.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/point_distance.hpp"
 #include "sampling/level_cut.hpp"
@@ -17,6 +18,23 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double rounding = 1e-12;  // of the part's size: nodes this near to the plane lie on it
+constexpr int most_vertices = 4;    // of a cell
+
+/// Integrals over some of the plane.
+struct Sums {
+  double flow = 0, area = 0;
+  double pressure = 0;  ///< times area
+};
+
+PlaneRow row_of(const Sums& sums) {
+  return {sums.flow, sums.area > 0 ? sums.pressure / sums.area : 0, sums.area};
+}
+
+/// What a process sees of a connected piece.
+struct SeenPiece {
+  double away = std::numeric_limits<double>::infinity();  ///< from the plane's origin, mm
+  Sums sums;
+};
 
 template <int Dim, int Order>
 class PlaneCutOf : public PlaneCut {
@@ -38,43 +56,113 @@ class PlaneCutOf : public PlaneCut {
 
   bool cuts_at_rest() const { return !cut_cells(distances(nodes_)).empty(); }
 
+  /// The plane of `other` through a share of its part: what is said of either side of it must hold for all of the part.
+  PlaneCutOf(const PlaneCutOf& other, const Part& here)
+      : nodes_(here.nodes),
+        cells_(here.cells),
+        here_(&here),
+        origin_(other.origin_),
+        normal_(other.normal_),
+        turned_(other.turned_),
+        side_(other.side_),
+        size_(other.size_),
+        axes_(other.axes_) {}
+
+  std::shared_ptr<const PlaneCut> through(const PartNodes& here) const override {
+    return std::make_shared<const PlaneCutOf>(*this, static_cast<const Part&>(here));
+  }
+
   PlaneRow look(const std::vector<double>& mesh, const std::vector<double>& fluid) const override {
-    std::vector<Point> moved;
-    if (!mesh.empty()) {
-      moved = nodes_;
-      for (std::size_t a = 0; a < moved.size(); ++a)
-        for (int k = 0; k < Dim; ++k) moved[a][axes_[k]] += mesh[VectorLayout<Dim>::vector(static_cast<int>(a), k)];
-    }
-    const auto& x = mesh.empty() ? nodes_ : moved;
-    const auto f = distances(x);
+    const auto x = moved(mesh);
+    const auto f = distances(*x);
     const auto cut = cut_cells(f);
-    PlaneRow row;
-    if (cut.empty()) return row;
+    if (cut.empty()) return {};
     const auto piece = pieces_of_cut<Dim, Order>(cells_, cut, [&](int cell) { return control_values(f, cell); });
-    const int chosen = nearest_piece(x, f, cut, piece);
-    double pressure = 0;
+    int chosen = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < cut.size(); ++k)
+      if (nearer(*x, f, cut[k], least)) chosen = piece[k];
+    Sums sums;
+    for (std::size_t k = 0; k < cut.size(); ++k)
+      if (piece[k] == chosen) add(*x, f, cut[k], fluid, sums);
+    return row_of(sums);
+  }
+
+  /// The number of pieces; of each how near it is and its sums over the cells that are counted here; the number of cut
+  /// cells that other processes have, too; of each the whole numbers of its vertices, and its piece.
+  void say(const std::vector<double>& mesh, const std::vector<double>& fluid,
+           std::vector<double>& said) const override {
+    const auto x = moved(mesh);
+    const auto f = distances(*x);
+    const auto cut = cut_cells(f);
+    const auto piece = pieces_of_cut<Dim, Order>(cells_, cut, [&](int cell) { return control_values(f, cell); });
+    std::vector<SeenPiece> seen(cut.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1);
+    std::vector<double> shared;
     for (std::size_t k = 0; k < cut.size(); ++k) {
-      if (piece[k] != chosen) continue;
+      nearer(*x, f, cut[k], seen[piece[k]].away);
+      if (here_->counted.empty() || here_->counted[cut[k]] != 0) add(*x, f, cut[k], fluid, seen[piece[k]].sums);
+      if (!here_->share) continue;
       const Cell& cell = cells_[cut[k]];
-      const Map map = map_of(x, cut[k]);
-      cut_cell<Dim, Order>(at_cell(f, cut[k]), [&](const CutPiece<Dim>& part) {
-        for_points_of<Dim, Order>(part, map, [&](const CutPoint<Dim>& point) {
-          const double weight = side_ * (turned_ ? 2 * pi * point.at[0] : 1);
-          const auto shape = Map::shape(point.place);
-          for (std::size_t a = 0; a < cell.size(); ++a)
-            for (int c = 0; c < Dim; ++c)
-              row.flow += weight * shape[a] * point.area[axes_[c]] * fluid[MixedLayout<Dim>::vector(cell[a], c)];
-          const double area = weight * dot(point.area, normal_);
-          row.area += area;
-          for (int a = 0; a <= Dim; ++a) pressure += area * point.place[a] * fluid[MixedLayout<Dim>::scalar(cell[a])];
-        });
-      });
+      if (std::all_of(cell.begin(), cell.end(), [&](int node) { return here_->owns(node); })) continue;
+      std::array<int, most_vertices> vertices;
+      vertices.fill(-1);
+      for (int a = 0; a <= Dim; ++a) vertices[a] = here_->share->whole_node[cell[a]];
+      shared.insert(shared.end(), vertices.begin(), vertices.end());
+      shared.push_back(piece[k]);
     }
-    if (row.area > 0) row.pressure = pressure / row.area;
-    return row;
+    said.push_back(static_cast<double>(seen.size()));
+    for (const SeenPiece& one : seen)
+      said.insert(said.end(), {one.away, one.sums.flow, one.sums.area, one.sums.pressure});
+    said.push_back(static_cast<double>(shared.size() / (most_vertices + 1)));
+    said.insert(said.end(), shared.begin(), shared.end());
   }
 
  private:
+  /// Where the nodes are now.
+  std::shared_ptr<const std::vector<Point>> moved(const std::vector<double>& mesh) const {
+    if (mesh.empty()) return {std::shared_ptr<void>(), &nodes_};
+    auto now = std::make_shared<std::vector<Point>>(nodes_);
+    for (std::size_t a = 0; a < now->size(); ++a)
+      for (int k = 0; k < Dim; ++k) (*now)[a][axes_[k]] += mesh[VectorLayout<Dim>::vector(static_cast<int>(a), k)];
+    return now;
+  }
+  /// Adds the part of the plane in a cell.
+  void add(const std::vector<Point>& x, const std::vector<double>& f, int number, const std::vector<double>& fluid,
+           Sums& to) const {
+    const Cell& cell = cells_[number];
+    const Map map = map_of(x, number);
+    cut_cell<Dim, Order>(at_cell(f, number), [&](const CutPiece<Dim>& part) {
+      for_points_of<Dim, Order>(part, map, [&](const CutPoint<Dim>& point) {
+        const double weight = side_ * (turned_ ? 2 * pi * point.at[0] : 1);
+        const auto shape = Map::shape(point.place);
+        for (std::size_t a = 0; a < cell.size(); ++a)
+          for (int c = 0; c < Dim; ++c)
+            to.flow += weight * shape[a] * point.area[axes_[c]] * fluid[MixedLayout<Dim>::vector(cell[a], c)];
+        const double area = weight * dot(point.area, normal_);
+        to.area += area;
+        for (int a = 0; a <= Dim; ++a) to.pressure += area * point.place[a] * fluid[MixedLayout<Dim>::scalar(cell[a])];
+      });
+    });
+  }
+  /// Whether the plane's origin is nearer to the cut of a cell than `least`, which is then set to that.
+  bool nearer(const std::vector<Point>& x, const std::vector<double>& f, int cell, double& least) const {
+    bool found = false;
+    const Map map = map_of(x, cell);
+    cut_cell<Dim, Order>(at_cell(f, cell), [&](const CutPiece<Dim>& part) {
+      const auto& c = part.corners;
+      double away = distance(origin_, map.at(c[0]));
+      double over = 0;  // not a number in pieces without extent
+      if constexpr (Dim == 3)
+        over = distance_to_triangle(origin_, map.at(c[0]), map.at(c[1]), map.at(c[2]));
+      else
+        over = distance_to_segment(origin_, map.at(c[0]), map.at(c[1]));
+      if (over < away) away = over;
+      if (away >= least) return;
+      least = away;
+      found = true;
+    });
+    return found;
+  }
   Map map_of(const std::vector<Point>& x, int cell) const {
     Map map;
     for (std::size_t i = 0; i < map.x.size(); ++i) map.x[i] = x[cells_[cell][i]];
@@ -115,31 +203,10 @@ class PlaneCutOf : public PlaneCut {
     }
     return cut;
   }
-  int nearest_piece(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
-                    const std::vector<int>& piece) const {
-    int nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < cut.size(); ++k) {
-      const Map map = map_of(x, cut[k]);
-      cut_cell<Dim, Order>(at_cell(f, cut[k]), [&](const CutPiece<Dim>& part) {
-        const auto& c = part.corners;
-        double away = distance(origin_, map.at(c[0]));
-        double over = 0;  // not a number in pieces without extent
-        if constexpr (Dim == 3)
-          over = distance_to_triangle(origin_, map.at(c[0]), map.at(c[1]), map.at(c[2]));
-        else
-          over = distance_to_segment(origin_, map.at(c[0]), map.at(c[1]));
-        if (over < away) away = over;
-        if (away >= least) return;
-        least = away;
-        nearest = piece[k];
-      });
-    }
-    return nearest;
-  }
 
   const std::vector<Point>& nodes_;  ///< of the part
   const std::vector<Cell>& cells_;
+  const Part* here_ = nullptr;  ///< of a share of the part
   Point origin_, normal_;
   bool turned_;
   double side_ = 1, size_ = 0;
@@ -147,6 +214,62 @@ class PlaneCutOf : public PlaneCut {
 };
 
 }  // namespace
+
+std::vector<PlaneRow> look_at(const std::vector<const PlaneCut*>& planes, const std::vector<double>& mesh,
+                              const std::vector<double>& fluid, const Communicator& processes) {
+  if (!processes.is_alone()) return rows_of_messages(processes.gather(message_on(planes, mesh, fluid)), planes.size());
+  std::vector<PlaneRow> rows;
+  for (const PlaneCut* plane : planes) rows.push_back(plane->look(mesh, fluid));
+  return rows;
+}
+
+std::vector<double> message_on(const std::vector<const PlaneCut*>& planes, const std::vector<double>& mesh,
+                               const std::vector<double>& fluid) {
+  std::vector<double> message{0};
+  for (const PlaneCut* plane : planes) plane->say(mesh, fluid, message);
+  message[0] = static_cast<double>(message.size());
+  return message;
+}
+
+std::vector<PlaneRow> rows_of_messages(const std::vector<double>& messages, std::size_t planes) {
+  std::vector<std::size_t> at;  // per process, where it goes on
+  for (std::size_t first = 0; first < messages.size(); first += static_cast<std::size_t>(messages[first]))
+    at.push_back(first + 1);
+  using SharedCell = std::array<int, most_vertices + 1>;  // vertices, piece among those of all processes
+  std::vector<PlaneRow> rows;
+  for (std::size_t plane = 0; plane < planes; ++plane) {
+    std::vector<SeenPiece> seen;
+    std::vector<SharedCell> shared;
+    for (std::size_t& next : at) {
+      const int first = static_cast<int>(seen.size());
+      for (auto count = static_cast<std::size_t>(messages[next++]); count > 0; --count, next += 4)
+        seen.push_back({messages[next], {messages[next + 1], messages[next + 2], messages[next + 3]}});
+      for (auto count = static_cast<std::size_t>(messages[next++]); count > 0; --count) {
+        SharedCell cell;
+        for (int& number : cell) number = static_cast<int>(messages[next++]);
+        cell.back() += first;
+        shared.push_back(cell);
+      }
+    }
+    std::sort(shared.begin(), shared.end());
+    DisjointSets sets(seen.size());
+    for (std::size_t i = 1; i < shared.size(); ++i)
+      if (std::equal(shared[i].begin(), shared[i].end() - 1, shared[i - 1].begin()))
+        sets.join(shared[i].back(), shared[i - 1].back());
+    int nearest = 0;
+    for (std::size_t i = 1; i < seen.size(); ++i)
+      if (seen[i].away < seen[nearest].away) nearest = static_cast<int>(i);
+    Sums sums;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (sets.root(static_cast<int>(i)) != sets.root(nearest)) continue;
+      sums.flow += seen[i].sums.flow;
+      sums.area += seen[i].sums.area;
+      sums.pressure += seen[i].sums.pressure;
+    }
+    rows.push_back(row_of(sums));
+  }
+  return rows;
+}
 
 template <int Dim, int Order>
 std::shared_ptr<const PlaneCut> plane_cut(const Submesh<Dim, Order>& part, const Point& origin, const Point& normal,

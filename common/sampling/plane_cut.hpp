@@ -22,13 +22,32 @@ struct PlaneRow {
 ///
 /// Straight cells are cut by the plane itself; curved ones by a surface near it (cut_cell) whose pieces meet from cell to
 /// cell and whose rim lies on the curved wall, so that the flow of a velocity without divergence is not changed by it.
+///
+/// Where the part is shared out among processes, a piece may run through several of them. Each says what it sees of the
+/// pieces, and all make the row of what all have said: pieces of two processes are one where both have the same cell.
 class PlaneCut {
  public:
   virtual ~PlaneCut() = default;
+  /// Of a part that is whole here.
   /// \param mesh   displacement of the fluid's nodes, vectors; empty: they do not move
   /// \param fluid  (u, p)
   virtual PlaneRow look(const std::vector<double>& mesh, const std::vector<double>& fluid) const = 0;
+
+  /// The same plane through the share of the part that a process holds. \param here  must outlive what is returned
+  virtual std::shared_ptr<const PlaneCut> through(const PartNodes& here) const = 0;
+  /// Of such a share: adds to `said` what its process sees of the plane.
+  virtual void say(const std::vector<double>& mesh, const std::vector<double>& fluid,
+                   std::vector<double>& said) const = 0;
 };
+
+/// The rows of planes through one part, in their order. Processes that share the part out ask for them together, in one
+/// message. Parameters as in PlaneCut::look().
+std::vector<PlaneRow> look_at(const std::vector<const PlaneCut*>& planes, const std::vector<double>& mesh,
+                              const std::vector<double>& fluid, const Communicator& processes);
+/// The message of one process to the others in it, and what all of them, one after the other, say.
+std::vector<double> message_on(const std::vector<const PlaneCut*>& planes, const std::vector<double>& mesh,
+                               const std::vector<double>& fluid);
+std::vector<PlaneRow> rows_of_messages(const std::vector<double>& messages, std::size_t planes);
 
 /// \param part    the fluid; must outlive what is returned
 /// \param normal  of any length; of triangle parts its component in their plane counts, which must not be zero

@@ -121,7 +121,7 @@ std::vector<HeldSurface<Element::components>> surfaces_held_by_supports(const Ca
 template <class Element>
 void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
                   const PartRestriction* here, WallProblem<Element>& wall) {
-  auto supports = std::make_unique<WallSupports<Element::components>>(*wall.graph());
+  auto supports = std::make_unique<WallSupports<Element::components>>(*wall.graph(), wall.nodes().share);
   const auto& x = wall.nodes().nodes;
   const auto facets_of = [&](const std::string& surface) {
     auto facets = in_part<Element>(part, group_facets(mesh, surface));

@@ -73,7 +73,7 @@ SupportWork WallSupports<n>::work(const WallStep& step) const {
   SupportWork work;
   work.damping =
       step.balance.velocity_rate * dampers_.product(moved.data(), difference(d, step.reference, 1, size).data());
-  if (has_springs())  // differences first, free of cancellation: omega (d_1 . K d_1 - d_0 . K d_0) / 2
+  if (!springs_.entries.empty())  // differences first, free of cancellation: omega (d_1 . K d_1 - d_0 . K d_0) / 2
     work.springs = springs_.product(moved.data(), d) -
                    0.5 * step.weight *
                        (springs_.product(difference(step.end, step.start, 1, size).data(), step.end) +
@@ -82,7 +82,8 @@ SupportWork WallSupports<n>::work(const WallStep& step) const {
     std::vector<double> force(size, 0.0);
     for (std::size_t i = 0; i < loads_.size(); ++i)
       if (step.balance.support_loads[i] != 0) loads_[i](step.balance.support_loads[i], d, force, nullptr);
-    for (std::size_t i = 0; i < size; ++i) work.loads -= force[i] * moved[i];
+    for (std::size_t i = 0; i < size; ++i)
+      if (!share_ || share_->owned[i / Mixed::entries] != 0) work.loads -= force[i] * moved[i];
   }
   return work;
 }

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "fem/facet_load.hpp"
 #include "mesh/simplex_mesh.hpp"
+#include "parallel/node_share.hpp"
 #include "wall/wall_input.hpp"
 
 namespace fsi {
@@ -17,7 +19,8 @@ struct Bedding {
   bool is_none() const { return full == 0 && normal == 0; }
 };
 
-/// What the supports do in one balance of a step, tested with its velocity for its duration; uJ (docs/energy.md).
+/// What the supports do in one balance of a step, tested with its velocity for its duration; uJ (docs/energy.md). Of a
+/// wall that is shared out among processes, what they do to this one's nodes.
 struct SupportWork {
   double loads = 0;    ///< of pressures and tractions
   double damping = 0;  ///< (C v, v) of the dampers
@@ -27,6 +30,9 @@ struct SupportWork {
 /// What holds and loads surfaces of the wall from outside, vectors with n components (docs/theory.md, section 4.5). With
 /// the displacement d, its velocity v, normals N and n at rest and now (out of the wall) the wall's residual gets
 ///   (k d + k_n (d . N) N + c v + c_n (v . N) N - t, w) on the surface at rest + (p n, w) on the current one.
+///
+/// Where the wall is shared out among processes, facets are those that touch an own node, and energies and works those
+/// of own nodes: their sums over the processes are the wall's.
 template <int n>
 class WallSupports {
  public:
@@ -36,16 +42,20 @@ class WallSupports {
   using Load = std::function<void(double p, const double* solution, std::vector<double>& residual, Matrix* jacobian)>;
 
   /// \param graph  that of the wall's matrices
-  explicit WallSupports(const NodeGraph& graph) : graph_(graph) {}
+  /// \param share  of the wall's nodes among processes; null: they are all here
+  explicit WallSupports(const NodeGraph& graph, std::shared_ptr<const NodeShare> share = nullptr)
+      : graph_(graph), share_(std::move(share)) {}
 
   /// Facets in the wall's node numbers, normals out of it. \param x  the nodes at rest, mm
   template <class Element, class Facet>
   void add_springs(const std::vector<Point>& x, const std::vector<Facet>& facets, const Bedding& stiffness) {
-    springs_.template add<Element>(graph_, x, facets, stiffness);
+    springs_.template add<Element>(graph_, x, facets, stiffness, share_.get());
+    has_springs_ = has_springs_ || anywhere(!facets.empty());
   }
   template <class Element, class Facet>
   void add_dampers(const std::vector<Point>& x, const std::vector<Facet>& facets, const Bedding& damping) {
-    dampers_.template add<Element>(graph_, x, facets, damping);
+    dampers_.template add<Element>(graph_, x, facets, damping, share_.get());
+    has_dampers_ = has_dampers_ || anywhere(!facets.empty());
   }
   /// A load whose strength is the next of WallInput::support_loads: a pressure that follows the surface.
   template <class Element, class Facet>
@@ -75,14 +85,14 @@ class WallSupports {
   }
 
   std::size_t load_count() const { return loads_.size(); }
-  bool has_springs() const { return !springs_.entries.empty(); }
-  bool has_dampers() const { return !dampers_.entries.empty(); }
+  bool has_springs() const { return has_springs_; }  ///< at any of the processes
+  bool has_dampers() const { return has_dampers_; }
 
   /// Adds to the wall's residual and, if there is one, to its Jacobian.
   void add(const WallInput& in, std::vector<double>& residual, Matrix* jacobian) const;
-  /// Energy in the springs, uJ. \param wall  (d, .)
+  /// Energy in the springs of own nodes, uJ. \param wall  (d, .)
   double stored(const std::vector<double>& wall) const;
-  /// a . K b of the springs' matrix, arrays as (d, .)
+  /// a . K b of the rows of own nodes of the springs' matrix, arrays as (d, .)
   double spring_product(const std::vector<double>& a, const std::vector<double>& b) const {
     return springs_.product(a.data(), b.data());
   }
@@ -96,11 +106,11 @@ class WallSupports {
       int position;  ///< of the block in the wall's matrices
       double block[n][n];
     };
-    std::vector<Entry> entries;  ///< ascending in row and column
+    std::vector<Entry> entries;  ///< ascending in row and column; rows of own nodes alone
 
     template <class Element, class Facet>
     void add(const NodeGraph& graph, const std::vector<Point>& x, const std::vector<Facet>& facets,
-             const Bedding& bedding);
+             const Bedding& bedding, const NodeShare* share);
     /// Sum of y . A d, arrays in the mixed layout.
     double product(const double* y, const double* d) const;
     /// Makes one entry of those that share a place.
@@ -119,8 +129,11 @@ class WallSupports {
   }
 
   static std::vector<double> difference(const double* a, const double* b, double factor, std::size_t size);
+  bool anywhere(bool here) const { return share_ ? share_->processes->any(here) : here; }
 
   const NodeGraph& graph_;
+  std::shared_ptr<const NodeShare> share_;
+  bool has_springs_ = false, has_dampers_ = false;
   SurfaceMatrix springs_, dampers_;
   std::vector<Load> loads_;
 };
@@ -128,12 +141,14 @@ class WallSupports {
 template <int n>
 template <class Element, class Facet>
 void WallSupports<n>::SurfaceMatrix::add(const NodeGraph& graph, const std::vector<Point>& x,
-                                         const std::vector<Facet>& facets, const Bedding& bedding) {
+                                         const std::vector<Facet>& facets, const Bedding& bedding,
+                                         const NodeShare* share) {
   using F = typename Element::Facet;
   for (const auto& facet : facets) {
     Vec3<Pack> corner[F::nodes];
     facet_corners<F>(x, facet, corner);
-    for (int a = 0; a < F::nodes; ++a)
+    for (int a = 0; a < F::nodes; ++a) {
+      if (share && share->owned[facet[a]] == 0) continue;  // no one's row
       for (int b = 0; b < F::nodes; ++b) {
         double block[n][n] = {};
         for (int q = 0; q < F::points; ++q) {
@@ -151,6 +166,7 @@ void WallSupports<n>::SurfaceMatrix::add(const NodeGraph& graph, const std::vect
           for (int j = 0; j < n; ++j) entry.block[i][j] = block[i][j];
         entries.push_back(entry);
       }
+    }
   }
   merge();
 }

@@ -49,7 +49,8 @@ class Wall {
   virtual WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
                             const std::vector<double>& balance) const = 0;
   virtual WallWork work(const WallStep& step) const = 0;
-  /// Work of the pressure on the pressurised facets, as they are in `now`, on the way from `old` to `now`; uJ.
+  /// Work of the pressure on the pressurised facets, as they are in `now`, on the way from `old` to `now`; uJ, of this
+  /// process's nodes. So are energy() and work(): of the elements and nodes that sums count here.
   virtual double pressure_work(double pressure, const std::vector<double>& old,
                                const std::vector<double>& now) const = 0;
 

@@ -136,7 +136,8 @@ double WallProblem<Element>::pressure_work(double pressure, const std::vector<do
   std::vector<double> load(now.size(), 0.0);
   add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, now.data(), load, nullptr);
   double work = 0;
-  for (std::size_t i = 0; i < load.size(); ++i) work -= load[i] * (now[i] - old[i]);
+  for (std::size_t i = 0; i < load.size(); ++i)
+    if (part_.owns(static_cast<int>(i / MixedLayout<n>::entries))) work -= load[i] * (now[i] - old[i]);
   return work;
 }
 

@@ -1,0 +1,79 @@
+"""Every table of a run on several processes has the numbers of a run on one."""
+
+import csv
+import unittest
+from pathlib import Path
+
+from programs import ARTERY, MONOLITHIC, FolderTest, driver_command, execute, run
+from scenes import forms, scene
+
+MPIRUN = Path(__file__).parents[2] / "support" / "mpirun.sh"
+EVERYTHING = (
+    "output.points.lumen=[0.2, 0.1, 1.1]",
+    "output.points.wall=[1.1, 1.0, 1.4]",
+    "output.lines.across.from=[0.05, 0.05, 1.3]",
+    "output.lines.across.to=[1.2, 1.1, 1.7]",
+    "output.lines.across.points=11",
+    "output.planes.middle.origin=[0.2, 0.2, 1.4]",
+    "output.planes.middle.normal=[0.1, 0, 1]",
+    "output.planes.end.origin=[0, 0, 3]",
+    "output.planes.end.normal=[0, 0, 1]",
+    "output.surfaces=['interface','inlet','outlet']",
+    "output.forces.all.surfaces=['walls']",
+    "output.statistics=true",
+    "output.period=0.25",
+    "output.energy=true",
+    "output.every=0",
+    "time.end=0.375",
+)
+SOLVED = ("monolithic.linear_solver=direct", "monolithic.newton_tolerance=1e-11")
+TABLES = "centerline_pressure wall_displacement flow energy points lines planes surfaces".split()
+NEAR = 1e-8  # of the largest number of a column
+
+
+def columns(file):
+    """The columns of a table: numbers, or text where it has any."""
+    with file.open() as lines:
+        rows = list(csv.reader(lines))
+    found = {}
+    for name, cells in zip(rows[0], zip(*rows[1:])):
+        try:
+            found[name] = [float(cell) if cell else None for cell in cells]
+        except ValueError:
+            found[name] = list(cells)
+    return found
+
+
+class Observed(FolderTest):
+    def run_on(self, processes, folder, settings):
+        command = driver_command(MONOLITHIC, ARTERY, "-q", "--force", folder=folder, settings=settings)
+        process = execute(MPIRUN, processes, 240, *command)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return Path(folder)
+
+    def check(self, element, geometry, processes):
+        settings = (*scene(self.base, element, geometry), *forms(ARTERY), *SOLVED, *EVERYTHING)
+        alone = run(MONOLITHIC, ARTERY, self.base / f"{element}-{geometry}-1", *settings)
+        shared = self.run_on(processes, self.base / f"{element}-{geometry}-{processes}", settings)
+        for table in TABLES:
+            one, other = (columns(folder / f"{table}.csv") for folder in (alone, shared))
+            self.assertEqual(list(one), list(other))
+            for name, known in one.items():
+                if not all(isinstance(value, (float, type(None))) for value in known):
+                    self.assertEqual(other[name], known)
+                    continue
+                self.assertEqual([value is None for value in known], [value is None for value in other[name]])
+                pairs = [(a, b) for a, b in zip(known, other[name]) if a is not None]
+                size = max((abs(a) for a, _ in pairs), default=0)
+                apart = max((abs(a - b) for a, b in pairs), default=0)
+                self.assertLessEqual(apart, NEAR * size + 1e-11, f"{table}: {name}")
+
+    def test_quarter_of_a_tube(self):
+        self.check("p1", "3d", 3)
+
+    def test_quadratic_section(self):
+        self.check("p2p1", "axisymmetric", 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
