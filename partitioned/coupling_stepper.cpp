@@ -21,7 +21,8 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       options_(setup.partitioned),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
       scheme_(coupling_scheme(options_.scheme)),
-      accelerator_(scheme_.make_accelerator(options_)),
+      space_(scene.processes(), scene.owned_interface() * n),
+      accelerator_(scheme_.make_accelerator(options_, space_)),
       velocity_gap_(options_.velocity_gap) {
   if (scheme_.one_pass && first_order() == 0)
     throw InputError(
@@ -93,8 +94,8 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   note_period(data.rates.interface.period);
   accelerator_->start();
   monitor_.start();
-  std::vector<double> x = problem_->first_guess(order_), good_x;
-  Solution good;  // fields of the last pass that succeeded
+  std::vector<double> x = problem_->first_guess(order_);
+  GoodPass good;
   PassAccuracy accuracy{first_tolerance(), starts_far_};
   if (scheme_.one_pass) accuracy = {final_tolerance(), false};
   bool first = true;
@@ -111,7 +112,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
         measure(pass);
       }
     } catch (const PassFailure& failure) {
-      retreat(failure, state, data, x, good_x, good);
+      retreat(failure, state, data, x, good);
       continue;
     }
     log_pass();
@@ -123,12 +124,13 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       return;
     }
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
-    good_x = x;
-    good = state.now;
+    good.found = true;
+    good.x = x;
+    good.fields = state.now;
     accuracy.tolerance =
         std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
     const Stopwatch watch(coupling_.algebra_seconds);
-    accelerator_->aim(demand() * norm(pass.displacement));
+    accelerator_->aim(demand() * space_.norm(pass.displacement));
     accelerator_->correct(x, pass.residual);
     if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
   }
@@ -200,12 +202,12 @@ void CouplingStepper<n>::start(State& state, StepData& data) {
 
 template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
-  coupling_.displacement_gap = norm(pass.residual);
-  double size = norm(pass.displacement);
-  if (scene_.initial_load &&
-      !pass.displacement.empty())  // displacements count from a loaded shape, also where none move
-    size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
-                              std::sqrt(static_cast<double>(pass.displacement.size())));
+  coupling_.displacement_gap = space_.norm(pass.residual);
+  double size = space_.norm(pass.displacement);
+  if (scene_.initial_load)  // displacements count from a loaded shape, also where none move
+    if (const auto numbers = space_.size(pass.displacement); numbers > 0)
+      size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
+                                std::sqrt(static_cast<double>(numbers)));
   coupling_.displacement_residual = size > 0
                                         ? coupling_.displacement_gap / size
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
@@ -280,7 +282,7 @@ double CouplingStepper<n>::added_mass(const State& state, const StepData& data) 
     Pass pass = problem_->pass(x, accuracy);
     push_all(at_rest);
     for (int k = 0; k < passes; ++k) {
-      const double before = norm(x), length = norm(pass.displacement);
+      const double before = space_.norm(x), length = space_.norm(pass.displacement);
       if (!(length > 0)) break;
       if (k > 0) growth = length / before;
       x = pass.displacement;
@@ -342,13 +344,13 @@ void CouplingStepper<n>::check_march(const State& state, const StepData& data) {
 
 template <int n>
 void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
-                                 const std::vector<double>& good_x, const Solution& good) {
-  const bool extrapolated = good_x.empty() && order_ > 0 && state.step > 0;
+                                 const GoodPass& good) {
+  const bool extrapolated = !good.found && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
   report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", passes_, failure.what()));
   const bool more = !scheme_.one_pass && coupling_.failed_passes <= most_retreats;
-  const bool stiffened = more && good_x.empty() && !extrapolated && problem_->stiffen();
-  if (!more || (good_x.empty() && !extrapolated && !stiffened)) {
+  const bool stiffened = more && !good.found && !extrapolated && problem_->stiffen();
+  if (!more || (!good.found && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
@@ -361,8 +363,8 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
     x = problem_->first_guess(order_);
     return;
   }
-  state.now = good;
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = good_x[i] + retreat_factor * (x[i] - good_x[i]);
+  state.now = good.fields;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = good.x[i] + retreat_factor * (x[i] - good.x[i]);
 }
 
 template <int n>

@@ -7,6 +7,7 @@
 
 #include "case/case.hpp"
 #include "partitioned/divergence.hpp"
+#include "partitioned/interface_space.hpp"
 #include "partitioned/schemes.hpp"
 #include "scene/scene.hpp"
 #include "time/loads.hpp"
@@ -70,6 +71,13 @@ class CouplingStepper : public Stepper {
   double final_tolerance() const { return std::max(sub_problem_share * demand(), sub_problem_rounding); }
   double first_tolerance() const { return std::max(1e-4, final_tolerance()); }
 
+  /// The last pass of a stage that succeeded.
+  struct GoodPass {
+    bool found = false;
+    std::vector<double> x;
+    Solution fields;
+  };
+
   /// Solves a step, or one stage of it; leaves its solution in state.now.
   void advance_stage(State& state, StepData& data);
 
@@ -97,8 +105,7 @@ class CouplingStepper : public Stepper {
 
   /// After a pass without an answer: back to the last good iterate and a part of the way again; without one, back to
   /// the last time level. \throws ConvergenceError when that has been tried often enough
-  void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x,
-               const std::vector<double>& good_x, const Solution& good);
+  void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x, const GoodPass& good);
 
   void accept(const std::vector<double>& x, const Pass& pass);
 
@@ -107,6 +114,7 @@ class CouplingStepper : public Stepper {
   PartitionedData options_;
   std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for
   const CouplingScheme& scheme_;
+  InterfaceSpace space_;
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<n>> problem_;
   CouplingReport coupling_;

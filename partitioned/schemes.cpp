@@ -36,31 +36,32 @@ QuasiNewtonOptions robin_quasi_newton(const PartitionedData& o) {
 }
 
 using Options = PartitionedData;
+using Space = InterfaceSpace;
 using Made = std::unique_ptr<Accelerator>;
 
-Made constant(const Options& o) {
+Made constant(const Options& o, const Space&) {
   return std::make_unique<ConstantRelaxation>(factor_or(dirichlet_factor, o));
 }
-Made aitken(const Options& o) {
-  return std::make_unique<AitkenRelaxation>(factor_or(dirichlet_factor, o), largest_aitken_start);
+Made aitken(const Options& o, const Space& space) {
+  return std::make_unique<AitkenRelaxation>(factor_or(dirichlet_factor, o), largest_aitken_start, space);
 }
-Made iqn_ils(const Options& o) {
-  return std::make_unique<IqnIls>(dirichlet_quasi_newton(o));
+Made iqn_ils(const Options& o, const Space& space) {
+  return std::make_unique<IqnIls>(dirichlet_quasi_newton(o), space);
 }
-Made iqn_imvj(const Options& o) {
-  return std::make_unique<IqnImvj>(dirichlet_quasi_newton(o));
+Made iqn_imvj(const Options& o, const Space& space) {
+  return std::make_unique<IqnImvj>(dirichlet_quasi_newton(o), space);
 }
-Made newton_krylov(const Options& o) {
-  return std::make_unique<NewtonKrylov>(dirichlet_quasi_newton(o));
+Made newton_krylov(const Options& o, const Space& space) {
+  return std::make_unique<NewtonKrylov>(dirichlet_quasi_newton(o), space);
 }
-Made robin(const Options& o) {
+Made robin(const Options& o, const Space&) {
   return std::make_unique<ConstantRelaxation>(factor_or(robin_factor, o));
 }
-Made robin_iqn(const Options& o) {
-  return std::make_unique<IqnIls>(robin_quasi_newton(o));
+Made robin_iqn(const Options& o, const Space& space) {
+  return std::make_unique<IqnIls>(robin_quasi_newton(o), space);
 }
-Made robin_imvj(const Options& o) {
-  return std::make_unique<IqnImvj>(robin_quasi_newton(o));
+Made robin_imvj(const Options& o, const Space& space) {
+  return std::make_unique<IqnImvj>(robin_quasi_newton(o), space);
 }
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";

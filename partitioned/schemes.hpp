@@ -6,6 +6,7 @@
 
 #include "case/case.hpp"
 #include "partitioned/accelerators/accelerator.hpp"
+#include "partitioned/interface_space.hpp"
 
 namespace fsi {
 
@@ -14,7 +15,7 @@ struct CouplingScheme {
   std::string_view name;  ///< partitioned.scheme, one of coupling_scheme_names()
   bool robin;             ///< Robin-Neumann, else Dirichlet-Neumann
   bool one_pass;          ///< a step is one pass, converged or not
-  std::unique_ptr<Accelerator> (*make_accelerator)(const PartitionedData& options);
+  std::unique_ptr<Accelerator> (*make_accelerator)(const PartitionedData& options, const InterfaceSpace& space);
   const char* advice;  ///< what helps when it does not converge
 };
 

@@ -14,24 +14,44 @@ namespace fsi {
 
 template <int n>
 MeshFollower<n>::MeshFollower(const NonlinearMeshMotion<n>& motion, std::vector<char> inner,
-                              const NodalFrames<n>* frames, const MeshFollowerOptions& options)
+                              const NodalFrames<n>* frames, const MeshFollowerOptions& options,
+                              const SharedMesh<n>& shared)
     : motion_(motion),
       inner_(std::move(inner)),
       frames_(frames && !frames->empty() ? frames : nullptr),
       options_(options),
       tangent_(motion.graph()),
-      extension_(tangent_, inner_, options.linear) {
+      share_(shared.share) {
+  if (share_)
+    extension_ = shared.make_extension(tangent_, inner_);
+  else
+    extension_ = std::make_unique<TangentExtension<n>>(tangent_, inner_, options.linear);
   increment_.resize(inner_.size());
   right_ = increment_;
 }
 
 template <int n>
 bool MeshFollower<n>::evaluate(const std::vector<double>& mesh) {
-  if (motion_.assemble(mesh, residual_).inverted()) return false;
+  const bool inverted = motion_.assemble(mesh, residual_).inverted();
+  if (share_ ? share_->processes->any(inverted) : inverted) return false;
   if (frames_) frames_->template to_frames<VectorLayout<n>>(residual_);
-  for (std::size_t i = 0; i < residual_.size(); ++i)
-    if (!inner_[i]) residual_[i] = 0;
+  keep_equations();
   return true;
+}
+
+template <int n>
+void MeshFollower<n>::keep_equations() {
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    if (!inner_[i] || (share_ && !share_->owned[i / n])) residual_[i] = 0;
+}
+
+template <int n>
+double MeshFollower<n>::norm(const std::vector<double>& field) const {
+  if (!share_) return fsi::norm(field);
+  double sum = 0;
+  for (std::size_t i = 0; i < field.size(); ++i)
+    if (share_->owned[i / n]) sum += field[i] * field[i];
+  return std::sqrt(share_->processes->sum(sum));
 }
 
 template <int n>
@@ -46,9 +66,8 @@ void MeshFollower<n>::linearise(const std::vector<double>& mesh) {
     frames_->template to_frames<VectorLayout<n>>(residual_);
     frames_->turn_blocks(tangent_);
   }
-  for (std::size_t i = 0; i < residual_.size(); ++i)
-    if (!inner_[i]) residual_[i] = 0;
-  extension_.update();
+  keep_equations();
+  extension_->update();
   linearised_ = true;
   ++tangents_;
 }
@@ -59,7 +78,7 @@ void MeshFollower<n>::solve(const std::vector<double>& given) {
     right_[i] = -residual_[i];
     increment_[i] = inner_[i] ? 0 : given.empty() ? 0 : given[i];
   }
-  extension_.solve(right_, increment_);
+  extension_->solve(right_, increment_, options_.linear.tolerance);
   if (frames_) frames_->template to_space<VectorLayout<n>>(increment_);
   ++iterations_;
 }
@@ -160,7 +179,7 @@ bool MeshFollower<n>::settle(std::vector<double>& mesh) {
 
 template <int n>
 double MeshFollower<n>::memory_mib() const {
-  return extension_.memory_mib() + static_cast<double>(tangent_.values.size() * sizeof(double)) / (1 << 20);
+  return extension_->memory_mib() + static_cast<double>(tangent_.values.size() * sizeof(double)) / (1 << 20);
 }
 
 #define FSI_INSTANTIATE(n) template class MeshFollower<n>;

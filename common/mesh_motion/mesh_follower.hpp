@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "fem/nodal_frames.hpp"
 #include "mesh_motion/tangent_extension.hpp"
+#include "parallel/node_share.hpp"
 
 namespace fsi {
 
@@ -16,6 +19,14 @@ struct MeshFollowerOptions {
   TangentExtensionOptions linear;
 };
 
+/// Where the mesh is shared out among processes: how, and what solves the tangent's equations of all of them.
+template <int n>
+struct SharedMesh {
+  const NodeShare* share = nullptr;  ///< null: the mesh is whole here
+  std::function<std::unique_ptr<MeshExtension<n>>(const MeshMotionTangent<n>& tangent, std::vector<char> inner)>
+      make_extension = {};
+};
+
 /// Takes a mesh of a nonlinear motion along with its boundary. Newton's method starts from the tangent's answer to the
 /// boundary's motion; where that folds an element, or the iteration fails, the way is gone in halves. So any motion
 /// whose way holds unfolded meshes is followed.
@@ -24,9 +35,11 @@ class MeshFollower {
  public:
   /// \param motion  must outlive this, and so must `frames`
   /// \param inner   per node and component: its value is sought; at nodes with a frame components are the frame's
+  ///                also at copies of other processes' nodes
   /// \param frames  null: none
+  /// \param shared  its share must outlive this
   MeshFollower(const NonlinearMeshMotion<n>& motion, std::vector<char> inner, const NodalFrames<n>* frames = nullptr,
-               const MeshFollowerOptions& options = {});
+               const MeshFollowerOptions& options = {}, const SharedMesh<n>& shared = {});
 
   /// Moves `mesh`, an unfolded field along the axes of space, to where its given values are those of `target`.
   /// \throws ConvergenceError when there is no way; `mesh` is then as it was
@@ -41,7 +54,7 @@ class MeshFollower {
   double memory_mib() const;
 
  private:
-  /// Rows in the frames, zero where values are given. \returns false when an element is inverted
+  /// Rows in the frames, zero where values are given. \returns false when an element is inverted, at any process
   bool evaluate(const std::vector<double>& mesh);
   void linearise(const std::vector<double>& mesh);
   /// Newton's method from `mesh`, given values fixed.
@@ -49,13 +62,18 @@ class MeshFollower {
   bool go(const std::vector<double>& step, std::vector<double>& mesh);
   /// increment_ = what the tangent answers to the residual and to `given` values' change.
   void solve(const std::vector<double>& given);
+  /// Rows of this process's equations stay, others become zero.
+  void keep_equations();
+  /// Of a field of all processes.
+  double norm(const std::vector<double>& field) const;
 
   const NonlinearMeshMotion<n>& motion_;
   std::vector<char> inner_;
   const NodalFrames<n>* frames_;
   MeshFollowerOptions options_;
   MeshMotionTangent<n> tangent_;
-  TangentExtension<n> extension_;
+  const NodeShare* share_;
+  std::unique_ptr<MeshExtension<n>> extension_;
   bool linearised_ = false;
   int tangents_ = 0, iterations_ = 0;
   std::vector<double> residual_, increment_, right_;

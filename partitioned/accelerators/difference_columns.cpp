@@ -23,7 +23,7 @@ void DifferenceColumns::add(std::vector<double> v, std::vector<double> w) {
 FilteredQr DifferenceColumns::factorise() {
   std::vector<const std::vector<double>*> v;
   for (const Column& column : columns_) v.push_back(&column.v);
-  FilteredQr qr(v, filter_);
+  FilteredQr qr(v, filter_, space_);
   std::vector<Column> kept;
   for (const std::size_t j : qr.kept()) kept.push_back(std::move(columns_[j]));
   columns_ = std::move(kept);
@@ -41,15 +41,15 @@ void DifferenceColumns::remember(Memory& memory, const std::string& name) const 
 }
 
 void DifferenceColumns::recall(const Memory& memory, const std::string& name) {
-  const auto v = memory.arrays.find(name + ".v"), w = memory.arrays.find(name + ".w"),
-             age = memory.arrays.find(name + ".age");
   columns_.clear();
+  const auto age = memory.arrays.find(name + ".age");
   if (age == memory.arrays.end() || age->second.empty()) return;
-  const auto size = static_cast<std::ptrdiff_t>(v->second.size() / age->second.size());
+  const auto &v = memory.arrays.at(name + ".v"), &w = memory.arrays.at(name + ".w");
+  const auto size = static_cast<std::ptrdiff_t>(v.size() / age->second.size());
   for (std::size_t j = 0; j < age->second.size(); ++j) {
     const auto from = static_cast<std::ptrdiff_t>(j) * size;
-    columns_.push_back({{v->second.begin() + from, v->second.begin() + from + size},
-                        {w->second.begin() + from, w->second.begin() + from + size},
+    columns_.push_back({{v.begin() + from, v.begin() + from + size},
+                        {w.begin() + from, w.begin() + from + size},
                         static_cast<int>(age->second[j])});
   }
 }

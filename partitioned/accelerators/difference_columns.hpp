@@ -21,8 +21,8 @@ class DifferenceColumns {
   /// \param most          columns kept
   /// \param reused_steps  earlier time steps, or stages, whose columns are kept
   /// \param filter        a column is dropped when less than this part of its v is new
-  DifferenceColumns(int most, int reused_steps, double filter)
-      : most_(static_cast<std::size_t>(most)), reused_steps_(reused_steps), filter_(filter) {}
+  DifferenceColumns(int most, int reused_steps, double filter, const InterfaceSpace& space = {})
+      : most_(static_cast<std::size_t>(most)), reused_steps_(reused_steps), filter_(filter), space_(space) {}
 
   /// A time step, or a stage of it, begins.
   void start();
@@ -44,6 +44,7 @@ class DifferenceColumns {
   std::size_t most_;
   int reused_steps_;
   double filter_;
+  InterfaceSpace space_;
   std::vector<Column> columns_;
 };
 

@@ -7,19 +7,18 @@
 
 namespace fsi {
 
-FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter) {
+FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter,
+                       const InterfaceSpace& space)
+    : space_(space) {
   for (std::size_t j = 0; j < columns.size(); ++j) {
     std::vector<double> v = *columns[j];
-    const double length = norm(v);
+    const double length = space_.norm(v);
     if (!(length > 0) || !std::isfinite(length)) continue;
     std::vector<double> r(q_.size() + 1, 0.0);
     for (int pass = 0; pass < 2; ++pass) {  // the second, where much cancels, makes Q orthogonal to rounding
-      for (std::size_t i = 0; i < q_.size(); ++i) {
-        const double along = dot(q_[i], v);
-        r[i] += along;
-        axpy(-along, q_[i], v);
-      }
-      r.back() = norm(v);
+      const std::vector<double> along = space_.subtract_projections(q_, v);
+      for (std::size_t i = 0; i < q_.size(); ++i) r[i] += along[i];
+      r.back() = space_.norm(v);
       if (r.back() > 0.1 * length) break;
     }
     if (!(r.back() > filter * length)) continue;
@@ -31,8 +30,7 @@ FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, d
 }
 
 std::vector<double> FilteredQr::least_squares(const std::vector<double>& b) const {
-  std::vector<double> c(q_.size());
-  for (std::size_t i = 0; i < q_.size(); ++i) c[i] = dot(q_[i], b);
+  std::vector<double> c = space_.dots(q_, b);
   for (std::size_t j = q_.size(); j-- > 0;) {  // R c = Q^T b
     c[j] /= r_[j][j];
     for (std::size_t i = 0; i < j; ++i) c[i] -= r_[j][i] * c[j];

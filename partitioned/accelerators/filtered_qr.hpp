@@ -3,15 +3,17 @@
 #include <cstddef>
 #include <vector>
 
+#include "partitioned/interface_space.hpp"
+
 namespace fsi {
 
-/// QR factorisation V = Q R of difference columns that drops those which add nothing new: by modified Gram-Schmidt,
-/// repeated once, column by column in the order given, a column whose part orthogonal to the earlier ones is not longer
-/// than `filter` times the column itself is left out ([Haelterman2016], filter QR2, which preCICE's QR3 applies).
+/// QR factorisation V = Q R of difference columns that drops those which add nothing new: by Gram-Schmidt, repeated
+/// once, column by column in the order given, a column whose part orthogonal to the earlier ones is not longer than
+/// `filter` times the column itself is left out ([Haelterman2016], filter QR2, which preCICE's QR3 applies).
 /// Zero, repeated and not finite columns never get in.
 class FilteredQr {
  public:
-  FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter);
+  FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter, const InterfaceSpace& space = {});
 
   /// Places of the columns kept, ascending.
   const std::vector<std::size_t>& kept() const { return kept_; }
@@ -21,6 +23,7 @@ class FilteredQr {
   std::vector<std::vector<double>> pseudo_inverse() const;
 
  private:
+  InterfaceSpace space_;
   std::vector<std::size_t> kept_;
   std::vector<std::vector<double>> q_;  ///< orthonormal columns
   std::vector<std::vector<double>> r_;  ///< r_[j][i] = R(i, j), i <= j

@@ -7,16 +7,16 @@
 namespace fsi {
 
 void IqnIls::start() {
-  last_x_.clear();
+  has_last_ = false;
   status_ = {};
   columns_.start();
-  if (before_.rank() > 0 && ++before_age_ > most_before) before_ = {};
+  if (before_.rank() > 0 && ++before_age_ > most_before) before_.clear();
 }
 
 void IqnIls::change(bool longer) {
   before_age_ = 0;
   if (longer) {  // the wall's stiffness, which they know too little of, then weighs more
-    before_ = {};
+    before_.clear();
     columns_.clear();
     return;
   }
@@ -35,13 +35,14 @@ void IqnIls::change(bool longer) {
 }
 
 void IqnIls::add_difference(const std::vector<double>& x, const std::vector<double>& r) {
-  if (!last_x_.empty()) {
+  if (has_last_) {
     std::vector<double> v = r, w = x;
     axpy(-1, last_r_, v);
     axpy(-1, last_x_, w);
     axpy(1, v, w);
     columns_.add(std::move(v), std::move(w));
   }
+  has_last_ = true;
   last_x_ = x;
   last_r_ = r;
 }

@@ -25,8 +25,8 @@ class IqnIls : public Accelerator {
  public:
   static constexpr int most_before = 1;  ///< steps, or stages, in which L serves
 
-  explicit IqnIls(const QuasiNewtonOptions& options)
-      : options_(options), columns_(options.columns, options.reused_steps, options.filter) {}
+  explicit IqnIls(const QuasiNewtonOptions& options, const InterfaceSpace& space = {})
+      : options_(options), columns_(options.columns, options.reused_steps, options.filter, space), before_(space) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
@@ -43,6 +43,7 @@ class IqnIls : public Accelerator {
   DifferenceColumns columns_;  ///< of r and of x~ = x + r
   LowRankMap before_;          ///< L, of steps of other lengths
   int before_age_ = 0;         ///< steps, or stages, since the last change
+  bool has_last_ = false;      ///< there was a pass before, of this step or stage:
   std::vector<double> last_x_, last_r_;
   AcceleratorStatus status_;
 };

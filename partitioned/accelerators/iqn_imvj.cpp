@@ -20,7 +20,7 @@ std::vector<const std::vector<double>*> pointers(const std::vector<std::vector<d
 void IqnImvj::start() {
   v_.clear();
   a_.clear();
-  last_x_.clear();
+  has_last_ = false;
   status_ = {};
 }
 
@@ -31,7 +31,7 @@ std::vector<double> IqnImvj::old_jacobian_times(const std::vector<double>& r) co
 }
 
 void IqnImvj::add_difference(const std::vector<double>& x, const std::vector<double>& r) {
-  if (!last_x_.empty()) {
+  if (has_last_) {
     std::vector<double> v = r, a = x;
     axpy(-1, last_r_, v);
     axpy(-1, last_x_, a);
@@ -40,13 +40,14 @@ void IqnImvj::add_difference(const std::vector<double>& x, const std::vector<dou
     v_.insert(v_.begin(), std::move(v));
     a_.insert(a_.begin(), std::move(a));
   }
+  has_last_ = true;
   last_x_ = x;
   last_r_ = r;
 }
 
 void IqnImvj::correct(std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
-  const FilteredQr qr(pointers(v_), options_.filter);
+  const FilteredQr qr(pointers(v_), options_.filter, space_);
   status_ = {0, static_cast<int>(jacobian_.rank() + qr.kept().size())};
   if (status_.columns == 0) {
     axpy(options_.relaxation, r, x);
@@ -61,7 +62,7 @@ void IqnImvj::correct(std::vector<double>& x, const std::vector<double>& r) {
 
 void IqnImvj::accept(const std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
-  const FilteredQr qr(pointers(v_), options_.filter);
+  const FilteredQr qr(pointers(v_), options_.filter, space_);
   auto rows = qr.pseudo_inverse();
   for (std::size_t j = 0; j < rows.size(); ++j) jacobian_.add(std::move(a_[qr.kept()[j]]), std::move(rows[j]));
   if (jacobian_.rank() > static_cast<std::size_t>(options_.columns))

@@ -17,7 +17,8 @@ namespace fsi {
 class IqnImvj : public Accelerator {
  public:
   /// options.columns bounds the terms of J; when they are more, half of them stay. options.reused_steps is not used.
-  explicit IqnImvj(const QuasiNewtonOptions& options) : options_(options) {}
+  explicit IqnImvj(const QuasiNewtonOptions& options, const InterfaceSpace& space = {})
+      : options_(options), space_(space), jacobian_(space) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
@@ -30,9 +31,11 @@ class IqnImvj : public Accelerator {
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);
 
   QuasiNewtonOptions options_;
+  InterfaceSpace space_;
   LowRankMap jacobian_;                 ///< J_old - (1 - m) I
   std::vector<std::vector<double>> v_;  ///< columns of this step, newest first
   std::vector<std::vector<double>> a_;  ///< W - J_old V, in the same order
+  bool has_last_ = false;               ///< there was a pass before, of this step or stage:
   std::vector<double> last_x_, last_r_;
   AcceleratorStatus status_;
 };

@@ -11,8 +11,8 @@ namespace fsi {
 
 namespace {
 
-Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& columns) {
-  Eigen::MatrixXd m(columns.front().size(), columns.size());
+Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& columns, std::size_t rows) {
+  Eigen::MatrixXd m(rows, columns.size());
   for (std::size_t j = 0; j < columns.size(); ++j)
     m.col(static_cast<Eigen::Index>(j)) =
         Eigen::Map<const Eigen::VectorXd>(columns[j].data(), static_cast<Eigen::Index>(columns[j].size()));
@@ -25,8 +25,36 @@ std::vector<std::vector<double>> columns_of(const Eigen::MatrixXd& m) {
   return columns;
 }
 
+/// Q and R of the thin factorisation of vectors that are shared out, by Gram-Schmidt twice; Q has no column for what is
+/// a combination of those before.
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> shared_thin_qr(const std::vector<std::vector<double>>& columns,
+                                                           const InterfaceSpace& space) {
+  constexpr double rounding = 1e-13;
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(count, count);
+  std::vector<std::vector<double>> q;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    std::vector<double> v = columns[static_cast<std::size_t>(j)];
+    const double length = space.norm(v);
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      const std::vector<double> along = space.subtract_projections(q, v);
+      for (std::size_t i = 0; i < q.size(); ++i) r(static_cast<Eigen::Index>(i), j) += along[i];
+    }
+    const double left = space.norm(v);
+    if (!(left > rounding * length)) continue;
+    r(static_cast<Eigen::Index>(q.size()), j) = left;
+    scale(1 / left, v);
+    q.push_back(std::move(v));
+  }
+  Eigen::MatrixXd rows = r.topRows(static_cast<Eigen::Index>(q.size()));
+  return {matrix_of(q, columns.front().size()), std::move(rows)};
+}
+
 /// Q and R of the thin factorisation.
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const Eigen::MatrixXd& m) {
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const std::vector<std::vector<double>>& columns,
+                                                    const InterfaceSpace& space) {
+  if (!space.is_whole()) return shared_thin_qr(columns, space);
+  const Eigen::MatrixXd m = matrix_of(columns, columns.front().size());
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
   const Eigen::Index rank = std::min(m.rows(), m.cols());
   Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(m.rows(), rank);
@@ -36,6 +64,11 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> thin_qr(const Eigen::MatrixXd& m) {
 
 }  // namespace
 
+void LowRankMap::clear() {
+  a_.clear();
+  b_.clear();
+}
+
 void LowRankMap::add(std::vector<double> a, std::vector<double> b) {
   assert(a.size() == b.size());
   a_.push_back(std::move(a));
@@ -44,14 +77,16 @@ void LowRankMap::add(std::vector<double> a, std::vector<double> b) {
 
 std::vector<double> LowRankMap::times(const std::vector<double>& x) const {
   std::vector<double> y(x.size(), 0.0);
-  for (std::size_t i = 0; i < a_.size(); ++i) axpy(dot(b_[i], x), a_[i], y);
+  const std::vector<double> weights = space_.dots(b_, x);
+  for (std::size_t i = 0; i < a_.size(); ++i) axpy(weights[i], a_[i], y);
   return y;
 }
 
 void LowRankMap::truncate(std::size_t rank, double tolerance) {
   if (a_.empty()) return;
-  const auto [qa, ra] = thin_qr(matrix_of(a_));
-  const auto [qb, rb] = thin_qr(matrix_of(b_));
+  const auto [qa, ra] = thin_qr(a_, space_);
+  const auto [qb, rb] = thin_qr(b_, space_);
+  if (ra.rows() == 0 || rb.rows() == 0) return clear();
   const Eigen::MatrixXd core = ra * rb.transpose();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(core, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const auto& values = svd.singularValues();
@@ -71,14 +106,13 @@ void LowRankMap::remember(Memory& memory, const std::string& name) const {
 }
 
 void LowRankMap::recall(const Memory& memory, const std::string& name) {
-  a_.clear();
-  b_.clear();
+  clear();
   const auto rank = memory.numbers.find(name + ".rank");
   if (rank == memory.numbers.end() || rank->second == 0) return;
   const auto &a = memory.arrays.at(name + ".a"), &b = memory.arrays.at(name + ".b");
-  const auto size = static_cast<std::ptrdiff_t>(a.size()) / static_cast<std::ptrdiff_t>(rank->second);
-  for (auto from = std::ptrdiff_t{0}; from < static_cast<std::ptrdiff_t>(a.size()); from += size)
-    add({a.begin() + from, a.begin() + from + size}, {b.begin() + from, b.begin() + from + size});
+  const auto count = static_cast<std::ptrdiff_t>(rank->second), size = static_cast<std::ptrdiff_t>(a.size()) / count;
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    add({a.begin() + i * size, a.begin() + (i + 1) * size}, {b.begin() + i * size, b.begin() + (i + 1) * size});
 }
 
 }  // namespace fsi

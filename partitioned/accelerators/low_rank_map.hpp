@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "partitioned/interface_space.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
@@ -11,10 +12,13 @@ namespace fsi {
 /// A linear map J = sum of a_i b_i^T between interface vectors.
 class LowRankMap {
  public:
+  explicit LowRankMap(const InterfaceSpace& space = {}) : space_(space) {}
+
   static constexpr double truncation =
       1e-4;  ///< singular values that truncate() may well drop, relative to the largest
 
   std::size_t rank() const { return a_.size(); }
+  void clear();
   void add(std::vector<double> a, std::vector<double> b);
   /// J x
   std::vector<double> times(const std::vector<double>& x) const;
@@ -29,6 +33,7 @@ class LowRankMap {
   const std::vector<std::vector<double>>& right() const { return b_; }
 
  private:
+  InterfaceSpace space_;
   std::vector<std::vector<double>> a_, b_;
 };
 

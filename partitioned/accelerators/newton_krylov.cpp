@@ -17,7 +17,7 @@ constexpr double breakdown = 1e-12;   // of a new direction, relative to the pro
 
 void NewtonKrylov::start() {
   at_base_ = true;
-  base_x_.clear();
+  has_base_ = false;
   halvings_ = 0;
   last_beta_ = 0;
   h_.clear();
@@ -26,7 +26,7 @@ void NewtonKrylov::start() {
 
 void NewtonKrylov::correct(std::vector<double>& x, const std::vector<double>& r) {
   if (at_base_) {
-    if (!base_x_.empty() && halvings_ < most_halvings && !(norm(r) < beta_)) {
+    if (has_base_ && halvings_ < most_halvings && !(space_.norm(r) < beta_)) {
       // The Newton step was too long: half of it.
       ++halvings_;
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = 0.5 * (base_x_[i] + x[i]);
@@ -39,17 +39,13 @@ void NewtonKrylov::correct(std::vector<double>& x, const std::vector<double>& r)
   // The pass was a product, unless it was cut short: the difference holds for whatever multiple of p it probed.
   std::vector<double> moved = x, product = r;
   axpy(-1, base_x_, moved);
-  const double h = dot(moved, p_.back()) / dot(p_.back(), p_.back());
+  const double h = space_.dot(moved, p_.back()) / space_.dot(p_.back(), p_.back());
   axpy(-1, base_r_, product);
   if (h != 0) scale(1 / h, product);
   products_.push_back(product);
-  const double length = norm(product);
-  std::vector<double> column;
-  for (const auto& q : q_) {
-    column.push_back(dot(q, product));
-    axpy(-column.back(), q, product);
-  }
-  column.push_back(norm(product));
+  const double length = space_.norm(product);
+  std::vector<double> column = space_.subtract_projections(q_, product);
+  column.push_back(space_.norm(product));
   const bool exhausted = !(column.back() > breakdown * length);
   h_.push_back(std::move(column));
   std::vector<double> y;
@@ -83,10 +79,11 @@ void NewtonKrylov::keep_products() {
 }
 
 void NewtonKrylov::begin(const std::vector<double>& x, const std::vector<double>& r) {
+  has_base_ = true;
   base_x_ = x;
   base_r_ = r;
   halvings_ = 0;
-  beta_ = norm(r);
+  beta_ = space_.norm(r);
   const double ratio = last_beta_ > 0 ? beta_ / last_beta_ : 1;
   forcing_ = std::clamp(0.9 * ratio * ratio, smallest_forcing, largest_forcing);
   // No tighter than what the coupling's tolerance leaves to do.
@@ -114,7 +111,7 @@ std::vector<double> NewtonKrylov::precondition(const std::vector<double>& q) con
 
 void NewtonKrylov::probe(std::vector<double>& x) {
   p_.push_back(precondition(q_.back()));
-  const double length = norm(p_.back());
+  const double length = space_.norm(p_.back());
   x = base_x_;
   axpy(-beta_ * std::min(1.0, probe_length / length), p_.back(), x);
 }

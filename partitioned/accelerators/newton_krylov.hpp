@@ -22,8 +22,11 @@ class NewtonKrylov : public Accelerator {
  public:
   static constexpr int most_directions = 60;
 
-  explicit NewtonKrylov(const QuasiNewtonOptions& options)
-      : mixing_(options.mixing), columns_(options.columns, options.reused_steps, options.filter), qr_({}, 0) {}
+  explicit NewtonKrylov(const QuasiNewtonOptions& options, const InterfaceSpace& space = {})
+      : space_(space),
+        mixing_(options.mixing),
+        columns_(options.columns, options.reused_steps, options.filter, space),
+        qr_({}, 0, space) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
@@ -42,12 +45,14 @@ class NewtonKrylov : public Accelerator {
   void probe(std::vector<double>& x);
   double minimise(std::vector<double>& y) const;
 
+  InterfaceSpace space_;
   double aim_ = 0;  ///< no Newton step is solved much tighter than that needs
   double mixing_;
   DifferenceColumns columns_;  ///< v = J w
   FilteredQr qr_;              ///< of their V, as it was at the base point
   int halvings_ = 0;           ///< of the last Newton step
   bool at_base_ = true;        ///< the next residual is a base point's, not a product
+  bool has_base_ = false;      ///< there is one, of this step or stage:
   std::vector<double> base_x_, base_r_;
   double beta_ = 0, forcing_ = 0, last_beta_ = 0;
   std::vector<std::vector<double>> q_;         ///< orthonormal

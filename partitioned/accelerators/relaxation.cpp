@@ -1,6 +1,7 @@
 #include "partitioned/accelerators/relaxation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "algebra/vector_operations.hpp"
@@ -18,18 +19,21 @@ void ConstantRelaxation::correct(std::vector<double>& x, const std::vector<doubl
 void AitkenRelaxation::start() {
   start_ = factor_;
   factor_ = std::clamp(std::abs(factor_), smallest_start, largest_start_);
-  last_x_.clear();
+  has_last_ = false;
 }
 
 void AitkenRelaxation::correct(std::vector<double>& x, const std::vector<double>& r) {
-  if (!last_x_.empty()) {
+  if (has_last_) {
     double numerator = 0, denominator = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
+    for (std::size_t i = 0; i < space_.own(r); ++i) {
       numerator += (x[i] - last_x_[i]) * (r[i] - last_r_[i]);
       denominator += (r[i] - last_r_[i]) * (r[i] - last_r_[i]);
     }
-    if (denominator > 0) factor_ = -numerator / denominator;
+    std::array<double, 2> sums{numerator, denominator};
+    space_.sum(sums.data(), sums.size());
+    if (sums[1] > 0) factor_ = -sums[0] / sums[1];
   }
+  has_last_ = true;
   last_x_ = x;
   last_r_ = r;
   axpy(factor_, r, x);

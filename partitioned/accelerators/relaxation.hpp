@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "partitioned/accelerators/accelerator.hpp"
+#include "partitioned/interface_space.hpp"
 
 namespace fsi {
 
@@ -27,8 +28,8 @@ class AitkenRelaxation : public Accelerator {
  public:
   /// \param first_factor   of the first correction of all
   /// \param largest_start  bound on the first factor of each step
-  AitkenRelaxation(double first_factor, double largest_start)
-      : factor_(first_factor), start_(first_factor), largest_start_(largest_start) {}
+  AitkenRelaxation(double first_factor, double largest_start, const InterfaceSpace& space = {})
+      : space_(space), factor_(first_factor), start_(first_factor), largest_start_(largest_start) {}
   void start() override;
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void abandon() override { factor_ = start_; }
@@ -37,8 +38,10 @@ class AitkenRelaxation : public Accelerator {
   void recall(const Memory& memory) override;
 
  private:
+  InterfaceSpace space_;
   double factor_, start_;  ///< and as it was when the step began
   double largest_start_;
+  bool has_last_ = false;  ///< there was a pass before, of this step or stage:
   std::vector<double> last_x_, last_r_;
 };
 

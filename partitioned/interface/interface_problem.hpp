@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -8,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
@@ -18,7 +19,8 @@
 
 namespace fsi {
 
-/// The result of a pass. Interface vectors hold n numbers per interface node, zero where the rim is clamped.
+/// The result of a pass. Interface vectors (interface_space.hpp) hold n numbers per interface node, zero where the rim is
+/// clamped.
 struct Pass {
   std::vector<double> residual;      ///< r(x) = x~ - x in mm: the gap between the wall's and the fluid's displacement
   std::vector<double> displacement;  ///< d~, the wall's answer, mm
@@ -80,7 +82,7 @@ class InterfaceProblem {
     std::vector<double> loads = data_->interface_load;
     scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);  // where some components are free, and others held
     double gap = 0, force = 0;
-    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+    for (std::size_t i = 0; i < scene_.owned_interface(); ++i)
       for (int k = 0; k < n; ++k) {
         const auto entry = wall_entry(scene_.interface[i], k);
         const double lack = membrane_.node_areas[i] * residual[i * n + k];
@@ -88,6 +90,7 @@ class InterfaceProblem {
         gap += lack * lack;
         force += load * load;
       }
+    sum_over_processes(gap, force);
     if (gap == 0) return 0;
     return force > 0 ? pressure_per_gap() * std::sqrt(gap / force) : std::numeric_limits<double>::max();
   }
@@ -96,8 +99,8 @@ class InterfaceProblem {
   double movement() const {
     const std::vector<double> now = wall_displacement(state_->now), last = wall_displacement(state_->before[0]);
     double sum = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) sum += (now[i] - last[i]) * (now[i] - last[i]);
-    return std::sqrt(sum);
+    for (std::size_t i = 0; i < scene_.owned_interface() * n; ++i) sum += (now[i] - last[i]) * (now[i] - last[i]);
+    return std::sqrt(scene_.processes().sum(sum));
   }
 
   /// What the momentum balance on the interface lacks when the fluid is given the wall's answer there, relative to the
@@ -121,14 +124,16 @@ class InterfaceProblem {
     scene_.fluid_frames.template to_frames<MixedLayout<n>>(rows);  // where some components are free, and others held
     scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);
     double gap = 0, force = 0;
-    for (const auto& node : scene_.interface)
+    for (std::size_t i = 0; i < scene_.owned_interface(); ++i)
       for (int k = 0; k < n; ++k) {
+        const auto& node = scene_.interface[i];
         if (wall_.numbering().wall_rows[wall_entry(node, k)].index < 0) continue;
         const double load = loads[wall_entry(node, k)];
         const double lack = rows[fluid_entry(node, k)] - load;
         gap += lack * lack;
         force += load * load;
       }
+    sum_over_processes(gap, force);
     return force > 0 ? std::sqrt(gap / force) : 0.0;
   }
 
@@ -149,6 +154,13 @@ class InterfaceProblem {
   static std::size_t fluid_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.fluid, k); }
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
+
+  void sum_over_processes(double& a, double& b) const {
+    std::array<double, 2> sums{a, b};
+    scene_.processes().sum(sums.data(), sums.size());
+    a = sums[0];
+    b = sums[1];
+  }
 
   static LinearSolverFactory<n> solver_factory(const PartitionedData& options) {
     return general_solver_factory<n>(options.linear_solver, options.fast);
@@ -172,7 +184,8 @@ class InterfaceProblem {
     }
   }
 
-  /// Loads the wall with the fluid's momentum rows and solves it.
+  /// Loads the wall with the fluid's momentum rows and solves it. Rows at copies of other processes' nodes, which are
+  /// not whole, load no row of this process.
   void solve_wall(const std::vector<double>& fluid_rows, const PassAccuracy& accuracy) {
     const Stopwatch watch(cost.wall_seconds);
     data_->interface_load.assign(state_->now.wall.size(), 0.0);

@@ -17,7 +17,7 @@ struct Membrane {
   double density = 0;              ///< rho_s, mg/mm^3
   double shear_modulus = 0;        ///< mean over the thickness, kPa
   double tension = 0;              ///< E h / (1 - nu^2) along the circumference, kPa mm
-  std::vector<double> node_areas;  ///< per interface node, mm^2
+  std::vector<double> node_areas;  ///< per interface node here, mm^2
 
   /// Hoop stiffness E h / ((1 - nu^2) R^2): pressure per normal displacement, kPa/mm.
   double stiffness() const { return tension / (radius * radius); }
@@ -51,7 +51,7 @@ template <int n>
 Membrane membrane_of(const Scene<n>& scene) {
   Membrane m;
   m.node_areas = scene.interface_areas;
-  for (double area : m.node_areas) m.area += area;
+  m.area = scene.interface_area();
   m.density = scene.wall->constants().density;
   m.radius = 2 * scene.fluid->volume() / m.area;
   for (const auto& layer : scene.wall->layer_data()) {

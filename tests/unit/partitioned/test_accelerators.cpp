@@ -276,7 +276,7 @@ TEST(CouplingSchemes, EveryNameOfTheCaseReaderHasAnAccelerator) {
   for (const auto& name : coupling_scheme_names()) {
     const auto& scheme = coupling_scheme(name);
     EXPECT_EQ(scheme.name, name);
-    EXPECT_NE(scheme.make_accelerator({}), nullptr);
+    EXPECT_NE(scheme.make_accelerator({}, {}), nullptr);
     EXPECT_NE(std::string(scheme.advice), "");
   }
   EXPECT_THROW(coupling_scheme("aitkin"), InputError);
