@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "fem/dimensions.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 

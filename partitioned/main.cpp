@@ -1,4 +1,4 @@
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "driver/driver.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "system/newton_stepper.hpp"

@@ -14,8 +14,8 @@ namespace fsi {
 // meaning are checked against them when they are compiled, see names_match().
 
 /// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
-/// factories: condensed_solver/fast_or_direct.hpp.
-inline constexpr std::array<std::string_view, 2> general_solver_list{"fast", "direct"};
+/// factories: petsc_solver/general_solvers.hpp.
+inline constexpr std::array<std::string_view, 3> general_solver_list{"fast", "direct", "petsc"};
 
 /// The other names of monolithic.linear_solver, for scenes of fluid and wall. Their table:
 /// monolithic/linear_solvers.cpp.

@@ -41,31 +41,15 @@ class FastSolver : public LinearSolver {
   bool uses_factorisation() const { return direct_ != nullptr; }
 
  private:
-  /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
-  /// what it lacks comes back in the next residual.
-  static constexpr double mesh_rows_tolerance = 1e-3;
-  static constexpr double loosest_extension = 1e-3;  ///< tolerance of a late correction's mesh motion
-
   /// \param strong  more sweeps, and coarse levels for the wall however stiff it is
   void set_up_preconditioner(bool strong);
 
   struct Iterative;
 
-  void find_shape_derivatives();
-
   /// In the run's profile.
   void count(const char* event) const;
 
   LinearReport iterate(const std::vector<double>& b, double tolerance, std::vector<double>& x);
-
-  /// correction = approximate solution for `residual`: velocities and pressures by GMRES, mesh motion as exact as the
-  /// whole solution wants it.
-  /// \param relative  the residual over the right-hand side: how much this correction weighs
-  void correct(double tolerance, double relative, LinearReport& report);
-
-  /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
-  /// rounding, or what an iterative extension left.
-  void subtract_mesh_rows(double tolerance);
 
   JacobianBlocks<n> blocks_;
   FastOptions options_;

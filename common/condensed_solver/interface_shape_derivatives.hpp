@@ -22,9 +22,10 @@ class InterfaceShapeDerivatives {
  public:
   static constexpr int lanes = padded<n>;
 
-  /// \param momentum  has the blocks of all velocities that share a cell
+  /// \param momentum  `offsets` and `columns` of the blocks of all velocities that share a cell, columns ascending
+  template <class Pattern>
   InterfaceShapeDerivatives(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
-                            const RegisterBlocks<n, n>& momentum)
+                            const Pattern& momentum)
       : blocks_(blocks), layout_(layout) {
     if (!blocks.shape_derivatives || blocks.numbering.mesh.empty()) return;
     const auto& graph = *blocks.shape_derivatives->graph;
@@ -33,6 +34,7 @@ class InterfaceShapeDerivatives {
       for (int k = 0; k < n; ++k) moves_with_it[a] = moves_with_it[a] || follows(a, k);
     for (int row = 0; row < graph.rows(); ++row)
       for (int at = graph.offsets[row]; moves_with_it[row] && at < graph.offsets[row + 1]; ++at) {
+        if (!blocks.fluid_nodes->owns(row)) break;
         const int column = graph.columns[at];
         if (!moves_with_it[column]) continue;
         const int v = layout.velocity_of_fluid[row], u = layout.velocity_of_fluid[column];
@@ -44,16 +46,22 @@ class InterfaceShapeDerivatives {
 
   /// momentum += the present values.
   void add_to(RegisterBlocks<n, n>& momentum) const {
+    for_each([&](int position, int i, int k, double value) {
+      momentum.values[static_cast<std::size_t>(position) * RegisterBlocks<n, n>::stride + k * lanes + i] +=
+          static_cast<float>(value);
+    });
+  }
+  /// Calls visit(position of the block, row in it, column in it, value to add).
+  template <class Visit>
+  void for_each(Visit visit) const {
     for (const Coupling& c : couplings_) {
       const double* block = blocks_.shape_derivatives->block(c.shape);
-      float* to = momentum.values.data() + static_cast<std::size_t>(c.momentum) * RegisterBlocks<n, n>::stride;
       for (int k = 0; k < n; ++k) {
         if (!follows(c.column, k)) continue;
         const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
                               blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
         for (int i = 0; i < n; ++i)
-          if (layout_.is_free(false, c.row, i))
-            to[k * lanes + i] += static_cast<float>(factor * block[VectorLayout<n>::vector(i, k)]);
+          if (layout_.is_free(false, c.row, i)) visit(c.momentum, i, k, factor * block[VectorLayout<n>::vector(i, k)]);
       }
     }
   }

@@ -17,7 +17,8 @@ namespace fsi {
 /// displacement is d = wall_factor v, on the interface both media have the same node (condensed as in [Failer2020],
 /// here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the whole mesh, so
 /// that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A node
-/// of which only some components are unknowns has a place for all n; the others stay zero.
+/// of which only some components are unknowns has a place for all n; the others stay zero. Where the scene is shared out
+/// among processes, copies of their velocities and pressures have places like this process's own.
 template <int n>
 class VelocityPressureLayout {
  public:
@@ -51,7 +52,7 @@ class VelocityPressureLayout {
     velocity_of_wall.assign(wall_nodes, -1);
     pressure_of_wall = velocity_of_wall;
     std::vector<std::pair<int, PartNode>> joined;  // nodes with their velocity
-    std::vector<int> velocity_of_unknown(static_cast<std::size_t>(numbering_.size), -1);
+    std::vector<int> velocity_of_unknown(numbering_.columns(), -1);
     for (const Node& node : nodes) {
       const UnknownMap& map = node.wall ? numbering_.wall : numbering_.fluid;
       const std::size_t first = MixedLayout<n>::vector(node.part);
@@ -129,15 +130,21 @@ class VelocityPressureLayout {
   /// Component k of a velocity node is an unknown, in one medium at least.
   bool is_free(int velocity, int k) const { return entries_[VectorLayout<n>::vector(velocity, k)].unknown >= 0; }
 
+  /// Of the row of a pressure: the wall's volume condition is divided by dt, so that the Schur complement is symmetric
+  /// where the Jacobian is.
+  double row_scale(int pressure) const { return wall_pressure[pressure] ? 1 / wall_factor : 1; }
+
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
   std::size_t size() const { return velocity_size() + pressures; }
 
-  /// Equations of the system that belong to these unknowns, in this order; zero where there is none.
+  /// Equations of the system that belong to these unknowns, in this order; zero where there is none, as at copies.
   void take(const std::vector<double>& system, std::vector<double>& mine) const {
     mine.resize(size());
-    for (std::size_t i = 0; i < velocity_size(); ++i)
-      mine[i] = entries_[i].unknown < 0 ? 0 : system[entries_[i].unknown];
-    for (int p = 0; p < pressures; ++p) mine[velocity_size() + p] = system[pressure_unknown_[p]];
+    const auto equation = [&](std::int64_t unknown) {
+      return unknown < 0 || unknown >= numbering_.size ? 0 : system[unknown];
+    };
+    for (std::size_t i = 0; i < velocity_size(); ++i) mine[i] = equation(entries_[i].unknown);
+    for (int p = 0; p < pressures; ++p) mine[velocity_size() + p] = equation(pressure_unknown_[p]);
   }
   /// Writes velocities and pressures as the system's unknowns.
   void give(const std::vector<double>& mine, std::vector<double>& system) const {
@@ -147,9 +154,12 @@ class VelocityPressureLayout {
   }
 
  private:
-  [[maybe_unused]] static bool same_places(const UnknownMap& unknowns, const UnknownMap& rows) {
+  /// But for copies of other processes' unknowns, which have no equations here.
+  [[maybe_unused]] bool same_places(const UnknownMap& unknowns, const UnknownMap& rows) const {
     return std::equal(unknowns.begin(), unknowns.end(), rows.begin(), rows.end(),
-                      [](const Unknown& a, const Unknown& b) { return (a.index < 0) == (b.index < 0); });
+                      [this](const Unknown& unknown, const Unknown& row) {
+                        return (unknown.index < 0 || unknown.index >= numbering_.size) == (row.index < 0);
+                      });
   }
 
   void list_nodes_of_velocities(std::vector<std::pair<int, PartNode>> joined) {

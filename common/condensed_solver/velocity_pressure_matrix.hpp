@@ -1,14 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "algebra/register_blocks.hpp"
 #include "condensed_solver/interface_shape_derivatives.hpp"
-#include "condensed_solver/velocity_pressure_layout.hpp"
+#include "condensed_solver/velocity_pressure_blocks.hpp"
 #include "fem/nodal_layout.hpp"
 
 namespace fsi {
@@ -18,8 +17,11 @@ namespace fsi {
 /// that products and smoothers run over whole registers. Vectors hold `lanes` floats a velocity node (padded with
 /// zero), then one a pressure.
 template <int n>
-class VelocityPressureMatrix {
+class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
  public:
+  using VelocityPressureBlocks<n>::for_blocks_of;
+  using VelocityPressureBlocks<n>::for_blocks_of_node;
+
   static constexpr int lanes = padded<n>;  ///< floats of a nodal vector
   using Nodal = Register<n>;               ///< one nodal vector in a register
 
@@ -27,7 +29,7 @@ class VelocityPressureMatrix {
   static void store(Nodal x, float* to) { fsi::store<n>(x, to); }
 
   VelocityPressureMatrix(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout)
-      : blocks_(blocks), layout_(layout) {
+      : VelocityPressureBlocks<n>(blocks, layout), layout_(layout) {
     make_momentum_pattern();
     make_continuity_pattern();
     momentum_.values.resize(momentum_.columns.size() * n * lanes);
@@ -37,9 +39,6 @@ class VelocityPressureMatrix {
     compressibility_.resize(continuity_velocities_.size());
   }
 
-  const VelocityPressureLayout<n>& layout() const { return layout_; }
-  /// Places at rest of the wall's nodes, mm; there must be a wall.
-  const std::vector<std::array<double, 3>>& wall_points() const { return blocks_.wall_nodes->nodes; }
   std::size_t velocity_size() const { return static_cast<std::size_t>(layout_.velocities) * lanes; }
   std::size_t size() const { return velocity_size() + layout_.pressures; }
 
@@ -133,59 +132,12 @@ class VelocityPressureMatrix {
     return gradient_.data() + static_cast<std::size_t>(at) * lanes;
   }
 
-  /// Calls visit(block, velocity or -1, pressure or -1, factor of the velocity) for the assembled blocks of the rows of
-  /// a velocity's nodes, the fluid's first; `factor` turns derivatives by displacement into those by velocity. Rows and
-  /// columns of components that are no unknowns are zero in `block`, but for a number on the diagonal of a component
-  /// that is none in either medium.
-  template <class Visit>
-  void for_blocks_of(int velocity, Visit visit) const {
-    layout_.for_nodes_of(velocity, [&](const auto& of) { for_blocks_of_node(of.wall, of.node, visit); });
-  }
-  template <class Visit>
-  void for_blocks_of_node(bool wall, int node, Visit visit) const {
-    const auto& matrix = wall ? *blocks_.wall : *blocks_.fluid;
-    const auto& velocity_of = wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid;
-    const auto& pressure_of = wall ? layout_.pressure_of_wall : layout_.pressure_of_fluid;
-    const double factor = wall ? layout_.wall_factor : 1;
-    const auto& graph = *matrix.graph;
-    const bool partly_fixed = layout_.partly_fixed();
-    double constrained[MixedLayout<n>::entries * MixedLayout<n>::entries];
-    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
-      const int b = graph.columns[at];
-      const double* block = matrix.block(at);
-      if (partly_fixed) {
-        constrain(wall, node, b, block, constrained);
-        block = constrained;
-      }
-      visit(block, velocity_of[b], pressure_of[b], factor);
-    }
-  }
-
   std::size_t bytes() const {
     return sizeof(float) * (momentum_.values.size() + gradient_.size() + divergence_.size() + compressibility_.size()) +
            sizeof(int) * (momentum_.columns.size() + gradient_columns_.size() + 2 * continuity_pressures_.size());
   }
 
  private:
-  /// `to` = the block that couples two nodes of a part, without the components that are no unknowns. A component that
-  /// is none in any medium gets a diagonal as large as the others', once.
-  void constrain(bool wall, int row, int column, const double* block, double* to) const {
-    std::copy(block, block + MixedLayout<n>::entries * MixedLayout<n>::entries, to);
-    for (int k = 0; k < n; ++k) {
-      if (!layout_.is_free(wall, row, k))
-        std::fill_n(to + MixedLayout<n>::in_block(k, 0), MixedLayout<n>::entries, 0.0);
-      if (!layout_.is_free(wall, column, k))
-        for (int i = 0; i <= n; ++i) to[MixedLayout<n>::in_block(i, k)] = 0;
-    }
-    if (row != column) return;
-    const int v = (wall ? layout_.velocity_of_wall : layout_.velocity_of_fluid)[row];
-    if (v < 0 || !layout_.is_first(wall, row, v)) return;
-    double largest = 0;
-    for (int k = 0; k < n; ++k) largest = std::max(largest, std::abs(block[MixedLayout<n>::in_block(k, k)]));
-    for (int k = 0; k < n; ++k)
-      if (!layout_.is_free(v, k)) to[MixedLayout<n>::in_block(k, k)] = largest > 0 ? largest : 1;
-  }
-
   void make_momentum_pattern() {
     momentum_.offsets = {0};
     gradient_offsets_ = {0};
@@ -253,7 +205,6 @@ class VelocityPressureMatrix {
     }
   }
 
-  JacobianBlocks<n> blocks_;
   const VelocityPressureLayout<n>& layout_;
   RegisterBlocks<n, n> momentum_;  ///< A
   std::unique_ptr<const InterfaceShapeDerivatives<n>> shape_derivatives_;

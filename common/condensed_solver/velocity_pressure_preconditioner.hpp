@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "condensed_solver/block_preconditioner_choices.hpp"
+#include "condensed_solver/momentum_diagonals.hpp"
 #include "condensed_solver/velocity_pressure_matrix.hpp"
 #include "condensed_solver/wall_coarse_correction.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
@@ -32,19 +34,7 @@ class VelocityPressurePreconditioner {
   using Nodal = typename Matrix::Nodal;
   static constexpr int lanes = Matrix::lanes;
 
-  struct Options {
-    /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
-    /// stiffness over its mass (diagonal over lumped diagonal) is at least `two_sweeps_from` and there are no coarse
-    /// levels, else one.
-    int momentum_sweeps = 0;
-    double two_sweeps_from = 14;
-    /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
-    /// save (fine artery, 0.125 ms).
-    double coarse_from = 39;
-    /// Multiple of diag(B D^-1 G) that S gets in the wall, and from which stiffness over mass; Taylor-Hood elements only
-    /// (linear ones need up to twice the iterations with it).
-    double added_diagonal = 2;
-    double added_from = 39;
+  struct Options : BlockPreconditionerChoices {
     ScalarMultigrid::Options pressure;
     typename RigidMotionMultigrid<n>::Options wall;
   };
@@ -56,7 +46,6 @@ class VelocityPressurePreconditioner {
         chunks_(matrix.momentum_offsets(), matrix.momentum_columns()) {
     make_pressure_pattern();
     inverse_diagonal_.resize(static_cast<std::size_t>(layout_.velocities) * n * lanes);
-    inverse_lumped_.resize(layout_.velocity_size());
     for (auto* x : {&velocity_residual_, &velocity_, &sweep_, &sweep_residual_}) x->resize(matrix.velocity_size());
     pressure_residual_.resize(layout_.pressures);
     pressure_.resize(layout_.pressures);
@@ -66,25 +55,24 @@ class VelocityPressurePreconditioner {
   /// The wall's momentum equations have coarse levels.
   bool has_wall_levels() const { return coarse_ != nullptr; }
   /// Diagonal over lumped diagonal of the wall's momentum at the last set_up(): how far stiffness exceeds inertia.
-  double wall_stiffness() const { return stiffness_; }
+  double wall_stiffness() const { return diagonals_.stiffness(); }
 
   /// Takes the present values of the matrix, which must have been filled.
   void set_up() {
     fill_diagonals();
     // Gauss-Seidel solves mass-dominated rows at once, but leaves much of a stiff wall's smooth motions. Decided by the
     // matrix alone, so that a restart decides the same.
-    const bool stiff = stiffness_ >= options_.coarse_from && !layout_.velocity_of_wall.empty();
+    const bool stiff = options_.has_coarse_levels(wall_stiffness()) && !layout_.velocity_of_wall.empty();
     if (!stiff) {
       coarse_.reset();
     } else {
       if (!coarse_) coarse_ = std::make_unique<WallCoarseCorrection<n>>(matrix_);
       coarse_->set_up(options_.wall);
     }
-    sweeps_ = options_.momentum_sweeps > 0                         ? options_.momentum_sweeps
-              : !coarse_ && stiffness_ >= options_.two_sweeps_from ? 2
-                                                                   : 1;
+    sweeps_ = options_.sweeps(wall_stiffness(), coarse_ != nullptr);
     fill_schur_complement();
-    if (has_few_pressures() && stiffness_ >= options_.added_from) add_to_wall_diagonal();
+    if (const double factor = options_.wall_diagonal_factor(wall_stiffness(), has_few_pressures()); factor != 1)
+      scale_wall_diagonal(factor);
     ScalarMultigrid::Options pressure = options_.pressure;
     pressure.post_smoothing = pressure.post_smoothing || has_few_pressures();
     multigrid_.set_up(schur_, pressure);
@@ -94,7 +82,7 @@ class VelocityPressurePreconditioner {
   void apply(const std::vector<float>& r, std::vector<float>& z) {
     const float* pressure_rows = r.data() + matrix_.velocity_size();
     for (int p = 0; p < layout_.pressures; ++p)
-      pressure_residual_[p] = static_cast<float>(row_scale(p)) * pressure_rows[p];
+      pressure_residual_[p] = static_cast<float>(layout_.row_scale(p)) * pressure_rows[p];
     multigrid_.cycle(pressure_residual_, pressure_);
 #pragma omp parallel for schedule(static) if (layout_.velocities > 2000)
     for (int v = 0; v < layout_.velocities; ++v) {
@@ -111,19 +99,13 @@ class VelocityPressurePreconditioner {
     return multigrid_;
   }
   std::size_t bytes() const {
-    return sizeof(float) * (inverse_diagonal_.size() + 4 * velocity_.size()) + 8 * inverse_lumped_.size() +
+    return sizeof(float) * (inverse_diagonal_.size() + 4 * velocity_.size()) + 8 * diagonals_.inverse_lumped().size() +
            schur_.bytes() + multigrid_.bytes() + (coarse_ ? coarse_->bytes() : 0);
   }
 
  private:
-  /// Most velocity nodes carry none, as with Taylor-Hood elements.
   bool has_few_pressures() const {
-    return 2 * layout_.pressures < layout_.velocities;
-  }
-
-  /// Rows of the wall's volume condition divided by dt, so that S is symmetric where the Jacobian is.
-  double row_scale(int pressure) const {
-    return layout_.wall_pressure[pressure] ? 1 / layout_.wall_factor : 1;
+    return BlockPreconditionerChoices::has_few_pressures(layout_.pressures, layout_.velocities);
   }
 
   /// Pressures that meet in one velocity node, or in a block of C.
@@ -159,62 +141,14 @@ class VelocityPressurePreconditioner {
     schur_.values.resize(schur_.indices.size());
   }
 
-  /// A's block diagonal, inverted, the lumped D, and diagonal over lumped diagonal in the wall.
+  /// A's block diagonal, inverted, and what is made of its diagonals.
   void fill_diagonals() {
-    std::vector<double> diagonals(layout_.velocities, 0.0), lumped_diagonals(layout_.velocities, 0.0);
-#pragma omp parallel for schedule(static) if (layout_.velocities > 500)
-    for (int v = 0; v < layout_.velocities; ++v) {
-      Eigen::Matrix<double, n, n> diagonal = Eigen::Matrix<double, n, n>::Zero();
-      double lumped[n] = {};
-      matrix_.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
-        for (int i = 0; i < n; ++i) {
-          lumped[i] += factor * block[MixedLayout<n>::in_block(i, i)];
-          if (u == v)
-            for (int k = 0; k < n; ++k) diagonal(i, k) += factor * block[MixedLayout<n>::in_block(i, k)];
-        }
-      });
+    diagonals_.fill(matrix_, has_few_pressures(), [&](int v, const Eigen::Matrix<double, n, n>& diagonal) {
       const Eigen::Matrix<double, n, n> inverse = diagonal.inverse();
-      const bool in_fluid = layout_.wall_of_velocity[v] < 0;
       float* to = inverse_diagonal_.data() + static_cast<std::size_t>(v) * n * lanes;
-      for (int k = 0; k < n; ++k) {
+      for (int k = 0; k < n; ++k)
         for (int i = 0; i < lanes; ++i) to[k * lanes + i] = i < n ? static_cast<float>(inverse(i, k)) : 0.0f;
-        // Viscosity drops out of the lumped sum: where it dominates, the diagonal is larger.
-        const double d = in_fluid ? std::max(lumped[k], diagonal(k, k)) : diagonal(k, k);
-        inverse_lumped_[VectorLayout<n>::vector(v, k)] = 1 / d;
-      }
-      if (layout_.fluid_of_velocity[v] < 0) {
-        int k = 0;  // a component that can move
-        while (k < n - 1 && !layout_.is_free(v, k)) ++k;
-        diagonals[v] = diagonal(k, k);
-        lumped_diagonals[v] = lumped[k];
-      }
-    }
-    stiffness_ =
-        has_few_pressures() ? ratio_of_sums(diagonals, lumped_diagonals) : mean_of_ratios(diagonals, lumped_diagonals);
-  }
-
-  /// d / l, between 0 and largest_stiffness
-  static double bounded_ratio(double d, double l) {
-    return std::min(largest_stiffness, d / std::max(l, d / largest_stiffness));
-  }
-  /// Over the nodes that are the wall's alone; the others have zero.
-  static double mean_of_ratios(const std::vector<double>& diagonals, const std::vector<double>& lumped) {
-    double sum = 0;
-    int count = 0;
-    for (std::size_t v = 0; v < diagonals.size(); ++v) {
-      const double ratio = diagonals[v] != 0 ? bounded_ratio(diagonals[v], lumped[v]) : 0;
-      sum += ratio;
-      count += ratio > 0;
-    }
-    return count > 0 ? sum / count : 1;
-  }
-  /// The same for quadratic velocities, whose mass matrix has negative row sums at vertices: a node's own ratio means
-  /// nothing. On linear elements the two differ by 1 or 2 %.
-  static double ratio_of_sums(const std::vector<double>& diagonals, const std::vector<double>& lumped) {
-    double d = 0, l = 0;
-    for (double value : diagonals) d += value;
-    for (double value : lumped) l += value;
-    return d > 0 ? bounded_ratio(d, l) : 1;
+    });
   }
 
   /// S = C - B D^-1 G
@@ -228,7 +162,7 @@ class VelocityPressurePreconditioner {
           position[schur_.indices[at]] = at;
           schur_.values[at] = 0;
         }
-        const double scale = row_scale(p);
+        const double scale = layout_.row_scale(p);
         matrix_.for_blocks_of_node(layout_.wall_pressure[p], layout_.node_of_pressure[p],
                                    [&](const double* block, int v, int q, double factor) {
                                      if (q >= 0)
@@ -237,7 +171,7 @@ class VelocityPressurePreconditioner {
                                      double divergence[n];  // a row of B D^-1
                                      for (int k = 0; k < n; ++k)
                                        divergence[k] = scale * factor * block[MixedLayout<n>::in_block(n, k)] *
-                                                       inverse_lumped_[VectorLayout<n>::vector(v, k)];
+                                                       diagonals_.inverse_lumped()[VectorLayout<n>::vector(v, k)];
                                      for (int at = matrix_.gradient_offsets()[v];
                                           at < matrix_.gradient_offsets()[v + 1]; ++at) {
                                        const float* g = matrix_.gradient(at);
@@ -251,12 +185,12 @@ class VelocityPressurePreconditioner {
   }
 
   /// C is so small in a nearly incompressible wall that the diagonal is that of -B D^-1 G.
-  void add_to_wall_diagonal() {
+  void scale_wall_diagonal(double factor) {
     for (int p = 0; p < layout_.pressures; ++p) {
       if (!layout_.wall_pressure[p]) continue;
       const auto begin = schur_.indices.begin() + schur_.offsets[p],
                  end = schur_.indices.begin() + schur_.offsets[p + 1];
-      schur_.values[std::lower_bound(begin, end, p) - schur_.indices.begin()] *= 1 + options_.added_diagonal;
+      schur_.values[std::lower_bound(begin, end, p) - schur_.indices.begin()] *= factor;
     }
   }
 
@@ -312,15 +246,12 @@ class VelocityPressurePreconditioner {
 
   const Matrix& matrix_;
   const VelocityPressureLayout<n>& layout_;
-  static constexpr double largest_stiffness = 1e4;
-
   Options options_;
   int sweeps_ = 1;
-  double stiffness_ = 1;
   std::unique_ptr<WallCoarseCorrection<n>> coarse_;  ///< null where sweeps do
   SweepChunks chunks_;
   std::vector<float> inverse_diagonal_;  ///< n columns of `lanes` numbers a node
-  std::vector<double> inverse_lumped_;   ///< D^-1
+  MomentumDiagonals<n> diagonals_;       ///< D^-1
   CsrMatrix<double> schur_;
   ScalarMultigrid multigrid_;
   std::vector<float> velocity_residual_, velocity_, sweep_, sweep_residual_, pressure_residual_, pressure_;

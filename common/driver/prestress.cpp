@@ -9,7 +9,7 @@
 #include "case/case_hash.hpp"
 #include "case/case_keys.hpp"
 #include "case/support_loads.hpp"
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "fem/dimensions.hpp"
 #include "system/prestress.hpp"
 

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "algebra/block_matrix.hpp"
-#include "algebra/gathered_matrix.hpp"
 #include "fem/nodal_frames.hpp"
 #include "fem/unknowns.hpp"
 
 namespace fsi {
 
 /// Adds a sub-problem's block matrix to a system matrix under the numbering of its rows and columns.
-template <int Rows, int Columns>
-void gather_blocks(GatheredMatrix::Builder& builder, const BlockMatrix<Rows, Columns>& matrix, const UnknownMap& rows,
+/// \param builder  has add(row, column, number, factor), as GatheredMatrix::Builder has
+template <class Builder, int Rows, int Columns>
+void gather_blocks(Builder& builder, const BlockMatrix<Rows, Columns>& matrix, const UnknownMap& rows,
                    const UnknownMap& columns) {
   const auto& graph = *matrix.graph;
   for (int a = 0; a < graph.rows(); ++a)
@@ -29,8 +29,8 @@ void gather_blocks(GatheredMatrix::Builder& builder, const BlockMatrix<Rows, Col
 
 /// The same for a matrix whose blocks hold one number per component of space, as the mesh motion's.
 /// \param frames  in which rows and columns are counted; null: along the axes of space
-template <int Components>
-void gather_diagonal_blocks(GatheredMatrix::Builder& builder, const BlockMatrix<1, Components>& matrix,
+template <class Builder, int Components>
+void gather_diagonal_blocks(Builder& builder, const BlockMatrix<1, Components>& matrix,
                             const UnknownMap& rows, const UnknownMap& columns,
                             const NodalFrames<Components>* frames = nullptr) {
   const auto& graph = *matrix.graph;

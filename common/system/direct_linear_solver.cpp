@@ -3,20 +3,13 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
-#include "fem/gather_blocks.hpp"
 
 namespace fsi {
 
 template <int n>
 GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks) {
-  const Numbering& numbering = blocks.numbering;
-  GatheredMatrix::Builder builder(numbering.size);
-  if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
-  if (blocks.fluid) gather_blocks(builder, *blocks.fluid, numbering.fluid_rows, numbering.fluid);
-  if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.fluid_rows, numbering.mesh);
-  if (blocks.mesh_tangent) gather_blocks(builder, *blocks.mesh_tangent, numbering.mesh_rows, numbering.mesh);
-  if (blocks.mesh_laplacian)
-    gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh, blocks.fluid_frames);
+  GatheredMatrix::Builder builder(blocks.numbering.size);
+  gather_jacobian_blocks(builder, blocks);
   return GatheredMatrix(std::move(builder));
 }
 

@@ -10,6 +10,19 @@
 
 namespace fsi {
 
+/// Adds all blocks of a Jacobian to a system matrix.
+/// \param builder  has add(row, column, number, factor) for equations and unknowns of the numbering
+template <int n, class Builder>
+void gather_jacobian_blocks(Builder& builder, const JacobianBlocks<n>& blocks) {
+  const Numbering& numbering = blocks.numbering;
+  if (blocks.wall) gather_blocks(builder, *blocks.wall, numbering.wall_rows, numbering.wall);
+  if (blocks.fluid) gather_blocks(builder, *blocks.fluid, numbering.fluid_rows, numbering.fluid);
+  if (blocks.shape_derivatives) gather_blocks(builder, *blocks.shape_derivatives, numbering.fluid_rows, numbering.mesh);
+  if (blocks.mesh_tangent) gather_blocks(builder, *blocks.mesh_tangent, numbering.mesh_rows, numbering.mesh);
+  if (blocks.mesh_laplacian)
+    gather_diagonal_blocks(builder, *blocks.mesh_laplacian, numbering.mesh_rows, numbering.mesh, blocks.fluid_frames);
+}
+
 /// Gathers the Jacobian in the unknowns of its numbering.
 template <int n>
 GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks);

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"

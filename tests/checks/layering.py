@@ -27,6 +27,7 @@ FLOORS = (
     ("common/scene",),
     ("common/system",),
     ("common/condensed_solver",),
+    ("common/petsc_solver",),
     ("common/diagnostics",),
     ("common/derived",),
     ("common/io",),

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "condensed_solver/fast_or_direct.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"

@@ -1,0 +1,35 @@
+#pragma once
+
+namespace fsi {
+
+/// What a block preconditioner of velocities and pressures does, decided by the matrix alone, so that a restart decides
+/// the same. Defaults by measurement (docs/solvers.md).
+struct BlockPreconditionerChoices {
+  /// Symmetric Gauss-Seidel sweeps in place of A^-1, or before and after its coarse levels. 0: two where the wall's
+  /// stiffness over its mass (diagonal over lumped diagonal) is at least `two_sweeps_from` and there are no coarse
+  /// levels, else one.
+  int momentum_sweeps = 0;
+  double two_sweeps_from = 14;
+  /// The wall's momentum gets coarse levels from this stiffness over mass. Below, their set-up costs more than they
+  /// save (fine artery, 0.125 ms).
+  double coarse_from = 39;
+  /// Multiple of diag(B D^-1 G) that S gets in the wall, and from which stiffness over mass; Taylor-Hood elements only
+  /// (linear ones need up to twice the iterations with it).
+  double added_diagonal = 2;
+  double added_from = 39;
+
+  /// Most velocity nodes carry none, as with Taylor-Hood elements.
+  static bool has_few_pressures(double pressures, double velocities) { return 2 * pressures < velocities; }
+
+  /// \param stiffness  MomentumDiagonals::stiffness()
+  bool has_coarse_levels(double stiffness) const { return stiffness >= coarse_from; }
+  int sweeps(double stiffness, bool coarse_levels) const {
+    return momentum_sweeps > 0 ? momentum_sweeps : !coarse_levels && stiffness >= two_sweeps_from ? 2 : 1;
+  }
+  /// Of the diagonal of S in the wall.
+  double wall_diagonal_factor(double stiffness, bool few_pressures) const {
+    return few_pressures && stiffness >= added_from ? 1 + added_diagonal : 1;
+  }
+};
+
+}  // namespace fsi

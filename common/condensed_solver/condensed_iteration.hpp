@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "condensed_solver/velocity_pressure_layout.hpp"
+#include "mesh_motion/mesh_extension.hpp"
+#include "system/jacobian_product.hpp"
+#include "system/linear_solver.hpp"
+
+namespace fsi {
+
+/// The outer iteration around a solver of velocities and pressures: it computes residuals of the whole system in double
+/// precision, takes the mesh displacement along by its extension, and brings the shape derivatives back that the inner
+/// solver leaves out, small against the rest, through the residual. Where the scene is shared out among processes, each
+/// holds the rows of its unknowns, and solutions with copies.
+template <int n>
+class CondensedIteration {
+ public:
+  /// solution = approximate F^-1 right in the order of the layout, places of copies as they are; `scale` is |right| > 0.
+  /// \param tolerance  residual over |right|
+  /// \returns iterations
+  using InnerSolver = std::function<int(const std::vector<double>& right, double scale, double tolerance,
+                                        std::vector<double>& solution)>;
+  /// \param inner  per entry of the mesh motion: it is sought here
+  using MakeExtension =
+      std::function<std::unique_ptr<MeshExtension<n>>(const JacobianBlocks<n>& blocks, std::vector<char> inner)>;
+
+  /// \param layout          of the blocks; must outlive this
+  /// \param make_extension  called where there is a mesh motion
+  /// \param max_iterations  of the inner solver, in one solve
+  CondensedIteration(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout,
+                     const MakeExtension& make_extension, int max_iterations);
+  ~CondensedIteration();
+
+  /// The block matrices hold new values.
+  void update();
+
+  /// \param tolerance  demanded |b - J x| / |b|
+  /// \param x          overwritten
+  LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
+                     std::vector<double>& x);
+
+  const MeshExtension<n>* extension() const { return extension_.get(); }  ///< null without mesh motion
+
+ private:
+  /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
+  /// what it lacks comes back in the next residual.
+  static constexpr double mesh_rows_tolerance = 1e-3;
+  static constexpr double loosest_extension = 1e-3;  ///< tolerance of a late correction's mesh motion
+
+  void count_extension();
+  /// Of rows, which all processes have some of.
+  double norm_of_all(const std::vector<double>& x) const;
+
+  /// correction = approximate solution for the residual: velocities and pressures by the inner solver, mesh motion as
+  /// exact as the whole solution wants it.
+  /// \param relative  the residual over the right-hand side: how much this correction weighs
+  void correct(double tolerance, double relative, const InnerSolver& inner_solver, LinearReport& report);
+
+  /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
+  /// rounding, or what an iterative extension left.
+  void subtract_mesh_rows(double tolerance);
+
+  JacobianBlocks<n> blocks_;
+  const VelocityPressureLayout<n>& layout_;
+  JacobianProduct<n> jacobian_;
+  int max_iterations_;
+  std::unique_ptr<MeshExtension<n>> extension_;
+  int extension_version_ = 0;       ///< of the operator that it was made of
+  bool shape_derivatives_ = false;  ///< they are not all zero (as they are at rest)
+  std::vector<double> right_, solution_, residual_, jacobian_times_x_, correction_;
+  std::vector<double> mesh_, mesh_right_, fluid_rows_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "fem/nodal_frames.hpp"
+#include "mesh/submesh.hpp"
+#include "mesh_motion/mesh_extension.hpp"
+#include "mesh_motion/nonlinear_mesh_motion.hpp"
+
+namespace fsi {
+
+/// The solver of a harmonic or stiffened mesh motion, of the fluid's nodes `part`: HarmonicExtension on one process, and
+/// where the part is shared out, conjugate gradients by PETSc. There right sides count at own entries, fields hold copies:
+/// given values have to be in them, sought ones are brought to them.
+/// \param laplacian  conditions not imposed; must outlive this, and so must `frames` and `part`
+/// \param inner      per node and component, in the frames: its value is sought. What stands there for copies of other
+///                   processes' nodes does not matter
+/// \param frames     null: none
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                                                          const NodalFrames<n>* frames, const PartNodes& part);
+
+/// The same for a linearised nonlinear motion: TangentExtension, or PETSc. update() has to come first.
+/// \param tangent  with components along the frames of nodes that have one
+template <int n>
+std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>& tangent, std::vector<char> inner,
+                                                         const PartNodes& part);
+
+}  // namespace fsi

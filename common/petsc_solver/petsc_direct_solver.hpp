@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "petsc_solver/petsc_factorisation.hpp"
+#include "petsc_solver/petsc_gathered_matrix.hpp"
+#include "system/jacobian_product.hpp"
+#include "system/linear_solver.hpp"
+
+namespace fsi {
+
+/// `direct` on several processes: LU of the whole Jacobian by MUMPS.
+template <int n>
+class PetscDirectSolver : public LinearSolver {
+ public:
+  explicit PetscDirectSolver(const JacobianBlocks<n>& blocks);
+
+  void update() override;
+  const char* preparation() const override { return "factorisation"; }
+  bool ready() const override { return static_cast<bool>(factors_); }
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
+  LinearStatistics statistics() const override;
+  double keep_contraction() const override { return 0.4; }
+  int solves_worth_an_update() const override { return 40; }
+
+ private:
+  PetscGatheredMatrix gather() const;
+
+  JacobianBlocks<n> blocks_;
+  MPI_Comm communicator_;
+  JacobianProduct<n> jacobian_;
+  PetscGatheredMatrix matrix_;
+  int gathered_ = 0;  ///< version of the numbering whose factors it holds
+  OwnedKsp factors_;
+  OwnedVec b_, x_;
+  std::vector<double> product_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,192 @@
+#include "petsc_solver/petsc_extension.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "algebra/block_products.hpp"
+#include "algebra/direct_solver.hpp"
+#include "base/error.hpp"
+#include "fem/dimensions.hpp"
+#include "fem/gather_blocks.hpp"
+#include "fem/nodal_layout.hpp"
+#include "petsc_solver/petsc_factorisation.hpp"
+#include "petsc_solver/petsc_options.hpp"
+
+namespace fsi {
+
+template <int n>
+PetscExtension<n>::PetscExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
+                                  const NodalFrames<n>* frames, const PartNodes& part)
+    : laplacian_(&laplacian),
+      frames_(frames && !frames->empty() ? frames : nullptr),
+      part_(part),
+      communicator_(petsc_communicator(part.processes())),
+      inner_(std::move(inner)) {
+  number_entries();
+  components_apart_ = !part.processes().any(frames_ != nullptr);
+  PetscExtension<n>::update();
+}
+
+template <int n>
+PetscExtension<n>::PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part)
+    : tangent_(&tangent), part_(part), communicator_(petsc_communicator(part.processes())), inner_(std::move(inner)) {
+  number_entries();
+}
+
+template <int n>
+void PetscExtension<n>::number_entries() {
+  assert(inner_.size() == VectorLayout<n>::size(part_.node_count()));
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    if (!part_.owns(static_cast<int>(i / n))) inner_[i] = 0;
+    if (inner_[i]) entry_.push_back(i);
+  }
+  const auto own = static_cast<std::int64_t>(entry_.size());
+  const std::int64_t first = part_.processes().sum_before(own);
+  std::vector<double> numbers(inner_.size(), -1.0);
+  for (std::size_t row = 0; row < entry_.size(); ++row)
+    numbers[entry_[row]] = static_cast<double>(first + static_cast<std::int64_t>(row));
+  if (part_.share) part_.share->template update<VectorLayout<n>>(numbers);
+  rows_.resize(inner_.size());
+  columns_.resize(inner_.size());
+  for (std::size_t i = 0; i < inner_.size(); ++i) {
+    columns_[i].index = static_cast<std::int64_t>(numbers[i]);
+    if (inner_[i])
+      rows_[i] = columns_[i];
+    else if (columns_[i].index >= 0)
+      inner_[i] = 2;  // sought, by another process
+  }
+  given_.resize(inner_.size());
+  given_rows_.resize(inner_.size());
+  b_ = petsc_vector(communicator_, static_cast<PetscInt>(entry_.size()));
+  x_ = petsc_vector(communicator_, static_cast<PetscInt>(entry_.size()));
+}
+
+template <int n>
+PetscGatheredMatrix PetscExtension<n>::gather(bool whole) const {
+  PetscGatheredMatrix::Builder builder;
+  const auto add = [&](const UnknownMap& rows, const UnknownMap& columns) {
+    if (tangent_)
+      gather_blocks(builder, *tangent_, rows, columns);
+    else
+      gather_diagonal_blocks(builder, *laplacian_, rows, columns, frames_);
+  };
+  if (whole) {
+    add(rows_, columns_);
+  } else {
+    for (int k = 0; k < n; ++k) {
+      UnknownMap rows(rows_.size()), columns(columns_.size());
+      for (std::size_t i = k; i < rows.size(); i += n) {
+        rows[i] = rows_[i];
+        columns[i] = columns_[i];
+      }
+      add(rows, columns);
+    }
+  }
+  return {communicator_, static_cast<PetscInt>(entry_.size()), std::move(builder)};
+}
+
+template <int n>
+void PetscExtension<n>::update() {
+  const OneDenseThread same_bits_for_any_number;
+  if (matrix_.matrix() == nullptr) {
+    matrix_ = gather(true);
+    if (!components_apart_) of_components_ = gather(false);
+  }
+  matrix_.update();
+  if (!components_apart_) of_components_.update();
+  factorised_ = false;  // the last values' iteration may have failed
+  factors_.reset();
+  set_up_iteration();
+}
+
+template <int n>
+void PetscExtension<n>::set_up_iteration() {
+  const bool first = !iteration_;
+  if (first) {
+    take_petsc_options();
+    petsc_check(KSPCreate(communicator_, iteration_.fresh()));
+    petsc_check(KSPSetOptionsPrefix(iteration_, prefix_of(PetscPart::mesh)));
+    petsc_check(KSPSetType(iteration_, KSPCG));
+    petsc_check(KSPSetNormType(iteration_, KSP_NORM_UNPRECONDITIONED));
+    petsc_check(KSPSetInitialGuessNonzero(iteration_, PETSC_TRUE));
+    PC pc = nullptr;
+    petsc_check(KSPGetPC(iteration_, &pc));
+    petsc_check(PCSetType(pc, PCHYPRE));
+    petsc_check(PCHYPRESetType(pc, "boomeramg"));
+  }
+  petsc_check(
+      KSPSetOperators(iteration_, matrix_.matrix(), components_apart_ ? matrix_.matrix() : of_components_.matrix()));
+  try {
+    if (first) petsc_check(KSPSetFromOptions(iteration_));
+    petsc_check(KSPSetUp(iteration_));
+  } catch (const PetscFailure& failure) {
+    blame_petsc_options(failure.what());
+  }
+  if (first) refuse_unread_petsc_options(PetscPart::mesh);
+}
+
+template <int n>
+void PetscExtension<n>::factorise() {
+  factors_ = petsc_factorisation(communicator_, matrix_.matrix());
+  factorised_ = true;
+}
+
+/// The rows of A times the values that are given.
+template <int n>
+void PetscExtension<n>::multiply_given() {
+  if (tangent_) {
+    multiply(*tangent_, given_, given_rows_);
+    return;
+  }
+  if (frames_) frames_->template to_space<VectorLayout<n>>(given_);
+  multiply_components<n>(*laplacian_, given_, given_rows_);
+  if (frames_) frames_->template to_frames<VectorLayout<n>>(given_rows_);
+}
+
+template <int n>
+void PetscExtension<n>::solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) {
+  assert(right.size() == inner_.size() && field.size() == inner_.size());
+  const OneDenseThread same_bits_for_any_number;
+  for (std::size_t i = 0; i < inner_.size(); ++i) given_[i] = inner_[i] ? 0 : field[i];
+  multiply_given();
+  double *b = nullptr, *x = nullptr;
+  petsc_check(VecGetArray(b_, &b));
+  petsc_check(VecGetArray(x_, &x));
+  for (std::size_t row = 0; row < entry_.size(); ++row) {
+    b[row] = right[entry_[row]] - given_rows_[entry_[row]];
+    x[row] = field[entry_[row]];
+  }
+  petsc_check(VecRestoreArray(b_, &b));
+  petsc_check(VecRestoreArray(x_, &x));
+  if (factorised_ || !iterate(tolerance)) {
+    if (!factorised_) factorise();
+    petsc_check(KSPSolve(factors_, b_, x_));
+  }
+  const double* found = nullptr;
+  petsc_check(VecGetArrayRead(x_, &found));
+  for (std::size_t row = 0; row < entry_.size(); ++row) field[entry_[row]] = found[row];
+  petsc_check(VecRestoreArrayRead(x_, &found));
+  if (part_.share) part_.share->template update<VectorLayout<n>>(field);
+}
+
+template <int n>
+bool PetscExtension<n>::iterate(double tolerance) {
+  PetscInt count = 0;
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  petsc_check(KSPSetTolerances(iteration_, tolerance, 1e-300, PETSC_DEFAULT, most_iterations));
+  petsc_check(KSPSolve(iteration_, b_, x_));
+  petsc_check(KSPGetIterationNumber(iteration_, &count));
+  petsc_check(KSPGetConvergedReason(iteration_, &reason));
+  iterations_ = static_cast<int>(count);
+  return reason > 0;
+}
+
+template <int n>
+double PetscExtension<n>::memory_mib() const {
+  return (petsc_bytes(matrix_.matrix()) + petsc_bytes(of_components_.matrix())) / (1 << 20);
+}
+
+#define FSI_INSTANTIATE(n) template class PetscExtension<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "fem/nodal_frames.hpp"
+#include "fem/unknowns.hpp"
+#include "mesh/submesh.hpp"
+#include "mesh_motion/mesh_extension.hpp"
+#include "mesh_motion/nonlinear_mesh_motion.hpp"
+#include "petsc_solver/petsc_gathered_matrix.hpp"
+
+namespace fsi {
+
+/// The equations of a mesh motion whose nodes are shared out among processes, or not: conjugate gradients preconditioned
+/// by BoomerAMG for each component alone, by Korn's inequality as good as for a Laplacian but for a constant
+/// [Blaheta1994]. What defeats them, as a tangent that is not positive, is factorised. Options by the prefix -fsi_mesh_.
+/// \tparam n  components of a node
+template <int n>
+class PetscExtension : public MeshExtension<n> {
+ public:
+  /// As make_harmonic_extension() has them.
+  PetscExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
+                 const PartNodes& part);
+  /// As make_tangent_extension() has them.
+  PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part);
+
+  void update() override;
+  void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) override;
+  bool iterates() const override { return !factorised_; }
+  double memory_mib() const override;
+  int iterations() const override { return iterations_; }
+
+ private:
+  static constexpr int most_iterations = 200;  ///< of conjugate gradients; a solve that needs more is factorised
+
+  void number_entries();
+  /// All entries, or those that couple no two components.
+  PetscGatheredMatrix gather(bool whole) const;
+  void set_up_iteration();
+  void factorise();
+  void multiply_given();
+  bool iterate(double tolerance);
+
+  const BlockMatrix<1, n>* laplacian_ = nullptr;
+  const MeshMotionTangent<n>* tangent_ = nullptr;
+  const NodalFrames<n>* frames_ = nullptr;
+  const PartNodes& part_;
+  MPI_Comm communicator_;
+  std::vector<char> inner_;
+  UnknownMap rows_, columns_;       ///< by numbers among all processes' ones; rows of own nodes
+  std::vector<std::size_t> entry_;  ///< per own unknown
+  PetscGatheredMatrix matrix_, of_components_;
+  bool components_apart_ = false;  ///< the matrix couples no two components
+  OwnedKsp iteration_, factors_;
+  OwnedVec b_, x_;
+  bool factorised_ = false;
+  int iterations_ = 0;
+  std::vector<double> given_, given_rows_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "condensed_solver/block_preconditioner_choices.hpp"
+#include "petsc_solver/velocity_pressure_system.hpp"
+
+namespace fsi {
+
+/// Approximate A^-1 of the momentum: symmetric Gauss-Seidel sweeps over n x n blocks within each process and, where the
+/// wall is stiff, coarse levels of its own momentum between two of them (GAMG that knows rigid motions). Options by the
+/// prefixes -fsi_velocity_ and -fsi_wall_.
+template <int n>
+class PetscMomentumSolver {
+ public:
+  explicit PetscMomentumSolver(const VelocityPressureSystem<n>& system) : system_(system) {}
+
+  /// Takes the present values of the system.
+  void set_up(const BlockPreconditionerChoices& choices);
+  void apply(Vec residual, Vec velocities);
+
+  bool has_wall_levels() const { return wall_ != nullptr; }
+
+ private:
+  struct WallLevels;
+
+  void make_sweeps(bool wall_levels);
+  void set_up_wall();
+  static PetscErrorCode apply_wall(PC shell, Vec x, Vec y);
+
+  const VelocityPressureSystem<n>& system_;
+  OwnedKsp solver_;
+  bool around_wall_ = false;  ///< the solver is made with coarse levels
+  std::vector<PC> sweeps_;    ///< of the solver
+  std::shared_ptr<WallLevels> wall_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,333 @@
+#include "petsc_solver/velocity_pressure_system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The numbers of a matrix in blocks, block by block and column by column: of its part with own columns, and of the
+/// other, which there is not on one process. In PETSc's hands again when this ends.
+class BlockArrays {
+ public:
+  explicit BlockArrays(Mat matrix) {
+    PetscBool sequential = PETSC_FALSE;
+    petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQBAIJ, &sequential));
+    if (sequential)
+      parts_[0] = matrix;
+    else
+      petsc_check(MatMPIBAIJGetSeqBAIJ(matrix, &parts_[0], &parts_[1], nullptr));
+    for (int i = 0; i < 2; ++i)
+      if (parts_[i] != nullptr) petsc_check(MatSeqBAIJGetArray(parts_[i], &arrays_[i]));
+  }
+  ~BlockArrays() {
+    for (int i = 0; i < 2; ++i)
+      if (parts_[i] != nullptr) MatSeqBAIJRestoreArray(parts_[i], &arrays_[i]);
+  }
+  BlockArrays(const BlockArrays&) = delete;
+  BlockArrays& operator=(const BlockArrays&) = delete;
+
+  double* own() const { return arrays_[0]; }
+  double* other() const { return arrays_[1]; }
+
+ private:
+  Mat parts_[2] = {nullptr, nullptr};
+  double* arrays_[2] = {nullptr, nullptr};
+};
+
+}  // namespace
+
+template <int n>
+VelocityPressureSystem<n>::VelocityPressureSystem(const JacobianBlocks<n>& blocks,
+                                                  const VelocityPressureLayout<n>& layout)
+    : blocks_(blocks, layout),
+      layout_(layout),
+      shared_(blocks, layout),
+      communicator_(petsc_communicator(*blocks.numbering.processes)),
+      processes_(*blocks.numbering.processes),
+      pattern_([&] {
+        Pattern pattern;
+        pattern.offsets = {0};
+        std::vector<int> row;
+        for (int v = 0; v < layout.velocities; ++v) {
+          row.clear();
+          if (shared_.owns_velocity[v])
+            blocks_.for_blocks_of(v, [&](const double*, int u, int, double) {
+              if (u >= 0) row.push_back(u);
+            });
+          std::sort(row.begin(), row.end());
+          row.erase(std::unique(row.begin(), row.end()), row.end());
+          pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
+          pattern.offsets.push_back(static_cast<int>(pattern.columns.size()));
+        }
+        return pattern;
+      }()),
+      shape_derivatives_(blocks, layout, pattern_),
+      row_scale_(petsc_vector(communicator_, shared_.pressure_rows)),
+      x_velocities_(velocity_view()),
+      x_pressures_(pressure_view()),
+      y_velocities_(velocity_view()),
+      y_pressures_(pressure_view()) {
+  make_momentum();
+  make_lists();
+}
+
+template <int n>
+bool VelocityPressureSystem<n>::has_few_pressures() const {
+  return 2 * shared_.whole_pressures < shared_.whole_velocities;
+}
+
+template <int n>
+void VelocityPressureSystem<n>::make_momentum() {
+  std::vector<PetscInt> offsets{0}, columns;
+  std::vector<int> order;  // positions of a row by their columns among all processes'
+  block_at_.resize(pattern_.columns.size());
+  const PetscInt first = shared_.first_velocity, end = first + static_cast<PetscInt>(shared_.own_velocities.size());
+  const auto number = [&](int at) { return shared_.velocity_number[pattern_.columns[at]]; };
+  std::size_t own = 0, other = 0;
+  for (const int v : shared_.own_velocities) {
+    order.resize(pattern_.offsets[v + 1] - pattern_.offsets[v]);
+    std::iota(order.begin(), order.end(), pattern_.offsets[v]);
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return number(a) < number(b); });
+    for (const int at : order) {
+      columns.push_back(number(at));
+      block_at_[at] = number(at) >= first && number(at) < end ? own++ : other++;
+    }
+    offsets.push_back(static_cast<PetscInt>(columns.size()));
+  }
+  petsc_check(MatCreate(communicator_, momentum_.fresh()));
+  petsc_check(MatSetSizes(momentum_, shared_.velocity_rows, shared_.velocity_rows, PETSC_DECIDE, PETSC_DECIDE));
+  petsc_check(MatSetType(momentum_, MATBAIJ));
+  petsc_check(MatSeqBAIJSetPreallocationCSR(momentum_, n, offsets.data(), columns.data(), nullptr));
+  petsc_check(MatMPIBAIJSetPreallocationCSR(momentum_, n, offsets.data(), columns.data(), nullptr));
+}
+
+template <int n>
+OwnedMat VelocityPressureSystem<n>::listed_matrix(PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
+                                                  std::vector<PetscInt>& j) const {
+  OwnedMat matrix;
+  petsc_check(MatCreate(communicator_, matrix.fresh()));
+  petsc_check(MatSetSizes(matrix, rows, columns, PETSC_DECIDE, PETSC_DECIDE));
+  petsc_check(MatSetType(matrix, MATAIJ));
+  petsc_check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+  return matrix;
+}
+
+template <int n>
+void VelocityPressureSystem<n>::make_lists() {
+  std::vector<PetscInt> gradient_rows, gradient_columns, scaled_rows, scaled_columns, rows, columns;
+  for (const int v : shared_.own_velocities)
+    blocks_.for_blocks_of(v, [&](const double*, int, int p, double) {
+      for (int k = 0; k < n && p >= 0; ++k) {
+        gradient_rows.push_back(shared_.velocity_number[v] * n + k);
+        scaled_rows.push_back(shared_.velocity_place[v] + k);
+        gradient_columns.push_back(shared_.pressure_number[p]);
+      }
+    });
+  scaled_columns = gradient_columns;
+  for (const int p : shared_.own_pressures) {
+    scaled_rows.push_back(shared_.pressure_place[p]);
+    scaled_columns.push_back(shared_.pressure_number[p]);
+    blocks_.for_blocks_of_node(layout_.wall_pressure[p] != 0, layout_.node_of_pressure[p],
+                               [&](const double*, int v, int q, double) {
+                                 for (int k = 0; k < n && v >= 0; ++k) {
+                                   rows.push_back(shared_.pressure_number[p]);
+                                   columns.push_back(shared_.velocity_place[v] + k);
+                                 }
+                                 if (q < 0) return;
+                                 rows.push_back(shared_.pressure_number[p]);
+                                 columns.push_back(shared_.pressure_place[q]);
+                               });
+  }
+  gradient_values_.resize(gradient_rows.size());
+  scaled_values_.resize(scaled_rows.size());
+  continuity_values_.resize(rows.size());
+  gradient_ = listed_matrix(shared_.velocity_rows, shared_.pressure_rows, gradient_rows, gradient_columns);
+  scaled_gradient_ = listed_matrix(shared_.rows(), shared_.pressure_rows, scaled_rows, scaled_columns);
+  continuity_ = listed_matrix(shared_.pressure_rows, shared_.rows(), rows, columns);
+}
+
+template <int n>
+void VelocityPressureSystem<n>::fill() {
+  diagonals_.fill(
+      blocks_, has_few_pressures(), [](int, const auto&) {}, shared_.owns_velocity, processes_);
+  fill_momentum_and_gradient();
+  fill_continuity();
+}
+
+template <int n>
+void VelocityPressureSystem<n>::fill_momentum_and_gradient() {
+  petsc_check(MatZeroEntries(momentum_));
+  std::size_t gradient_at = 0;
+  {
+    const BlockArrays arrays(momentum_);
+    const auto block_of = [&](std::ptrdiff_t position) {
+      return (shared_.owns_velocity[pattern_.columns[position]] ? arrays.own() : arrays.other()) +
+             block_at_[position] * n * n;
+    };
+    for (const int v : shared_.own_velocities) {
+      const auto begin = pattern_.columns.begin() + pattern_.offsets[v],
+                 end = pattern_.columns.begin() + pattern_.offsets[v + 1];
+      const double* inverse = diagonals_.inverse_lumped().data() + VectorLayout<n>::vector(v);
+      blocks_.for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
+        for (int k = 0; k < n && p >= 0; ++k, ++gradient_at) {
+          const double g = block[MixedLayout<n>::in_block(k, n)];
+          gradient_values_[gradient_at] = g;
+          scaled_values_[gradient_at] = -inverse[k] * g;
+        }
+        if (u < 0) return;
+        double* a = block_of(std::lower_bound(begin, end, u) - pattern_.columns.begin());
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k) a[k * n + i] += factor * block[MixedLayout<n>::in_block(i, k)];
+      });
+    }
+    shape_derivatives_.for_each(
+        [&](int position, int i, int k, double value) { block_of(position)[k * n + i] += value; });
+  }
+  petsc_check(MatAssemblyBegin(momentum_, MAT_FINAL_ASSEMBLY));
+  petsc_check(MatAssemblyEnd(momentum_, MAT_FINAL_ASSEMBLY));
+  std::fill(scaled_values_.begin() + static_cast<std::ptrdiff_t>(gradient_at), scaled_values_.end(), 1.0);
+  petsc_check(MatSetValuesCOO(gradient_, gradient_values_.data(), INSERT_VALUES));
+  petsc_check(MatSetValuesCOO(scaled_gradient_, scaled_values_.data(), INSERT_VALUES));
+}
+
+template <int n>
+void VelocityPressureSystem<n>::fill_continuity() {
+  std::size_t at = 0;
+  double* scale = nullptr;
+  petsc_check(VecGetArray(row_scale_, &scale));
+  for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) {
+    const int pressure = shared_.own_pressures[i];
+    scale[i] = layout_.row_scale(pressure);
+    blocks_.for_blocks_of_node(layout_.wall_pressure[pressure] != 0, layout_.node_of_pressure[pressure],
+                               [&](const double* block, int v, int q, double factor) {
+                                 for (int k = 0; k < n && v >= 0; ++k)
+                                   continuity_values_[at++] = factor * block[MixedLayout<n>::in_block(n, k)];
+                                 if (q >= 0) continuity_values_[at++] = block[MixedLayout<n>::in_block(n, n)];
+                               });
+  }
+  petsc_check(VecRestoreArray(row_scale_, &scale));
+
+  petsc_check(MatSetValuesCOO(continuity_, continuity_values_.data(), INSERT_VALUES));
+}
+
+template <int n>
+void VelocityPressureSystem<n>::make_schur_complement(double wall_diagonal_factor) {
+  const bool first = !schur_;
+  petsc_check(MatMatMult(continuity_, scaled_gradient_, first ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT,
+                         schur_.at()));
+  petsc_check(MatDiagonalScale(schur_, row_scale_, nullptr));
+  if (wall_diagonal_factor == 1) return;
+  OwnedVec diagonal = petsc_vector(communicator_, shared_.pressure_rows);
+  petsc_check(MatGetDiagonal(schur_, diagonal));
+  double* d = nullptr;
+  petsc_check(VecGetArray(diagonal, &d));
+  for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i)
+    if (layout_.wall_pressure[shared_.own_pressures[i]]) d[i] *= wall_diagonal_factor;
+  petsc_check(VecRestoreArray(diagonal, &d));
+  petsc_check(MatDiagonalSet(schur_, diagonal, INSERT_VALUES));
+}
+
+template <int n>
+void VelocityPressureSystem<n>::multiply(Vec x, Vec y) {
+  const Parts of_x(*this, x_velocities_, x_pressures_, x, false), of_y(*this, y_velocities_, y_pressures_, y, true);
+  petsc_check(MatMult(momentum_, x_velocities_, y_velocities_));
+  petsc_check(MatMultAdd(gradient_, x_pressures_, y_velocities_, y_velocities_));
+  petsc_check(MatMult(continuity_, x, y_pressures_));
+}
+
+template <int n>
+VelocityPressureSystem<n>::Parts::Parts(const VelocityPressureSystem& system, Vec velocities, Vec pressures, Vec x,
+                                        bool writes)
+    : velocities_(velocities), pressures_(pressures), x_(x), writes_(writes) {
+  double* array = nullptr;
+  if (writes) {
+    petsc_check(VecGetArrayWrite(x, &array));
+    array_ = array;
+  } else {
+    petsc_check(VecGetArrayRead(x, &array_));
+  }
+  petsc_check(VecPlaceArray(velocities, array_));
+  petsc_check(VecPlaceArray(pressures, array_ + system.shared().velocity_rows));
+}
+
+template <int n>
+VelocityPressureSystem<n>::Parts::~Parts() {
+  VecResetArray(velocities_);
+  VecResetArray(pressures_);
+  double* array = const_cast<double*>(array_);
+  if (writes_)
+    VecRestoreArrayWrite(x_, &array);
+  else
+    VecRestoreArrayRead(x_, &array_);
+}
+
+template <int n>
+std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressureSystem<n>::make_wall_momentum()
+    const {
+  auto wall = std::make_unique<WallMomentum>();
+  // Numbers of the wall's velocities among all processes' ones.
+  std::vector<double> numbers(layout_.wall_of_velocity.size(), -1.0);
+  for (std::size_t i = 0; i < shared_.own_velocities.size(); ++i) {
+    const int v = shared_.own_velocities[i];
+    if (layout_.wall_of_velocity[v] < 0) continue;
+    wall->own.push_back(static_cast<int>(i));
+    wall->points.push_back(blocks_.wall_points()[layout_.wall_of_velocity[v]]);
+  }
+  const auto own = static_cast<std::int64_t>(wall->own.size());
+  const std::int64_t first = processes_.sum_before(own);
+  for (std::int64_t i = 0; i < own; ++i) numbers[shared_.own_velocities[wall->own[i]]] = static_cast<double>(first + i);
+  shared_.update_velocities(numbers);
+  std::vector<PetscInt> rows, columns;
+  for (const int i : wall->own) {
+    const int v = shared_.own_velocities[i];
+    for (int at = pattern_.offsets[v]; at < pattern_.offsets[v + 1]; ++at) {
+      const int u = pattern_.columns[at];
+      if (layout_.wall_of_velocity[u] < 0) continue;
+      wall->from.push_back(at);
+      for (int k = 0; k < n; ++k)
+        for (int row = 0; row < n; ++row) {
+          rows.push_back(static_cast<PetscInt>(numbers[v]) * n + row);
+          columns.push_back(static_cast<PetscInt>(numbers[u]) * n + k);
+        }
+    }
+  }
+  const auto size = static_cast<PetscInt>(own * n);
+  petsc_check(MatCreate(communicator_, wall->matrix.fresh()));
+  petsc_check(MatSetSizes(wall->matrix, size, size, PETSC_DECIDE, PETSC_DECIDE));
+  petsc_check(MatSetType(wall->matrix, MATAIJ));
+  petsc_check(MatSetBlockSize(wall->matrix, n));
+  petsc_check(MatSetPreallocationCOO(wall->matrix, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()));
+  return wall;
+}
+
+template <int n>
+void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
+  std::vector<double> values;
+  values.reserve(wall.from.size() * n * n);
+  {
+    const BlockArrays arrays(momentum_);
+    for (const int at : wall.from) {
+      const double* block =
+          (shared_.owns_velocity[pattern_.columns[at]] ? arrays.own() : arrays.other()) + block_at_[at] * n * n;
+      values.insert(values.end(), block, block + n * n);
+    }
+  }
+  petsc_check(MatSetValuesCOO(wall.matrix, values.data(), INSERT_VALUES));
+}
+
+template <int n>
+double VelocityPressureSystem<n>::bytes() const {
+  double sum = 8.0 * static_cast<double>(gradient_values_.size() + scaled_values_.size() + continuity_values_.size());
+  for (const Mat matrix : {Mat(momentum_), Mat(gradient_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)})
+    sum += petsc_bytes(matrix);
+  return sum;
+}
+
+#define FSI_INSTANTIATE(n) template class VelocityPressureSystem<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

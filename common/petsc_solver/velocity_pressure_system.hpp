@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "condensed_solver/interface_shape_derivatives.hpp"
+#include "condensed_solver/momentum_diagonals.hpp"
+#include "condensed_solver/velocity_pressure_blocks.hpp"
+#include "petsc_solver/shared_layout.hpp"
+
+namespace fsi {
+
+/// The Jacobian of velocities and pressures F = [A G; B C] and its Schur complement S = C - B D^-1 G as matrices of
+/// PETSc, by rows of all processes. Of the mesh motion A has what InterfaceShapeDerivatives gives. All numbers go to
+/// places that are worked out once: A, in blocks of n x n, straight into PETSc's arrays, the others by lists of entries.
+template <int n>
+class VelocityPressureSystem {
+ public:
+  VelocityPressureSystem(const JacobianBlocks<n>& blocks, const VelocityPressureLayout<n>& layout);
+
+  /// Takes the present values of the block matrices.
+  void fill();
+
+  /// y = F x, in the rows of SharedLayout.
+  void multiply(Vec x, Vec y);
+
+  const SharedLayout<n>& shared() const { return shared_; }
+  const MomentumDiagonals<n>& diagonals() const { return diagonals_; }
+  /// Most velocity nodes carry no pressure, those of all processes counted.
+  bool has_few_pressures() const;
+  MPI_Comm communicator() const { return communicator_; }
+  Mat momentum() const { return momentum_; }  ///< A
+  Mat gradient() const { return gradient_; }  ///< G
+  /// S, with the wall's rows scaled as scale_of_rows() says and, where that is asked for, a larger diagonal.
+  /// \param wall_diagonal_factor  of the diagonal in the wall
+  void make_schur_complement(double wall_diagonal_factor);
+  Mat schur() const { return schur_; }
+  Vec scale_of_rows() const { return row_scale_; }
+
+  /// Of the wall: its velocities among this process's own, their places at rest, and A's rows and columns of these.
+  struct WallMomentum {
+    std::vector<int> own;                       ///< places among own_velocities
+    std::vector<std::array<double, 3>> points;  ///< mm
+    OwnedMat matrix;
+    std::vector<int> from;  ///< A's blocks that it has, in the order of its entries
+  };
+  std::unique_ptr<WallMomentum> make_wall_momentum() const;
+  void fill_wall_momentum(WallMomentum& wall) const;
+
+  /// x's part of velocities and of pressures, for as long as these live.
+  class Parts {
+   public:
+    Parts(const VelocityPressureSystem& system, Vec velocities, Vec pressures, Vec x, bool writes);
+    ~Parts();
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
+   private:
+    Vec velocities_, pressures_, x_;
+    const double* array_ = nullptr;
+    bool writes_;
+  };
+  OwnedVec velocity_view() const { return petsc_view(communicator_, shared_.velocity_rows); }
+  OwnedVec pressure_view() const { return petsc_view(communicator_, shared_.pressure_rows); }
+
+  double bytes() const;
+
+ private:
+  /// A's blocks in this process's rows, by velocities of the layout; columns ascend in a row.
+  struct Pattern {
+    std::vector<int> offsets, columns;
+  };
+
+  void make_momentum();
+  void make_lists();
+  void fill_momentum_and_gradient();
+  void fill_continuity();
+  OwnedMat listed_matrix(PetscInt rows, PetscInt columns, std::vector<PetscInt>& i, std::vector<PetscInt>& j) const;
+
+  VelocityPressureBlocks<n> blocks_;
+  const VelocityPressureLayout<n>& layout_;
+  SharedLayout<n> shared_;
+  MPI_Comm communicator_;
+  const Communicator& processes_;
+  Pattern pattern_;
+  InterfaceShapeDerivatives<n> shape_derivatives_;
+  MomentumDiagonals<n> diagonals_;
+  OwnedMat momentum_, gradient_, schur_;
+  OwnedMat continuity_;       ///< [B C], columns in the rows of both
+  OwnedMat scaled_gradient_;  ///< [-D^-1 G; 1]: S = [B C] times this
+  OwnedVec row_scale_;
+  std::vector<std::size_t> block_at_;  ///< of A's blocks in the arrays of the part with own columns, then of the other
+  std::vector<double> gradient_values_, scaled_values_, continuity_values_;
+  OwnedVec x_velocities_, x_pressures_, y_velocities_, y_pressures_;
+};
+
+}  // namespace fsi
