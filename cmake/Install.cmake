@@ -1,7 +1,7 @@
 # What `cmake --install` puts where. Below the prefix everything finds everything else by relative paths, so that the
 # tree can be moved.
 #   bin/                   the programs
-#   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery
+#   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery, an example for Slurm
 #   lib/python3/dist-packages/   fsi-duo.pth, which puts that Python on the path of Debian's
 #   share/doc/fsi-duo/     README, docs, licence
 #   include/fsi-duo/       headers, in the folders of the sources
@@ -36,6 +36,7 @@ install(DIRECTORY compare/fsi_compare compare/studies DESTINATION ${_data}/compa
 install(DIRECTORY meshes/artery DESTINATION ${_data}/meshes COMPONENT programs FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY gallery DESTINATION ${_data} COMPONENT programs
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.py" PATTERN "*.geo" PATTERN "*.csv")
+install(FILES scripts/slurm/fsi-duo.sbatch DESTINATION ${_data}/slurm COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${_documents} COMPONENT programs PATTERN "*.in" EXCLUDE)
 install(FILES README.md DESTINATION ${_documents} COMPONENT programs)
 install(FILES CHANGELOG.md CONTRIBUTING.md DESTINATION ${_documents} COMPONENT programs OPTIONAL)

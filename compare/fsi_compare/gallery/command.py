@@ -42,6 +42,9 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     gallery.add_argument("--list", action="store_true", help="say what there is, and run nothing")
     gallery.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at once (default: 2)")
     gallery.add_argument(
+        "--processes", metavar="N", type=int, default=1, help="of each run, by mpirun (default: 1, without mpirun)"
+    )
+    gallery.add_argument(
         "--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)"
     )
     gallery.add_argument(
@@ -59,8 +62,9 @@ def gallery(options: argparse.Namespace) -> int:
         return 0
     if not options.scenes and not options.long:
         scenes = [scene for scene in scenes if not scene.long]
-    if options.jobs < 1:
-        raise InputError("", "--jobs", f"{options.jobs} is too few", "give 1 or more")
+    for value, name in ((options.jobs, "--jobs"), (options.processes, "--processes")):
+        if value < 1:
+            raise InputError("", name, f"{value} is too few", "give 1 or more")
     named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}
     drivers = {name: find_program(name, named[name], "--" + name.removeprefix("fsi-")) for name in BOTH}
     mesh_maker = find_mesh_maker(drivers["fsi-monolithic"])
@@ -73,7 +77,8 @@ def gallery(options: argparse.Namespace) -> int:
 
     make_folder(options.output)
     with locked(options.output):
-        outcomes = make_runs(scenes, options.output, Programs(mesh_maker, drivers), options.quick, options.jobs, said)
+        programs = Programs(mesh_maker, drivers)
+        outcomes = make_runs(scenes, options.output, programs, options.quick, options.jobs, said, options.processes)
         from .page import write_page  # matplotlib takes a second to load
 
         report, numbers = write_page(options.output, outcomes, options.quick)

@@ -6,6 +6,7 @@ from typing import Any, Callable, Dict, List, Mapping, Sequence
 
 from ..base.errors import InputError, ProgramError
 from ..base.files import absolute, make_folder, remove_tree
+from ..runs.launch import launched
 from ..runs.processes import End, Job, execute, run_jobs
 from ..runs.programs import Program
 from .scene import Scene, SceneRun, SceneRuns, read_scene_run
@@ -30,9 +31,16 @@ class Outcome:
 
 
 def make_runs(
-    scenes: Sequence[Scene], folder: Path, programs: Programs, quick: bool, at_once: int, said: Callable[[str], None]
+    scenes: Sequence[Scene],
+    folder: Path,
+    programs: Programs,
+    quick: bool,
+    at_once: int,
+    said: Callable[[str], None],
+    processes: int = 1,
 ) -> List[Outcome]:
-    """Runs each scene with its drivers, one thread each, `at_once` at a time: `folder/NAME/monolithic` and so on."""
+    """Runs each scene with its drivers, each on `processes` of one thread, `at_once` at a time:
+    `folder/NAME/monolithic` and so on."""
     outcomes = [Outcome(scene) for scene in scenes]
     jobs: List[Job] = []
     places = []
@@ -42,7 +50,8 @@ def make_runs(
         for program in scene.drivers:
             place = folder / scene.name / program.removeprefix("fsi-")
             remove_tree(place)
-            jobs.append(Job(len(jobs), _command(scene, programs.drivers[program], mesh, place, quick)))
+            command = launched(_command(scene, programs.drivers[program], mesh, place, quick), processes)
+            jobs.append(Job(len(jobs), command))
             places.append((outcome, program, place))
 
     def ended(key: int, end: End) -> None:

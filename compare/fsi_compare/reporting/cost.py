@@ -41,7 +41,8 @@ class Cost:
     program: str  # "monolithic" or "partitioned"
     mesh: str
     unknowns: Optional[int]
-    threads: Optional[int]
+    threads: Optional[int]  # of each process
+    processes: int
     steps: int
     seconds: float  # of all time steps
     coupling_mean: Optional[float]  # coupling iterations per step; None: monolithic
@@ -120,6 +121,7 @@ def read_cost(folder: Path, label: str) -> Cost:
         mesh=f"{mesh['nodes']} nodes" if "nodes" in mesh else printable(mesh.get("name", "")),
         unknowns=summary.get("unknowns", {}).get("coupled"),
         threads=summary.get("threads"),
+        processes=summary.get("processes", 1),
         steps=len(outer),
         seconds=float(iterations["wall_s"].sum()),
         coupling_mean=sum(outer) / len(outer) if coupled else None,
@@ -156,6 +158,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
             ("", "run"),
             ("", "driver"),
             ("", "mesh"),
+            ("", "processes"),
             ("", "steps"),
             ("", "seconds per step"),
             ("", "relative time"),
@@ -191,6 +194,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
             "displacement_residual_max",
             "force_residual_max",
             "peak_memory_MiB",
+            "processes",
         ],
     )
     for c in costs:
@@ -203,6 +207,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
                 c.label,
                 c.program,
                 c.mesh,
+                str(c.processes),
                 str(c.steps),
                 f"{c.seconds_per_step:.3g}",
                 fixed(relative, ".2f"),
@@ -237,6 +242,7 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
                 c.displacement_residual,
                 c.force_residual,
                 c.memory_mib,
+                c.processes,
             ]
         )
     table.notes.append(
@@ -253,6 +259,11 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
         table.notes.append(
             f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
         )
+    processes = sorted({c.processes for c in costs})
+    if len(processes) > 1:
+        table.notes.append(f"The runs had different numbers of processes ({', '.join(map(str, processes))}).")
+    if processes[-1] > 1:
+        table.notes.append("Memory: of the process that needed most.")
     if len({(c.mesh, c.steps) for c in costs}) > 1:
         table.notes.append("The runs differ in mesh or number of steps.")
     parts = [c.label for c in costs if c.restarted_from is not None]

@@ -107,8 +107,11 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     table = Table(
         "runs",
         "Runs",
-        [("", name) for name in ("run", "program", "case", "element", "nodes", "steps", "end, ms", "seconds")],
-        ["run", "program", "title", "element", "geometry", "nodes", "steps", "end_ms", "wall_s"],
+        [
+            ("", name)
+            for name in ("run", "program", "case", "element", "nodes", "processes", "steps", "end, ms", "seconds")
+        ],
+        ["run", "program", "title", "element", "geometry", "nodes", "steps", "end_ms", "wall_s", "processes"],
         left=4,
     )
     for run, label in zip(runs, labels):
@@ -125,13 +128,25 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
                 run.title,
                 ", ".join(part for part in (element, geometry) if part),
                 fixed(nodes, "d"),
+                str(run.processes),
                 fixed(totals.get("steps"), "g"),
                 fixed(end, "g"),
                 fixed(totals.get("wall_s"), ".1f"),
             ]
         )
         table.csv_rows.append(
-            [label, run.program, run.title, element, geometry, nodes, totals.get("steps"), end, totals.get("wall_s")]
+            [
+                label,
+                run.program,
+                run.title,
+                element,
+                geometry,
+                nodes,
+                totals.get("steps"),
+                end,
+                totals.get("wall_s"),
+                run.processes,
+            ]
         )
     return table
 

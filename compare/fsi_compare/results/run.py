@@ -53,6 +53,11 @@ class RunResults:
         return printable(self.folder.resolve().name)
 
     @property
+    def processes(self) -> int:
+        """That solved it together; their seconds, memory and halo are in `summary["per_process"]`."""
+        return int(self.summary.get("processes", 1))
+
+    @property
     def tables(self) -> List[str]:
         """Names of the tables that are there: ['energy.csv', 'flow.csv', ...]."""
         return sorted(path.name for path in self.folder.glob("*.csv"))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
 
 from ..base import interruption
+from .launch import without_chatter
 
 POLL = 0.1  # s
 GRACE = 10.0  # s that a program has to end the step in progress when it is asked to end
@@ -208,7 +209,7 @@ def answer(command: Sequence, time_limit: float) -> str:
 
 def message_of(code: int, said: str) -> str:
     """Why a program ended, from what it said on its error stream; empty when it ended well. Warnings are no reason."""
-    lines = [line.strip() for line in said.splitlines() if line.strip() and not _is_no_reason(line)]
+    lines = [line.strip() for line in without_chatter(said).splitlines() if line.strip() and not _is_no_reason(line)]
     if code < 0:
         try:
             name = signal.Signals(-code).name

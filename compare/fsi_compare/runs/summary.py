@@ -12,6 +12,23 @@ FILE = "summary.json"
 PROGRAMS = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 FINISHED = "give the result folder of a finished run"
 AGAIN = "the run was interrupted while writing; run it again"
+SPREAD = ("minimum", "mean", "maximum")  # of what each process of a run has
+PER_PROCESS = (
+    "threads",
+    "step_seconds",
+    "peak_memory_MiB",
+    "reading_memory_MiB",
+    "owned_nodes",
+    "halo_nodes",
+    "halo_unknowns",
+    "neighbours",
+    "messages_per_step",
+    "bytes_per_step",
+    "reductions_per_step",
+    "solver_messages_per_step",
+    "solver_bytes_per_step",
+    "solver_reductions_per_step",
+)
 MOST = 1 << 53  # counts up to here are exact as floating-point numbers too
 
 
@@ -33,6 +50,19 @@ def _count(value: Any) -> Optional[str]:
     return None if 0 <= value <= MOST else "is negative" if value < 0 else "is too large"
 
 
+def _spread(value: Any) -> Optional[str]:
+    """A number that is the same on all processes, or the least, the mean and the largest of theirs."""
+    if not isinstance(value, dict):
+        return _number(value)
+    for name in SPREAD:
+        if name not in value:
+            return f"lacks {name}"
+        problem = _number(value[name])
+        if problem:
+            return f"{name} {problem}"
+    return None
+
+
 class _Each(dict):
     """Entries of any name, all of one shape."""
 
@@ -45,6 +75,8 @@ SHAPE: Mapping[str, Shape] = {
     "element": _text,
     "geometry": _text,
     "threads": _count,
+    "processes": _count,
+    "per_process": {**{name: _spread for name in PER_PROCESS}, "phases": _Each(entry=_spread)},
     "peak_memory_MiB": _number,
     "restarted_from_step": _count,
     "mesh": {"name": _text, "nodes": _count, "hash": _text},

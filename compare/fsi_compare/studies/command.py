@@ -25,8 +25,8 @@ READY = Path(__file__).resolve().parents[2] / "studies"
 
 DESCRIPTION = """\
 Makes the runs that a study file lists, each in a folder of its own, and the report from them. A study that was stopped
-goes on where it stopped: a finished run is taken up again when case, mesh, settings, threads and program version are
-the same; comments and the title of a case file do not count. Where another build of the same version made some of the
+goes on where it stopped: a finished run is taken up again when case, mesh, settings, processes, threads and program
+version are the same; comments and the title of a case file do not count. Where another build of the same version made some of the
 runs, a warning and the report tell how many; --fresh makes them anew. Writes to OUTDIR:
   report.html           the report, in one file
   report.md             its text and tables, to be kept; pictures by name
@@ -75,6 +75,12 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     )
     study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
     study.add_argument(
+        "--processes",
+        metavar="N",
+        type=int,
+        help="of each run, by mpirun (default: the study's); groups that vary them keep their numbers",
+    )
+    study.add_argument(
         "--jobs", metavar="N", type=int, help="runs at once (default: the study's); more than one spoils the seconds"
     )
     study.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
@@ -92,7 +98,8 @@ def ready() -> List[str]:
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    for value, name in ((options.threads, "--threads"), (options.jobs, "--jobs")):
+    given = ((options.threads, "--threads"), (options.processes, "--processes"), (options.jobs, "--jobs"))
+    for value, name in given:
         if value is not None and value < 1:
             raise InputError("", name, f"{value} is not positive", "give 1 or more")
     if options.study is None:
@@ -131,6 +138,7 @@ def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, pro
         options.threads,
         options.jobs,
         options.quiet,
+        options.processes,
     )
     runs = runner.run(asked.requests)
     if all(run.status == "refused" for run in runs):
@@ -201,7 +209,8 @@ def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Pr
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
     report.text(
         f"Study `{printable(asked.path.name)}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "
-        f"thread{'s' if runner.threads > 1 else ''} per run, {runner.jobs} "
+        f"thread{'s' if runner.threads > 1 else ''} per {'run' if runner.processes == 1 else 'process'}, "
+        f"{'' if runner.processes == 1 else f'{runner.processes} processes per run, '}{runner.jobs} "
         f"run{'s' if runner.jobs > 1 else ''} at once, on {processor()}; the runs took "
         f"{duration(runner.seconds)} in all. Written {time.strftime('%Y-%m-%d')}. The command of each run is "
         "in its folder's `study_run.json`, under `runs/`."

@@ -14,6 +14,7 @@ MODULES = {
     "stability": "stability.study",
     "skip": "skip.study",
     "coupling": "coupling.study",
+    "scaling": "scaling.study",
     "runs": "plain_runs",
 }
 NAMES: Tuple[str, ...] = tuple(MODULES)

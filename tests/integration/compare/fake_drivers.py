@@ -10,7 +10,8 @@
   "deaf"      true: SIGTERM is not heeded
   "wait"      FILE: each run goes on when it exists
   "sleep"     seconds that each run takes; it writes its process number to `pid`, and begin and end to `times.txt`
-Each run adds its command line to `calls.txt`. Single linear systems are left to fake_monolithic.
+Each run adds its command line to `calls.txt`. Behind the `mpirun` of install_mpirun() it says that it was several
+processes, as fast as that many. Single linear systems are left to fake_monolithic.
 """
 
 import json
@@ -31,6 +32,20 @@ def install(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name in DRIVERS:
         fake_monolithic.install(folder, name, "fake_drivers")
+    return folder
+
+
+def install_mpirun(folder):
+    """A program of this name that starts the command behind its options once; returns its folder, for the path."""
+    folder.mkdir(parents=True, exist_ok=True)
+    fake_monolithic.make_executable(
+        folder / "mpirun",
+        f"#!{sys.executable} -E\nimport os, sys\n"
+        "words = sys.argv\n"
+        "first = next(i for i, word in enumerate(words) if 'fsi-' in word)\n"
+        "os.environ['FAKE_PROCESSES'] = words[words.index('-n') + 1]\n"
+        "os.execv(words[first], words[first:])\n",
+    )
     return folder
 
 
@@ -92,7 +107,8 @@ def main(words):
         return code
     call = len(calls(home)) - 1
     seconds = behaviour.get("seconds", [1.0])
-    write_results(folder, program.name, wall_s=seconds[call % len(seconds)])
+    processes = int(os.environ.get("FAKE_PROCESSES", "1"))
+    write_results(folder, program.name, wall_s=seconds[call % len(seconds)] / processes, processes=processes)
     if behaviour.get("drifts"):
         with open(folder / "centerline_pressure.csv", "a") as file:
             file.write(f"99,0,{call}\n")
@@ -103,7 +119,26 @@ def main(words):
     return 0
 
 
-def write_results(folder, program, steps=96, step=0.125, wall_s=1.0):
+def per_process(processes, nodes=1032):
+    """Of a tube cut across: the halo of an inner part is two layers of 57 nodes."""
+
+    def spread(mean):
+        return {"minimum": 0.9 * mean, "mean": mean, "maximum": 1.1 * mean}
+
+    neighbours = 2.0 - 2.0 / processes
+    return {
+        "owned_nodes": spread(nodes / processes),
+        "halo_nodes": spread(57.0 * neighbours),
+        "neighbours": spread(neighbours),
+        "messages_per_step": spread(30.0 * neighbours),
+        "bytes_per_step": spread(30.0 * 57.0 * neighbours * 32),
+        "reductions_per_step": 40.0,
+        "peak_memory_MiB": spread(20.0 + 50.0 / processes),
+        "reading_memory_MiB": spread(30.0),
+    }
+
+
+def write_results(folder, program, steps=96, step=0.125, wall_s=1.0, processes=1):
     """A small crest that travels at 0.7 mm/ms."""
     partitioned = program == "fsi-partitioned"
     passes = 5 if partitioned else 1
@@ -130,6 +165,10 @@ def write_results(folder, program, steps=96, step=0.125, wall_s=1.0):
                 "title": "A tube",
                 "status": "done",
                 "threads": 1,
+                "processes": processes,
+                **({"per_process": per_process(processes)} if processes > 1 else {}),
+                "peak_memory_MiB": 70.0,
+                "unknowns": {"coupled": 4662},
                 "mesh": {"name": "level coarse", "nodes": 1032, "tetrahedra": 4968},
                 "phases": phases,
                 "totals": {

@@ -1,6 +1,7 @@
 """Study files: what is refused, and in which words; what a good one asks for."""
 
 import unittest
+import unittest.mock
 
 from folder_case import FolderCase
 
@@ -28,6 +29,8 @@ options = ["--axial-size", "0.2"]
 [runs.steps]
 cases = ["tube"]
 vary = { "time.step" = [0.1, 0.2], mesh = ["coarse", "flat"] }
+[runs.parts]
+vary = { processes = [1, 3] }
 [runs.loads]
 methods = ["mono"]
 [runs.loads.vary]
@@ -59,7 +62,7 @@ class StudyFile(FolderCase):
 
     def test_a_good_one(self):
         study = self.read(GOOD)
-        self.assertEqual(len(study.requests), 2 * 4 + 2 * 2)
+        self.assertEqual(len(study.requests), 2 * 4 + 2 * 2 * 2 + 2 * 2)
         first = study.requests[0]
         self.assertEqual((first.group, first.case, first.method.name), ("steps", "tube", "mono"))
         self.assertEqual(dict(first.values), {"time.step": 0.1, "mesh": "coarse"})
@@ -70,6 +73,23 @@ class StudyFile(FolderCase):
         self.assertEqual((part.method.label, part.settings["partitioned.scheme"]), ("by turns", "aitken"))
         load = study.requests[-1]
         self.assertEqual((load.values["load"], load.settings["inlet.pressure"]), ("one", 1.0))
+
+    def test_processes(self):
+        study = self.read(GOOD)
+        parts = [request for request in study.requests if request.group == "parts"]
+        self.assertEqual([request.processes for request in parts], [1, 3] * 4)
+        self.assertEqual(parts[1].label, "tube, mono, processes 3")
+        self.assertEqual({r.processes for r in study.requests if r.group != "parts"}, {None})
+        pair = '[{ label = "a", mesh = "flat", processes = 2 }, { label = "b", processes = 5 }]'
+        study = self.read(GOOD.replace("processes = [1, 3]", f"weak = {pair}"))
+        found = [(r.processes, r.mesh and r.mesh.name) for r in study.requests if r.group == "parts"][:2]
+        self.assertEqual(found, [(2, "flat"), (5, None)])
+
+    def test_processes_up_to_the_cores(self):
+        for cores, expected in ((1, [1]), (2, [1, 2]), (6, [1, 2, 4, 6]), (8, [1, 2, 4, 8])):
+            with unittest.mock.patch("fsi_compare.studies.running.study_file.usable_cores", lambda n=cores: n):
+                study = self.read(GOOD.replace("[1, 3]", '"cores"'))
+            self.assertEqual([r.processes for r in study.requests if r.group == "parts"][: len(expected)], expected)
 
     def test_quick_form(self):
         study = self.read(GOOD, quick=True)
@@ -116,8 +136,15 @@ class StudyFile(FolderCase):
         self.refused("threads = 1", "time_limit = -3", "time_limit: -3 is not a positive number")
         self.refused("[0.1, 0.2]", "0.1", "runs.steps.vary.time.step", "is not a list of values")
         self.refused(
-            '"time.step" = [0.1', "step = [0.1", "runs.steps.vary.step", "neither 'mesh' nor a key of the case file"
+            '"time.step" = [0.1',
+            "step = [0.1",
+            "runs.steps.vary.step",
+            "neither 'mesh', 'processes' nor a key of the case file",
         )
+        self.refused("[1, 3]", "[0]", "runs.parts.vary.processes: 0 is no number of processes", '"cores"')
+        self.refused("[1, 3]", '["many"]', "runs.parts.vary.processes: many is no number of processes")
+        self.refused("[1, 3]", '"core"', "runs.parts.vary.processes", "is not a list of values")
+        self.refused("threads = 1", "processes = 0", "processes: 0 is not a whole number from 1")
         self.refused('label = "none", ', "", "runs.loads.vary.load", "has no label")
 
 

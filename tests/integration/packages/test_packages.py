@@ -93,6 +93,7 @@ class Packages(unittest.TestCase):
                 "/usr/share/fsi-duo/compare/fsi_compare/py.typed",
                 "/usr/share/fsi-duo/compare/fsi_compare/cli.py",
                 "/usr/share/fsi-duo/compare/studies/paper.toml",
+                "/usr/share/fsi-duo/slurm/fsi-duo.sbatch",
                 "/usr/share/fsi-duo/meshes/artery/neo-hookean.toml",
                 "/usr/share/doc/fsi-duo/copyright",
                 "/usr/share/doc/fsi-duo/README.md",

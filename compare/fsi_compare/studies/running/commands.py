@@ -3,8 +3,11 @@
 import shlex
 from pathlib import Path
 
+from .study_file import PROGRAMS
+
 
 def with_name(command: str) -> str:
     """The command with the program's name in the place of its path: which copy of it ran is in the run's record."""
     words = shlex.split(command)
-    return shlex.join([Path(words[0]).name, *words[1:]]) if words else ""
+    program = next((i for i, word in enumerate(words) if Path(word).name in PROGRAMS), 0)  # behind mpirun's words
+    return shlex.join(Path(word).name if i in (0, program) else word for i, word in enumerate(words))

@@ -24,6 +24,7 @@ from ...base.files import (
     remove_tree,
     replacing,
 )
+from ...runs.launch import launched
 from ...runs.processes import End, Job, execute, run_jobs
 from ...runs.programs import Program
 from ...runs.summary import FILE, read_summary
@@ -62,9 +63,11 @@ class Runner:
         threads: Optional[int] = None,
         jobs: Optional[int] = None,
         quiet: bool = False,
+        processes: Optional[int] = None,
     ):
         self.study, self.folder, self.programs, self.mesh_maker = study, folder, programs, mesh_maker
         self.threads = study.threads if threads is None else threads
+        self.processes = study.processes if processes is None else processes  # of runs whose group does not say
         self.jobs = study.jobs if jobs is None else jobs
         self.quiet = quiet
         self._known: Dict[str, StudyRun] = {}  # by fingerprint
@@ -172,8 +175,12 @@ class Runner:
     def _as(run: StudyRun, request: Request) -> StudyRun:
         return replace(run, request=request)
 
-    def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int]:
-        return request, self._program(request), self._mesh_file(request.mesh), self.threads
+    def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int, int]:
+        mesh_file = self._mesh_file(request.mesh)
+        return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
+
+    def processes_of(self, request: Request) -> int:
+        return request.processes or self.processes
 
     def _program(self, request: Request) -> Program:
         return self.programs[request.method.program]
@@ -246,7 +253,7 @@ class Runner:
             settings["mesh.level"] = request.mesh.name
         for name, value in settings.items():
             words += ["--set", f"{name}={toml_value(value)}"]
-        return words
+        return launched(words, self.processes_of(request), self.threads)
 
     def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
         folder = self._place(key, request)

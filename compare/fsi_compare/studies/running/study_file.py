@@ -11,13 +11,16 @@ from ...base.errors import InputError
 from ...base.files import absolute, exists, is_file, read_toml
 from ...base.names import MESHES
 from ...base.suggestions import check_keys, nearest
+from ...runs.launch import usable_cores
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
+PROCESSES = "processes"  # among what is varied: numbers, or
+CORES = "cores"  # for 1, 2, 4, ... up to the cores that may be used, the last number included
 
 LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
-LARGEST_COUNT = 10_000  # threads, runs at once, repetitions
+LARGEST_COUNT = 10_000  # threads, processes, runs at once, repetitions
 LARGEST_NUMBER = 10**15
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
@@ -25,6 +28,7 @@ TOP_KEYS = (
     "title",
     "kind",
     "threads",
+    "processes",
     "jobs",
     "time_limit",
     "repeats",
@@ -40,7 +44,7 @@ METHOD_KEYS = ("program", "label", "set")
 CASE_KEYS = ("file", "set")
 MESH_KEYS = ("options", "label")
 GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
-VALUE_KEYS = ("label", "set", "mesh")
+VALUE_KEYS = ("label", "set", "mesh", "processes")
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,7 @@ class Request:
     mesh: Optional[StudyMesh]  # None: the case file's own
     settings: Mapping[str, Any]  # entries over the case file's, without the mesh
     time_limit: float  # s
+    processes: Optional[int] = None  # None: as many as the study's other runs
 
     @property
     def label(self) -> str:
@@ -96,6 +101,7 @@ class Study:
     repeat_below: float = 60.0
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
     case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
+    processes: int = 1  # of each run whose group does not say
 
     def request(
         self,
@@ -154,6 +160,16 @@ def _require_shown(path: Path, key: str, entry: Any) -> None:
         raise InputError(path, key, "holds a control character", "leave it out")
 
 
+@dataclass(frozen=True)
+class _Value:
+    """Of a quantity that a group varies."""
+
+    shown: Any
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    mesh: Optional[StudyMesh] = None
+    processes: Optional[int] = None
+
+
 class _Reader:
     def __init__(self, path: Path, quick: bool):
         self.path, self.quick = path, quick
@@ -186,6 +202,7 @@ class _Reader:
             title=self.text(data, "title"),
             kind=kind,
             threads=self.count(data, "threads", 1),
+            processes=self.count(data, "processes", 1),
             jobs=self.count(data, "jobs", 1),
             time_limit=limit,
             repeats=1 if self.quick else repeats,
@@ -259,46 +276,65 @@ class _Reader:
         own = self.settings(group, "set", key)
         vary = self.table(group, "vary", False, key)
         axes = [
-            [
-                self.value(f"{key}.vary.{quantity}", quantity, value, meshes)
-                for value in self.list(f"{key}.vary.{quantity}", values)
-            ]
-            for quantity, values in vary.items()
+            [(quantity, self.value(f"{key}.vary.{quantity}", quantity, value, meshes)) for value in points]
+            for quantity, points in ((name, self.points(f"{key}.vary.{name}", name, vary[name])) for name in vary)
         ]
         if len(names) * len(chosen) * math.prod(len(axis) for axis in axes) > MOST_RUNS:
             raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
         for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
             merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
-            values, mesh = {}, None
-            for quantity, shown, here, chosen_mesh in point:
-                values[quantity] = shown
-                merged.update(here)
-                mesh = chosen_mesh or mesh
-            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit))
+            values, mesh, processes = {}, None, None
+            for quantity, value in point:
+                values[quantity] = value.shown
+                merged.update(value.settings)
+                mesh = value.mesh or mesh
+                processes = value.processes or processes
+            requests.append(Request(name, case, method, values, cases[case], mesh, merged, limit, processes))
         return requests
 
-    def value(
-        self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]
-    ) -> Tuple[str, Any, Dict[str, Any], Optional[StudyMesh]]:
-        """(quantity, what is shown, settings, mesh) of one value on an axis."""
+    def points(self, key: str, quantity: str, values: Any) -> List[Any]:
+        """The values of an axis as they are given, or those that "cores" stands for."""
+        if quantity == PROCESSES and values == CORES:
+            most = usable_cores()
+            doubled = [2**power for power in range(most.bit_length()) if 2**power < most]
+            return [*doubled, most]
+        return self.list(key, values)
+
+    def value(self, key: str, quantity: str, value: Any, meshes: Mapping[str, StudyMesh]) -> "_Value":
+        """One value on an axis."""
         if quantity == MESH:
-            return quantity, value, {}, meshes[self.one_of(key, value, meshes)]
+            return _Value(value, mesh=meshes[self.one_of(key, value, meshes)])
+        if quantity == PROCESSES:
+            return _Value(value, processes=self.processes(key, value))
         if isinstance(value, dict):
             self.known(key, value, VALUE_KEYS)
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             self.scalar(f"{key}.label", value["label"])
-            mesh = meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None
-            return quantity, value["label"], self.settings(value, "set", key), mesh
+            return _Value(
+                value["label"],
+                self.settings(value, "set", key),
+                meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None,
+                self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None,
+            )
         self.scalar(key, value)
         if "." not in quantity:
             raise self.wrong(
                 key,
-                "is neither 'mesh' nor a key of the case file",
+                "is neither 'mesh', 'processes' nor a key of the case file",
                 'give a key such as "time.step", or values { label, set }',
             )
-        return quantity, value, {quantity: value}, None
+        return _Value(value, {quantity: value})
+
+    def processes(self, key: str, value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
+            raise self.wrong(
+                key,
+                f"{show(value)} is no number of processes",
+                f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list',
+            )
+        return value
 
     def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
         if not isinstance(entry, dict):

@@ -1,0 +1,1 @@
+"""Kind `scaling`: one case on more and more processes."""
