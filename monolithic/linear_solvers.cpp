@@ -1,12 +1,14 @@
 #include "monolithic/linear_solvers.hpp"
 
+#include "base/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
 
-#include "petsc_solver/general_solvers.hpp"
 #include "fem/dimensions.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
+#include "petsc_solver/general_solvers.hpp"
 
 namespace fsi {
 
