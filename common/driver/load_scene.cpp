@@ -249,8 +249,8 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   if (const auto slip = unit_slip_of_mesh(setup, widest_opening<Element>(setup, mesh)))
     loaded.points.warnings.push_back(mesh_source(setup) + ": " + *slip);
   if (!processes.is_alone()) restrict_samples(whole.fluid_here.get(), whole.wall_here.get(), here.fluid, loaded.points);
-  add_grid("fluid", setup, parts.fluid, whole.fluid.get(), loaded);
-  add_grid("wall", setup, parts.wall, whole.wall.get(), loaded);
+  add_grid("fluid", setup, here.fluid, whole.fluid.get(), loaded);
+  add_grid("wall", setup, here.wall, whole.wall.get(), loaded);
   return loaded;
 }
 
