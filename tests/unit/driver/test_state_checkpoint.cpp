@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -121,6 +123,34 @@ TEST(StateCheckpoint, ComesBackAsItWas) {
   for (std::size_t k = 0; k < ends.size(); ++k) {
     EXPECT_EQ(steps.insertions[k].step, static_cast<int>(k) + 1);
     EXPECT_EQ(steps.insertions[k].end, ends[k]);
+  }
+}
+
+TEST(StateCheckpoint, HasArraysOfKnownKindsOnly) {
+  Checkpoint checkpoint = example();
+  for (const auto& [name, kind] : {std::pair{"level2.mesh", ArrayKind::mesh},
+                                   {"balance1.flow", ArrayKind::flow},
+                                   {"rate.wall", ArrayKind::wall},
+                                   {"wall_velocity_before", ArrayKind::wall_vectors},
+                                   {"rate.wall_velocity", ArrayKind::wall_vectors},
+                                   {"level0.windkessel", ArrayKind::alike},
+                                   {"stepper.wall.flow_reference", ArrayKind::flow},
+                                   {"stepper.kept.support_loads", ArrayKind::alike},
+                                   {"stepper.load1", ArrayKind::interface},
+                                   {"stepper.iqn_ils.before.a", ArrayKind::interface_columns},
+                                   {"stepper.iqn_ils.age", ArrayKind::alike},
+                                   {"table.flow.csv", ArrayKind::alike},
+                                   {"statistics.now", ArrayKind::shear_vectors},
+                                   {"statistics.mean", ArrayKind::shear_scalars}}) {
+    EXPECT_EQ(kind_of_array(name), kind) << name;
+    checkpoint.arrays[name];
+  }
+  EXPECT_NO_THROW(require_kinds(checkpoint));
+  for (const char* unknown : {"stepper.load3", "stepper.kept.walls", "level0", "mesh", "statistics.wall", "march.v"}) {
+    EXPECT_FALSE(kind_of_array(unknown)) << unknown;
+    Checkpoint other = checkpoint;
+    other.arrays[unknown];
+    EXPECT_THROW(require_kinds(other), std::logic_error) << unknown;
   }
 }
 
