@@ -197,8 +197,8 @@ TYPED_TEST(SharedScene, SamplesAreThoseOfTheWhole) {
     for (std::size_t row = 0; row < known[table].size(); ++row)
       for (std::size_t k = 0; k < known[table][row].size(); ++k) {
         ASSERT_EQ(found[table][row][k].has_value(), known[table][row][k].has_value());
-        if (known[table][row][k])
-          EXPECT_NEAR(*found[table][row][k], *known[table][row][k], 1e-11 * (1 + std::abs(*known[table][row][k])));
+        if (!known[table][row][k]) continue;
+        EXPECT_NEAR(*found[table][row][k], *known[table][row][k], 1e-11 * (1 + std::abs(*known[table][row][k])));
       }
   }
   expect_near(Observables<3>(mine, *twins.here).centre_line_pressure(state_here.now.fluid),
