@@ -266,7 +266,7 @@ TYPED_TEST(SharedScene, HintsAreTheSameAtAllProcesses) {
   const Loads loads(setup);
   const auto hint = [&](const Scene<3>& scene, auto fit) {
     State state = scene.at_rest();
-    for (int k = 0; k < 3; ++k) state.before[k] = fit(twins.level(20, 4.0 - k));
+    for (int k = 0; k < 3; ++k) state.before[k] = fit(twins.level(20, 12.0 - 3 * k));
     state.step = 3;
     return failure_hint(setup, scene, loads, state);
   };
