@@ -72,7 +72,7 @@ void refuse_unread_petsc_options(PetscPart part) {
       if (begins_with(name, std::string("-") + prefix_of(other))) of = other;
     if (of != part) continue;
     PetscBool used = PETSC_FALSE;
-    petsc_check(PetscOptionsUsed(nullptr, name.c_str(), &used));
+    petsc_check(PetscOptionsUsed(nullptr, name.c_str() + 1, &used));
     if (!used)
       throw InputError(given.case_file, "petsc.options", "\"" + name + "\" is no option of the solver as it is set up",
                        "see docs/solvers.md; what PETSc knows is listed by -fsi_ksp_view and in its manual");

@@ -153,7 +153,7 @@ TEST(PetscSolver, SolvesTaylorHoodElementsInSpace) {
   const auto setup = coupled_case("neo-hookean");
   LinearisedScene<3> scene(setup,
                            build_scene<P2P1Tetrahedron>(setup, with_mid_edge_nodes(generate_artery(shape, cells))), 1);
-  expect_solved(scene, 60);
+  expect_solved(scene, 90);
 }
 
 TEST(PetscSolver, NodesOfThePartsHeldInOneComponentAndWithoutPressure) {
