@@ -6,6 +6,7 @@
 
 #include "mesh_motion/harmonic_extension.hpp"
 #include "mesh_motion/mesh_follower.hpp"
+#include "petsc_solver/mesh_extensions.hpp"
 #include "system/numbering.hpp"
 
 namespace fsi {
@@ -17,17 +18,22 @@ class MeshMotionSolver {
  public:
   explicit MeshMotionSolver(Scene<n>& scene) : scene_(scene) {
     const Numbering numbering = number_mesh_motion(scene);
-    std::vector<char> inner(numbering.mesh_rows.size());
-    for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = numbering.mesh_rows[i].index >= 0;
+    std::vector<char> inner(numbering.mesh.size());
+    for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = numbering.mesh[i].index >= 0;
+    const PartNodes& part = scene.fluid->nodes();
     if (scene.nonlinear_mesh_motion) {
-      follower_ =
-          std::make_unique<MeshFollower<n>>(*scene.nonlinear_mesh_motion, std::move(inner), &scene_.fluid_frames);
+      SharedMesh<n> shared;
+      shared.share = part.share.get();
+      shared.make_extension = [&part](const MeshMotionTangent<n>& tangent, std::vector<char> sought) {
+        return make_tangent_extension<n>(tangent, std::move(sought), part);
+      };
+      follower_ = std::make_unique<MeshFollower<n>>(*scene.nonlinear_mesh_motion, std::move(inner),
+                                                    &scene_.fluid_frames, MeshFollowerOptions{}, shared);
       return;
     }
     zero_.assign(inner.size(), 0.0);
     const auto phase = scene_.profile.phase("factorisation: mesh motion");
-    extension_ = std::make_unique<HarmonicExtension<n>>(scene_.mesh_motion, std::move(inner),
-                                                        HarmonicExtensionOptions{}, &scene_.fluid_frames);
+    extension_ = make_harmonic_extension<n>(scene_.mesh_motion, std::move(inner), &scene_.fluid_frames, part);
     version_ = scene_.mesh_motion_assemblies;
   }
 
@@ -58,13 +64,13 @@ class MeshMotionSolver {
     }
     const auto phase = scene_.profile.phase("solve: mesh motion");
     scene_.fluid_frames.template to_frames<VectorLayout<n>>(mesh);
-    extension_->solve(zero_, mesh);
+    extension_->solve(zero_, mesh, HarmonicExtensionOptions{}.tolerance);
     scene_.fluid_frames.template to_space<VectorLayout<n>>(mesh);
   }
 
  private:
   Scene<n>& scene_;
-  std::unique_ptr<HarmonicExtension<n>> extension_;
+  std::unique_ptr<MeshExtension<n>> extension_;
   std::unique_ptr<MeshFollower<n>> follower_;  ///< in its place, of a nonlinear motion
   int version_ = 0;                            ///< the assembly whose operator it is
   std::vector<double> zero_;
