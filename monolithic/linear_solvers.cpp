@@ -4,9 +4,10 @@
 #include <array>
 #include <string_view>
 
-#include "petsc_solver/general_solvers.hpp"
+#include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
+#include "petsc_solver/general_solvers.hpp"
 
 namespace fsi {
 
