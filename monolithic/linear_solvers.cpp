@@ -1,11 +1,10 @@
 #include "monolithic/linear_solvers.hpp"
 
-#include "base/error.hpp"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 #include "petsc_solver/general_solvers.hpp"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests; installs what is missing first. May be run again: only what changed is built anew.
 #   scripts/test.sh         the quick tests of the release build: within 6 minutes of a fresh clone on two idle cores
-#   scripts/test.sh --all   everything: unit tests under the address and undefined-behaviour sanitizers, then the whole
-#                           release build with every test; about half an hour
+#   scripts/test.sh --all   everything: unit tests under the address and undefined-behaviour sanitizers in a build without
+#                           MPI, then the whole release build with every test; about half an hour
 # Ends with ctest's summary; any failure ends it earlier or makes its exit code non-zero.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -25,10 +25,11 @@ run_tests() { ctest --test-dir "$1" -j"$(nproc)" --output-on-failure --no-tests=
 scripts/install_packages.sh --tests
 
 if [ $all = yes ]; then
-  echo "== unit tests with sanitizers"
+  echo "== unit tests with sanitizers, and without MPI"
   cmake --preset sanitize -DFSI_TESTS=ON
-  cmake --build --preset sanitize --target unit_tests
+  cmake --build --preset sanitize --target unit_tests fsi-monolithic fsi-partitioned
   run_tests build/sanitize -L '^unit$'
+  run_tests build/sanitize -R '^partitions[.]WithoutMpi$'
 
   echo "== all tests, release build"
   cmake --preset release -DFSI_TESTS=ON

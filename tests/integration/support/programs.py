@@ -16,6 +16,9 @@ DRIVERS = (MONOLITHIC, PARTITIONED)
 CASES = Path(os.environ["FSI_CASES"])
 NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY = (CASES / f"{name}.toml" for name in ("neo-hookean", "mooney-rivlin", "artery"))
 
+MPIRUN = Path(__file__).resolve().parents[2] / "support" / "mpirun.sh"
+SECONDS_OF_PROCESSES = 100  # that a run on several may take, on a machine that is busy with other tests
+
 POINTS = 181  # along the centre line and the wall
 TABLES = ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "energy.csv")
 
@@ -25,9 +28,10 @@ def execute(*command, **options):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=500, **options)
 
 
-def driver_command(program, case, *options, folder=None, settings=(), threads=1):
-    """The command line of a run; `settings` are `key=value`."""
-    command = [program, case, "--threads", threads, *options]
+def driver_command(program, case, *options, folder=None, settings=(), threads=1, processes=None):
+    """The command line of a run; `settings` are `key=value`. `processes`: that mpirun starts; None: without mpirun."""
+    launcher = [] if processes is None else [MPIRUN, processes, SECONDS_OF_PROCESSES]
+    command = [*launcher, program, case, "--threads", threads, *options]
     if folder is not None:
         command += ["-o", folder]
     for setting in settings:
@@ -35,22 +39,22 @@ def driver_command(program, case, *options, folder=None, settings=(), threads=1)
     return [str(word) for word in command]
 
 
-def attempt(program, case, *options, folder=None, settings=(), threads=1):
-    """A run that may fail."""
-    return execute(*driver_command(program, case, *options, folder=folder, settings=settings, threads=threads))
+def attempt(program, case, *options, **how):
+    """A run that may fail; `how` as of driver_command."""
+    return execute(*driver_command(program, case, *options, **how))
 
 
-def run(program, case, folder, *settings, options=(), threads=1):
+def run(program, case, folder, *settings, options=(), **how):
     """A quiet run that must end well, whatever the folder held; returns the folder."""
-    process = attempt(program, case, "-q", "--force", *options, folder=folder, settings=settings, threads=threads)
+    process = attempt(program, case, "-q", "--force", *options, folder=folder, settings=settings, **how)
     if process.returncode != 0:
         raise AssertionError(f"{' '.join(process.args)}\nends with {process.returncode}: {process.stderr}")
     return Path(folder)
 
 
-def restart(program, case, folder, *settings, into=None, threads=1):
+def restart(program, case, folder, *settings, into=None, **how):
     """Continues the run in `folder`, in place or into another folder; must end well."""
-    return run(program, case, into or folder, *settings, options=("--restart", folder), threads=threads)
+    return run(program, case, into or folder, *settings, options=("--restart", folder), **how)
 
 
 def make_mesh(file, *options):

@@ -1,0 +1,191 @@
+"""Both drivers on several processes compute what one computes, however the mesh is cut."""
+
+import os
+import subprocess
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import (
+    ARTERY,
+    DRIVERS,
+    MONOLITHIC,
+    MOONEY_RIVLIN,
+    NEO_HOOKEAN,
+    PARTITIONED,
+    FolderTest,
+    attempt,
+    driver_command,
+    make_mesh,
+    restart,
+    run,
+    summary,
+    table,
+)
+from scenes import KINDS, forms, scene
+
+MATERIALS = (NEO_HOOKEAN, MOONEY_RIVLIN, ARTERY)
+# So tight that what is left is round-off and the linear solver's last digits.
+TIGHT = ("monolithic.newton_tolerance=1e-10", "partitioned.tolerance=1e-11", "partitioned.newton_tolerance=1e-10")
+BOUND = 1e-8  # relative to the largest value of a column
+
+
+def tight(program):
+    section = Path(program).name.removeprefix("fsi-")
+    return tuple(setting for setting in TIGHT if setting.startswith(section))
+
+
+def apart(folder, other, files=("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "openings.csv")):
+    """Largest difference between two runs in any column, relative to the largest value of that column."""
+    largest = 0.0
+    for file in files:
+        if (other / file).exists():
+            one, two = (np.genfromtxt(place / file, delimiter=",", skip_header=1) for place in (folder, other))
+            scale = np.maximum(np.nanmax(np.abs(two), axis=0), 1e-300)
+            largest = max(largest, float(np.nanmax(np.abs(one - two) / scale)))
+    return largest
+
+
+class Processes(FolderTest):
+    def march(self, program, case, kind, processes, *settings, name="", **how):
+        folder = self.base / "-".join((*kind, case.stem, Path(program).name, str(processes), name))
+        fixed = (*scene(self.base, *kind), *forms(case), "time.end=0.375", "output.every=0", *tight(program))
+        return run(program, case, folder, *fixed, *settings, processes=processes, **how)
+
+
+class Agreement(Processes):
+    """Every element and geometry, both drivers, each material; on 2 and 3 processes as on one without mpirun."""
+
+    def runs(self, kind):
+        first = KINDS.index(kind)
+        for i, program in enumerate(DRIVERS):
+            yield program, MATERIALS[(first + i) % len(MATERIALS)]
+
+    def test_pressure_is_that_of_one_process(self):
+        for kind in KINDS:
+            for program, case in self.runs(kind):
+                alone = self.march(program, case, kind, None)
+                for processes in (2, 3):
+                    with self.subTest(kind=kind, program=Path(program).name, case=case.stem, processes=processes):
+                        folder = self.march(program, case, kind, processes)
+                        found = apart(folder, alone)
+                        print(
+                            f"{' '.join(kind)}, {Path(program).name}, {case.stem}, {processes}: {found:.1e}", flush=True
+                        )
+                        self.assertLess(found, BOUND)
+                        self.check_summary(folder, alone, processes)
+
+    def check_summary(self, folder, alone, processes):
+        found, whole = summary(folder), summary(alone)
+        self.assertEqual((found["processes"], found["status"]), (processes, "done"))
+        for entry in ("mesh", "unknowns"):
+            self.assertEqual(found[entry], whole[entry])
+        own = found["per_process"]
+        nodes = processes * own["owned_nodes"]["mean"]
+        self.assertGreaterEqual(nodes, found["mesh"]["nodes"])  # those on the interface twice
+        self.assertGreater(own["halo_nodes"]["maximum"], 0)
+        for name in ("messages_per_step", "bytes_per_step"):
+            self.assertGreater(own[name]["maximum"], 0)
+        self.assertGreater(own["reductions_per_step"], 0)
+        self.assertLessEqual(own["peak_memory_MiB"]["minimum"], own["peak_memory_MiB"]["maximum"])
+
+    def test_mpirun_of_one_is_no_mpirun(self):
+        one, alone = (self.march(MONOLITHIC, NEO_HOOKEAN, ("p1", "axisymmetric"), n, name="bits") for n in (1, None))
+        self.assertSameTables(one, alone)
+
+    def test_the_same_bits_again(self):
+        first, again = (self.march(PARTITIONED, NEO_HOOKEAN, ("p1", "plane"), 3, name=name) for name in ("a", "b"))
+        self.assertSameTables(first, again)
+
+
+class Restart(Processes):
+    def test_three_to_two(self):
+        kind = ("p1", "3d")
+        for program in DRIVERS:
+            with self.subTest(program=Path(program).name):
+                alone = self.march(program, NEO_HOOKEAN, kind, None, "time.end=0.75")
+                part = self.march(program, NEO_HOOKEAN, kind, 3, name="part")
+                settings = (*scene(self.base, *kind), "time.end=0.75", "output.every=0", *tight(program))
+                for processes in (2, None):
+                    into = self.base / f"{Path(program).name}-from-3-to-{processes}"
+                    whole = restart(program, NEO_HOOKEAN, part, *settings, into=into, processes=processes)
+                    self.assertLess(apart(whole, alone), BOUND)
+                    self.assertEqual(len(table(whole, "iterations.csv")), 6)
+
+    def test_the_same_number_gives_the_same_bits(self):
+        kind = ("p1", "plane")
+        for program in DRIVERS:
+            with self.subTest(program=Path(program).name):
+                whole = self.march(program, ARTERY, kind, 2, "time.end=0.75", name="whole")
+                part = self.march(program, ARTERY, kind, 2, name="part")
+                settings = (
+                    *scene(self.base, *kind),
+                    *forms(ARTERY),
+                    "time.end=0.75",
+                    "output.every=0",
+                    *tight(program),
+                )
+                again = restart(program, ARTERY, part, *settings, processes=2)
+                self.assertSameTables(again, whole)
+
+
+class Cuts(FolderTest):
+    """Where parts are cut. A surface with more nodes than any process owns is cut."""
+
+    def march(self, program, mesh, processes, name):
+        settings = (f"mesh.file={mesh}", "time.end=0.25", "output.every=0", *tight(program))
+        return run(program, NEO_HOOKEAN, self.base / name, *settings, processes=processes)
+
+    def test_more_processes_than_the_mesh_is_worth(self):
+        """Two layers of nodes, so that inlet and interface are cut; on 8 a part may be empty."""
+        mesh = make_mesh(
+            self.base / "ring.msh",
+            *("--length", 1, "--lumen-cells", 1, "--media-cells", 1, "--adventitia-cells", 0, "--adventitia", 0),
+            *("--axial-cells", 1, "--around", 8),
+        )
+        for program in DRIVERS:
+            name = Path(program).name
+            alone = self.march(program, mesh, None, f"{name}-alone")
+            for processes in (3, 8):
+                with self.subTest(program=name, processes=processes):
+                    folder = self.march(program, mesh, processes, f"{name}-{processes}")
+                    found = summary(folder)
+                    self.assertLess(apart(folder, alone), BOUND)
+                    most = found["per_process"]["owned_nodes"]["maximum"]
+                    # Half of the fluid's nodes are on the inlet; the interface has two rings of eight.
+                    self.assertLess(most, found["mesh"]["nodes"] / 2)
+                    if processes == 8:
+                        self.assertLess(most, 16)
+
+
+class Refusals(Processes):
+    def test_the_paper_s_solvers(self):
+        settings = (*scene(self.base, "p1", "3d"), "monolithic.linear_solver=amg_fgmres")
+        process = attempt(MONOLITHIC, NEO_HOOKEAN, "-q", folder=self.base / "paper", settings=settings, processes=2)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("monolithic.linear_solver", process.stderr)
+        self.assertIn("one process", process.stderr)
+        self.assertFalse((self.base / "paper").exists())
+
+
+class WithoutMpi(FolderTest):
+    """A build without MPI (FSI_MPI=OFF)."""
+
+    def test_one_process(self):
+        for program in DRIVERS:
+            folder = run(
+                program, NEO_HOOKEAN, self.base / Path(program).name, *scene(self.base, "p1", "plane"), "time.end=0.25"
+            )
+            self.assertEqual(summary(folder)["processes"], 1)
+
+    def test_several_are_refused(self):
+        environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0"}
+        command = driver_command(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "two")
+        process = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("this build is without MPI", process.stderr)
+        self.assertFalse((self.base / "two").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
