@@ -20,11 +20,11 @@ void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
   if (!solver_ || around_wall_ != wall_levels) make_sweeps(wall_levels);
   if (wall_levels) set_up_wall();
   for (const PC sweep : sweeps_) {
-    PetscBool chosen_otherwise = PETSC_TRUE;
-    petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &chosen_otherwise));
+    PetscBool is_sweep = PETSC_FALSE;
+    petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
     PetscBool set = PETSC_FALSE;
     petsc_check(PetscOptionsHasName(nullptr, "fsi_velocity_", "-pc_sor_its", &set));
-    if (chosen_otherwise && !set) petsc_check(PCSORSetIterations(sweep, choices.sweeps(stiffness, wall_levels), 1));
+    if (is_sweep && !set) petsc_check(PCSORSetIterations(sweep, choices.sweeps(stiffness, wall_levels), 1));
   }
   petsc_check(KSPSetOperators(solver_, system_.momentum(), system_.momentum()));
   petsc_check(KSPSetUp(solver_));
