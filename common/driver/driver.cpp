@@ -648,6 +648,7 @@ int run_driver(const std::string& program, const std::string& description, int a
     group.emplace();
     const Communicator& processes = Communicator::world();
     keep_streams_silent(!processes.is_first());
+    if (!processes.is_alone()) expect_launcher();
     auto line = parse_command_line(program, description, argc, argv, other.options);
     if (!line) return static_cast<int>(exit_done);
     line->processes = processes.size();

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::array<int, 3> watched = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t launched = 0;
 std::array<char, 512> last_words{};
 
 // Handlers do what they may: set a flag, remove files, write, end the program.
@@ -34,7 +35,8 @@ extern "C" void end_at_once(int number) {
   remove_what_a_signal_leaves();
   std::size_t length = 0;
   while (length < last_words.size() && last_words[length] != '\0') ++length;
-  if (!streams_are_silent() && ::write(STDERR_FILENO, last_words.data(), length) < 0) {
+  const bool silent = streams_are_silent() || (launched != 0 && number == SIGTERM);
+  if (!silent && ::write(STDERR_FILENO, last_words.data(), length) < 0) {
   }  // there is nobody left to tell
   ::_exit(interrupted_exit_code(number));
 }
@@ -58,6 +60,10 @@ void end_at_signals(const std::string& program, const std::string& said) {
   std::snprintf(last_words.data(), last_words.size(), "%s: interrupted%s%s\n", shortened(program, 100).c_str(),
                 said.empty() ? "" : " ", shortened(said, 300).c_str());
   watch(end_at_once);
+}
+
+void expect_launcher() {
+  launched = 1;
 }
 
 void note_signals() {

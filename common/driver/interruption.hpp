@@ -12,6 +12,10 @@ namespace fsi {
 /// there is nothing to finish.
 void end_at_signals(const std::string& program, const std::string& said);
 
+/// SIGTERM is without that line from now on: launchers of several processes send it to the others when one has failed and
+/// has said why.
+void expect_launcher();
+
 /// From now on the first of them is only noted, so that a run can end after the step in progress. A second one ends the
 /// program at once, as if nothing watched. To the end of the program: a run that is done says so.
 void note_signals();
