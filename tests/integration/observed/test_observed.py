@@ -1,29 +1,28 @@
-"""Every table of a run on several processes has the numbers of a run on one."""
+"""All tables and fields of a run on several processes have the numbers of a run on one."""
 
 import csv
 import unittest
 from pathlib import Path
 
-from programs import ARTERY, MONOLITHIC, FolderTest, driver_command, execute, run
+import numpy as np
+from programs import ARTERY, MONOLITHIC, FolderTest, arrays, driver_command, execute, run
 from scenes import forms, scene
 
 MPIRUN = Path(__file__).parents[2] / "support" / "mpirun.sh"
-EVERYTHING = (
-    "output.points.lumen=[0.2, 0.1, 1.1]",
-    "output.points.wall=[1.1, 1.0, 1.4]",
-    "output.lines.across.from=[0.05, 0.05, 1.3]",
-    "output.lines.across.to=[1.2, 1.1, 1.7]",
-    "output.lines.across.points=11",
-    "output.planes.middle.origin=[0.2, 0.2, 1.4]",
+STRESSES = "cauchy_stress principal_stress von_mises_stress fibre_stress".split()
+SHEAR = ["wall_shear_stress"]
+SETTINGS = (
+    "output.planes.middle.origin=[0.2, 0, 1.4]",
     "output.planes.middle.normal=[0.1, 0, 1]",
     "output.planes.end.origin=[0, 0, 3]",
     "output.planes.end.normal=[0, 0, 1]",
     "output.surfaces=['interface','inlet','outlet']",
     "output.forces.all.surfaces=['walls']",
+    "output.energy=true",
+    f"output.fields={['displacement', 'velocity', 'pressure', *SHEAR, *STRESSES]}",
     "output.statistics=true",
     "output.period=0.25",
-    "output.energy=true",
-    "output.every=0",
+    "output.every=1",
     "time.end=0.375",
 )
 SOLVED = ("monolithic.linear_solver=direct", "monolithic.newton_tolerance=1e-11")
@@ -44,6 +43,19 @@ def columns(file):
     return found
 
 
+def everything(geometry):
+    """Settings that ask for all that a run can show, but for what is off the plane of a section."""
+    y = 0.1 if geometry == "3d" else 0.0
+    return (
+        *SETTINGS,
+        f"output.points.lumen=[0.2, {y}, 1.1]",
+        f"output.points.wall=[1.6, {y}, 1.4]",
+        f"output.lines.across.from=[0.05, {y}, 1.3]",
+        f"output.lines.across.to=[1.7, {y}, 1.7]",
+        "output.lines.across.points=11",
+    )
+
+
 class Observed(FolderTest):
     def run_on(self, processes, folder, settings):
         command = driver_command(MONOLITHIC, ARTERY, "-q", "--force", folder=folder, settings=settings)
@@ -52,7 +64,7 @@ class Observed(FolderTest):
         return Path(folder)
 
     def check(self, element, geometry, processes):
-        settings = (*scene(self.base, element, geometry), *forms(ARTERY), *SOLVED, *EVERYTHING)
+        settings = (*scene(self.base, element, geometry), *forms(ARTERY), *SOLVED, *everything(geometry))
         alone = run(MONOLITHIC, ARTERY, self.base / f"{element}-{geometry}-1", *settings)
         shared = self.run_on(processes, self.base / f"{element}-{geometry}-{processes}", settings)
         for table in TABLES:
@@ -67,6 +79,12 @@ class Observed(FolderTest):
                 size = max((abs(a) for a, _ in pairs), default=0)
                 apart = max((abs(a - b) for a, b in pairs), default=0)
                 self.assertLessEqual(apart, NEAR * size + 1e-11, f"{table}: {name}")
+        one, other = (arrays(folder / "fields.h5") for folder in (alone, shared))
+        self.assertEqual(sorted(one), sorted(other))
+        for name, known in one.items():
+            np.testing.assert_allclose(
+                other[name], known, rtol=0, atol=NEAR * np.abs(known).max() + 1e-11, err_msg=name
+            )
 
     def test_quarter_of_a_tube(self):
         self.check("p1", "3d", 3)
