@@ -76,6 +76,16 @@ void restrict_interface(const PartRestriction& fluid, const PartRestriction& wal
     }
 }
 
+/// How many cells of these regions the whole part has.
+template <class Part>
+std::int64_t elements_of(const Part& part, const std::vector<int>& regions) {
+  std::int64_t count = 0;
+  for (std::size_t c = 0; c < part.cells.size(); ++c)
+    if (part.counted.empty() || part.counted[c] != 0)
+      count += std::count(regions.begin(), regions.end(), part.cell_region[c]);
+  return part.processes().sum(count);
+}
+
 /// An array with a number for each cell of the whole part, as far as they are here.
 std::vector<double> of_cells(const std::vector<double>& whole, const std::vector<int>& cells) {
   std::vector<double> here;
@@ -156,10 +166,11 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     auto wall = std::make_unique<WallProblem<Element>>(
         share ? std::move(wall_here) : wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)},
         layers, cylinder_axis(s), std::move(pressurised), frame);
-    scene->profile.count("structure elements", static_cast<std::int64_t>(wall->element_count()));
-    for (const auto& layer : wall->layers())
-      if (!layer.fibres.empty())
-        scene->profile.count("elements with fibres", static_cast<std::int64_t>(layer.packs.element_count()));
+    scene->profile.count("structure elements", elements_of(wall->part(), wall_regions));
+    std::vector<int> with_fibres;
+    for (const auto& [region, material] : layers)
+      if (has_fibres(material)) with_fibres.push_back(region);
+    if (!with_fibres.empty()) scene->profile.count("elements with fibres", elements_of(wall->part(), with_fibres));
     support_wall<Element>(setup, mesh, wall_part, share ? whole->wall_here.get() : nullptr, *wall);
     scene->wall = std::move(wall);
   }
@@ -205,7 +216,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
     auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),
                                                          std::move(boundary.mirrored));
-    scene->profile.count("fluid elements", static_cast<std::int64_t>(fluid->element_count()));
+    scene->profile.count("fluid elements", elements_of(fluid->part(), {fluid_region}));
     const auto openings = openings_of(setup);
     for (std::size_t i = 0; i < openings.size(); ++i)
       if (!fluid->open_boundaries()[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i]));
