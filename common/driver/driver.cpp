@@ -42,6 +42,7 @@
 #include "io/earlier_fields.hpp"
 #include "io/first_process.hpp"
 #include "io/folder_lock.hpp"
+#include "io/hdf5_library.hpp"
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
 #include "io/write_error.hpp"
@@ -645,6 +646,7 @@ int run_driver(const std::string& program, const std::string& description, int a
   std::optional<ProcessGroup> group;  // to the last words
   return run_program(program, [&] {
     const CoreWatch watch;
+    begin_hdf5();
     group.emplace();
     const Communicator& processes = Communicator::world();
     keep_streams_silent(!processes.is_first());

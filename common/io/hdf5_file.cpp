@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "io/hdf5_library.hpp"
 #include "io/write_error.hpp"
 
 #ifdef FSI_WITH_MPI
@@ -36,12 +37,10 @@ hid_t native_type<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
-/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library; no
-/// work of the library when the program ends, where it would write to files that could not be written before. This is
+/// No locks, so that ParaView may look at finished steps of a running computation; no stack traces of the library. This is
 /// called before anything else of the library.
 Hdf5Handle access_properties() {
-  static const herr_t no_work_at_exit = H5dont_atexit();
-  static_cast<void>(no_work_at_exit);
+  begin_hdf5();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Hdf5Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(properties.id(), false, true);
@@ -61,6 +60,13 @@ std::uint64_t product(const std::vector<std::uint64_t>& shape) {
 }
 
 }  // namespace
+
+void begin_hdf5() {
+  static const herr_t no_work_at_exit = H5dont_atexit();
+  static const herr_t begun = H5open();
+  static_cast<void>(no_work_at_exit);
+  static_cast<void>(begun);
+}
 
 Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
   std::swap(id_, other.id_);
