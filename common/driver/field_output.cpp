@@ -238,7 +238,8 @@ bool FieldOutput<n>::write(const State& state) {
         auto numbers = known.values(level, grids_[g].name == "fluid");
         const auto components = static_cast<std::size_t>(field.components);
         const Grid& made = made_[g];
-        if (made.share && !made.middles.empty()) made.share->exchange.update(numbers, field.components);
+        const bool has_middles = grids_[g].nodes_per_cell > n + 1;  // of the whole grid: all processes agree
+        if (made.share && has_middles) made.share->exchange.update(numbers, field.components);
         numbers.resize((made.order ? made.order->items() : grids_[g].points.size()) * components);
         for (const Middle& middle : made.middles)
           for (std::size_t k = 0; k < components; ++k) {
