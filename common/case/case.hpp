@@ -139,6 +139,11 @@ struct PartitionedData {
   FastOptions fast;                    ///< of the sub-problems
 };
 
+/// [petsc]: the linear solver `petsc`
+struct PetscData {
+  std::string options;  ///< as on PETSc's command line; all begin with -fsi_
+};
+
 /// [output]
 struct OutputData {
   std::vector<std::string> fields = standard_output_fields();
@@ -175,6 +180,7 @@ struct Case {
   MeshMotionOptions mesh_motion;  ///< [mesh_motion], of scenes with fluid and wall
   MonolithicData monolithic;
   PartitionedData partitioned;
+  PetscData petsc{};
   OutputData output;
   EconomyData economy;
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each

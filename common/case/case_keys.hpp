@@ -127,6 +127,7 @@ CaseKey<Parent> section(const std::string& name, bool required, const std::strin
 const std::vector<CaseKey<Case>>& case_keys();
 std::vector<CaseKey<Case>> physics_keys();  ///< top-level keys of fluid, structure, loads and time
 CaseKey<Case> mesh_motion_section();        ///< [mesh_motion]
+CaseKey<Case> petsc_section();              ///< [petsc]
 std::vector<CaseKey<Case>> solver_keys();   ///< of solvers, output and economy
 
 /// All effective values of a case, in the order of the tables. Sections that it lacks have none.

@@ -59,7 +59,9 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
   using M = MonolithicData;
   return {
       leaf("linear_solver", optional,
-           "{}; fast: chosen by size and speed; direct: sparse factorisation; the next are GMRES preconditioned by "
+           "{}; fast: chosen by size and speed; direct: sparse factorisation; petsc: the method of fast by PETSc, see "
+           "[petsc]; "
+           "the next are GMRES preconditioned by "
            "blocks, these inverted by multigrid or (..._exact) factorised; amg and amli are coupled multigrid, alone "
            "or inside GMRES or FGMRES",
            name_from(at(&M::linear_solver), linear_solver_names())),
@@ -187,6 +189,7 @@ std::vector<CaseKey<Case>> solver_keys() {
   return {
       default_section("monolithic", "for fsi-monolithic", monolithic_keys(), &Case::monolithic),
       default_section("partitioned", "for fsi-partitioned", partitioned_keys(), &Case::partitioned),
+      petsc_section(),
       default_section("output", "what is written", output_keys(), &Case::output),
       default_section("economy", "savings to switch off, to see what they are worth", economy_keys(), &Case::economy),
   };

@@ -47,6 +47,8 @@
 #include "io/summary.hpp"
 #include "io/write_error.hpp"
 #include "parallel/communicator.hpp"
+#include "petsc_solver/general_solvers.hpp"
+#include "petsc_solver/petsc_options.hpp"
 
 namespace fsi {
 
@@ -441,6 +443,11 @@ class Run {
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
     if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
+    const bool sub_problems = program_ == "fsi-partitioned" && scene_->coupled();
+    if (const std::string other = other_solver_on_processes(
+            sub_problems ? setup_.partitioned.linear_solver : setup_.monolithic.linear_solver, processes_);
+        !other.empty())
+      log.info(other);
     for (const auto& warning : setup_.warnings) log.warning(warning);
     for (const auto& notice : scene_->notices) {
       log.warning(notice);
@@ -656,6 +663,7 @@ int run_driver(const std::string& program, const std::string& description, int a
     line->processes = processes.size();
     set_threads(line->threads);  // for the other task; a run chooses
     const Case setup = read_case(line->case_file, line->overrides);
+    set_petsc_options(setup.petsc.options, setup.path.string());
     for (const auto& warning : setup.warnings) warn(program, warning);
     if (!processes.is_alone()) require_no_other_task(other);
     if (other.run)

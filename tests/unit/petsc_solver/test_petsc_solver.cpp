@@ -63,7 +63,7 @@ void expect_solved(LinearisedScene<n>& scene, int most_iterations, double tolera
 }
 
 TEST(PetscSolver, SolvesTheCoupledSystemAtADeformedState) {
-  expect_solved(artery(), 45);
+  expect_solved(artery(), 50);
 }
 
 TEST(PetscSolver, ZeroRightHandSide) {
