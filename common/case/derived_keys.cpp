@@ -7,6 +7,7 @@
 #include <string>
 
 #include "case/key_values.hpp"
+#include "case/statistics_period.hpp"
 
 namespace fsi {
 
@@ -88,13 +89,16 @@ std::vector<CaseKey<OutputData>> derived_output_keys() {
       leaf("statistics", optional,
            "averages of the wall shear stress over each period, as fields of fields.h5: tawss, osi, rrt; default {}",
            flag(at(&OutputData::derived, &D::statistics))),
-      leaf("period", optional, "of statistics, in {unit}: from 0 to it, from there to its double, and so on",
+      leaf("period", optional,
+           "of statistics, in {unit}: from 0 to it, from there to its double, and so on; without it that of the "
+           "openings "
+           "that are periodic",
            number(at(&OutputData::derived, &D::period), positive, quantity::time())),
   };
 }
 
-void check_derived_output(const CaseEntry& whole_case, const Case& scene) {
-  const auto& wanted = scene.output.derived;
+void check_derived_output(const CaseEntry& whole_case, Case& scene) {
+  auto& wanted = scene.output.derived;
   if (!wanted.statistics && !wanted.period && scene.output.fields == standard_output_fields()) return;
   const CaseEntry output = whole_case.child("output");
   const auto has = [&](const std::vector<std::string>& names) {
@@ -111,7 +115,17 @@ void check_derived_output(const CaseEntry& whole_case, const Case& scene) {
   const CaseEntry statistics = output.child("statistics");
   if (!scene.fluid || !scene.time)
     statistics.refuse("are of a fluid in time, and the scene has none", "leave them out");
-  if (!wanted.period) statistics.refuse("need a period", "give output.period in ms");
+  if (!wanted.period) {
+    const auto periods = periods_of_openings(scene);
+    if (periods.empty()) statistics.refuse("need a period, and no opening is periodic", "give output.period in ms");
+    for (const auto& [name, period] : periods)
+      if (period != periods.front().second)
+        statistics.refuse(
+            fmt::format("need a period, and the openings have different ones: {} of {:g} ms, {} of {:g} ms",
+                        periods.front().first, periods.front().second, name, period),
+            "give output.period in ms");
+    wanted.period = periods.front().second;
+  }
   if (scene.output.every == 0) statistics.refuse("are fields, and output.every = 0 writes none", "give another every");
   if (*wanted.period > scene.time->end)
     output.child("period").warn("is longer than the run: no period comes to its end",

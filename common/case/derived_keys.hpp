@@ -13,6 +13,6 @@ std::vector<CaseKey<OutputData>> derived_output_keys();
 
 /// Refuses what the scene cannot have: a field or force of a medium that it lacks, statistics without a period.
 /// \throws InputError
-void check_derived_output(const CaseEntry& whole_case, const Case& scene);
+void check_derived_output(const CaseEntry& whole_case, Case& scene);
 
 }  // namespace fsi

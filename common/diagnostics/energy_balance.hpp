@@ -124,13 +124,13 @@ class EnergyBalance {
     const auto& open = scene_.fluid->open_boundaries();
     const auto& pressures = balance.data.opening_pressures;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      const double kinetic = share * scene_.fluid->kinetic_outflow(open[i], balance.at.fluid);
+      const double kinetic = share * scene_.fluid->kinetic_outflow(open[i], in.balance, balance.at.fluid);
       if (open[i].name() == group::inlet)
         record.inlet_kinetic -= kinetic;
       else
         record.outlet_kinetic += kinetic;
       const double pressure = open[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in.balance);
-      if (pressure != 0) record.inlet_work -= share * pressure * open[i].outflow(balance.at.fluid);
+      if (pressure != 0) record.inlet_work -= share * pressure * open[i].outflow(balance.at.mesh, balance.at.fluid);
     }
     if (!scene_.inflows.empty()) record.inlet_work += in.duration * inflow_power(balance);
   }

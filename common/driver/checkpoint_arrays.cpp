@@ -34,7 +34,8 @@ constexpr std::array fields{Row{"mesh", ArrayKind::mesh}, Row{"mesh_reference", 
                             Row{"flow", ArrayKind::flow}, Row{"flow_reference", ArrayKind::flow},
                             Row{"wall", ArrayKind::wall}, Row{"windkessel", ArrayKind::alike}};
 // Of what steppers keep besides.
-constexpr std::array memories{Row{"support_loads", ArrayKind::alike}, Row{"v", ArrayKind::interface_columns},
+constexpr std::array memories{Row{"support_loads", ArrayKind::alike}, Row{"opening_pressures", ArrayKind::alike},
+                              Row{"windkessels", ArrayKind::alike},   Row{"v", ArrayKind::interface_columns},
                               Row{"w", ArrayKind::interface_columns}, Row{"a", ArrayKind::interface_columns},
                               Row{"b", ArrayKind::interface_columns}, Row{"age", ArrayKind::alike},
                               Row{"load0", ArrayKind::interface},     Row{"load1", ArrayKind::interface},

@@ -22,6 +22,7 @@
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
 #include "case/case_reader.hpp"
+#include "case/statistics_period.hpp"
 #include "diagnostics/energy_balance.hpp"
 #include "diagnostics/failure_hint.hpp"
 #include "diagnostics/ringing_monitor.hpp"
@@ -453,6 +454,8 @@ class Run {
       log.warning(notice);
       warn(program_, notice);
     }
+    for (const auto& remark : scene_->remarks) log.info(remark);
+    if (const auto said = about_statistics(setup_); !said.empty()) log.info(said);
     for (const auto& note : loaded_.points.notes) log.info(note);
     for (const auto& warning : loaded_.points.warnings) {
       log.warning(warning);

@@ -38,9 +38,9 @@ typename Observables<n>::Seen Observables<n>::look(const State& level) const {
   seen.pressure = centre_line_part(level.now.fluid);
   if (scene_.fluid) {
     const auto *inlet = scene_.fluid->open_boundary(group::inlet), *outlet = scene_.fluid->open_boundary(group::outlet);
-    const auto& fluid = level.now.fluid;
-    seen.flow = {inlet ? -inlet->outflow(fluid) : 0.0, outlet ? outlet->outflow(fluid) : 0.0,
-                 inlet ? inlet->mean_pressure(fluid) : 0.0, outlet ? outlet->mean_pressure(fluid) : 0.0};
+    const auto &mesh = level.now.mesh, &fluid = level.now.fluid;
+    seen.flow = {inlet ? -inlet->outflow(mesh, fluid) : 0.0, outlet ? outlet->outflow(mesh, fluid) : 0.0,
+                 inlet ? inlet->mean_pressure(mesh, fluid) : 0.0, outlet ? outlet->mean_pressure(mesh, fluid) : 0.0};
   }
   const AxisFrame frame(points_.wall_line.empty() ? Axis{} : points_.axis);  // of plane scenes there may be none
   const int angles = points_.angles;

@@ -36,7 +36,8 @@ std::vector<OpeningRecord> OpeningObserver<n>::look(const State& level) const {
     const double behind = law == nullptr  ? 0
                           : law->stores() ? level.now.windkessel[open->place()]
                                           : law->distal_pressure;
-    records.push_back({open->outflow(level.now.fluid), open->mean_pressure(level.now.fluid), behind});
+    const auto &mesh = level.now.mesh, &flow = level.now.fluid;
+    records.push_back({open->outflow(mesh, flow), open->mean_pressure(mesh, flow), behind});
   }
   return records;
 }

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double most_steps = std::numeric_limits<int>::max();
+constexpr std::size_t most_openings = 100000;
 
 constexpr const char* insertions_name = "inserted_steps";  // each: step, its end, its length
 constexpr const char* inserted_until = "inserted_until";   // steps 1 to this were all inserted: iterations.csv has them
@@ -136,6 +137,10 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
           require(name, array.size(), ends_with(name, ".controller") ? 3 : 4);
         } else if (ends_with(name, ".support_loads")) {
           require(name, array.size(), state.support_loads);
+        } else if (ends_with(name, ".windkessels")) {
+          require(name, array.size(), state.now.windkessel.size());
+        } else if (ends_with(name, ".opening_pressures")) {
+          if (array.size() > most_openings) refuse(file, name, "is too long", another_version);
         } else if (ends_with(name, ".age")) {
           for (const double age : array) whole(file, name, age, 0, most_steps);
           size_of(stem + ".v");

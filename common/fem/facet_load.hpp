@@ -127,25 +127,22 @@ std::vector<double> vector_shape_integrals(const std::vector<Point>& x, const st
   return integrals;
 }
 
-/// Adds the load of a pressure that follows the surface, (p n, v) over the current facets (outward normals), and, if
-/// blocks are passed, its derivative with respect to the nodes' displacement. \param solution  displacements, the
-/// vectors of a mixed layout
-template <class Element, class Point, class Facet>
-void add_follower_pressure(
-    const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const double* solution,
-    std::vector<double>& residual,
-    BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>* jacobian) {
+/// Adds the load of a pressure that follows a surface, (p n, v) over its current facets (outward normals), to the vectors
+/// of a mixed layout and, unless null, its derivative by the nodes' displacement to the first n rows and columns of
+/// blocks. \param displacement  the vectors of Layout
+template <class Element, class Layout, class Point, class Facet, class Matrix>
+void add_surface_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure,
+                          const double* displacement, double* residual, Matrix* jacobian) {
   using F = typename Element::Facet;
   constexpr int n = Element::components;
-  using Layout = MixedLayout<n>;
   using T = Dual<n>;
   for (const auto& facet : facets)
-    for (int b = 0; b < F::nodes; ++b) {  // derivatives with respect to one node at a time
+    for (int b = 0; b < (jacobian ? F::nodes : 1); ++b) {  // derivatives with respect to one node at a time
       Vec3<T> corner[F::nodes];
       for (int a = 0; a < F::nodes; ++a) {
         for (int i = 0; i < 3; ++i) corner[a][i] = T(x[facet[a]][i]);
         for (int k = 0; k < n; ++k) {
-          corner[a][Element::axis[k]] += Pack(solution[Layout::vector(facet[a], k)]);
+          corner[a][Element::axis[k]] += Pack(displacement[Layout::vector(facet[a], k)]);
           if (a == b) corner[a][Element::axis[k]].slope[k] = Pack(1.0);
         }
       }
@@ -161,13 +158,23 @@ void add_follower_pressure(
           for (int k = 0; k < n; ++k) {
             const T& component = normal[Element::axis[k]];
             const double scale = pressure * F::shape(q, a);
-            if (b == 0) residual[Layout::vector(facet[a], k)] += scale * component.value[0];
+            if (b == 0) residual[MixedLayout<n>::vector(facet[a], k)] += scale * component.value[0];
             if (block)
-              for (int s = 0; s < n; ++s) block[k * Layout::entries + s] += scale * component.slope[s][0];
+              for (int s = 0; s < n; ++s) block[k * Matrix::columns + s] += scale * component.slope[s][0];
           }
         }
       }
     }
+}
+
+/// The same of a wall. \param solution  displacements, the vectors of a mixed layout
+template <class Element, class Point, class Facet>
+void add_follower_pressure(
+    const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure, const double* solution,
+    std::vector<double>& residual,
+    BlockMatrix<MixedLayout<Element::components>::entries, MixedLayout<Element::components>::entries>* jacobian) {
+  add_surface_pressure<Element, MixedLayout<Element::components>>(x, facets, pressure, solution, residual.data(),
+                                                                  jacobian);
 }
 template <class Element, class Point, class Facet, class Matrix>
 void add_follower_pressure(const std::vector<Point>& x, const std::vector<Facet>& facets, double pressure,

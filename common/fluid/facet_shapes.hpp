@@ -7,6 +7,8 @@
 #include "fem/quadratic_simplex.hpp"
 #include "fem/simplex_rule.hpp"
 #include "fem/triangle_bodies.hpp"
+#include "math/dual.hpp"
+#include "math/tensor.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
@@ -65,6 +67,31 @@ struct FacetShapes {
       double r = 0;
       for (int a = 0; a < nodes; ++a) r += shape(q, a) * x[a][0];
       weight *= two_pi * r;
+    }
+    return weight * normal;
+  }
+
+  /// The same of positions over another scalar type.
+  template <class T>
+  static Vec3<T> weighted_normal_of(const Vec3<T> (&x)[nodes], int q) {
+    const auto tangent_of = [&](int i) {
+      Vec3<T> t{{T(0.0), T(0.0), T(0.0)}};
+      for (int a = 0; a < nodes; ++a) t = t + Pack(slope(q, a, i + 1) - slope(q, a, 0)) * x[a];
+      return t;
+    };
+    Vec3<T> normal{{T(0.0), T(0.0), T(0.0)}};
+    if constexpr (dim == 1) {
+      const Vec3<T> along = tangent_of(0);
+      normal[Element::axis[0]] = along[Element::axis[1]];
+      normal[Element::axis[1]] = -along[Element::axis[0]];
+    } else {
+      normal = Pack(0.5) * cross(tangent_of(0), tangent_of(1));
+    }
+    T weight(rule.weight[q]);
+    if constexpr (Element::axisymmetric) {
+      T r(0.0);
+      for (int a = 0; a < nodes; ++a) r += Pack(shape(q, a)) * x[a][0];
+      weight = Pack(two_pi * rule.weight[q]) * r;
     }
     return weight * normal;
   }

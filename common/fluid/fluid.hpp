@@ -58,7 +58,11 @@ class Fluid {
   /// here, as work() is of these and of the openings' facets.
   virtual double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const = 0;
   virtual FluidWork work(FluidStep step) const = 0;
-  /// Kinetic energy that flows out through an open boundary, uJ/ms, for flow arrays (u, p).
+  /// Kinetic energy that flows out through an open boundary, uJ/ms, of the flow that an input points to.
+  double kinetic_outflow(const OpenBoundary<n>& open, const FluidInput& in, const std::vector<double>& flow) const {
+    return form().density * open.kinetic_outflow(nodes().nodes, in, flow);
+  }
+  /// Of an opening that stays, for flow arrays (u, p).
   double kinetic_outflow(const OpenBoundary<n>& open, const std::vector<double>& flow) const {
     return form().density * open.kinetic_outflow(nodes().nodes, flow);
   }

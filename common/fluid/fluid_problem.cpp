@@ -33,18 +33,23 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
   const auto result =
       assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
   for (std::size_t i = 0; i < open_.size(); ++i)
-    open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), residual);
+    open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), in.mesh, residual,
+                          derivatives == FluidDerivatives::fluid_and_domain ? &jacobian_.shape_derivatives : nullptr);
   for (const auto& [open, facets] : backflow_)
     facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);
+  for (const auto& [open, beta] : moving_backflow_)
+    open_[open].moving()->add_backflow(form_.density, beta, in, residual.data(), &jacobian_, derivatives);
   return result;
 }
 
 template <class Element>
 void FluidProblem<Element>::stabilise_backflow(std::size_t open, double coefficient) {
   backflow_.erase(open);
-  if (coefficient != 0)
-    backflow_.emplace(open,
-                      BackflowFacets<Element>(coefficient, part_, open_.at(open).facets(), *space_.graph()));
+  moving_backflow_.erase(open);
+  if (coefficient != 0 && open_.at(open).moving())
+    moving_backflow_.emplace(open, coefficient);
+  else if (coefficient != 0)
+    backflow_.emplace(open, BackflowFacets<Element>(coefficient, part_, open_.at(open).facets(), *space_.graph()));
 }
 
 template <class Element>
@@ -68,6 +73,8 @@ FluidWork FluidProblem<Element>::work(FluidStep step) const {
   FluidWork work = fluid_work(form_, packs_, step);
   for (const auto& [open, facets] : backflow_)
     work.backflow += step.duration * facets.power(form_.density, step.balance.fluid);
+  for (const auto& [open, beta] : moving_backflow_)
+    work.backflow += step.duration * open_[open].moving()->backflow_power(form_.density, beta, step.balance);
   return work;
 }
 

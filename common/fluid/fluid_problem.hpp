@@ -18,7 +18,7 @@ class FluidProblem : public Fluid<Element::components> {
   static constexpr int dim = Element::dim, n = Element::components;
   using Part = Submesh<Element::dim, Element::order>;
 
-  /// \param open      surfaces in the part's node numbers, none of which moves
+  /// \param open      surfaces in the part's node numbers
   /// \param mirrored  components that vanish in a mirror: normal to planes of symmetry, radial on an axis
   FluidProblem(Part part, const AleFluid& form, std::vector<OpenBoundary<n>> open,
                VanishingComponents<n> mirrored = {});
@@ -31,7 +31,7 @@ class FluidProblem : public Fluid<Element::components> {
   const AleFluid& form() const override { return form_; }
   void set_wave_speed(double speed) override { form_.wave_speed = speed; }
   void stabilise_backflow(std::size_t open, double coefficient) override;
-  bool stabilises_backflow() const override { return !backflow_.empty(); }
+  bool stabilises_backflow() const override { return !backflow_.empty() || !moving_backflow_.empty(); }
   const std::vector<OpenBoundary<n>>& open_boundaries() const override { return open_; }
 
   AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
@@ -56,7 +56,8 @@ class FluidProblem : public Fluid<Element::components> {
   VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
   std::vector<OpenBoundary<n>> open_;
-  std::map<std::size_t, BackflowFacets<Element>> backflow_;  ///< by place among the open boundaries
+  std::map<std::size_t, BackflowFacets<Element>> backflow_;  ///< by place among the open boundaries that stay
+  std::map<std::size_t, double> moving_backflow_;            ///< beta, by place among those that move
 };
 
 }  // namespace fsi

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -12,14 +13,15 @@
 
 #include "fem/facet_load.hpp"
 #include "fluid/fluid_input.hpp"
+#include "fluid/moving_surface.hpp"
 #include "fluid/outflow_law.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "parallel/node_share.hpp"
 
 namespace fsi {
 
-/// A surface of the fluid, by name, through which fluid may pass. It does not move. Vectors have n components. Integrals
-/// over it are those of all processes, which ask for them together.
+/// A surface of the fluid, by name, through which fluid may pass. It stays where it is, unless move_by() says otherwise.
+/// Vectors have n components. Integrals over it are those of all processes, which ask for them together.
 template <int n>
 class OpenBoundary {
  public:
@@ -42,8 +44,12 @@ class OpenBoundary {
         empty_(!processes.any(std::any_of(areas_.begin(), areas_.end(), [](double area) { return area != 0; }))) {}
 
   const std::string& name() const { return name_; }
-  /// Integrals of N_a n, as a flow array, mm^2; zero at copies of other processes' nodes.
+  /// Integrals of N_a n at rest, as a flow array, mm^2; zero at copies of other processes' nodes.
   const std::vector<double>& normals() const { return normals_; }
+  /// Lets it move with the mesh.
+  void move_by(std::shared_ptr<const MovingSurface<n>> surface) { moving_ = std::move(surface); }
+  /// Null where it stays.
+  const MovingSurface<n>* moving() const { return moving_.get(); }
   /// Whether there is a surface at all.
   bool empty() const { return empty_; }
 
@@ -60,38 +66,65 @@ class OpenBoundary {
   double outside_pressure(double applied, const FluidInput& in) const {
     if (!law_) return applied;
     const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
-    return applied + law_->pressure(in.fluid_factor, reference, outflow(in.fluid));
+    return applied + law_->pressure(in.fluid_factor, reference, outflow(in.mesh, in.fluid));
   }
   /// The nodes of its facets, one after the other, normals outward.
   const std::vector<int>& facets() const { return facets_; }
 
-  /// Adds to the fluid's residual what the traction J sigma F^-T N = -pressure N leaves there.
+  /// Adds to the fluid's residual what the traction J sigma F^-T N = -pressure J F^-T N leaves there and, unless null,
+  /// its derivative by the mesh's displacement.
+  void add_pressure(double pressure, const double* mesh, std::vector<double>& residual,
+                    typename MovingSurface<n>::ShapeDerivatives* derivatives) const {
+    if (!moving_)
+      add_pressure(pressure, residual);
+    else if (pressure != 0)
+      moving_->add_pressure(pressure, mesh, residual.data(), derivatives);
+  }
+  /// Of an opening that stays.
   void add_pressure(double pressure, std::vector<double>& residual) const {
     if (pressure == 0) return;
     for (std::size_t i = 0; i < residual.size(); ++i) residual[i] += pressure * normals_[i];
   }
 
-  /// Of a flow array (u, p): volume flow outward, mm^3/ms.
+  /// Of a mesh displacement and a flow array (u, p): volume flow outward through the surface where it is, mm^3/ms.
+  double outflow(const double* mesh, const double* flow) const {
+    return moving_ ? moving_->outflow(mesh, flow) : outflow(flow);
+  }
+  double outflow(const std::vector<double>& mesh, const std::vector<double>& flow) const {
+    return outflow(mesh.data(), flow.data());
+  }
+  /// Of an opening that stays.
   double outflow(const std::vector<double>& flow) const { return outflow(flow.data()); }
   double outflow(const double* flow) const {
     return processes_->sum(std::inner_product(normals_.begin(), normals_.end(), flow, 0.0));
   }
   /// Mean pressure, kPa; 0 on an empty surface.
-  double mean_pressure(const std::vector<double>& flow) const {
-    std::array<double, 2> sums{};  // of the pressure, and of one
-    for (std::size_t a = 0; a < areas_.size(); ++a) {
-      sums[0] += areas_[a] * flow[Layout::scalar(static_cast<int>(a))];
-      sums[1] += areas_[a];
-    }
-    processes_->sum(sums.data(), sums.size());
-    return sums[1] > 0 ? sums[0] / sums[1] : 0;
+  double mean_pressure(const std::vector<double>& mesh, const std::vector<double>& flow) const {
+    return moving_ ? mean_of(moving_->areas(mesh.data()), flow) : mean_of(areas_, flow);
   }
-  /// Integral of |u|^2/2 u . n, mm^5/ms^3: times the density the kinetic energy that flows out, uJ/ms.
+  /// Of an opening that stays.
+  double mean_pressure(const std::vector<double>& flow) const { return mean_of(areas_, flow); }
+  /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity where the opening moves, mm^5/ms^3: times the density the
+  /// kinetic energy that flows out, uJ/ms. \param flow  that of `in`
+  double kinetic_outflow(const std::vector<Point>& nodes, const FluidInput& in, const std::vector<double>& flow) const {
+    return moving_ ? moving_->kinetic_outflow(in) : kinetic_outflow(nodes, flow);
+  }
+  /// Of an opening that stays.
   double kinetic_outflow(const std::vector<Point>& nodes, const std::vector<double>& flow) const {
     return processes_->sum(kinetic_flux_(nodes, flow));
   }
 
  private:
+  double mean_of(const std::vector<double>& areas, const std::vector<double>& flow) const {
+    std::array<double, 2> sums{};  // of the pressure, and of one
+    for (std::size_t a = 0; a < areas.size(); ++a) {
+      sums[0] += areas[a] * flow[Layout::scalar(static_cast<int>(a))];
+      sums[1] += areas[a];
+    }
+    processes_->sum(sums.data(), sums.size());
+    return sums[1] > 0 ? sums[0] / sums[1] : 0;
+  }
+
   std::string name_;
   std::vector<double> normals_;  ///< as flow arrays
   std::vector<double> areas_;    ///< per node
@@ -99,6 +132,7 @@ class OpenBoundary {
   std::vector<int> facets_;
   const Communicator* processes_;
   bool empty_;
+  std::shared_ptr<const MovingSurface<n>> moving_;  ///< of one process alone
   std::optional<OutflowLaw> law_;
   std::size_t place_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <unordered_map>
 #include <unordered_set>
@@ -418,7 +419,7 @@ class Checks {
     std::vector<Facet> held;
     for_groups_and_planes(needs_.clamping,
                           [&](const auto& facets) { held.insert(held.end(), facets.begin(), facets.end()); });
-    const auto clamped = facet_nodes(held);
+    const auto clamped = facet_nodes(held), free = free_rims(shared);
     // An interface that ends on the axis is closed there.
     const auto on_axis = [&](int node) {
       return Dim == 2 && needs_.geometry == TriangleGeometry::axisymmetric && mesh_.nodes[node][0] == 0;
@@ -427,6 +428,7 @@ class Checks {
     int first = -1;
     for (const int node : rim_nodes<Dim>(shared)) {
       if (on_axis(node) || std::binary_search(clamped.begin(), clamped.end(), node)) continue;
+      if (std::binary_search(free.begin(), free.end(), node)) continue;
       ++loose;
       if (first < 0) first = node;
     }
@@ -438,9 +440,43 @@ class Checks {
           std::string(
               std::find(needs_.clamping.begin(), needs_.clamping.end(), group::wall_ends) != needs_.clamping.end()
                   ? ""
-                  : "fix all components of its support (with a fluid ends can neither slide nor be free), or ") +
+                  : "fix all components of its support (only ends that a support names and that meet the fluid in an "
+                    "opening can slide or be free), or ") +
               "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
               "symmetry_z, or symmetry_1 and so on");
+  }
+
+  /// Nodes where the wall may move although the interface ends there: in surfaces that supports name, where an opening
+  /// begins that can follow them, and no face that the fluid sticks to.
+  std::vector<int> free_rims(const std::vector<Facet>& shared) const {
+    if (needs_.supports.empty()) return {};
+    std::vector<std::string> open = needs_.openings;
+    if (needs_.inlet) open.emplace_back(group::inlet);
+    if (needs_.outlet) open.emplace_back(group::outlet);
+    const auto nodes_of = [&](const std::vector<std::string>& names) {
+      std::vector<Facet> facets;
+      for (const auto& name : names)
+        if (const auto* group = mesh_.facets(name)) facets.insert(facets.end(), group->begin(), group->end());
+      return facet_nodes(facets);
+    };
+    FacetSet passable;
+    for (const auto& facet : shared) passable.insert(facet_key<Dim>(facet));
+    for_groups_and_planes(open, [&](const auto& facets) {
+      for (const auto& facet : facets) passable.insert(facet_key<Dim>(facet));
+    });
+    std::vector<Facet> sticking;
+    for (const auto& facet : boundary_facets(mesh_, {fluid_})) {
+      const auto on_axis = [&](int node) { return axisymmetric() && mesh_.nodes[node][0] == 0; };
+      if (passable.count(facet_key<Dim>(facet.nodes)) || std::all_of(facet.nodes.begin(), facet.nodes.end(), on_axis))
+        continue;
+      sticking.push_back(facet.nodes);
+    }
+    const auto named = nodes_of(needs_.supports), at_openings = nodes_of(open), stuck = facet_nodes(sticking);
+    std::vector<int> in_both, free;
+    std::set_intersection(named.begin(), named.end(), at_openings.begin(), at_openings.end(),
+                          std::back_inserter(in_both));
+    std::set_difference(in_both.begin(), in_both.end(), stuck.begin(), stuck.end(), std::back_inserter(free));
+    return free;
   }
 
   /// Free faces of fluid and wall that lie on each other: they look like an interface and would act as two walls.

@@ -29,7 +29,7 @@ struct SceneMeshNeeds {
 /// is not normal to x (y, z) everywhere; fluid in several pieces; wall pieces that nothing supports: no face in
 /// a surface that holds the wall or a symmetry plane, nor an axis of symmetry; with fluid and wall: no shared facet, faces that meet
 /// without sharing nodes, or a node of the interface's rim that is neither in a surface that clamps it, nor in a symmetry plane, nor
-/// on the axis of an axisymmetric mesh.
+/// on the axis of an axisymmetric mesh, nor in a surface of `supports` where an opening begins.
 template <int Dim, int Order>
 void check_scene_mesh(const SimplexMesh<Dim, Order>& mesh, const SceneMeshNeeds& needs, const std::string& file);
 

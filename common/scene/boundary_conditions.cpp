@@ -11,6 +11,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/symmetry_planes.hpp"
+#include "scene/moving_openings.hpp"
 #include "scene/wall_supports.hpp"
 
 namespace fsi {
@@ -93,32 +94,45 @@ FacetsOf<Element> inner_surface(const MeshOf<Element>& mesh, const std::vector<i
 }
 
 template <class Element>
+HeldDirections<Element>::HeldDirections(const MeshOf<Element>& mesh, const PartOf<Element>& part,
+                                        std::vector<HeldSurface<n>> others)
+    : part_(part), others_(std::move(others)) {
+  for (const auto& plane : symmetry_planes(mesh)) {
+    Direction<n> normal;
+    for (int k = 0; k < n; ++k) normal[k] = plane.normal[Element::axis[k]];
+    planes_.push_back({nodes_on<Element>(part, plane.group->facets), normal});
+  }
+}
+
+template <class Element>
+auto HeldDirections<Element>::of_symmetry(int node) const -> std::vector<Direction<n>> {
+  std::vector<Direction<n>> directions;
+  for (const auto& plane : planes_)
+    if (plane.on[node]) directions.push_back(plane.direction);
+  if (Element::axisymmetric && part_.nodes[node][0] == 0) {
+    directions.emplace_back();
+    directions.back()[0] = 1;
+  }
+  return directions;
+}
+
+template <class Element>
+auto HeldDirections<Element>::at(int node) const -> std::vector<Direction<n>> {
+  auto directions = of_symmetry(node);
+  for (const auto& surface : others_)
+    if (surface.on[node]) directions.push_back(surface.direction);
+  return directions;
+}
+
+template <class Element>
 VanishingComponents<Element::components> mirrored_components(
     const MeshOf<Element>& mesh, const PartOf<Element>& part,
     const std::vector<HeldSurface<Element::components>>& surfaces) {
   constexpr int n = Element::components;
-  struct Plane {
-    std::vector<char> on;  ///< per node of the part
-    Direction<n> normal;
-  };
-  std::vector<Plane> planes;
-  for (const auto& plane : symmetry_planes(mesh)) {
-    Direction<n> normal;
-    for (int k = 0; k < n; ++k) normal[k] = plane.normal[Element::axis[k]];
-    planes.push_back({nodes_on<Element>(part, plane.group->facets), normal});
-  }
+  const HeldDirections<Element> directions(mesh, part, surfaces);
   VanishingComponents<n> mirrored;
-  std::vector<Direction<n>> normals;
   for (int a = 0; a < part.node_count(); ++a) {
-    normals.clear();
-    for (const auto& plane : planes)
-      if (plane.on[a]) normals.push_back(plane.normal);
-    for (const auto& surface : surfaces)
-      if (surface.on[a]) normals.push_back(surface.direction);
-    if (Element::axisymmetric && part.nodes[a][0] == 0) {
-      normals.emplace_back();
-      normals.back()[0] = 1;
-    }
+    const auto normals = directions.at(a);
     if (normals.empty()) continue;
     const auto held = hold<n>(normals);
     if (held.turned) mirrored.frames.turn(a, held.axes);
@@ -146,8 +160,7 @@ WallConditions<Element::components> wall_conditions(const Case& setup, const Mes
 template <class Element>
 FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, const MeshOf<Element>& mesh,
                                       const PartOf<Element>& fluid, const FacetsOf<Element>& interface,
-                                      const PartOf<Element>* wall,
-                                      const DirichletConditions<Element::components>* wall_conditions) {
+                                      const WallSide<Element>* wall) {
   constexpr int n = Element::components;
   const int nodes = fluid.node_count();
   FluidBoundary<Element> boundary;
@@ -161,6 +174,16 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
     boundary.open.push_back(open_boundary<Element>(opening.surface, fluid.nodes, in_part<Element>(fluid, facets)));
     if (opening.outflow_law) boundary.open.back().set_law(*opening.outflow_law, stores);
     stores += opening.outflow_law && opening.outflow_law->stores() ? 1 : 0;
+  }
+  const auto wet = nodes_on<Element>(fluid, interface);
+  const auto moving = wall ? moving_openings<Element>(mesh, fluid, boundary.open, wet, *wall)
+                           : std::vector<std::optional<MovingOpening<n>>>(openings.size());
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    const FacetsOf<Element> facets = group_facets(mesh, openings[i].surface);
+    if (moving[i]) {
+      boundary.open[i].move_by(moving_surface<Element>(fluid.nodes, in_part<Element>(fluid, facets)));
+      continue;
+    }
     const auto on = nodes_on<Element>(fluid, facets);
     for (int a = 0; a < nodes; ++a)
       if (on[a]) boundary.mesh.fix(a);
@@ -172,8 +195,12 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
       boundary.mesh.fix(a);
     }
   boundary.mirrored = mirrored_components<Element>(mesh, fluid);
-  fix<n>(boundary.mirrored, {&boundary.velocity, &boundary.mesh});
-  const auto wet = nodes_on<Element>(fluid, interface);
+  if (std::none_of(moving.begin(), moving.end(), [](const auto& opening) { return opening.has_value(); })) {
+    fix<n>(boundary.mirrored, {&boundary.velocity, &boundary.mesh});
+    boundary.frames = boundary.mirrored.frames;
+  } else {
+    hold_with_openings<Element>(mesh, fluid, moving, wet, *wall, boundary);
+  }
   for (std::size_t i = 0; i < openings.size(); ++i) {
     if (!openings[i].flow_rate || boundary.open[i].empty()) continue;
     InflowNodes inflow{i, {}, std::vector<char>(nodes, 0)};
@@ -189,10 +216,11 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   const auto areas = nodal_areas<Element>(fluid.nodes, in_part<Element>(fluid, interface));
   for (int a = 0; a < nodes; ++a) {
     if (!wet[a]) continue;
-    const int wall_node = wall->local_node[fluid.mesh_node[a]];
-    const bool clamped = wall_conditions->fixes(wall_node);
+    const int wall_node = wall->part.local_node[fluid.mesh_node[a]];
+    const auto& held = wall->held.conditions;
+    const bool clamped = held.fixes(wall_node);
     for (int k = 0; k < n; ++k)
-      if (wall_conditions->fixes(wall_node, k) || boundary.velocity.fixes(a, k)) {
+      if (held.fixes(wall_node, k) || boundary.velocity.fixes(a, k)) {
         boundary.velocity.fix(a, k);
         boundary.mesh.fix(a, k);
       }
@@ -202,17 +230,18 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   return boundary;
 }
 
-#define FSI_INSTANTIATE(Element)                                                                                 \
-  template std::vector<char> nodes_on<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                \
-  template VanishingComponents<Element::components> mirrored_components<Element>(                                \
-      const MeshOf<Element>&, const PartOf<Element>&, const std::vector<HeldSurface<Element::components>>&);     \
-  template FacetsOf<Element> in_part<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                 \
-  template FacetsOf<Element> inner_surface<Element>(const MeshOf<Element>&, const std::vector<int>&);            \
-  template WallConditions<Element::components> wall_conditions<Element>(const Case&, const MeshOf<Element>&,     \
-                                                                        const PartOf<Element>&);                 \
-  template FluidBoundary<Element> fluid_boundary<Element>(                                                       \
-      const std::vector<OpeningData>&, const MeshOf<Element>&, const PartOf<Element>&, const FacetsOf<Element>&, \
-      const PartOf<Element>*, const DirichletConditions<Element::components>*);
+#define FSI_INSTANTIATE(Element)                                                                                   \
+  template class HeldDirections<Element>;                                                                          \
+  template std::vector<char> nodes_on<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                  \
+  template VanishingComponents<Element::components> mirrored_components<Element>(                                  \
+      const MeshOf<Element>&, const PartOf<Element>&, const std::vector<HeldSurface<Element::components>>&);       \
+  template FacetsOf<Element> in_part<Element>(const PartOf<Element>&, const FacetsOf<Element>&);                   \
+  template FacetsOf<Element> inner_surface<Element>(const MeshOf<Element>&, const std::vector<int>&);              \
+  template WallConditions<Element::components> wall_conditions<Element>(const Case&, const MeshOf<Element>&,       \
+                                                                        const PartOf<Element>&);                   \
+  template FluidBoundary<Element> fluid_boundary<Element>(const std::vector<OpeningData>&, const MeshOf<Element>&, \
+                                                          const PartOf<Element>&, const FacetsOf<Element>&,        \
+                                                          const WallSide<Element>*);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

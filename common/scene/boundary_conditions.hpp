@@ -49,6 +49,23 @@ VanishingComponents<Element::components> mirrored_components(
     const MeshOf<Element>& mesh, const PartOf<Element>& part,
     const std::vector<HeldSurface<Element::components>>& held = {});
 
+/// The unit normals of the planes of symmetry that a node of a part lies in, of an axisymmetric part the radial direction
+/// on the axis, and the directions of other surfaces on which something is held.
+template <class Element>
+class HeldDirections {
+ public:
+  static constexpr int n = Element::components;
+  HeldDirections(const MeshOf<Element>& mesh, const PartOf<Element>& part, std::vector<HeldSurface<n>> others = {});
+  /// Those of symmetry first.
+  std::vector<Direction<n>> at(int node) const;
+  /// Without those of other surfaces.
+  std::vector<Direction<n>> of_symmetry(int node) const;
+
+ private:
+  const PartOf<Element>& part_;
+  std::vector<HeldSurface<n>> planes_, others_;
+};
+
 /// One flag per node of a part: on these facets of the whole mesh.
 template <class Element>
 std::vector<char> nodes_on(const PartOf<Element>& part, const FacetsOf<Element>& facets);
@@ -80,18 +97,27 @@ struct FluidBoundary {
   std::vector<OpenBoundary<Element::components>> open;
   std::vector<InflowNodes> inflows;                   ///< of the openings whose flow is given
   VanishingComponents<Element::components> mirrored;  ///< normal to planes of symmetry, radial on the axis
+  NodalFrames<Element::components> frames;  ///< of velocity and mesh: those of `mirrored` unless openings move
+};
+
+/// The wall as the fluid's boundary meets it.
+template <class Element>
+struct WallSide {
+  const PartOf<Element>& part;
+  const WallConditions<Element::components>& held;
+  std::vector<HeldSurface<Element::components>> supports;  ///< surfaces_held_by_supports()
 };
 
 /// No slip on every facet that is neither open nor interface nor on a symmetry plane or the axis, and on the rims where
 /// the wall's clamped ends meet the fluid; a mesh at rest there and on the open boundaries. On symmetry planes and on
 /// the axis the normal components are zero, of the velocity and of the mesh. Where the flow through an opening is given,
-/// the velocity of its nodes is prescribed, save where the fluid sticks or moves with the interface.
+/// the velocity of its nodes is prescribed, save where the fluid sticks or moves with the interface. Openings whose rim
+/// is not clamped move with it (scene/moving_openings.hpp).
 /// \param interface   facets between fluid and wall, nodes of the whole mesh
-/// \param wall        the wall's part and its conditions; null pointers without wall
+/// \param wall        null without wall
 template <class Element>
 FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, const MeshOf<Element>& mesh,
                                       const PartOf<Element>& fluid, const FacetsOf<Element>& interface,
-                                      const PartOf<Element>* wall,
-                                      const DirichletConditions<Element::components>* wall_conditions);
+                                      const WallSide<Element>* wall);
 
 }  // namespace fsi

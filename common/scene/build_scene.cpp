@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "scene/boundary_conditions.hpp"
 #include "scene/fibre_frame.hpp"
 #include "scene/inflow.hpp"
+#include "scene/moving_openings.hpp"
 #include "scene/restricted_conditions.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
@@ -136,12 +138,13 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
 
   // All is found on the whole mesh; where it is shared out, each process keeps its part of that.
   PartOf<Element> wall_part;
+  WallConditions<n> held;
   if (setup.structure) {
     wall_part = submesh(mesh, wall_regions);
     if (setup.structure->layer_pressure == LayerPressure::separate) wall_part = split_between_regions(wall_part);
-    auto held = wall_conditions<Element>(setup, mesh, wall_part);
-    scene->wall_conditions = std::move(held.conditions);
-    scene->wall_frames = std::move(held.frames);
+    held = wall_conditions<Element>(setup, mesh, wall_part);
+    scene->wall_conditions = held.conditions;
+    scene->wall_frames = held.frames;
     std::vector<std::pair<int, Material>> layers;
     for (const auto& [name, data] : setup.structure->layers)
       layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
@@ -178,9 +181,11 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (setup.fluid) {
     auto part = submesh(mesh, {fluid_region});
     const auto interface = setup.structure ? interface_facets(mesh, fluid_region, wall_regions) : FacetsOf<Element>{};
-    auto boundary =
-        fluid_boundary<Element>(openings_of(setup), mesh, part, interface, scene->wall ? &wall_part : nullptr,
-                                scene->wall ? &scene->wall_conditions : nullptr);
+    std::optional<WallSide<Element>> side;
+    if (scene->wall)
+      side.emplace(WallSide<Element>{wall_part, held, surfaces_held_by_supports<Element>(setup, mesh, wall_part)});
+    auto boundary = fluid_boundary<Element>(openings_of(setup), mesh, part, interface, side ? &*side : nullptr);
+    require_pressure_where_openings_move(setup, boundary.open);
     const PartRestriction* here = nullptr;
     std::vector<double> stiffness;
     if (scene->wall) stiffness = mesh_stiffness(part, fluid_nodes_of<n>(boundary.interface), setup.mesh_motion);
@@ -188,6 +193,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->interface_areas = std::move(boundary.interface_areas);
     PartOf<Element> fluid_here;
     if (share) {
+      require_openings_that_stay(setup, boundary.open);
       whole->fluid = std::make_unique<const PartOf<Element>>(part);
       whole->fluid_here = std::make_unique<const PartRestriction>(*whole->fluid, *share);
       here = whole->fluid_here.get();
@@ -198,6 +204,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
       boundary.velocity = restricted(boundary.velocity, *here);
       boundary.mesh = restricted(boundary.mesh, *here);
       boundary.mirrored = restricted(boundary.mirrored, *here);
+      boundary.frames = restricted(boundary.frames, *here);
       if (scene->wall) {
         restrict_interface(*here, *whole->wall_here, *scene);
         scene->wall_conditions = restricted(scene->wall_conditions, *whole->wall_here);
@@ -208,10 +215,11 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
       MadeInflow<n> made = make_inflow<Element>(setup, mesh, part, std::move(nodes), here);
       scene->inflows.push_back(std::move(made.inflow));
       if (!made.instead.empty()) scene->notices.push_back(std::move(made.instead));
+      if (!made.remark.empty()) scene->remarks.push_back(std::move(made.remark));
     }
     scene->velocity_conditions = std::move(boundary.velocity);
     scene->mesh_conditions = std::move(boundary.mesh);
-    scene->fluid_frames = boundary.mirrored.frames;
+    scene->fluid_frames = std::move(boundary.frames);
     if (share) part = std::move(fluid_here);
     const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
     auto fluid = std::make_unique<FluidProblem<Element>>(std::move(part), form, std::move(boundary.open),

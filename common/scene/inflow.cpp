@@ -1,5 +1,7 @@
 #include "scene/inflow.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -48,7 +50,9 @@ MadeInflow<Element::components> make_inflow(const Case& setup, const MeshOf<Elem
              [womersley](double time, double flow, std::vector<double>& velocity) {
                womersley->set(time, flow, velocity);
              }},
-            womersley->instead()};
+            womersley->instead(),
+            fmt::format("the flow of {} in Womersley's profile: its mean and {} {}", opening.surface,
+                        womersley->modes(), womersley->modes() == 1 ? "harmonic" : "harmonics")};
   }
   UnitInflow unit =
       rate.profile == InflowProfile::plug ? plug_inflow<Element>(place) : parabolic_inflow<Element>(place);

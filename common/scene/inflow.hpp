@@ -13,7 +13,8 @@ namespace fsi {
 template <int n>
 struct MadeInflow {
   PrescribedInflow<n> inflow;
-  std::string instead;  ///< what was taken in place of the profile asked for, and why; empty: nothing
+  std::string instead;   ///< what was taken in place of the profile asked for, and why; empty: nothing
+  std::string remark{};  ///< what it is made of; empty: nothing to say
 };
 
 /// Makes the nodal profile that the case asks for at an opening with a flow rate (fluid/inflow_profile.hpp).

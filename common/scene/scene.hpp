@@ -62,6 +62,7 @@ class Scene {
   };
   std::optional<InitialLoad> initial_load;
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
+  std::vector<std::string> remarks;  ///< what else a user may want to know of it, for the log
   int predictor = 1;                 ///< order of the extrapolated start of each step
   mutable Profile profile;           ///< also of those who only read the scene
 
@@ -122,7 +123,8 @@ class Scene {
     integrator->prepare(state);
     for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
       if (law.stores() && !state.rate.windkessel.empty())
-        state.rate.windkessel[open.place()] = law.rate(law.initial_pressure, open.outflow(state.now.fluid));
+        state.rate.windkessel[open.place()] =
+            law.rate(law.initial_pressure, open.outflow(state.now.mesh, state.now.fluid));
     });
     if (!state.velocity_rate.empty() || !state.rate.fluid.empty())
       state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + state.support_loads + 1, 0.0);
@@ -201,7 +203,7 @@ class Scene {
     for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
       if (law.stores())
         balance.windkessel[open.place()] = law.stored_pressure(
-            rates.fluid_factor, rates.windkessel_reference[open.place()], open.outflow(balance.fluid));
+            rates.fluid_factor, rates.windkessel_reference[open.place()], open.outflow(balance.mesh, balance.fluid));
     });
   }
 

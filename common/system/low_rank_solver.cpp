@@ -37,6 +37,11 @@ void LowRankLinearSolver<n>::update() {
     term.columns.assign(numbering.columns(), 0.0);
     add_to_system(numbering.fluid_rows, normals, term.rows);
     add_to_system(numbering.fluid, normals, term.columns);
+    if (terms_[i].by_mesh && !numbering.mesh.empty()) {
+      std::vector<double> by_mesh = *terms_[i].by_mesh;
+      if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<VectorLayout<n>>(by_mesh);
+      add_to_system(numbering.mesh, by_mesh, term.columns);
+    }
     term.columns.resize(size);  // copies have no part in the normals
   }
   prepared_ = false;

@@ -8,14 +8,16 @@
 
 namespace fsi {
 
-/// slope w w^T, joining the fluid's block of a Jacobian: how the pressure at an opening answers the flow there.
+/// slope w w^T, joining the fluid's block of a Jacobian: how the pressure at an opening answers the flow there. Where the
+/// opening moves, the flow depends on the mesh, too: slope w (w, dQ/dd_m)^T.
 struct OpeningTerm {
   const std::vector<double>* normals = nullptr;  ///< w, as a flow array along the axes of space, mm^2
   double slope = 0;                              ///< dp/dQ, kPa ms/mm^3
+  const std::vector<double>* by_mesh = nullptr;  ///< dQ/dd_m, vector layout, mm^2/ms; null: the opening stays
 };
 
-/// Solves with A + sum of slope w w^T by any solver for A, after Sherman, Morrison and Woodbury ([Golub2013]):
-///   x = z - Y (1 + S W^T Y)^-1 S W^T z,   A z = b,   A Y = W.
+/// Solves with A + sum of slope w v^T by any solver for A, after Sherman, Morrison and Woodbury ([Golub2013]):
+///   x = z - Y (1 + S V^T Y)^-1 S V^T z,   A z = b,   A Y = W.
 /// Y is found with the first solve after an update() and serves as long as what A's solver has prepared. So the matrix
 /// stays as sparse as it was, and Newton's method keeps its convergence. Solutions of iterative solvers are corrected
 /// until the residual of the whole is as small as demanded.
@@ -41,12 +43,12 @@ class LowRankLinearSolver : public LinearSolver {
   /// A term in the unknowns of the numbering.
   struct Term {
     double slope;
-    std::vector<double> rows, columns, solution;  ///< w as equations and as own unknowns; A^-1 w
+    std::vector<double> rows, columns, solution;  ///< w as equations, v as own unknowns; A^-1 w
   };
 
   /// Finds A^-1 w of all terms. \returns what went wrong, of the first that did
   LinearReport prepare();
-  /// z - Y (1 + S W^T Y)^-1 S W^T z
+  /// z - Y (1 + S V^T Y)^-1 S V^T z
   void correct(std::vector<double>& z) const;
   /// |b - (A + sum) x|; leaves b - (A + sum) x in residual_.
   double residual_norm(const std::vector<double>& b, std::vector<double>& x);
@@ -59,7 +61,7 @@ class LowRankLinearSolver : public LinearSolver {
   const std::vector<OpeningTerm>& terms_;
   JacobianProduct<n> product_;
   std::vector<Term> of_system_;
-  std::vector<double> inverse_;  ///< of 1 + S W^T Y, row by row
+  std::vector<double> inverse_;  ///< of 1 + S V^T Y, row by row
   bool prepared_ = false;
   int preparing_iterations_ = 0;
   std::vector<double> residual_, correction_;

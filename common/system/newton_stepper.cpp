@@ -33,6 +33,11 @@ void remember(const std::string& name, const LinearisationPoint& point, Memory& 
   memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
   memory.arrays[name + ".flow_reference"] = point.rates.fluid_reference;
   if (!point.support_loads.empty()) memory.arrays[name + ".support_loads"] = point.support_loads;
+  if (!point.opening_pressures.empty()) {
+    memory.arrays[name + ".opening_pressures"] = point.opening_pressures;
+    if (!point.rates.windkessel_reference.empty())
+      memory.arrays[name + ".windkessels"] = point.rates.windkessel_reference;
+  }
   memory.numbers[name + ".step"] = point.rates.step;
   memory.numbers[name + ".period"] = point.rates.interface.period;
   memory.numbers[name + ".flow_factor"] = point.rates.fluid_factor;
@@ -51,6 +56,8 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   point.rates.mesh_reference = array(".mesh_reference");
   point.rates.fluid_reference = array(".flow_reference");
   point.support_loads = array(".support_loads");
+  point.opening_pressures = array(".opening_pressures");
+  point.rates.windkessel_reference = array(".windkessels");
   point.rates.step = number(".step");
   point.rates.interface.period = number(".period");
   point.rates.fluid_factor = number(".flow_factor");

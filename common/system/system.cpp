@@ -47,6 +47,7 @@ std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>&
   scene_.for_each_law(
       [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
   if (opening_terms_.empty()) return solver;
+  moving_terms_.resize(opening_terms_.size());
   return std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
 }
 
@@ -111,6 +112,7 @@ void System<n>::linearise() {
   point_.rates.wall_reference.clear();
   point_.wall_pressure = data_->wall_pressure;
   point_.support_loads = data_->support_loads;
+  if (openings_move()) point_.opening_pressures = data_->opening_pressures;
   usable_ = true;
 }
 
@@ -121,10 +123,12 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   StepData data;
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
-  scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {  // no derivative depends on these
-    if (law.stores()) data.rates.windkessel_reference.push_back(0);
-  });
+  if (!openings_move()) data.rates.windkessel_reference.clear();  // then no derivative depends on them
+  std::size_t stores = 0;
+  scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) { stores += law.stores() ? 1 : 0; });
+  data.rates.windkessel_reference.resize(stores, 0.0);
   data.support_loads = point.support_loads;
+  data.opening_pressures = point.opening_pressures;
   if (!point.rates.is_static() && scene_.wall)
     data.rates.acceleration_history.assign(scene_.wall->space().vector_size(), 0.0);
   work_on(state, data);
@@ -301,12 +305,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
       if (derivatives_ == FluidDerivatives::fluid_and_domain)
         scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
     }
-    if (derivatives) {
-      std::size_t term = 0;
-      scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
-        opening_terms_[term++].slope = law.slope(data_->rates.fluid_factor);
-      });
-    }
+    if (derivatives) linearise_openings();
     if (impedance_) add_impedance(derivatives);
   }
   if (!numbering_.wall_rows.empty()) {
@@ -319,6 +318,30 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
   }
   return result;
+}
+
+template <int n>
+bool System<n>::openings_move() const {
+  if (numbering_.fluid_rows.empty()) return false;
+  const auto& open = scene_.fluid->open_boundaries();
+  return std::any_of(open.begin(), open.end(), [](const auto& boundary) { return boundary.moving() != nullptr; });
+}
+
+template <int n>
+void System<n>::linearise_openings() {
+  std::size_t place = 0;
+  scene_.for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
+    OpeningTerm& term = opening_terms_[place];
+    MovingTerm& moving = moving_terms_[place++];
+    term.slope = law.slope(data_->rates.fluid_factor);
+    if (!open.moving()) return;
+    const auto &mesh = state_->now.mesh, &flow = state_->now.fluid;
+    moving.normals = open.moving()->normals(mesh.data());
+    term.normals = &moving.normals;
+    if (numbering_.mesh.empty()) return;
+    moving.by_mesh = open.moving()->outflow_slope(mesh.data(), flow.data());
+    term.by_mesh = &moving.by_mesh;
+  });
 }
 
 template <int n>
@@ -368,8 +391,11 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
   if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
   if (j.mesh_tangent) add(*j.mesh_tangent, numbering_.mesh_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
-  for (const auto& [normals, slope] : opening_terms_) {
+  for (const auto& [normals, slope, by_mesh] : opening_terms_) {
     double flow = 0;
+    for (std::size_t i = 0; by_mesh && i < by_mesh->size(); ++i)
+      if (const Unknown& column = numbering_.mesh[i]; column.index >= 0)
+        flow += std::abs((*by_mesh)[i] * column.factor) * x[column.index];
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& column = numbering_.fluid[i]; column.index >= 0)
         flow += std::abs((*normals)[i] * column.factor) * x[column.index];

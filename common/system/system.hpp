@@ -24,6 +24,7 @@ struct LinearisationPoint {
   StepRates rates;  ///< but for the wall's references and history, which no derivative knows
   double wall_pressure = 0;
   std::vector<double> support_loads = {};
+  std::vector<double> opening_pressures = {};  ///< where openings move; empty otherwise: no derivative knows them
 };
 
 /// The norm of increments and iterates.
@@ -126,6 +127,11 @@ class System : public NewtonProblem {
   /// mm/ms and kPa added up as they are (docs/theory.md, section 9.3).
   std::vector<double> norm_weights();
 
+  /// Whether there is an opening that moves, on whose pressure derivatives depend.
+  bool openings_move() const;
+  /// The terms of openings whose pressure answers the flow, as they are now.
+  void linearise_openings();
+
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
 
@@ -134,7 +140,12 @@ class System : public NewtonProblem {
   Numbering numbering_;
   FluidDerivatives derivatives_;
   std::vector<InterfacePair> interface_;
+  /// Of an opening that moves, at the last linearisation.
+  struct MovingTerm {
+    std::vector<double> normals, by_mesh;
+  };
   std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
+  std::vector<MovingTerm> moving_terms_;    ///< in their order, empty for openings that stay
   MeshMotionTangent<n> mesh_tangent_;       ///< of a nonlinear mesh motion; empty otherwise
   SystemNorm norm_;
   const InterfaceImpedance* impedance_;

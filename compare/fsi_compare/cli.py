@@ -8,6 +8,7 @@ from .gallery.command import add_parser as add_gallery, gallery
 from .linear.command import add_parser as add_solvers, solvers
 from .mesh_import.command import add_parser as add_convert_mesh, convert_mesh
 from .reporting.cost import add_parser as add_cost, cost
+from .reporting.export import add_parser as add_export, export
 from .reporting.pressure import add_parser as add_pressure, pressure
 from .reporting.run_report import add_parser as add_report, report
 from .studies.accuracy_of_runs import accuracy, add_parser as add_accuracy
@@ -32,6 +33,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_pressure(commands, version)
     add_report(commands, version)
     add_cost(commands, version)
+    add_export(commands, version)
     add_accuracy(commands, version)
     add_solvers(commands, "results/solvers", version)
     add_study(commands, version)
@@ -53,6 +55,7 @@ def run(arguments: Sequence[str], version: str) -> int:
         "pressure": pressure,
         "report": report,
         "cost": cost,
+        "export": export,
         "accuracy": accuracy,
         "solvers": solvers,
         "study": study,

@@ -33,11 +33,12 @@ struct HarmonicRates {
 /// e^(i w t).
 class OscillatingPipe {
  public:
-  double frequency = 1;   ///< w, rad/ms
-  double gradient = 0.1;  ///< P, kPa/mm
+  double frequency = 1;  ///< w, rad/ms
+  double gradient;       ///< P, kPa/mm
   double fluid_density = 1, viscosity = 3.5e-3, wall_density = 1.2;
 
-  OscillatingPipe(const Tube& tube, const HarmonicRates& rates) : tube_(tube), rates_(rates) {
+  OscillatingPipe(const Tube& tube, const HarmonicRates& rates, double of_pressure = 0.1)
+      : gradient(of_pressure), tube_(tube), rates_(rates) {
     l_ = std::sqrt(-rates.first * fluid_density / viscosity);
     for (int i = 0; i < 2; ++i) {
       mu_[i] = std::visit([](const auto& m) { return m.shear_modulus(); }, tube.layers[i].material);

@@ -1,6 +1,7 @@
 """Values along a line of a run over time: the centre line of a vessel, the inner wall, a line of the user's own."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Dict, List, Mapping, Optional
 
 import numpy as np
@@ -8,7 +9,8 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.suggestions import nearest
 from ..runs.pressure_waves import PressureWaves
-from .table import Table
+from ..runs.samples import Samples, read_samples
+from .units import split_unit
 
 
 @dataclass(frozen=True)
@@ -68,26 +70,26 @@ class Line:
 VECTOR = ("_x", "_y", "_z")
 
 
-def line_of(name: str, table: Table, position: str = "z") -> Line:
-    """From a table with one block of rows for each time, the same points in each; `position`: the column of the place along
-    the line. Columns of other places are those of the points. Raises InputError."""
-    times, first, counts = np.unique(table["time"], return_index=True, return_counts=True)
-    points = int(counts[0]) if len(counts) else 0
-    s = table[position][:points]
-    whole = len(times) > 0 and bool(np.all(counts == points)) and bool(np.all(np.diff(first) > 0))
-    if not whole or not np.array_equal(table[position].reshape(-1, points), np.tile(s, (len(times), 1))):
-        raise InputError(table.path, "", "has not the same points at each time", "run it again")
-    if points > 1 and not np.all(np.diff(s) > 0):
-        raise InputError(table.path, position, "does not increase along the line", "run it again")
-    places = [axis for axis in ("x", "y", "z") if axis in table and axis != position]
-    values: Dict[str, np.ndarray] = {}
-    for column in table:
-        if column not in ("time", position, *places) and table[column].dtype.kind == "f":
-            values[column] = table[column].reshape(-1, points)
-    at = np.stack([table[axis][:points] for axis in places], axis=1) if len(places) == 3 else None
-    return Line(name, times, s, values, {column: table.unit(column) for column in values}, at)
+def line_of(name: str, path: Path, samples: Samples, position: str = "z_mm") -> Line:
+    """Of a line's samples in a table; `position`: the column of the place along the line. Columns of other places are those
+    of the points. Raises InputError."""
+    if position not in samples.places:
+        raise InputError(path, "line 1", f"column '{position}' is missing", "run it again")
+    s = samples.places[position]
+    if not np.all(np.diff(s) > 0):
+        raise InputError(path, position, "does not increase along the line", "run it again")
+    columns = {column: split_unit(column) for column in samples.values}
+    points = [place for place in ("x_mm", "y_mm", "z_mm") if place in samples.places and place != position]
+    return Line(
+        name,
+        samples.times,
+        s,
+        {columns[column][0]: values for column, values in samples.values.items()},
+        dict(columns.values()),
+        np.stack([samples.places[place] for place in points], axis=1) if len(points) == 3 else None,
+    )
 
 
-def lines_of(table: Table) -> Dict[str, Line]:
-    """By name, from `lines.csv`: blocks of rows for each time and line. Raises InputError."""
-    return {name: line_of(name, rows, "s") for name, rows in table.groups("line").items()}
+def lines_of(path: Path, finished: bool = True) -> Dict[str, Line]:
+    """By name, from `lines.csv`; `finished` as of read_samples(). Raises InputError."""
+    return {name: line_of(name, path, line, "s_mm") for name, line in read_samples(path, finished).items()}

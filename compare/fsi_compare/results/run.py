@@ -11,6 +11,7 @@ from ..base.errors import InputError, printable
 from ..base.files import exists, is_folder, read_object
 from ..base.suggestions import nearest
 from ..runs.run_folder import read_finished
+from ..runs.samples import LINES, read_samples
 from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
 from .line import Line, line_of, lines_of
@@ -103,20 +104,26 @@ class RunResults:
     @cached_property
     def centre_line(self) -> Optional[Line]:
         """'pressure' in Pa along the middle of the fluid."""
-        table = self._optional("centerline_pressure.csv")
-        return None if table is None else line_of("centre line", table)
+        return self._whole("centerline_pressure.csv", "centre line")
 
     @cached_property
     def wall_line(self) -> Optional[Line]:
         """'radial' and 'axial' displacement in mm of the inner wall, mean over the circumference."""
-        table = self._optional("wall_displacement.csv")
-        return None if table is None else line_of("wall", table)
+        return self._whole("wall_displacement.csv", "wall")
+
+    def _whole(self, file: str, name: str) -> Optional[Line]:
+        """The line that is all of a table."""
+        if file not in self.tables:
+            return None
+        path = self.folder / file
+        return line_of(name, path, read_samples(path, finished=self.status == "done")[""])
 
     @cached_property
     def lines(self) -> Dict[str, Line]:
         """Lines that the case asks for, by name; empty for none."""
-        table = self._optional("lines.csv")
-        return {} if table is None else lines_of(table)
+        if LINES not in self.tables:
+            return {}
+        return lines_of(self.folder / LINES, finished=self.status == "done")
 
     @cached_property
     def points(self) -> Dict[str, Table]:

@@ -14,7 +14,7 @@ from ..base.errors import InputError, printable
 from ..base.files import exists, is_file, is_folder, read_text
 from .columns import LARGEST, number
 from .pressure_waves import PressureWaves
-from .samples import CENTRE_LINE, LINES, waves_along
+from .samples import CENTRE_LINE, LINES, requested_line, waves_along
 from .summary import FILE, FINISHED, PROGRAMS, read_summary
 
 PRESSURE_COLUMNS = ("time_ms", "z_mm", "pressure_Pa")
@@ -59,6 +59,22 @@ def read_run(folder: Path) -> Run:
         summary=summary,
         pressure=waves_along(folder / LINES, CENTRE_LINE) if found else read_pressure(along_axis),
     )
+
+
+def has_pressure(folder: Path) -> bool:
+    """Whether there is a line to read the pressure along. Raises InputError."""
+    lines = folder / LINES
+    return is_file(folder / "centerline_pressure.csv") or (is_file(lines) and requested_line(lines) is not None)
+
+
+def read_pressure_line(folder: Path) -> PressureWaves:
+    """The pressure along the centre line; of a vessel without one along the line of `lines.csv` that stands for it
+    (runs/samples.py), its arc length in place of z. Raises InputError."""
+    along_axis, lines = folder / "centerline_pressure.csv", folder / LINES
+    if exists(along_axis) or not is_file(lines):
+        return read_pressure(along_axis)
+    name = requested_line(lines)
+    return waves_along(lines, CENTRE_LINE if name is None else name)
 
 
 def read_pressure(path: Path) -> PressureWaves:

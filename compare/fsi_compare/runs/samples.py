@@ -7,7 +7,7 @@ values, NaN where the file has an empty cell: no velocity in a wall.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -33,10 +33,13 @@ class Samples:
     values: Dict[str, np.ndarray]  # by column, (levels, points)
 
 
-def read_samples(path: Path) -> Dict[str, Samples]:
-    """The samples of a table by name; the whole of a table without a column of names is one sample "". Raises InputError
-    naming line and column unless each has the same places at each time."""
+def read_samples(path: Path, finished: bool = True) -> Dict[str, Samples]:
+    """The samples of a table by name, in the order in which they come; the whole of a table without a column of names is
+    one sample "". `finished`: of a run that has ended; else what its last level lacks is left out with it. Raises
+    InputError naming line and column unless each has the same places at each time."""
     text = read_text(path, FINISHED, "run it again")
+    if not finished and not text.endswith("\n"):
+        text = text[: text.rfind("\n") + 1]
     lines = text.splitlines()
     if len(lines) < 2 or not text.endswith("\n"):
         problem = "holds no time level" if len(lines) < 2 else "is cut off"
@@ -57,7 +60,7 @@ def read_samples(path: Path) -> Dict[str, Samples]:
                 for i, (column, cell) in enumerate(zip(header, cells))
             ]
         )
-    return {name: _by_level(path, name, header, np.array(of_name)) for name, of_name in rows.items()}
+    return {name: _by_level(path, name, header, np.array(of_name), finished) for name, of_name in rows.items()}
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:
@@ -72,9 +75,12 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
     return value
 
 
-def _by_level(path: Path, name: str, header: List[str], rows: np.ndarray) -> Samples:
+def _by_level(path: Path, name: str, header: List[str], rows: np.ndarray, finished: bool) -> Samples:
     time = rows[:, header.index(TIME)]
     points = int(np.argmax(time != time[0])) or len(time)
+    if not finished:
+        rows = rows[: len(rows) - len(rows) % points]
+        time = rows[:, header.index(TIME)]
     if len(time) % points != 0 or np.any(np.diff(time.reshape(-1, points)) != 0):
         raise InputError(path, name, "has not the same points at each time", "run it again")
     times = time[::points]
@@ -89,6 +95,17 @@ def _by_level(path: Path, name: str, header: List[str], rows: np.ndarray) -> Sam
         {column: place[0] for column, place in places.items()},
         {c: v for c, v in columns.items() if c not in (TIME, *PLACES, *NAMES)},
     )
+
+
+def requested_line(path: Path) -> Optional[str]:
+    """The line of `lines.csv` along which a vessel's pressure is read: the centre line that was found, else the first that
+    the case asks for with a pressure all along it. None where no line has one. Raises InputError."""
+    lines = read_samples(path)
+    for name, line in sorted(lines.items(), key=lambda entry: entry[0] != CENTRE_LINE):
+        pressure = line.values.get("pressure_Pa")
+        if pressure is not None and len(line.places.get("s_mm", ())) > 1 and not np.isnan(pressure).any():
+            return name
+    return None
 
 
 def waves_along(path: Path, name: str) -> PressureWaves:

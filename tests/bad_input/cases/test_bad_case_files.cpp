@@ -423,7 +423,12 @@ const std::vector<BadCase>& bad_cases() {
        "surfaces = [\"body\"]\n[output.forces.body]\nsurfaces = [\"a\"]",
        "case.toml:36: output.forces.body: \"body\" is a name in output.surfaces, too; give it another one"},
       {"StatisticsWithoutPeriod", coupled_case, "every = 8", "statistics = true",
-       "case.toml:35: output.statistics: need a period; give output.period in ms"},
+       "case.toml:35: output.statistics: need a period, and no opening is periodic; give output.period in ms"},
+      {"StatisticsOfTwoPeriods", coupled_case, "[output]",
+       "[[opening]]\nsurface = \"a\"\npressure = [[0, 1], [1, 2]]\nperiod = 2\n[[opening]]\nsurface = \"b\"\n"
+       "pressure = [[0, 1], [1, 2]]\nperiod = 3\n[output]\nstatistics = true",
+       "case.toml:42: output.statistics: need a period, and the openings have different ones: opening.a.pressure of 2 "
+       "ms, opening.b.pressure of 3 ms; give output.period in ms"},
       {"StatisticsWithoutFields", coupled_case, "every = 8", "every = 0\nstatistics = true\nperiod = 1",
        "case.toml:36: output.statistics: are fields, and output.every = 0 writes none; give another every"},
       {"StatisticsOfAWall", static_case, "[static]", "[output]\nstatistics = true\nperiod = 1\n[static]",

@@ -2,14 +2,17 @@
 
 import unittest
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import synthetic
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
+from fsi_compare.results.line import lines_of
 from fsi_compare.runs.run_folder import read_run
 from fsi_compare.runs.samples import differences_of_tables, read_samples
+from fsi_compare.studies.running.study_run import StudyRun
 
 LINE = """time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms
 0.5,a,0,1,0,0,10,0.5
@@ -22,6 +25,7 @@ LINE = """time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms
 1,centerline,1,0,0,1,7,8
 """
 FLOW = "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms\n0.5,1,2\n1,3,4\n"
+NO_REQUEST: Any = None  # of a study: what was read does not ask
 
 
 class Samples(FolderCase):
@@ -81,6 +85,33 @@ class Samples(FolderCase):
         run = read_run(self.finished("bent", lines=LINE))
         np.testing.assert_array_equal(run.pressure.z, [0, 1])
         np.testing.assert_array_equal(run.pressure.pressure, [[1, 3], [5, 7]])
+
+    def test_studies_take_the_line_that_the_case_asks_for(self):
+        asked = LINE.replace("centerline", "b")
+        for lines, pressure in ((asked, [[10, 20], [30, 40]]), (LINE, [[1, 3], [5, 7]])):
+            name = f"line{len(pressure)}{pressure[0][0]}"
+            run = StudyRun(NO_REQUEST, self.finished(name, lines=lines), "done", "", 1.0, "")
+            self.assertTrue(run.has_pressure)
+            np.testing.assert_array_equal(run.pressure.pressure, pressure)
+        along = StudyRun(
+            NO_REQUEST, synthetic.write_run(self.base / "along", synthetic.parabola(0.8)), "done", "", 1, ""
+        )
+        self.assertTrue(along.has_pressure)
+        np.testing.assert_array_equal(along.pressure.pressure, read_run(along.folder).pressure.pressure)
+        # A line that leaves the fluid has no pressure all along it.
+        for lines in ("", asked.replace(",10,", ",,").replace(",1,2\n", ",,2\n")):
+            without = self.finished(f"without{len(lines)}", **({"lines": lines} if lines else {"flow": FLOW}))
+            self.assertFalse(StudyRun(NO_REQUEST, without, "done", "", 1.0, "").has_pressure)
+
+    def test_one_reader_serves_the_library_too(self):
+        samples, lines = read_samples(self.table()), lines_of(self.table())
+        self.assertEqual(list(lines), list(samples))
+        np.testing.assert_array_equal(lines["a"]["pressure"], samples["a"].values["pressure_Pa"])
+        np.testing.assert_array_equal(lines["a"].points, [[1, 0, 0], [1, 0, 2]])
+        self.assertEqual(lines["a"].units, {"pressure": "Pa", "velocity_x": "mm/ms"})
+        # A run that goes on: what its last level lacks is left out with it.
+        growing = lines_of(self.table(LINE[: LINE.rindex("7,8")]), finished=False)
+        self.assertEqual([len(growing[name].times) for name in ("a", "centerline")], [2, 1])
 
     def test_of_branching_vessels_flows_and_samples_are_compared(self):
         one = self.finished("one", flow=FLOW)

@@ -206,6 +206,24 @@ class RigidPipe(FolderTest):
             size = np.abs(columns["inlet_work"]).max()
             self.assertLess(np.abs(columns["remainder"]).max(), 1e-6 * size, scheme)
 
+    def test_the_log_says_what_periods_and_profiles_are_made_of(self):
+        text = (
+            '[[opening]]\nsurface = "inlet"\nflow_rate = [[0, 1], [1, 2], [2, 1]]\nperiod = 2\nprofile = "womersley"\n'
+            '[[opening]]\nsurface = "outlet"\npressure = [[0, 0], [1, 0.1], [2, 0]]\nperiod = 2\n'
+        )
+        case = self.base / "periodic.toml"
+        case.write_text(RIGID.format(openings=text, scheme="midpoint", step=0.5, end=2))
+        settings = (f"mesh.file={self.mesh}", "output.every=4", "output.statistics=true")
+        logs = [
+            (run(MONOLITHIC, case, self.base / f"periodic{i}", *settings, *more) / "run.log").read_text()
+            for i, more in enumerate(((), ("output.period=1",)))
+        ]
+        self.assertRegex(logs[0], r"the flow of inlet in Womersley's profile: its mean and [1-9]\d* harmonics")
+        self.assertIn(
+            "statistics over periods of 2 ms, that of opening.inlet.flow_rate, opening.outlet.pressure", logs[0]
+        )
+        self.assertIn("statistics over periods of 1 ms\n", logs[1])
+
     def test_what_openings_a_mesh_and_a_rigid_fluid_cannot_have(self):
         cases = {
             "opening.outlett: the mesh": '[[opening]]\nsurface = "outlett"\npressure = 1\n',

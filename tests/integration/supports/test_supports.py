@@ -146,6 +146,40 @@ class Supports(FolderTest):
             self.assertLess(np.abs(rows["remainder_uJ"]).max(), 1e-6 * scale)
             self.assertGreater(rows["damper_dissipation_uJ"].sum(), 0)
 
+    def test_ends_that_slide_or_are_free_take_their_openings_along(self):
+        for element, geometry, scheme, fixed in (
+            ("p2p1", "axisymmetric", "midpoint", '["normal"]'),
+            ("p1", "axisymmetric", "tr-bdf2", "[]"),
+            ("p1", "3d", "generalised-alpha", '["normal"]'),
+        ):
+            settings = scene(self.base, element, geometry)
+            case = self.case("slide", more=f'[[support]]\nsurface = "wall_ends"\nfixed = {fixed}', scheme=scheme)
+            self.between_openings(case, "resistance = 0.02\ndistal_pressure = 0.1")
+            with self.subTest(element=element, geometry=geometry):
+                folders = [run(program, case, self.base / f"slide{i}", *settings) for i, program in enumerate(DRIVERS)]
+                moved = wall(folders[0])[-1]
+                self.assertGreater(moved[0, 2], 0.3 * moved[:, 2].max())  # the end at the inlet widens
+                for k in (2, 3):
+                    one, other = (wall(folder)[..., k] for folder in folders)
+                    self.assertLess(np.abs(one - other).max(), 1e-6 * np.abs(wall(folders[0])[..., 2:]).max())
+                self.assertLess(difference(pressure(folders[0]), pressure(folders[1])).max(), 1e-6)
+                for program, folder in zip(DRIVERS, folders):
+                    rows = np.genfromtxt(folder / "energy.csv", delimiter=",", names=True)
+                    scale = np.abs(rows["inlet_work_uJ"]).sum()
+                    self.assertLess(np.abs(rows["remainder_uJ"]).max(), 1e-5 * scale)  # the kink of the fibres
+                    begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+                    self.assertEqual(restart(program, case, begun, *settings), begun)
+                    self.assertEqual(differing_arrays(folder / "checkpoint.h5", begun / "checkpoint.h5"), [])
+
+    def test_a_flow_that_is_given_wants_ends_that_are_clamped(self):
+        settings = scene(self.base, "p1", "axisymmetric")
+        case = self.case("flow", more='[[support]]\nsurface = "wall_ends"\nfixed = ["z"]')
+        self.between_openings(case, "flow_rate = -1.0")
+        process = attempt(MONOLITHIC, case, "-q", folder=self.base / "refused", settings=settings)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("opening.outlet.flow_rate: the wall's end at this opening is not clamped", process.stderr)
+        self.assertEqual(process.stderr.count("\n"), 1)
+
     def test_prestress_is_kept_and_used_again(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
         for scheme in ("midpoint", "generalised-alpha"):
@@ -176,7 +210,11 @@ class Supports(FolderTest):
         for more, said in (
             ('[[support]]\nsurface = "outter"\nspring = 1', "has no such surface; did you mean outer?"),
             ('[[support]]\nsurface = "inlet"\nspring = 1', "do not bound the wall"),
-            ('[[support]]\nsurface = "wall_ends"\nfixed = ["z"]', "with a fluid ends can neither slide nor be free"),
+            # The tube's far end is closed: the fluid sticks to it.
+            (
+                '[[support]]\nsurface = "wall_ends"\nfixed = ["z"]',
+                "that meet the fluid in an opening can slide or be free",
+            ),
         ):
             case = self.case("refused", more=more)
             process = attempt(MONOLITHIC, case, "-q", folder=self.base / "refused", settings=settings)

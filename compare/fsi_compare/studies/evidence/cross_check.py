@@ -50,10 +50,10 @@ def point_of(run: StudyRun) -> Point:
 
 
 def waves_of(run: StudyRun) -> Optional[PressureWaves]:
-    """Pressure along the centre line in Pa; of a wall without fluid the radial displacement of its inner face in mm in
+    """Pressure along the centre line, or the line that the case asks for, in Pa; of a wall without fluid the radial displacement of its inner face in mm in
     the pressure's place. None: no finished time level."""
     try:
-        if run.has("centerline_pressure.csv"):
+        if run.has_pressure:
             return run.pressure
         columns = run.columns("wall_displacement.csv")
         points = int((columns["time_ms"] == columns["time_ms"][0]).sum())

@@ -9,7 +9,11 @@ from ...base.files import is_file, remove_tree
 from ...runs.summary import FILE, read_summary
 from .study_run import StudyRun
 
-RESULTS = ("centerline_pressure.csv", "wall_displacement.csv")  # the same bits whenever the same run is made
+RESULTS = (
+    "centerline_pressure.csv",
+    "wall_displacement.csv",
+    "lines.csv",
+)  # the same bits whenever the same run is made
 NOT_THE_SAME = "its results were not the same when it was repeated"
 
 

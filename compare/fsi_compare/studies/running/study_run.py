@@ -9,7 +9,7 @@ from ...base.errors import InputError
 from ...base.files import is_file, read_object
 from ...runs.columns import Columns, read_columns
 from ...runs.pressure_waves import PressureWaves
-from ...runs.run_folder import read_pressure
+from ...runs.run_folder import has_pressure, read_pressure_line
 from ...runs.summary import FILE, checked
 from .study_file import Request
 
@@ -52,7 +52,13 @@ class StudyRun:
 
     @functools.cached_property
     def pressure(self) -> PressureWaves:
-        return read_pressure(self.folder / "centerline_pressure.csv")
+        """Along the centre line, or the line that the case asks for. Raises InputError."""
+        return read_pressure_line(self.folder)
+
+    @property
+    def has_pressure(self) -> bool:
+        """Whether there is such a line. Raises InputError."""
+        return has_pressure(self.folder)
 
     def columns(self, file: str) -> Columns:
         """All columns of a CSV of the run, e.g. `iterations.csv`. Raises InputError when it is missing or broken."""

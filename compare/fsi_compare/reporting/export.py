@@ -1,0 +1,136 @@
+"""`fsi-compare export`: the fields of a run as VTU files with a PVD file for their times, for programs that do not read
+XDMF."""
+
+import argparse
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.files import folder, together
+from ..base.suggestions import nearest
+from ..results.fields import MediumFields
+from ..results.run import open_run
+from .vtu import write_pvd, write_vtu
+
+AS_VTK = [0, 3, 5, 1, 4, 2]  # xx, yy, zz, xy, yz, xz from xx, xy, xz, yy, yz, zz of symmetric tensors
+
+DESCRIPTION = """\
+Writes the fields of a run to OUTDIR, a series for each medium: fluid.pvd and wall.pvd, which name a VTU file for
+each time. ParaView and VisIt open the .pvd files with their times in ms; meshio opens the single .vtu files. Values
+keep their bits, cells of quadratic elements their nodes in the middle of edges; "layer" numbers the wall's layers."""
+
+EXAMPLES = """\
+examples:
+  fsi-compare export results/artery
+  fsi-compare export results/artery --to pvd --fields displacement,pressure --times 2,4,6.5 -o results/artery/vtu
+"""
+
+
+def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
+    export = commands.add_parser(
+        "export",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=EXAMPLES,
+        help="the fields of a run as VTU and PVD files",
+        description=DESCRIPTION,
+    )
+    export.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
+    export.add_argument("--to", choices=("pvd",), default="pvd", help="format of the series (default: %(default)s)")
+    export.add_argument("--fields", metavar="A,B,...", help="fields to write (default: all)")
+    export.add_argument(
+        "--times", metavar="T,T,...", help="times in ms; linear between those written (default: all that were written)"
+    )
+    export.add_argument(
+        "-o", "--output", metavar="OUTDIR", type=folder, help="folder for the files written (default: DIR/vtu)"
+    )
+    export.add_argument(
+        "--threads", metavar="N", type=int, help="accepted as by all programs; one thread writes the files"
+    )
+    export.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    export.add_argument("--version", action="version", version=f"fsi-compare {version}")
+
+
+def export(options: argparse.Namespace) -> int:
+    """The command. Also of a run that has not ended well, whose fields are as good as they were. Raises InputError."""
+    if options.threads is not None and options.threads < 1:
+        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
+    media = open_run(options.folder, unfinished=True).fields
+    if not media:
+        raise InputError(options.folder, "", "holds no fields", "set output.every in the case and run it again")
+    wanted = _wanted_fields(options.fields, media)
+    times = _read_times(options.times)
+    output = options.output or options.folder / "vtu"
+    count = 0
+    with together(output) as place:
+        for name, medium in media.items():
+            chosen = [field for field in medium.names if wanted is None or field in wanted]
+            if chosen:
+                count += write_series(place, name, medium, chosen, times)
+    if not options.quiet:
+        print(f"{count} files written to {output}")
+    return 0
+
+
+def write_series(
+    place: Path, name: str, medium: MediumFields, fields: List[str], times: Optional[List[float]] = None
+) -> int:
+    """NAME.pvd and a VTU file for each time, by default those that all of the fields were written at. Returns how many
+    files. Raises InputError for a time outside of them."""
+    at = common_times(medium, fields) if times is None else times
+    digits = max(4, len(str(len(at))))
+    series: List[Tuple[float, str]] = []
+    for number, time in enumerate(at):
+        of_points: Dict[str, np.ndarray] = {}
+        of_cells: Dict[str, np.ndarray] = {}
+        for field in fields:
+            values = medium.at(time, field)
+            if values.ndim == 2 and values.shape[1] == 6:
+                values = values[:, AS_VTK]
+            (of_points if len(values) == len(medium.points) else of_cells)[field] = values
+        if medium.layers is not None:
+            of_cells["layer"] = medium.layers
+        file = f"{name}-{number:0{digits}}.vtu"
+        write_vtu(place / file, medium.points, medium.cells, of_points, of_cells, time)
+        series.append((time, file))
+    write_pvd(place / f"{name}.pvd", series)
+    return len(series) + 1
+
+
+def common_times(medium: MediumFields, fields: List[str]) -> List[float]:
+    """Times in ms that all of these fields were written at."""
+    common = set(medium.times_of(fields[0]).tolist())
+    for field in fields[1:]:
+        common &= set(medium.times_of(field).tolist())
+    return sorted(common)
+
+
+def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optional[List[str]]:
+    if text is None:
+        return None
+    known = sorted({field for medium in media.values() for field in medium.names})
+    wanted = [word.strip() for word in text.split(",")]
+    for field in wanted:
+        if field not in known:
+            raise InputError(
+                "",
+                "--fields",
+                f"'{field}' is not in this run",
+                f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}",
+            )
+    return wanted
+
+
+def _read_times(text: Optional[str]) -> Optional[List[float]]:
+    """Increasing."""
+    if text is None:
+        return None
+    try:
+        times = [float(word) for word in text.split(",")]
+    except ValueError:
+        raise InputError("", "--times", f"'{text}' is no list of numbers", "give times in ms: 1,2.5,4") from None
+    if any(not b > a for a, b in zip(times, times[1:])) or not np.all(np.isfinite(times)):
+        raise InputError("", "--times", f"{text} do not increase", "give each time once, in order")
+    return times

@@ -1,0 +1,434 @@
+// Openings that move with wall ends that slide or are free (docs/theory.md, section 3.8): exact derivatives, closed-form
+// inflation of a tube whose ends slide, the same answer in any orientation, energy.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algebra/block_products.hpp"
+#include "base/error.hpp"
+#include "condensed_solver/fast_or_direct.hpp"
+#include "diagnostics/energy_balance.hpp"
+#include "fem/elements.hpp"
+#include "fluid/fluid_problem.hpp"
+#include "monolithic/coupled_numbering.hpp"
+#include "scene/moving_openings.hpp"
+#include "support/differences.hpp"
+#include "support/element_meshes.hpp"
+#include "support/random.hpp"
+#include "support/ring_meshes.hpp"
+#include "support/scenes.hpp"
+#include "support/supported_meshes.hpp"
+#include "system/newton_stepper.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+template <class Element>
+class SurfaceOfElement : public testing::Test {};
+using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
+                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
+TYPED_TEST_SUITE(SurfaceOfElement, Elements);
+
+/// The upper side of a block of fluid, deformed and flowing, in both senses through it.
+template <class Element>
+struct Surface {
+  static constexpr int n = Element::components;
+  SimplexMesh<Element::dim, Element::order> mesh = irregular_mesh<Element>(1 + (Element::dim == 2));
+  Submesh<Element::dim, Element::order> part;
+  std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet> facets;
+  std::shared_ptr<const MovingSurface<n>> moving;
+  FluidJacobian<n> jacobian;
+  std::vector<double> displacement, reference, flow;
+
+  Surface() {
+    const int axis = Element::axis[n - 1];
+    facets = boundary_where(mesh, where(axis, 1));
+    part = submesh(mesh, {0});
+    for (auto& facet : facets) facet = part.local(facet);
+    moving = moving_surface<Element>(part.nodes, facets);
+    const auto space = function_space<Element>(part);
+    jacobian.fluid = decltype(jacobian.fluid)(space.graph());
+    jacobian.shape_derivatives = decltype(jacobian.shape_derivatives)(space.graph());
+    displacement = random_field(part.nodes, n, 0.2, 0.02, 1);
+    reference = random_field(part.nodes, n, 0.2, 0.02, 2);
+    flow = random_field(part.nodes, n + 1, 0.5, 0.2, 3);
+    const double middle = Element::axisymmetric ? 1.5 : 0.5;
+    for (int a = 0; a < part.node_count(); ++a)
+      flow[MixedLayout<n>::vector(a, n - 1)] += part.nodes[a][0] < middle ? 1.5 : -1.5;
+  }
+  FluidInput input(const std::vector<double>& mesh_now, const std::vector<double>& flow_now) const {
+    FluidInput in;
+    in.mesh = mesh_now.data();
+    in.mesh_reference = reference.data();
+    in.fluid = flow_now.data();
+    in.mesh_factor = 3;
+    return in;
+  }
+};
+
+std::vector<double> moved(std::vector<double> x, double t, const std::vector<double>& direction) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * direction[i];
+  return x;
+}
+
+TYPED_TEST(SurfaceOfElement, PressureAndFlowHaveTheirDerivatives) {
+  constexpr int n = TypeParam::components;
+  Surface<TypeParam> s;
+  ASSERT_FALSE(s.facets.empty());
+  const auto way = random_field(s.part.nodes, n, 0.3, 0.1, 5);
+  std::vector<double> rows(s.flow.size(), 0.0);
+  s.moving->add_pressure(1.7, s.displacement.data(), rows.data(), &s.jacobian.shape_derivatives);
+  std::vector<double> derivative(rows.size());
+  multiply(s.jacobian.shape_derivatives, way, derivative);
+  const auto residual = [&](double t) {
+    std::vector<double> r(rows.size(), 0.0);
+    s.moving->add_pressure(1.7, moved(s.displacement, t, way).data(), r.data(), nullptr);
+    return r;
+  };
+  EXPECT_EQ(residual(0), rows);
+  const auto slope = s.moving->outflow_slope(s.displacement.data(), s.flow.data());
+  double along = 0;
+  for (std::size_t i = 0; i < slope.size(); ++i) along += slope[i] * way[i];
+  const auto flow = [&](double t) {
+    return std::vector<double>{s.moving->outflow(moved(s.displacement, t, way).data(), s.flow.data())};
+  };
+  for (const auto& [name, error] :
+       {std::pair{"pressure", central_differences("pressure", residual, derivative, 0.01, 2).smallest()},
+        std::pair{"flow", central_differences("flow", flow, {along}, 0.01, 2).smallest()}})
+    EXPECT_LT(error, TypeParam::axisymmetric ? 1e-4 : 1e-10) << name;  // cubic about the axis, else quadratic
+  EXPECT_LT(central_differences("pressure", residual, derivative, 1e-3, 4).smallest(), 1e-8);
+  // The flow's weights are the pressure's load.
+  double through = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) through += rows[i] * s.flow[i] / 1.7;
+  EXPECT_NEAR(through, flow(0)[0], 1e-13);
+}
+
+TYPED_TEST(SurfaceOfElement, BackflowHasItsDerivativesByFlowAndMesh) {
+  constexpr int n = TypeParam::components;
+  Surface<TypeParam> s;
+  std::vector<double> rows(s.flow.size(), 0.0);
+  s.moving->add_backflow(1.3, 0.5, s.input(s.displacement, s.flow), rows.data(), &s.jacobian,
+                         FluidDerivatives::fluid_and_domain);
+  const auto by_flow = random_field(s.part.nodes, n + 1, 0.5, 0.1, 6),
+             by_mesh = random_field(s.part.nodes, n, 0.2, 0.1, 7);
+  for (const bool mesh_moves : {false, true}) {
+    std::vector<double> derivative(rows.size());
+    if (mesh_moves)
+      multiply(s.jacobian.shape_derivatives, by_mesh, derivative);
+    else
+      multiply(s.jacobian.fluid, by_flow, derivative);
+    const auto residual = [&](double t) {
+      std::vector<double> r(rows.size(), 0.0);
+      const auto mesh = mesh_moves ? moved(s.displacement, t, by_mesh) : s.displacement;
+      const auto flow = mesh_moves ? s.flow : moved(s.flow, t, by_flow);
+      s.moving->add_backflow(1.3, 0.5, s.input(mesh, flow), r.data(), nullptr, FluidDerivatives::none);
+      return r;
+    };
+    EXPECT_GT(norm(rows), 1e-3);
+    EXPECT_LT(norm(difference(residual(0), rows)), 1e-15);
+    EXPECT_LT(central_differences("backflow", residual, derivative, 1e-3, 6).smallest(), 1e-7) << mesh_moves;
+  }
+  // What it takes is the product of its rows with the velocity.
+  double power = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) power += rows[i] * s.flow[i];
+  EXPECT_NEAR(s.moving->backflow_power(1.3, 0.5, s.input(s.displacement, s.flow)), power, 1e-13);
+}
+
+/// A surface that has not moved is the opening that stays.
+TYPED_TEST(SurfaceOfElement, AtRestItIsTheOneThatStays) {
+  constexpr int n = TypeParam::components;
+  Surface<TypeParam> s;
+  const auto open = open_boundary<TypeParam>("open", s.part.nodes, s.facets);
+  const std::vector<double> rest(s.displacement.size(), 0.0);
+  EXPECT_LT(norm(difference(s.moving->normals(rest.data()), open.normals())), 1e-14);
+  auto moving = open;
+  moving.move_by(s.moving);
+  EXPECT_NEAR(moving.mean_pressure(rest, s.flow), open.mean_pressure(s.flow), 1e-14);
+  FluidInput in = s.input(rest, s.flow);
+  in.mesh_reference = rest.data();
+  EXPECT_NEAR(s.moving->kinetic_outflow(in), open.kinetic_outflow(s.part.nodes, s.flow), 1e-13);
+  BackflowFacets<TypeParam> facets(0.5, s.part.nodes, open.facets(), *s.jacobian.fluid.graph);
+  std::vector<double> staying(s.flow.size(), 0.0), rows = staying;
+  facets.add(1.3, s.flow.data(), staying.data(), nullptr);
+  s.moving->add_backflow(1.3, 0.5, in, rows.data(), nullptr, FluidDerivatives::none);
+  EXPECT_LT(norm(difference(rows, staying)), 1e-13);
+  static_assert(n >= 2);
+}
+
+/// How the ends of the wall at the openings are held.
+enum class Ends { slide, free };
+
+/// A case of a box or pipe between `inlet` and `outlet`, whose wall ends `ends` are not clamped.
+Case case_with(Ends ends, const std::string& normal, double step) {
+  Case setup = coupled_case("neo-hookean", step);
+  setup.fluid = FluidData{1.3, 0.5, true, false};
+  setup.structure->bulk_modulus = 50;
+  setup.inlet.reset();
+  setup.openings["inlet"].pressure = PressureTable{{{0.0, 0.0}, {4 * step, 0.4}}};
+  setup.openings["outlet"].outflow_law = OutflowLaw{0.3, 0.4, 0.5, 0, 0.02};
+  setup.supports["ends"].fixed = ends == Ends::slide ? std::vector<std::string>{normal} : std::vector<std::string>{};
+  return setup;
+}
+
+using Rotation = std::array<Direction<3>, 3>;
+constexpr Rotation unturned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr Rotation turned{{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
+
+/// The box of fluid and wall, turned, its wall ends at the openings in `ends`; the fluid mirrored in y = 0 and 1, so that
+/// the frames of planes of symmetry and of openings meet.
+template <class Element>
+SimplexMesh<3, Element::order> box(int n, const Rotation& rotation, bool mirrored) {
+  auto linear = fluid_and_wall_box(n);
+  const auto at = [](int axis) {
+    return [axis](const Point& x) { return std::abs(x[axis]) < 1e-12 || std::abs(x[axis] - 1) < 1e-12; };
+  };
+  linear.facet_groups.pop_back();  // outer
+  linear.facet_groups.pop_back();  // wall_ends
+  typename TetrahedralMesh::FacetGroup ends{"ends", {}}, low{"symmetry_1", {}}, high{"symmetry_2", {}},
+      sides{"wall_ends", {}};
+  const auto add = [](auto& group, const auto& facets) {
+    group.facets.insert(group.facets.end(), facets.begin(), facets.end());
+  };
+  for (const auto* layer : {"media", "adventitia"}) {
+    add(ends, facets_where(linear, layer, at(0)));
+    add(sides, facets_where(linear, layer, at(1)));
+  }
+  for (const auto* region : {"fluid", "media", "adventitia"}) {
+    add(low, facets_where(linear, region, where(1, 0)));
+    add(high, facets_where(linear, region, where(1, 1)));
+  }
+  linear.facet_groups.push_back(ends);
+  if (mirrored) {
+    linear.facet_groups.push_back(low);
+    linear.facet_groups.push_back(high);
+  } else {
+    linear.facet_groups.push_back(sides);
+  }
+  for (auto& x : linear.nodes) {
+    const Point old = x;
+    for (int i = 0; i < 3; ++i) x[i] = rotation[i][0] * old[0] + rotation[i][1] * old[1] + rotation[i][2] * old[2];
+  }
+  return in_order<Element>(linear);
+}
+
+/// The piece of the artery 0 < z < length with wall ends `ends`, free outside.
+template <class Element>
+SimplexMesh<2, Element::order> pipe(const RingCells& cells, double length) {
+  auto mesh = pipe_mesh<Element>(cells, length);
+  mesh.facet_groups.pop_back();
+  for (double z : {0.0, length})
+    name_boundary(mesh, "ends", [&](const Point& x) { return where(2, z)(x) && x[0] > inner_radius - 1e-9; });
+  return mesh;
+}
+
+/// Newton's correction against differences of the residual along it: of the coupled system, of the fluid with a given
+/// mesh, and of the fluid with its domain.
+template <class Element>
+void check_corrections(Case setup, const SimplexMesh<Element::dim, Element::order>& mesh, const std::string& solver,
+                       double tolerance) {
+  constexpr int n = Element::components;
+  const auto scene = build_scene<Element>(setup, mesh);
+  for (const auto& open : scene->fluid->open_boundaries()) ASSERT_NE(open.moving(), nullptr);
+  State state = scene->at_rest();
+  const auto &x = scene->fluid->nodes().nodes, &y = scene->wall->nodes().nodes;
+  state.now.mesh = random_field(x, n, 0.04, 0.005, 1);
+  state.now.fluid = random_field(x, n + 1, 1.0, 0.1, 2);
+  state.now.wall = random_field(y, n + 1, 0.03, 0.005, 3);
+  state.before[0].mesh = random_field(x, n, 0.04, 0.005, 4);
+  state.before[0].fluid = random_field(x, n + 1, 1.0, 0.1, 5);
+  state.before[0].wall = random_field(y, n + 1, 0.03, 0.005, 6);
+  StepData data;
+  data.rates = scene->integrator->rates(state, 0.5);
+  data.opening_pressures = {0.9, 0.2};
+  data.support_loads.assign(state.support_loads, 0.1);
+  scene->impose_interface(state, data.rates);
+  for (const int which : {0, 1, 2}) {
+    const auto make = [&] {
+      return which == 0 ? number_scene(*scene) : which == 1 ? number_fluid(*scene) : number_fluid_and_domain(*scene);
+    };
+    FastOptions iterative;
+    iterative.direct_below = 0;
+    System<n> system("tested", *scene, make(), general_solver_factory<n>(solver, iterative));
+    system.work_on(state, data);
+    ASSERT_TRUE(std::isfinite(system.evaluate()));
+    const std::vector<double> residual = system.residual();
+    system.linearise();
+    ASSERT_TRUE(std::isfinite(system.solve(1e-10)));
+    double smallest = 1;
+    for (const double step : {1e-3, 1e-4, 1e-5}) {
+      system.move(step);
+      system.evaluate();
+      std::vector<double> ahead = system.residual();
+      system.move(-2 * step);
+      system.evaluate();
+      const std::vector<double> behind = system.residual();
+      system.move(step);
+      for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = (ahead[i] - behind[i]) / (2 * step) + residual[i];
+      smallest = std::min(smallest, norm(ahead) / norm(residual));
+    }
+    fmt::print("{}, system {}: {:.1e}\n", solver, which, smallest);
+    EXPECT_LT(smallest, tolerance) << solver << ", system " << which;
+  }
+}
+
+TEST(MovingOpenings, CorrectionsAreExact) {
+  for (const auto ends : {Ends::slide, Ends::free}) {
+    for (const bool mirrored : {false, true})
+      check_corrections<P1Tetrahedron>(case_with(ends, "normal", 0.5), box<P1Tetrahedron>(2, turned, mirrored),
+                                       "direct", 1e-6);
+    auto setup = case_with(ends, "z", 0.5);
+    setup.geometry = Geometry::axisymmetric;
+    check_corrections<P2P1AxisymmetricTriangle>(setup, pipe<P2P1AxisymmetricTriangle>({2, 1, 1, 2}, 1), "direct", 1e-6);
+    check_corrections<P1AxisymmetricTriangle>(setup, pipe<P1AxisymmetricTriangle>({3, 1, 1, 3}, 1), "direct", 1e-6);
+    MeshMotionOptions elastic;
+    elastic.method = MeshMotionMethod::nonlinear_elastic;
+    setup.mesh_motion = elastic;
+    check_corrections<P1AxisymmetricTriangle>(setup, pipe<P1AxisymmetricTriangle>({3, 1, 1, 3}, 1), "direct", 1e-6);
+  }
+  check_corrections<P1Tetrahedron>(case_with(Ends::slide, "normal", 0.5), box<P1Tetrahedron>(2, turned, true), "fast",
+                                   1e-6);
+}
+
+/// Marches `count` steps; calls see(state, record) after each.
+template <class Element, class See>
+std::unique_ptr<Scene<Element::components>> march(const Case& setup,
+                                                  const SimplexMesh<Element::dim, Element::order>& mesh, int count,
+                                                  See see) {
+  constexpr int n = Element::components;
+  auto scene = build_scene<Element>(setup, mesh);
+  State state = scene->at_rest();
+  const Loads loads(setup);
+  NewtonOptions options;
+  options.tolerance = 1e-11;
+  NewtonStepper<n> stepper(*scene, loads, options, number_scene(*scene));
+  stepper.keep_balances(true);
+  EnergyBalance<n> energy(*scene, state);
+  for (int i = 0; i < count; ++i) {
+    const StepReport report = stepper.advance(state);
+    see(state, energy.step_to(state, report.balances));
+  }
+  return scene;
+}
+
+TEST(MovingOpenings, EnergyBalances) {
+  const auto check = [](auto element, Case setup, const auto& mesh) {
+    using Element = decltype(element);
+    for (const TimeScheme scheme : {TimeScheme::euler, TimeScheme::midpoint, TimeScheme::generalised_alpha}) {
+      setup.time->scheme = scheme;
+      double work = 0, largest = 0, backflow = 0;
+      march<Element>(setup, mesh, 6, [&](const State&, const EnergyRecord& record) {
+        work += std::abs(record.inlet_work);
+        backflow += record.backflow;
+        largest = std::max(largest, std::abs(record.remainder));
+      });
+      fmt::print("{}: work {:.3e} uJ, left over {:.1e}, backflow {:.1e}\n", time_schemes().name_of(scheme), work,
+                 largest, backflow);
+      EXPECT_GT(work, 1e-4);
+      EXPECT_GT(backflow, 0);
+      EXPECT_LT(largest, 1e-8 * work);
+    }
+  };
+  for (const auto ends : {Ends::slide, Ends::free}) {
+    check(P1Tetrahedron(), case_with(ends, "normal", 0.3), box<P1Tetrahedron>(2, turned, false));
+    auto setup = case_with(ends, "z", 0.3);
+    setup.geometry = Geometry::axisymmetric;
+    check(P2P1AxisymmetricTriangle(), setup, pipe<P2P1AxisymmetricTriangle>({2, 1, 1, 2}, 1));
+  }
+}
+
+/// The scene turned in space gives the answer turned in space: at nodes in openings and on planes of symmetry, axes of
+/// their own count what along the axes of space is one component.
+TEST(MovingOpenings, AnyOrientationGivesOneAnswer) {
+  for (const bool mirrored : {false, true}) {
+    std::vector<Solution> solutions;
+    std::vector<double> energies;
+    for (const auto& rotation : {unturned, turned}) {
+      auto setup = case_with(Ends::slide, "normal", 0.3);
+      march<P1Tetrahedron>(setup, box<P1Tetrahedron>(2, rotation, mirrored), 3,
+                           [&](const State& state, const auto& record) {
+                             if (state.step == 3) {
+                               solutions.push_back(state.now);
+                               energies.push_back(record.energy());
+                             }
+                           });
+    }
+    double apart = 0, size = 0;
+    for (std::size_t a = 0; a < solutions[0].wall.size(); a += 4)
+      for (int i = 0; i < 3; ++i) {
+        double expected = 0;
+        for (int k = 0; k < 3; ++k) expected += turned[i][k] * solutions[0].wall[a + k];
+        apart = std::max(apart, std::abs(solutions[1].wall[a + i] - expected));
+        size = std::max(size, std::abs(expected));
+      }
+    EXPECT_GT(size, 1e-3);
+    EXPECT_LT(apart, 1e-8 * size);
+    EXPECT_NEAR(energies[1] / energies[0], 1, 1e-9);
+  }
+}
+
+/// A tube whose ends slide is a piece of an infinite one: it inflates as in docs/theory.md, section 13.1, and the openings
+/// widen with it. Backward Euler in long steps leads to rest.
+template <class Element>
+void check_inflation(const RingCells& cells, double tolerance) {
+  const Tube tube = tubes()[0];
+  const double radius = 1.1 * inner_radius, pressure = isotropic_inflation_pressure(tube, radius);
+  Case setup = coupled_case("neo-hookean", 100);
+  setup.geometry = Geometry::axisymmetric;
+  setup.structure->bulk_modulus = 1e6;
+  setup.structure->layer_pressure = LayerPressure::separate;
+  setup.inlet.reset();
+  for (const auto* name : {"inlet", "outlet"}) setup.openings[name].pressure = PressureTable{{{0, 0}, {300, pressure}}};
+  setup.supports["ends"].fixed = std::vector<std::string>{"z"};
+  State last;
+  const auto scene =
+      march<Element>(setup, pipe<Element>(cells, 1), 10, [&](const State& state, const auto&) { last = state; });
+  for (const auto& node : scene->interface)
+    EXPECT_NEAR(last.now.wall[MixedLayout<2>::vector(node.wall, 0)], radius - inner_radius, tolerance * inner_radius);
+  for (const auto& open : scene->fluid->open_boundaries()) {
+    double area = 0;
+    for (const double share : open.moving()->areas(last.now.mesh.data())) area += share;
+    EXPECT_NEAR(area / (std::acos(-1.0) * radius * radius), 1, 2 * tolerance);
+    EXPECT_NEAR(open.mean_pressure(last.now.mesh, last.now.fluid), pressure, 1e-6 * pressure);
+    EXPECT_NEAR(open.outflow(last.now.mesh, last.now.fluid), 0, 1e-5);  // it was filled at 5e-3 mm^3/ms
+  }
+}
+
+TEST(MovingOpenings, TubeWithSlidingEndsInflatesAsAnInfiniteOne) {
+  check_inflation<P2P1AxisymmetricTriangle>({3, 2, 1, 2}, 2e-4);
+  check_inflation<P1AxisymmetricTriangle>({6, 6, 3, 3}, 5e-3);
+}
+
+TEST(MovingOpenings, AreOfOneProcess) {
+  const auto setup = case_with(Ends::slide, "normal", 0.3);
+  const auto scene = build_scene<P1Tetrahedron>(setup, box<P1Tetrahedron>(2, unturned, false));
+  EXPECT_THROW(require_openings_that_stay(setup, scene->fluid->open_boundaries()), InputError);
+  const auto clamped = build_scene<P1Tetrahedron>(coupled_case("neo-hookean"), fluid_and_wall_box(2));
+  require_openings_that_stay(setup, clamped->fluid->open_boundaries());
+  EXPECT_EQ(clamped->fluid->open_boundaries()[0].moving(), nullptr);
+}
+
+TEST(MovingOpenings, AFlowThatIsGivenWantsAnOpeningThatStays) {
+  auto setup = case_with(Ends::slide, "normal", 0.3);
+  setup.openings["inlet"] = {};
+  setup.openings["inlet"].flow_rate = FlowRateData{PressureTable{{{0, 1}}}};
+  try {
+    build_scene<P1Tetrahedron>(setup, box<P1Tetrahedron>(2, unturned, false));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("opening.inlet.flow_rate: the wall's end at this opening is not clamped"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+
+}  // namespace fsi::test
