@@ -17,6 +17,17 @@ void facet_corners(const std::vector<Point>& x, const Nodes& facet, Vec3<Pack> (
     for (int i = 0; i < 3; ++i) corner[a][i] = Pack(x[facet[a]][i]);
 }
 
+/// Calls visit(q, area) for the quadrature points of a reference facet with the area of each, mm^2.
+template <class F, class Point, class Nodes, class Visit>
+void for_areas(const std::vector<Point>& x, const Nodes& facet, Visit visit) {
+  Vec3<Pack> corner[F::nodes];
+  facet_corners<F>(x, facet, corner);
+  for (int q = 0; q < F::points; ++q) {
+    const auto normal = F::weighted_normal(corner, q);
+    visit(q, sqrt(dot(normal, normal))[0]);
+  }
+}
+
 /// Integrals of N_a n over reference facets in a layout's vectors: times a pressure the load of that pressure, as a dot
 /// product with a velocity the flow through the surface.
 template <class Element, class Layout, class Point, class Facet>
@@ -42,16 +53,23 @@ template <class Element, class Point, class Facet>
 std::vector<double> scalar_weights(const std::vector<Point>& x, const std::vector<Facet>& facets) {
   using F = typename Element::Facet;
   std::vector<double> weights(x.size(), 0.0);
-  for (const auto& facet : facets) {
-    Vec3<Pack> corner[F::nodes];
-    facet_corners<F>(x, facet, corner);
-    for (int q = 0; q < F::points; ++q) {
-      const auto normal = F::weighted_normal(corner, q);
-      const double area = sqrt(dot(normal, normal))[0];
+  for (const auto& facet : facets)
+    for_areas<F>(x, facet, [&](int q, double area) {
       for (int a = 0; a < F::scalar_nodes; ++a) weights[facet[a]] += F::scalar_shape(q, a) * area;
-    }
-  }
+    });
   return weights;
+}
+
+/// Integrals of the vectors' shape functions over reference facets, one number per node, mm^2.
+template <class Element, class Point, class Facet>
+std::vector<double> vector_shape_integrals(const std::vector<Point>& x, const std::vector<Facet>& facets) {
+  using F = typename Element::Facet;
+  std::vector<double> integrals(x.size(), 0.0);
+  for (const auto& facet : facets)
+    for_areas<F>(x, facet, [&](int q, double area) {
+      for (int a = 0; a < F::nodes; ++a) integrals[facet[a]] += F::shape(q, a) * area;
+    });
+  return integrals;
 }
 
 /// The area that belongs to each node, mm^2: positive, and adding up to the surface's. The integral of N_a where the
@@ -59,29 +77,24 @@ std::vector<double> scalar_weights(const std::vector<Point>& x, const std::vecto
 /// (Hinton, Rock and Zienkiewicz), since the integral of a quadratic shape function is not positive.
 template <class Element, class Point, class Facet>
 std::vector<double> nodal_areas(const std::vector<Point>& x, const std::vector<Facet>& facets) {
-  using F = typename Element::Facet;
-  std::vector<double> areas(x.size(), 0.0);
-  for (const auto& facet : facets) {
-    Vec3<Pack> corner[F::nodes];
-    facet_corners<F>(x, facet, corner);
-    double total = 0, squares = 0, square[F::nodes] = {};
-    for (int q = 0; q < F::points; ++q) {
-      const auto normal = F::weighted_normal(corner, q);
-      const double area = sqrt(dot(normal, normal))[0];
-      total += area;
-      for (int a = 0; a < F::nodes; ++a) {
-        if constexpr (Element::order == 1) {
-          areas[facet[a]] += F::shape(q, a) * area;
-        } else {
+  if constexpr (Element::order == 1) {
+    return vector_shape_integrals<Element>(x, facets);
+  } else {
+    using F = typename Element::Facet;
+    std::vector<double> areas(x.size(), 0.0);
+    for (const auto& facet : facets) {
+      double total = 0, squares = 0, square[F::nodes] = {};
+      for_areas<F>(x, facet, [&](int q, double area) {
+        total += area;
+        for (int a = 0; a < F::nodes; ++a) {
           square[a] += F::shape(q, a) * F::shape(q, a) * area;
           squares += F::shape(q, a) * F::shape(q, a) * area;
         }
-      }
-    }
-    if constexpr (Element::order > 1)
+      });
       for (int a = 0; a < F::nodes; ++a) areas[facet[a]] += total * square[a] / squares;
+    }
+    return areas;
   }
-  return areas;
 }
 
 /// Integral of |u|^2/2 u . n over reference facets that do not move, mm^5/ms^3. \param velocity  the vectors of a mixed
@@ -108,23 +121,6 @@ double kinetic_flux(const std::vector<Point>& x, const std::vector<Facet>& facet
     }
   }
   return flux;
-}
-
-/// Integrals of the vectors' shape functions over reference facets, one number per node, mm^2.
-template <class Element, class Point, class Facet>
-std::vector<double> vector_shape_integrals(const std::vector<Point>& x, const std::vector<Facet>& facets) {
-  using F = typename Element::Facet;
-  std::vector<double> integrals(x.size(), 0.0);
-  for (const auto& facet : facets) {
-    Vec3<Pack> corner[F::nodes];
-    facet_corners<F>(x, facet, corner);
-    for (int q = 0; q < F::points; ++q) {
-      const auto normal = F::weighted_normal(corner, q);
-      const double area = sqrt(dot(normal, normal))[0];
-      for (int a = 0; a < F::nodes; ++a) integrals[facet[a]] += F::shape(q, a) * area;
-    }
-  }
-  return integrals;
 }
 
 /// Adds the load of a pressure that follows a surface, (p n, v) over its current facets (outward normals), to the vectors

@@ -16,3 +16,4 @@ add_test(NAME mypy
     --cache-dir ${CMAKE_CURRENT_BINARY_DIR}/mypy_cache
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(black mypy PROPERTIES LABELS check TIMEOUT 300)
+fsi_start_early(mypy)

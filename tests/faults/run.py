@@ -11,6 +11,6 @@ if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] not in names:
         sys.exit(f"usage: run.py NAME [OPTION...], NAME one of {', '.join(names)}")
     folder = HERE / sys.argv[1]
-    sys.path[0:1] = [str(folder), str(HERE / "support")]
+    sys.path[0:1] = [str(folder), str(HERE / "support"), str(HERE.parent / "support")]
     sys.argv[:2] = [str(folder / f"{folder.name}.py")]
     runpy.run_path(sys.argv[0], run_name="__main__")

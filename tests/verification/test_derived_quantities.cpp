@@ -15,6 +15,7 @@
 #include "fem/elements.hpp"
 #include "mesh/group_names.hpp"
 #include "support/element_meshes.hpp"
+#include "support/every_element.hpp"
 #include "support/inflated_tube.hpp"
 #include "support/scenes.hpp"
 #include "system/system.hpp"
@@ -24,9 +25,6 @@ namespace fsi::test {
 namespace {
 
 [[maybe_unused]] const int single_thread = set_threads(1);
-
-using AllElements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                   P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
 
 Case fluid_case(double density, double viscosity) {
   Case setup = coupled_case("neo-hookean");
@@ -99,7 +97,7 @@ double shear_error(const WallShearStress<Element::components>& shear, const Scen
 
 template <class Element>
 class WallShear : public testing::Test {};
-TYPED_TEST_SUITE(WallShear, AllElements);
+TYPED_TEST_SUITE(WallShear, Elements);
 
 // u = U (1 - r^2), which recovered gradients see exactly: tau = 2 mu U at r = 1, with the flow.
 TYPED_TEST(WallShear, OfAParabolaIsExact) {
@@ -193,7 +191,7 @@ Balance flow_under_pressure(Scene<Element::components>& scene, double pressure, 
 
 template <class Element>
 class Forces : public testing::Test {};
-TYPED_TEST_SUITE(Forces, AllElements);
+TYPED_TEST_SUITE(Forces, Elements);
 
 // Without inertia the walls hold what the pressure pushes: F = p A along the channel, to the tolerance of the solver, on
 // any mesh, though the flow is resolved by three elements. The pressure's part on walls along the flow is zero.

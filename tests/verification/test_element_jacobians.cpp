@@ -7,6 +7,7 @@
 #include "fem/function_space.hpp"
 #include "sub_problem_jacobians.hpp"
 #include "support/element_meshes.hpp"
+#include "support/every_element.hpp"
 
 namespace fsi::test {
 
@@ -26,17 +27,7 @@ class EveryElement : public testing::Test {
   }
 };
 
-using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
-struct Names {
-  template <class Element>
-  static std::string GetName(int) {
-    return std::string(Element::order == 1 ? "P1" : "P2P1") + (Element::dim == 3       ? "Tetrahedron"
-                                                               : Element::axisymmetric ? "AxisymmetricTriangle"
-                                                                                       : "PlaneTriangle");
-  }
-};
-TYPED_TEST_SUITE(EveryElement, Elements, Names);
+TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
 
 TYPED_TEST(EveryElement, FluidJacobianIsTheDerivativeOfTheResidual) {
   using Element = TypeParam;

@@ -6,6 +6,7 @@
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "support/element_meshes.hpp"
+#include "support/every_element.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/problems.hpp"
 #include "support/random.hpp"
@@ -41,9 +42,7 @@ class EveryElement : public testing::Test {
  protected:
   static constexpr int side = Element::order == 1 ? 3 : 2;
 };
-using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
-TYPED_TEST_SUITE(EveryElement, Elements);
+TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
 
 /// The law's pressure at a homogeneous deformation over -kappa: J - 1, tr E, tr eps or ln J.
 double volume_measure(const Material& layer, const Mat3<Pack>& h) {

@@ -6,6 +6,7 @@
 #include "fem/elements.hpp"
 #include "support/differences.hpp"
 #include "support/element_meshes.hpp"
+#include "support/every_element.hpp"
 #include "support/mesh_motion_problems.hpp"
 #include "support/random.hpp"
 
@@ -17,17 +18,7 @@ namespace {
 
 template <class Element>
 class MeshMotions : public testing::Test {};
-using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
-struct Names {
-  template <class Element>
-  static std::string GetName(int) {
-    return std::string(Element::order == 1 ? "P1" : "P2P1") + (Element::dim == 3       ? "Tetrahedron"
-                                                               : Element::axisymmetric ? "AxisymmetricTriangle"
-                                                                                       : "PlaneTriangle");
-  }
-};
-TYPED_TEST_SUITE(MeshMotions, Elements, Names);
+TYPED_TEST_SUITE(MeshMotions, Elements, ElementNames);
 
 TYPED_TEST(MeshMotions, TangentOfThePseudoSolidIsTheDerivativeOfItsRows) {
   using Element = TypeParam;

@@ -13,6 +13,7 @@
 #include "support/differences.hpp"
 #include "support/element_meshes.hpp"
 #include "support/errors.hpp"
+#include "support/every_element.hpp"
 #include "support/inflated_tube.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
@@ -76,17 +77,7 @@ std::unique_ptr<Scene<Element::components>> loaded_block(const std::string& mate
 
 template <class Element>
 class EveryElement : public testing::Test {};
-using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
-struct Names {
-  template <class Element>
-  static std::string GetName(int) {
-    return std::string(Element::order == 1 ? "P1" : "P2P1") + (Element::dim == 3       ? "Tetrahedron"
-                                                               : Element::axisymmetric ? "AxisymmetricTriangle"
-                                                                                       : "PlaneTriangle");
-  }
-};
-TYPED_TEST_SUITE(EveryElement, Elements, Names);
+TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
 
 TYPED_TEST(EveryElement, EquationsOfTheUnloadedShapeAreDifferentiatedExactly) {
   constexpr int n = TypeParam::components;

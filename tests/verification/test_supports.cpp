@@ -13,6 +13,7 @@
 #include "support/differences.hpp"
 #include "support/element_meshes.hpp"
 #include "support/errors.hpp"
+#include "support/every_element.hpp"
 #include "support/inflated_tube.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
@@ -123,17 +124,7 @@ class StaticWall {
 
 template <class Element>
 class EveryElement : public testing::Test {};
-using Elements = testing::Types<P1Tetrahedron, P1AxisymmetricTriangle, P1PlaneTriangle, P2P1Tetrahedron,
-                                P2P1AxisymmetricTriangle, P2P1PlaneTriangle>;
-struct Names {
-  template <class Element>
-  static std::string GetName(int) {
-    return std::string(Element::order == 1 ? "P1" : "P2P1") + (Element::dim == 3       ? "Tetrahedron"
-                                                               : Element::axisymmetric ? "AxisymmetricTriangle"
-                                                                                       : "PlaneTriangle");
-  }
-};
-TYPED_TEST_SUITE(EveryElement, Elements, Names);
+TYPED_TEST_SUITE(EveryElement, Elements, ElementNames);
 
 /// A wall with every kind of support in the middle of a step.
 template <class Element>

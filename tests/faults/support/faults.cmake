@@ -11,4 +11,5 @@ function(fsi_fault_harness)
     COMMAND ${FSI_PYTHON} -E -B ${PROJECT_SOURCE_DIR}/tests/faults/run.py ${folder}
       --programs ${PROJECT_BINARY_DIR}/bin ${arg_UNPARSED_ARGUMENTS})
   set_tests_properties(faults.${folder} PROPERTIES LABELS "${labels}" TIMEOUT 600)
+  fsi_start_early(faults.${folder})
 endfunction()

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-import h5py
+from result_data import differing_arrays, without_seconds
 
 TABLES = (
     "centerline_pressure.csv",
@@ -12,38 +12,6 @@ TABLES = (
     "iterations.csv",
     "coupling.csv",
 )
-
-
-def without_seconds(file):
-    """Rows of a table as lists of cells, without the columns of wall-clock seconds, whose names end with `_s`."""
-    rows = [line.split(",") for line in Path(file).read_text(encoding="utf-8").splitlines()]
-    kept = [i for i, name in enumerate(rows[0]) if not name.endswith("_s")] if rows else []
-    return [[row[i] for i in kept if i < len(row)] for row in rows]
-
-
-def arrays(file):
-    """All datasets of an HDF5 file by path."""
-    found = {}
-
-    def visit(name, item):
-        if isinstance(item, h5py.Dataset):
-            found[name] = item[()]
-
-    with h5py.File(file, "r") as opened:
-        opened.visititems(visit)
-    return found
-
-
-def different_arrays(file, other):
-    """Paths of the datasets that are not in both files bit for bit."""
-    a, b = arrays(file), arrays(other)
-    same = (
-        lambda name: name in a
-        and name in b
-        and a[name].dtype == b[name].dtype
-        and a[name].tobytes() == b[name].tobytes()
-    )
-    return [f"{Path(file).name}:{name}" for name in sorted(a.keys() | b.keys()) if not same(name)]
 
 
 def difference(folder, other, fields=True):
@@ -60,7 +28,7 @@ def difference(folder, other, fields=True):
         files |= {file.name for parent in (folder, other) for file in parent.glob("fields*.h5")}
     for name in sorted(files):
         if (folder / name).exists() and (other / name).exists():
-            found += different_arrays(folder / name, other / name)
+            found += [f"{name}:{path}" for path in differing_arrays(folder / name, other / name)]
         else:
             found.append(name)
     return found

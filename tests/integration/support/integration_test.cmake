@@ -24,5 +24,6 @@ function(fsi_integration_test)
       FSI_VTK_PYTHON=${FSI_VTK_PYTHON}
       FSI_VERSION=${PROJECT_VERSION})
     set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT "${environment}")
+    fsi_start_early(${test})
   endforeach()
 endfunction()

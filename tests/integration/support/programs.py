@@ -8,8 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import h5py
 import numpy as np
+
+from result_data import arrays, differing_arrays, without_seconds  # noqa: F401
 
 MESH, MONOLITHIC, PARTITIONED = (os.environ[name] for name in ("FSI_MESH", "FSI_MONOLITHIC", "FSI_PARTITIONED"))
 DRIVERS = (MONOLITHIC, PARTITIONED)
@@ -112,11 +113,7 @@ def times(folder):
 
 
 def iterations_without_seconds(folder):
-    rows = [line.split(",") for line in (Path(folder) / "iterations.csv").read_text().splitlines()]
-    if not rows:  # a run that has just begun
-        return []
-    seconds = rows[0].index("wall_s")
-    return [row[:seconds] + row[seconds + 1 :] for row in rows]
+    return without_seconds(Path(folder) / "iterations.csv")
 
 
 NEWTON = re.compile(r"newton +\d+  increment (\S+)  residual (\S+)(?:  step (\S+))?(  new jacobian)?$")
@@ -133,29 +130,6 @@ def newton_history(folder):
             increment, residual, length, renewed = found.groups()
             steps[-1].append((float(increment), float(residual), float(length or 1), renewed is not None))
     return steps
-
-
-def arrays(file):
-    """All datasets of an HDF5 file by path."""
-    found = {}
-
-    def visit(name, item):
-        if isinstance(item, h5py.Dataset):
-            found[name] = item[()]
-
-    with h5py.File(file, "r") as opened:
-        opened.visititems(visit)
-    return found
-
-
-def differing_arrays(file, other):
-    """Names of the datasets that are not in both HDF5 files bit for bit."""
-    a, b = arrays(file), arrays(other)
-    return [
-        name
-        for name in sorted(a.keys() | b.keys())
-        if name not in a or name not in b or a[name].dtype != b[name].dtype or a[name].tobytes() != b[name].tobytes()
-    ]
 
 
 class FolderTest(unittest.TestCase):

@@ -3,8 +3,10 @@
 import os
 import sys
 import unittest
+from pathlib import Path
 
 sys.path.insert(0, os.getcwd())  # this folder, with the helpers, is on the path already
+sys.path.append(str(Path(__file__).resolve().parents[2] / "support"))  # helpers of all kinds of tests
 
 if __name__ == "__main__":
     tests = unittest.defaultTestLoader.loadTestsFromName(sys.argv[1])

@@ -1,0 +1,92 @@
+"""The check with clang-tidy must be able to fail, wherever in a text of several sources the mistake is."""
+
+import json
+import os
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+from clang_tidy import check, compiler_flags, groups, text_of
+
+HERE = Path(__file__).resolve().parent
+GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
+# of the analyser, and of a matcher
+NULL = '#include "mesh/header.hpp"\n\nint two(int* x) {\n  if (x) return twice(*x);\n  return *x;\n}\n'
+POINTER = "\nint* three() { return 0; }\n"
+HEADER = "#pragma once\ninline int twice(int x) { return 2 * x; }\n"
+
+
+class ClangTidy(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name).resolve() / "tree"
+        (self.root / "common/mesh").mkdir(parents=True)
+        shutil.copy(HERE.parents[1] / ".clang-tidy", self.root)
+
+    def found(self, **sources: str) -> str:
+        """Findings of common/mesh/NAME.cpp for each name, which must make one text."""
+        compiler = os.environ.get("CXX", "c++")
+        (self.root / "common/mesh/header.hpp").write_text(HEADER)
+        commands = []
+        for name, text in sources.items():
+            file = self.root / f"common/mesh/{name}.cpp"
+            file.write_text(text)
+            command = f"{compiler} -I{self.root}/common -std=c++17 -o {name}.o -c {file}"
+            commands.append({"directory": str(self.root), "file": str(file), "command": command})
+        (self.root / "compile_commands.json").write_text(json.dumps(commands))
+        flags = compiler_flags(self.root, compiler)
+        texts = groups(self.root, flags)
+        self.assertEqual(len(texts), 1)
+        files = texts[0]
+        return check(os.environ.get("CLANG_TIDY", "clang-tidy"), self.root, flags[str(files[0])], files)
+
+    def test_nothing_is_found_in_a_clean_tree(self) -> None:
+        self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
+
+    def test_a_finding_is_told_with_its_own_file_and_line(self) -> None:
+        found = self.found(a=GOOD, b=NULL, c=POINTER)
+        self.assertIn("common/mesh/b.cpp:5:", found)
+        self.assertIn("clang-analyzer-core.NullDereference", found)
+        self.assertIn("common/mesh/c.cpp:2:", found)
+        self.assertIn("modernize-use-nullptr", found)
+
+    def test_a_finding_in_a_header(self) -> None:
+        mistake = "inline int* nowhere() { return 0; }\n"
+        (self.root / "common/mesh/other.hpp").write_text("#pragma once\n" + mistake)
+        self.assertIn("other.hpp:2:", self.found(a=GOOD, b='#include "mesh/other.hpp"\n'))
+
+    def test_one_name_of_two_things_hides_no_finding(self) -> None:
+        local = "namespace {\nconstexpr int size = 2;\n}\n"
+        found = self.found(a=local + "int a() { return size; }\n", b=local + NULL)
+        self.assertIn("common/mesh/b.cpp:8:", found)
+        self.assertNotIn("redefinition", found)
+
+    def test_what_does_not_compile(self) -> None:
+        self.assertIn("common/mesh/b.cpp:1:", self.found(a=GOOD, b="int broken( {\n"))
+
+    def test_an_include_twice_in_one_source_is_found(self) -> None:
+        found = self.found(a=GOOD, b='#include "mesh/header.hpp"\n' + GOOD.replace("one", "other"))
+        self.assertIn("common/mesh/b.cpp:2:", found)
+        self.assertIn("readability-duplicate-include", found)
+
+    def test_sources_with_other_flags_make_a_text_of_their_own(self) -> None:
+        files = [self.root / f"common/mesh/{name}.cpp" for name in "abc"]
+        for file in files:
+            file.write_text(GOOD)
+        flags = {str(file): ["c++"] for file in files}
+        flags[str(files[1])] = ["c++", "-DOTHER"]
+        self.assertEqual(sorted(groups(self.root, flags)), [[files[0], files[2]], [files[1]]])
+
+    def test_lines_keep_their_places(self) -> None:
+        file = self.root / "common/mesh/a.cpp"
+        file.write_text(GOOD)
+        text, places = text_of([file, file])
+        self.assertEqual(len(text.split("\n")) - 1, len(places))
+        self.assertEqual(text.count("#include"), 1)
+        self.assertEqual(places[4], (file, 2))
+
+
+if __name__ == "__main__":
+    unittest.main()
