@@ -17,6 +17,7 @@ LONG = True
 BENCHMARK = Benchmark(
     Known("u_y", 1.30, 81.6, tolerance=0.012, spread=0.012),
     Known("drag", 215.06, 77.65, tolerance=0.05, mean_tolerance=0.03, spread=0.05),
+    Known("lift", 0.61, 237.8, tolerance=0.015, spread=0.015),
     frequency=1.93,
     frequency_tolerance=0.02,
 )

@@ -122,7 +122,7 @@ class Benchmark:
         for axes, known in zip(figure.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0], shown):
             self._draw(axes, runs, known)
         axes.set_xlabel("share of the load" if self.static else "time [s]")
-        figure.axes[0].legend(loc="upper left")
+        figure.axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)  # above, beside no curve
         return figure
 
     def _draw(self, axes: Any, runs: SceneRuns, known: Known) -> None:

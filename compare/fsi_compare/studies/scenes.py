@@ -64,13 +64,15 @@ def evaluate(context: Context) -> int:
         f"{len(numbers) - len(wrong)} of {len(numbers)} numbers are as near to what is published as they are asked to be."
         + (" Those that are not are marked (!)." if wrong else "")
     )
+    report.text("Pages of the short scenes are in the gallery, those of the long ones below.")
     report.list([f"**{run.request.label}**: {run.status}, {run.message}" for run in broken])
     table = scenes_table(measured)
     report.table(table)
     if not context.runner.quiet:
         print(table.text())
     for m in measured:
-        _section(context, m)
+        if m.scene.long:
+            _section(context, m)
     return 2 if broken or wrong else 0
 
 
