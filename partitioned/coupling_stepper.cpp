@@ -11,6 +11,7 @@
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
+#include "partitioned/interface/wetted_sides.hpp"
 
 namespace fsi {
 
@@ -43,6 +44,13 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
                                  scheme_.name),
                      "use a scheme that begins with robin-neumann, or give one opening a pressure, a resistance or a "
                      "windkessel");
+  if (scheme_.robin && wetted_sides_of(scene).stands_in_the_fluid())
+    scene.notices.push_back(fmt::format(
+        "{}: partitioned.scheme: \"{}\" takes the wall for a tube around the fluid, and this one stands in the fluid, "
+        "so that steps may find no solution; {}",
+        setup.path.string(), scheme_.name,
+        scene.has_flow_only() ? "give one opening a pressure, a resistance or a windkessel, and name \"iqn-ils\""
+                              : "name \"iqn-ils\""));
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else

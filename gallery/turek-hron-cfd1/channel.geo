@@ -1,19 +1,23 @@
 // Channel with a cylinder and a flag behind it (Turek and Hron 2006). Lengths in mm.
-DefineConstant[ far = 30, near = 6, flag = 5 ];  // sizes of elements
+DefineConstant[ far = 30, near = 5, flag = 5, tip = 4, wake = 16 ];  // sizes of elements
 Point(1) = {0, 0, 0, far};
-Point(2) = {2500, 0, 0, 1.6 * far};
-Point(3) = {2500, 410, 0, 1.6 * far};
+Point(2) = {2500, 0, 0, 2 * far};
+Point(3) = {2500, 410, 0, 2 * far};
 Point(4) = {0, 410, 0, far};
 Point(5) = {200, 200, 0, near};
 Point(6) = {150, 200, 0, near};
 Point(7) = {200 + Sqrt(2400), 190, 0, flag};
 Point(8) = {200 + Sqrt(2400), 210, 0, flag};
-Point(9) = {600, 190, 0, flag};
-Point(10) = {600, 210, 0, flag};
-Point(11) = {1000, 200, 0, far};
-Line(1) = {1, 2};
+Point(9) = {600, 190, 0, tip};
+Point(10) = {600, 210, 0, tip};
+Point(11) = {900, 200, 0, wake};
+Point(12) = {900, 0, 0, far};
+Point(13) = {900, 410, 0, far};
+Line(1) = {1, 12};
+Line(11) = {12, 2};
 Line(2) = {2, 3};
-Line(3) = {3, 4};
+Line(3) = {3, 13};
+Line(12) = {13, 4};
 Line(4) = {4, 1};
 Circle(5) = {8, 5, 6};
 Circle(6) = {6, 5, 7};
@@ -21,11 +25,12 @@ Circle(7) = {7, 5, 8};
 Line(8) = {7, 9};
 Line(9) = {9, 10};
 Line(10) = {10, 8};
-Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(1) = {1, 11, 2, 3, 12, 4};
 Curve Loop(2) = {5, 6, 8, 9, 10};
 Curve Loop(3) = {8, 9, 10, -7};
 Plane Surface(1) = {1, 2};
 Plane Surface(2) = {3};
+Point{11} In Surface{1};
 Physical Surface("fluid") = {1};
 Physical Surface("flag") = {2};
 Physical Curve("inlet") = {4};

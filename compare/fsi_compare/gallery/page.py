@@ -1,5 +1,6 @@
 """The gallery's page: what each scene is, what is known of it, what both drivers make of it and what that costs."""
 
+from os.path import normpath
 from pathlib import Path
 from typing import List, Sequence, Tuple
 
@@ -31,7 +32,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool) -> List[Number]:
     report.section(scene.title)
     report.text(*scene.paragraphs)
     place = f"gallery/{scene.name}"
-    words = [f"{place}/{word}" if word.endswith(".geo") else word for word in scene.mesh_words(quick)]
+    words = [normpath(f"{place}/{word}") if word.endswith(".geo") else word for word in scene.mesh_words(quick)]
     commands = [f"fsi-mesh {' '.join(words)} -o {scene.name}.msh"]
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [

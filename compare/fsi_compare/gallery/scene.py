@@ -42,6 +42,7 @@ class Number:
     tolerance: float  # relative to `scale`
     source: str  # of the reference: a formula, a publication
     scale: float = 0.0  # what the tolerance counts in; 0: the reference
+    spread: float = 0.0  # by which published values of others differ among each other, relative; 0: not known
 
     @property
     def error(self) -> float:

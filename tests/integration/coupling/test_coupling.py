@@ -5,6 +5,7 @@ import unittest
 
 from programs import (
     ARTERY,
+    MESH,
     MONOLITHIC,
     NEO_HOOKEAN,
     PARTITIONED,
@@ -12,6 +13,7 @@ from programs import (
     attempt,
     calls,
     difference,
+    execute,
     make_mesh,
     make_small_mesh,
     pressure,
@@ -23,6 +25,7 @@ from programs import (
 )
 
 AXISYMMETRIC = NEO_HOOKEAN.parent / "axisymmetric" / NEO_HOOKEAN.name
+GALLERY = NEO_HOOKEAN.parents[2] / "gallery"
 QUICK = ("iqn-ils", "iqn-imvj", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj")
 # Most passes per step, mean of the first eight steps at 1e-6: without differences of earlier steps the first ones take
 # twice as many as later ones (coarse mesh, 96 steps: 5.1, 4.9, 4.8, 2.6, 3.3).
@@ -283,6 +286,32 @@ class Failures(FolderTest):
         message = self.refused(*scheme("iqn-ils"), "time.end=0.25", "partitioned.max_iterations=3")
         self.assertIn("3 iterations", message)
         self.assertIn("partitioned.max_iterations", message)
+
+
+class WallInTheFluid(FolderTest):
+    """A flag in a channel: Robin-Neumann's impedance is that of a tube around the fluid."""
+
+    def warnings(self, name, case, *settings):
+        process = attempt(PARTITIONED, case, "-q", folder=self.base / name, settings=settings)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process.stderr
+
+    def test_robin_neumann_warns_and_names_another_scheme(self):
+        flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
+        mesh = self.base / "flag.msh"
+        sizes = [word for size in ("far=80", "near=25", "flag=20", "tip=20", "wake=60") for word in ("--set", size)]
+        made = execute(MESH, "geo", GALLERY / "turek-hron-cfd1" / "channel.geo", "--order", "2", *sizes, "-o", mesh)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        settings = (f"mesh.file={mesh}", "time.end=2")
+        said = self.warnings("robin", flag, *settings, *scheme("robin-neumann-iqn"))
+        for part in (f"{flag}: partitioned.scheme", '"robin-neumann-iqn"', "stands in the fluid", 'name "iqn-ils"'):
+            self.assertIn(part, said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertIn("stands in the fluid", (self.base / "robin" / "run.log").read_text())
+        self.assertEqual(self.warnings("iqn", flag, *settings), "")
+
+    def test_a_tube_is_no_reason_to_warn(self):
+        self.assertEqual(self.warnings("tube", AXISYMMETRIC, "mesh.level=coarse", "time.end=0.125"), "")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """fsi-compare gallery: what it says of scenes that are right, wrong, or no scenes. The ready scenes have tests of their
 own, registered in CMakeLists.txt."""
 
+import csv
 import shutil
 import unittest
 from pathlib import Path
@@ -80,6 +81,43 @@ class Gallery(FolderTest):
                 self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
                 for word in words:
                     self.assertIn(word, process.stderr)
+
+
+STUDY = """
+title = "A flag under its weight, a channel around it, and both at once"
+kind = "scenes"
+[cases]
+structure = { scene = "turek-hron-csm2" }
+flow = { scene = "turek-hron-cfd1", set = { time.end = 2000.0 } }
+both = { scene = "turek-hron-fsi3", set = { time.end = 4.0 } }
+[methods.monolithic]
+program = "fsi-monolithic"
+[methods.partitioned]
+program = "fsi-partitioned"
+[runs.all]
+quick = true
+"""
+
+
+class StudyOfScenes(FolderTest):
+    def test_one_table_of_both_drivers(self):
+        study = self.base / "study.toml"
+        study.write_text(STUDY)
+        process = execute(COMPARE, "study", study, "--quick", "-o", self.base / "out")
+        self.assertEqual(process.returncode, 2, process.stderr)  # the flow has not become steady in two steps
+        with open(self.base / "out" / "scenes.csv", newline="", encoding="utf-8") as file:
+            rows = {(row["scene"][11:], row["quantity"], row["program"][4:]): row for row in csv.DictReader(file)}
+        self.assertEqual(len(rows), 2 * (2 + 2 + 1))
+        for driver in ("monolithic", "partitioned"):
+            self.assertLess(float(rows["csm2", "u_y", driver]["relative_error"]), 0.01)
+            self.assertEqual(int(rows["csm2", "u_y", driver]["steps"]), 20)
+            self.assertGreater(float(rows["cfd1", "lift", driver]["relative_error"]), 0.02)
+            self.assertEqual(float(rows["cfd1", "lift", driver]["step_ms"]), 1000)
+            self.assertLess(float(rows["fsi3", "u_y", driver]["relative_error"]), 0.01)
+        self.assertIn("(!)", process.stdout)
+        before = (self.base / "out" / "scenes.csv").read_bytes()
+        execute(COMPARE, "study", study, "--quick", "-o", self.base / "out")
+        self.assertEqual((self.base / "out" / "scenes.csv").read_bytes(), before, "no run was made anew: same seconds")
 
 
 if __name__ == "__main__":

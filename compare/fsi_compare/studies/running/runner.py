@@ -1,5 +1,6 @@
 """Runs what a study asks for and is not there yet. A study can be killed at any moment and called again."""
 
+import hashlib
 import json
 import math
 import os
@@ -198,12 +199,12 @@ class Runner:
             )
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
-        end = execute([self.mesh_maker, "artery", *mesh.options, "-q", "-o", unfinished])
+        end = execute([self.mesh_maker, mesh.command, *mesh.options, "-q", "-o", unfinished])
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
         with replacing(path.with_suffix(".options.json")) as temporary:
-            temporary.write_text(json.dumps(list(mesh.options)), encoding="utf-8")
+            temporary.write_text(json.dumps(recipe(mesh)), encoding="utf-8")
         return path
 
     def _mesh_path(self, mesh: StudyMesh) -> Path:
@@ -215,7 +216,7 @@ class Runner:
             made = read_json(path.with_suffix(".options.json"), AGAIN, AGAIN)
         except InputError:
             return False
-        return is_file(path) and made == list(mesh.options)
+        return is_file(path) and made == recipe(mesh)
 
     def standing(self, requests: Sequence[Request]) -> "Standing":
         """How many of the runs are there, without making any. The same run asked for twice counts once."""
@@ -303,6 +304,12 @@ class Runner:
 def is_interrupted(code: int) -> bool:
     """Whether somebody ended the run: that says nothing about it, so that the next call makes it anew."""
     return any(code in (-number, 128 + number) for number in interruption.WATCHED)
+
+
+def recipe(mesh: StudyMesh) -> List[str]:
+    """What decides a mesh: its options, and the text of the script that they name."""
+    scripts = [word for word in mesh.options if word.endswith(".geo") and is_file(Path(word))]
+    return [*mesh.options, *(hashlib.sha256(read_bytes(Path(s), AGAIN, AGAIN)).hexdigest() for s in scripts)]
 
 
 def write_record(folder: Path, record: Dict[str, Any]) -> None:

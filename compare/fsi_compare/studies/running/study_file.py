@@ -11,6 +11,7 @@ from ...base.errors import InputError
 from ...base.files import absolute, exists, is_file, read_toml
 from ...base.names import MESHES
 from ...base.suggestions import check_keys, nearest
+from ...gallery.scene import READY, Scene, read_scene, scene_names
 from ...runs.launch import usable_cores
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
@@ -41,7 +42,7 @@ TOP_KEYS = (
     "report",
 )
 METHOD_KEYS = ("program", "label", "set")
-CASE_KEYS = ("file", "set")
+CASE_KEYS = ("file", "scene", "set")
 MESH_KEYS = ("options", "label")
 GROUP_KEYS = ("cases", "methods", "set", "vary", "quick")
 VALUE_KEYS = ("label", "set", "mesh", "processes")
@@ -59,7 +60,8 @@ class Method:
 class StudyMesh:
     name: str
     label: str
-    options: Tuple[str, ...]  # of `fsi-mesh artery`; empty: a level of the same name, made by the driver on demand
+    options: Tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
+    command: str = "artery"
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,7 @@ class Study:
     settings: Mapping[str, Any] = field(default_factory=dict)  # of all runs
     case_settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # of all runs of a case
     processes: int = 1  # of each run whose group does not say
+    scenes: Mapping[str, Scene] = field(default_factory=dict)  # of the cases that are scenes of the gallery
 
     def request(
         self,
@@ -121,10 +124,19 @@ class Study:
             chosen,
             dict(values),
             self.cases[case],
-            self.meshes[mesh] if mesh else None,
+            self.meshes[mesh] if mesh else _mesh_of(self.scenes.get(case), self.quick),
             merged,
             self.time_limit,
         )
+
+
+def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
+    """A scene's mesh, its script named by an absolute path; None where the case is no scene."""
+    if scene is None:
+        return None
+    command, *options = scene.mesh_words(quick)
+    places = tuple(str(scene.folder / word) if word.endswith(".geo") else word for word in options)
+    return StudyMesh(scene.name + ("-quick" if quick else ""), "", places, command)
 
 
 def show(value: Any) -> str:
@@ -173,6 +185,7 @@ class _Value:
 class _Reader:
     def __init__(self, path: Path, quick: bool):
         self.path, self.quick = path, quick
+        self.scenes: Dict[str, Scene] = {}  # of the cases that are scenes
 
     def wrong(self, key: str, problem: str, remedy: str) -> InputError:
         return InputError(self.path, key, problem, remedy)
@@ -184,7 +197,7 @@ class _Reader:
         entries = self.table(data, "cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
         of_case = {
-            name: self.settings(entry, "set", f"cases.{name}")
+            name: {**self.of_scene(name), **self.settings(entry, "set", f"cases.{name}")}
             for name, entry in entries.items()
             if isinstance(entry, dict)
         }
@@ -215,13 +228,16 @@ class _Reader:
             quick=self.quick,
             settings=settings,
             case_settings=of_case,
+            scenes=self.scenes,
         )
 
     def case(self, name: str, entry: Any) -> Path:
-        """A file name, or a section with `file` and `set`."""
+        """A file name, or a section with `set` and either `file` or `scene`, the name of a scene of the gallery."""
         file = entry
         if isinstance(entry, dict):
             self.known(f"cases.{name}", entry, CASE_KEYS)
+            if "scene" in entry:
+                return self.scene(name, entry)
             file = entry.get("file")
         if not isinstance(file, str):
             raise self.wrong(f"cases.{name}", "is not a file name", "give the case file, relative to the study")
@@ -229,6 +245,17 @@ class _Reader:
         if not is_file(path):
             raise self.wrong(f"cases.{name}", f"no such case file: {path}", "give it relative to the study file")
         return path
+
+    def scene(self, name: str, entry: Dict[str, Any]) -> Path:
+        key = f"cases.{name}.scene"
+        if "file" in entry:
+            raise self.wrong(key, "has a file beside it", "give one of the two")
+        self.scenes[name] = read_scene(READY / self.one_of(key, entry["scene"], scene_names()))
+        return self.scenes[name].case
+
+    def of_scene(self, name: str) -> Dict[str, Any]:
+        """Settings of a scene's short form, where that is asked for."""
+        return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
     def method(self, name: str, entry: Any) -> Method:
         key = f"methods.{name}"
@@ -283,8 +310,11 @@ class _Reader:
             raise self.wrong(key, f"asks for more than {MOST_RUNS} runs", "vary less in one group")
         requests = []
         for case, method, point in itertools.product(names, chosen, itertools.product(*axes)):
+            scene = self.scenes.get(case)
+            if scene is not None and method.program not in scene.drivers:
+                continue
             merged = {**settings, **of_case.get(case, {}), **method.settings, **own}
-            values, mesh, processes = {}, None, None
+            values, mesh, processes = {}, _mesh_of(scene, self.quick), None
             for quantity, value in point:
                 values[quantity] = value.shown
                 merged.update(value.settings)
