@@ -76,7 +76,7 @@ void PetscMomentumSolver<n>::set_up_wall() {
     wall_->y = petsc_vector(system_.communicator(), size);
   }
   system_.fill_wall_momentum(*wall_->momentum);
-  const Mat matrix = wall_->momentum->matrix;
+  Mat matrix = wall_->momentum->matrix;
   if (first) {
     OwnedVec places;
     petsc_check(MatCreateVecs(matrix, places.fresh(), nullptr));
