@@ -19,7 +19,7 @@ void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
   if (!wall_levels) wall_.reset();
   if (!solver_ || around_wall_ != wall_levels) make_sweeps(wall_levels);
   if (wall_levels) set_up_wall();
-  for (const PC sweep : sweeps_) {
+  for (PC sweep : sweeps_) {
     PetscBool is_sweep = PETSC_FALSE;
     petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
     PetscBool set = PETSC_FALSE;
