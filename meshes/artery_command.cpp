@@ -13,7 +13,7 @@ namespace fsi {
 
 namespace {
 
-struct Request {
+struct TubeRequest {
   std::string level = "coarse";
   std::optional<double> size, axial_size;
   ArteryRequest artery;
@@ -21,7 +21,7 @@ struct Request {
 };
 
 /// The options of `fsi-mesh artery`.
-void add_options(CLI::App& artery, Request& request) {
+void add_options(CLI::App& artery, TubeRequest& request) {
   auto& asked = request.artery;
   auto& shape = asked.sizes;
   add_output_options(artery, request.output);
@@ -79,7 +79,7 @@ void add_options(CLI::App& artery, Request& request) {
 }
 
 /// The level's sizes unless others are given.
-void set_sizes(Request& request) {
+void set_sizes(TubeRequest& request) {
   const auto level = artery_level(request.level);
   auto& sizes = request.artery.sizes;
   sizes.size = request.size.value_or(level.size);
@@ -87,7 +87,7 @@ void set_sizes(Request& request) {
   if (request.axial_size) sizes.axial_size = request.axial_size;
 }
 
-void make(Request& request) {
+void make(TubeRequest& request) {
   set_sizes(request);
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
@@ -103,7 +103,7 @@ void make(Request& request) {
 
 MeshCommand artery_command(CLI::App& app) {
   auto* options = app.add_subcommand("artery", "A straight two-layer artery along the z axis from (0,0,0)");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TubeRequest>();
   add_options(*options, *request);
   return {options, [request] { make(*request); }};
 }

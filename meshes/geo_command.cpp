@@ -15,7 +15,7 @@ namespace fsi {
 
 namespace {
 
-struct Request {
+struct GeoRequest {
   std::string script;
   std::vector<std::string> settings;  ///< name=number
   int order = 1;
@@ -34,7 +34,7 @@ std::map<std::string, double> numbers_of(const std::vector<std::string>& setting
   return numbers;
 }
 
-void make(const Request& request) {
+void make(const GeoRequest& request) {
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   const auto file = regular_output_file(request.output.file);
@@ -46,7 +46,7 @@ void make(const Request& request) {
 
 MeshCommand geo_command(CLI::App& app) {
   auto* options = app.add_subcommand("geo", "A shape that a gmsh script (.geo) describes");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<GeoRequest>();
   options->add_option("script", request->script, "The script, .geo")->required();
   options->add_option("--set", request->settings, "name=number: another value of a constant of the script");
   options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells with nodes on the shape")

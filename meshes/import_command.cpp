@@ -23,7 +23,7 @@ namespace fsi {
 
 namespace {
 
-struct Request {
+struct ImportRequest {
   std::string file;
   std::vector<std::string> groups, openings;
   double scale = 1;
@@ -39,7 +39,7 @@ struct Request {
 }
 
 /// meshio is Python's, so fsi-compare reads the file. Returns what it printed.
-std::string convert(const Request& request, const std::vector<std::string>& more) {
+std::string convert(const ImportRequest& request, const std::vector<std::string>& more) {
   const auto program = beside_this_program("fsi-compare");
   if (program.empty())
     throw InputError("fsi-compare", "", "is not beside fsi-mesh, which needs it to read other formats",
@@ -71,7 +71,7 @@ AnyMesh read_mesh(const std::filesystem::path& file, const std::vector<FlatPart>
   return mesh;
 }
 
-AnyMesh read_any(const Request& request, const std::filesystem::path& file) {
+AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file) {
   const auto openings = flat_parts_of(request.openings);
   const int dimension = gmsh_dimension(file);
   if (dimension != 3 && !openings.empty())
@@ -85,7 +85,7 @@ AnyMesh read_any(const Request& request, const std::filesystem::path& file) {
   }
 }
 
-void make(const Request& request) {
+void make(const ImportRequest& request) {
   if (request.list) {
     print(convert(request, {"--list"}));
     return;
@@ -103,7 +103,7 @@ void make(const Request& request) {
 
 MeshCommand import_command(CLI::App& app) {
   auto* options = app.add_subcommand("import", "A mesh of another program: VTU, MED, Exodus, Abaqus, ... (by meshio)");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ImportRequest>();
   options->add_option("file", request->file, "The mesh: simplices, in any format that meshio reads")->required();
   options->add_flag("--list", request->list, "Say which parts the file names or numbers, and write nothing");
   options->add_option("--group", request->groups,

@@ -21,7 +21,7 @@ namespace fsi {
 
 namespace {
 
-struct Request {
+struct ThickenRequest {
   std::string lumen;
   std::vector<std::string> layers, openings;
   WallGrowth growth;
@@ -47,7 +47,7 @@ GrownLayer layer_of(const std::string& text) {
 }
 
 /// A mesh of the lumen's volume, or of its surface, which is filled.
-TetrahedralMesh lumen_of(const Request& request) {
+TetrahedralMesh lumen_of(const ThickenRequest& request) {
   const std::filesystem::path file = request.lumen;
   const auto openings = flat_parts_of(request.openings);
   if (file.extension() == ".msh" && gmsh_dimension(file) == 3) {
@@ -58,7 +58,7 @@ TetrahedralMesh lumen_of(const Request& request) {
   return fill_lumen(file, openings);
 }
 
-void make(Request& request) {
+void make(ThickenRequest& request) {
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   regular_output_file(request.output.file);  // before anything is computed
@@ -72,7 +72,7 @@ void make(Request& request) {
 
 MeshCommand thicken_command(CLI::App& app) {
   auto* options = app.add_subcommand("thicken", "A wall of given layers, grown on a lumen's surface");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ThickenRequest>();
   options
       ->add_option("lumen", request->lumen,
                    "Mesh of the lumen (.msh with a volume fluid), or its closed surface (.stl, .msh), which is filled")

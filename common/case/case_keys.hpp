@@ -58,6 +58,11 @@ struct CaseKey {
 /// `text` with every `mark` replaced.
 std::string replaced(std::string text, const std::string& mark, const std::string& by);
 
+/// Whether a key must be given, for leaf() and its like; each file takes what it names by `using`.
+namespace presence {
+inline constexpr bool required = true, optional = false;
+}
+
 /// A key that is no section.
 template <class Target>
 CaseKey<Target> leaf(const std::string& name, bool required, const std::string& about, KeyValue<Target> value,

@@ -13,7 +13,7 @@ namespace fsi {
 
 namespace {
 
-constexpr bool optional = false, required = true;
+using presence::optional, presence::required;
 
 /// A name that may stand in a column of a table.
 void require_plain(const CaseEntry& entry, const std::string& name) {

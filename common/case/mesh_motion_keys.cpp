@@ -29,7 +29,7 @@ void check_mesh_motion(const CaseEntry& entry, MeshMotionOptions& options) {
 
 CaseKey<Case> mesh_motion_section() {
   using M = MeshMotionOptions;
-  constexpr bool optional = false;
+  using presence::optional;
   constexpr Bounds exponent{0, 4, true, true}, poisson{0, 0.49, true, true};
   const std::vector<CaseKey<M>> keys = {
       leaf("method", optional,

@@ -16,7 +16,7 @@ namespace fsi {
 
 namespace {
 
-constexpr bool required = true, optional = false;
+using presence::optional, presence::required;
 constexpr std::array<const char*, 4> sources = {"pressure", "flow_rate", "resistance", "windkessel"};
 constexpr std::size_t most_jumps = 100'000;  // each ends a step
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int most_steps = 1'000'000;
 constexpr double smallest_part_of_end = 1e-9;  // of an adaptive step; times are told apart to 12 digits
-constexpr bool required = true, optional = false;
+using presence::optional, presence::required;
 
 // [mesh].
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_points = 100'000;  // of a line
 constexpr std::size_t longest_name = 64;
-constexpr bool required = true, optional = false;
+using presence::optional, presence::required;
 
 /// Names stand in a column of a table.
 std::string sample_name(const CaseEntry& section, const CaseEntry& entry) {

@@ -9,7 +9,7 @@ namespace fsi {
 
 namespace {
 
-constexpr bool optional = false;
+using presence::optional;
 constexpr int most_iterations = 1'000'000, most_smoothing = 1'000, most_directions = 10'000, most_levels = 100;
 constexpr int most_steps_between = 1'000'000'000, most_unknowns = 2'000'000'000;
 constexpr Bounds tolerance{0, 1, false, false}, tolerance_or_none{0, 1, true, false};

@@ -15,10 +15,9 @@ namespace fsi {
 
 namespace {
 
-constexpr bool optional = false;
+using presence::optional;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Bounds anything{-infinity, infinity, false, false};
-constexpr std::size_t most_rows = 100'000;  // of a table
 constexpr const char* normal_name = "normal";
 
 /// A support as it stands in the file.
@@ -39,8 +38,8 @@ std::vector<std::string> directions(Geometry geometry) {
 /// Rows of a table: a time, which does not decrease, and as many values in each row.
 void read_rows(const CaseEntry& entry, const std::string& row_form, std::vector<std::vector<double>>& rows) {
   const auto given = entry.elements();
-  if (given.size() > most_rows)
-    entry.refuse(fmt::format("a table of {} rows", given.size()), fmt::format("give at most {}", most_rows));
+  if (given.size() > most_table_rows)
+    entry.refuse(fmt::format("a table of {} rows", given.size()), fmt::format("give at most {}", most_table_rows));
   bool warned = false;
   for (const CaseEntry& row : given) {
     const auto numbers = row.is_array() ? row.elements() : std::vector<CaseEntry>{};

@@ -18,8 +18,6 @@ namespace fsi {
 
 namespace {
 
-constexpr std::size_t most_rows = 100'000;
-
 /// Sorted by time, two rows at most of one time. \param refuse  says what is wrong with the last row, and what to do
 template <class Refuse>
 void check_last_row(const std::vector<std::pair<double, double>>& points, Refuse refuse) {
@@ -90,8 +88,9 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
     if (trimmed(line).empty()) continue;
     if (!row) refuse("is no row of two numbers", remedy);
     points.push_back(*row);
-    if (points.size() > most_rows)
-      refuse(fmt::format("a table of more than {} rows", most_rows), fmt::format("give at most {}", most_rows));
+    if (points.size() > most_table_rows)
+      refuse(fmt::format("a table of more than {} rows", most_table_rows),
+             fmt::format("give at most {}", most_table_rows));
     check_last_row(points, [&](const std::string& problem, const std::string& what_to_do) {
       refuse(fmt::format("{} {}", trimmed(line), problem), what_to_do);
     });
@@ -127,8 +126,8 @@ void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, T
   bool warned_of_time = false, warned_of_value = false;  // once is enough
   auto& points = input.table.points;
   const auto rows = entry.elements();
-  if (rows.size() > most_rows)
-    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_rows));
+  if (rows.size() > most_table_rows)
+    entry.refuse(fmt::format("a table of {} rows", rows.size()), fmt::format("give at most {}", most_table_rows));
   for (const auto& row : rows) {
     const auto pair = row.is_array() ? row.elements() : std::vector<CaseEntry>{};
     if (pair.size() != 2) row.refuse_value("is no pair", fmt::format("give [time, {}]", kind.key));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "case/pressure_table.hpp"
 
 namespace fsi {
+
+inline constexpr std::size_t most_table_rows = 100'000;  ///< of a table in a case file
 
 /// What a table over time holds.
 struct TableKind {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "time/time_rounding.hpp"
+
 namespace fsi {
 
 namespace {
-
-constexpr double rounding = 1e-9;
 
 double size_of(const std::vector<double>& vectors, std::size_t node) {
   return std::hypot(vectors[3 * node], vectors[3 * node + 1], vectors[3 * node + 2]);
@@ -21,7 +21,7 @@ void PeriodStatistics::add(double time, const std::vector<double>& shear) {
   if (!begun_) {
     begun_ = true;
     time_ = start_ = time;
-    periods_ = std::floor(time / period_ * (1 + rounding));
+    periods_ = std::floor(time / period_ * (1 + time_rounding));
     now_ = shear;
     integral_.assign(shear.size(), 0.0);
     magnitude_.assign(shear.size() / 3, 0.0);
@@ -30,12 +30,12 @@ void PeriodStatistics::add(double time, const std::vector<double>& shear) {
   if (time <= time_) return;
   assert(shear.size() == now_.size());
   // Ends of periods within the step, or where it ends.
-  for (double end = (periods_ + 1) * period_; end <= time * (1 + rounding); end = (periods_ + 1) * period_) {
+  for (double end = (periods_ + 1) * period_; end <= time * (1 + time_rounding); end = (periods_ + 1) * period_) {
     const double part = std::min(1.0, (end - time_) / (time - time_));
     std::vector<double> between = shear;
-    if (part < 1 - rounding)
+    if (part < 1 - time_rounding)
       for (std::size_t i = 0; i < between.size(); ++i) between[i] = now_[i] + part * (shear[i] - now_[i]);
-    const double stop = part < 1 - rounding ? end : time;
+    const double stop = part < 1 - time_rounding ? end : time;
     accumulate(stop - time_, now_, between);
     now_ = std::move(between);
     time_ = stop;
@@ -54,7 +54,7 @@ void PeriodStatistics::accumulate(double duration, const std::vector<double>& fr
 }
 
 void PeriodStatistics::finish(double time) {
-  const bool whole = time - start_ >= period_ * (1 - rounding);
+  const bool whole = time - start_ >= period_ * (1 - time_rounding);
   if (whole) {
     const std::size_t nodes = magnitude_.size();
     ShearStatistics found{std::vector<double>(nodes), std::vector<double>(nodes), std::vector<double>(nodes)};

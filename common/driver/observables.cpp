@@ -8,17 +8,11 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "driver/same_state.hpp"
 #include "fem/dimensions.hpp"
 #include "mesh/group_names.hpp"
 
 namespace fsi {
-
-namespace {
-
-/// What programs of different compilers may make of one state, relative to its largest value.
-constexpr double same_state = 1e-6;
-
-}  // namespace
 
 template <int n>
 Observables<n>::Observables(ObservationPoints points, const Scene<n>& scene)

@@ -8,15 +8,10 @@
 #include <cstddef>
 
 #include "base/error.hpp"
+#include "driver/same_state.hpp"
 #include "fem/dimensions.hpp"
 
 namespace fsi {
-
-namespace {
-
-constexpr double same_state = 1e-6;  // as of the other tables
-
-}  // namespace
 
 template <int n>
 OpeningObserver<n>::OpeningObserver(const Case& setup, const Scene<n>& scene) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
 
@@ -29,7 +30,6 @@ constexpr const char* balance_times = "balance_times";
 constexpr const char* since_jump = "since_jump";
 constexpr const char* another_version = "the checkpoint comes from another version; run from the start";
 constexpr const char* damaged = "the checkpoint is damaged; restart from another folder, or run from the start";
-constexpr double rounding = 1e-9;
 
 /// Calls visit(name, array) for every array of a state that a later step reads.
 template <class StateType, class Visit>
@@ -182,7 +182,7 @@ void require_known(const fs::path& file, const Checkpoint& checkpoint, const Sta
 /// Times of levels, or balances, the latest first: as many as there are steps, descending, and 0 before the first.
 template <std::size_t count>
 void require_descending(const fs::path& file, const char* name, const std::array<double, count>& times, double latest) {
-  double after = latest * (1 + rounding);
+  double after = latest * (1 + time_rounding);
   for (const double time : times) {
     if (!(time >= 0 && time <= after) || (time == after && time > 0))
       refuse(file, name, fmt::format("holds {:g} before {:g}: times are out of order", time, after));
@@ -198,7 +198,7 @@ std::vector<Stretch> stored_stretches(const fs::path& file, const Checkpoint& ch
   for (std::size_t i = 0; i < numbers.size(); i += 3) {
     const Stretch stretch{whole(file, stretches_name, numbers[i], 0, state.step), numbers[i + 1], numbers[i + 2]};
     const bool first = stretches.empty();
-    if (!(stretch.asked >= 0) || !(stretch.start >= 0 && stretch.start <= state.time * (1 + rounding)) ||
+    if (!(stretch.asked >= 0) || !(stretch.start >= 0 && stretch.start <= state.time * (1 + time_rounding)) ||
         (first && stretch.after != 0) ||
         (!first && (stretch.after <= stretches.back().after || !(stretch.start > stretches.back().start))))
       refuse(file, stretches_name, fmt::format("stretch {} is out of order", stretches.size() + 1));
@@ -224,7 +224,7 @@ std::vector<Insertion> stored_insertions(const fs::path& file, const Checkpoint&
     const Insertion step{whole(file, insertions_name, numbers[i], 1, most_steps), numbers[i + 1], numbers[i + 2]};
     const bool finished = step.step <= state.step;
     const double end = finished ? ends[step.step - 1] : state.time;
-    if (!(step.length > 0) || (finished ? std::abs(step.end - end) > rounding * end : step.end <= end) ||
+    if (!(step.length > 0) || (finished ? std::abs(step.end - end) > time_rounding * end : step.end <= end) ||
         (!insertions.empty() && (step.step <= insertions.back().step || step.end <= insertions.back().end)))
       refuse(file, insertions_name, fmt::format("step {} is out of order", step.step));
     insertions.push_back(step);
@@ -311,7 +311,7 @@ StoredSteps stored_steps(const fs::path& file, const Checkpoint& checkpoint, con
   for (std::size_t k = 0; k < state.times.size(); ++k) {
     const int step = state.step - static_cast<int>(k);
     const double end = step > 0 ? ends.at(step - 1) : 0;
-    if (std::abs(state.times[k] - end) > rounding * end)
+    if (std::abs(state.times[k] - end) > time_rounding * end)
       refuse(file, level_times,
              fmt::format("says that step {} ended at {:.12g}, iterations.csv at {:.12g}", step, state.times[k], end),
              "restart from a folder as its run has left it, or run from the start");
@@ -339,7 +339,7 @@ TableDigests stored_digests(const Checkpoint& checkpoint) {
 }
 
 void require_not_beyond(const fs::path& file, const State& state, double end) {
-  if (state.time > end * (1 + rounding))
+  if (state.time > end * (1 + time_rounding))
     refuse(file, "time", fmt::format("{:g} ms, is behind the run's end at {:g} ms", state.time, end),
            fmt::format("give time.end = {:g} or more", state.time));
 }

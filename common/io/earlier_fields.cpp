@@ -9,14 +9,13 @@
 
 #include "base/error.hpp"
 #include "io/hdf5_file.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double rounding = 1e-9;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& dataset, const std::string& problem) {
   throw InputError(file.string(), dataset, problem,
@@ -82,7 +81,7 @@ std::int64_t checked_field_entries(const fs::path& folder, const std::vector<Fie
       if (!(times[i] > last) || !std::isfinite(times[i]) || (i > 0 && numbers[i] <= numbers[i - 1]))
         refuse(file, "/steps/time", fmt::format("holds {:g} behind {:g}: entries are out of order", times[i], last));
       last = times[i];
-      if (written[i] && times[i] <= until * (1 + rounding)) ++entries;
+      if (written[i] && times[i] <= until * (1 + time_rounding)) ++entries;
     }
   }
 }

@@ -14,6 +14,7 @@
 #include "io/atomic_file.hpp"
 #include "io/checked_file.hpp"
 #include "io/table_reader.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
 
@@ -23,10 +24,8 @@ namespace {
 
 using Found = TableReader::Found;
 
-constexpr double rounding = 1e-9;
-
 bool same(double a, double b, double scale) {
-  return std::abs(a - b) <= rounding * scale;
+  return std::abs(a - b) <= time_rounding * scale;
 }
 
 /// The table's next row, which must be there. \param last    the step whose row it is
@@ -48,7 +47,7 @@ void read_row(TableReader& table, std::int64_t step, std::int64_t last, bool bla
 /// What stands behind the rows that are taken over must be of later steps, whole or not.
 void check_rest(TableReader& table, std::size_t time_column, double time) {
   for (Found found = table.next(); found != Found::end; found = table.next())
-    if (found == Found::row && !(table.row()[time_column] > time + rounding * std::abs(time)))
+    if (found == Found::row && !(table.row()[time_column] > time + time_rounding * std::abs(time)))
       table.refuse_line(fmt::format("is of the time {:g}, behind the rows up to {:g}: rows are doubled or out of order",
                                     table.row()[time_column], time));
 }
@@ -194,8 +193,8 @@ EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table
       read_row(reader, step, steps.step);
       const auto& row = reader.row();
       if (i == 0) time = row[0];
-      if (row[0] != time || reader.place() != table.names[i] || !(time > before + rounding * before) ||
-          !(time <= end + rounding * end))
+      if (row[0] != time || reader.place() != table.names[i] || !(time > before + time_rounding * before) ||
+          !(time <= end + time_rounding * end))
         reader.refuse_line(
             fmt::format("is no row of \"{}\" in step {}, from {:g} to {:g}: rows are missing, doubled or out of order",
                         table.names[i], step, before, end));

@@ -115,7 +115,7 @@ std::string name_of(const Holder& holder) {
   return fmt::format("{}, process {} on host {}", holder.program, holder.process, holder.host);
 }
 
-enum class State {
+enum class LockState {
   free,     ///< nobody's
   left,     ///< of a process of this host that has ended
   held,     ///< of a process that runs
@@ -125,20 +125,20 @@ enum class State {
 
 /// \param lock     contents of the file
 /// \param blocked  whether a process holds the kernel's lock on it
-State state_of(const std::string& lock, bool blocked, Holder& holder) {
-  if (lock.empty()) return blocked ? State::unknown : State::free;
-  if (!parse(lock, holder)) return State::unknown;
-  if (holder.host != host_name()) return blocked ? State::held : State::foreign;
-  return runs(holder) ? State::held : State::left;
+LockState state_of(const std::string& lock, bool blocked, Holder& holder) {
+  if (lock.empty()) return blocked ? LockState::unknown : LockState::free;
+  if (!parse(lock, holder)) return LockState::unknown;
+  if (holder.host != host_name()) return blocked ? LockState::held : LockState::foreign;
+  return runs(holder) ? LockState::held : LockState::left;
 }
 
-[[noreturn]] void refuse(const fs::path& folder, State state, const Holder& holder, const std::string& remedy) {
+[[noreturn]] void refuse(const fs::path& folder, LockState state, const Holder& holder, const std::string& remedy) {
   const std::string file = (folder / lock_name).string();
-  if (state == State::foreign)
+  if (state == LockState::foreign)
     throw InputError(folder.string(), "",
                      "is locked by " + name_of(holder) + "; from here it cannot be seen whether that still runs",
                      "if it does not, remove " + file);
-  if (state == State::unknown)
+  if (state == LockState::unknown)
     throw InputError(folder.string(), "", "is locked, and " + file + " does not say by whom",
                      "if no run works in the folder, remove that file");
   throw InputError(folder.string(), "", "a run works in it (" + name_of(holder) + ")", remedy);
@@ -175,7 +175,7 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& program)
         Holder holder;
         std::ifstream stream(file_);
         const std::string text{std::istreambuf_iterator<char>(stream), {}};
-        refuse(folder_, parse(text, holder) ? State::held : State::unknown, holder, "wait for its end");
+        refuse(folder_, parse(text, holder) ? LockState::held : LockState::unknown, holder, "wait for its end");
       }
       ::usleep(pause_microseconds);
     }
@@ -217,21 +217,21 @@ bool FolderLock::take(const std::string& program) {
   if (!kernel_locks_) blocked = !created;
   const std::string lock = contents_of(descriptor_);
   Holder holder;
-  const State state = state_of(lock, blocked, holder);
-  if (blocked && state == State::held) {
+  const LockState state = state_of(lock, blocked, holder);
+  if (blocked && state == LockState::held) {
     give_up();
     refuse(folder_, state, holder, "wait for its end, or give -o another folder");
   }
   if (blocked && kernel_locks_) return give_up();  // its owner is about to write its name, or to remove it
   if (!is_ours()) return give_up();                // removed by its owner after it was opened here
-  if (state == State::held || state == State::foreign || (state == State::unknown && kernel_locks_)) {
+  if (state == LockState::held || state == LockState::foreign || (state == LockState::unknown && kernel_locks_)) {
     give_up();
     refuse(folder_, state, holder, "wait for its end, or give -o another folder");
   }
-  if (state == State::left)
+  if (state == LockState::left)
     said_ = folder_.string() + ": took over the lock of " + name_of(holder) + ", which has ended";
   if (!kernel_locks_ && !created) {
-    if (state == State::left) ::unlink(file_.c_str());
+    if (state == LockState::left) ::unlink(file_.c_str());
     return give_up();
   }
 
@@ -277,11 +277,12 @@ void require_no_run_in(const fs::path& folder, const std::string& remedy) {
     const std::string lock = contents_of(descriptor);
     ::close(descriptor);
     Holder holder;
-    const State state = state_of(lock, blocked, holder);
-    if (state == State::free) return;
-    if (state == State::left && !blocked) return;
-    if (state == State::held || state == State::foreign || count == tries) refuse(folder, state, holder, remedy);
-    if (state == State::unknown && !blocked && !lock.empty()) refuse(folder, state, holder, remedy);
+    const LockState state = state_of(lock, blocked, holder);
+    if (state == LockState::free) return;
+    if (state == LockState::left && !blocked) return;
+    if (state == LockState::held || state == LockState::foreign || count == tries)
+      refuse(folder, state, holder, remedy);
+    if (state == LockState::unknown && !blocked && !lock.empty()) refuse(folder, state, holder, remedy);
     ::usleep(pause_microseconds);
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "math/pi.hpp"
 #include "mesh/artery/cross_section.hpp"
 #include "mesh/artery/extrusion.hpp"
 #include "mesh/artery/graded_line.hpp"
@@ -19,8 +20,6 @@
 namespace fsi {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Cross-sections stacked along the axis, every second one turned by half a step around: triangles on the cylinders
 /// come out nearly equilateral instead of right-angled, which lifts the mean ratio by a tenth.

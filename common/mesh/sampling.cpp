@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "math/pi.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/cell_map.hpp"
 #include "mesh/for_each_mesh.hpp"
@@ -18,7 +19,6 @@ namespace fsi {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double inside = -1e-9;        // barycentric coordinates this far below zero are rounding
 constexpr double on_boundary = -1e-6;   // and of points that users type with a few digits
 constexpr double furthest_edges = 0.5;  // longest edges that a point may lie outside

@@ -149,7 +149,7 @@ std::vector<double> Communicator::gather_at_first(const std::vector<double>& min
   std::vector<double> all;
   if (is_first()) {
     for (int r = 1; r < size_; ++r) starts[r] = starts[r - 1] + counts[r - 1];
-    all.resize(static_cast<std::size_t>(starts.back() + counts.back()));
+    all.resize(static_cast<std::size_t>(starts.back()) + static_cast<std::size_t>(counts.back()));
   }
   MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
               handle_->communicator);

@@ -21,7 +21,7 @@ bool all_end_with(int exit_code, double seconds) {
   if (world.is_alone()) return true;
   // Messages of this tag are not mixed with what processes say while they work.
   constexpr int tag = 4711;
-  const MPI_Comm communicator = mpi_of(world);
+  MPI_Comm communicator = mpi_of(world);
   static int mine = 0;  // the requests may outlive this call
   static std::vector<int> codes;
   mine = exit_code;

@@ -48,7 +48,7 @@ void Exchange::communicate(const double* values, int entries, Way way) const {
   if (neighbours_.empty()) return;
   assert(processes_ != nullptr);
   constexpr int tag = 1;
-  const MPI_Comm communicator = mpi_of(*processes_);
+  MPI_Comm communicator = mpi_of(*processes_);
   std::vector<MPI_Request> requests(2 * neighbours_.size(), MPI_REQUEST_NULL);
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
     incoming_[i].resize(incoming(neighbours_[i], way).size() * entries);

@@ -19,7 +19,7 @@ void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
   if (!wall_levels) wall_.reset();
   if (!solver_ || around_wall_ != wall_levels) make_sweeps(wall_levels);
   if (wall_levels) set_up_wall();
-  for (const PC sweep : sweeps_) {
+  for (PC sweep : sweeps_) {
     PetscBool is_sweep = PETSC_FALSE;
     petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
     PetscBool set = PETSC_FALSE;
@@ -76,7 +76,7 @@ void PetscMomentumSolver<n>::set_up_wall() {
     wall_->y = petsc_vector(system_.communicator(), size);
   }
   system_.fill_wall_momentum(*wall_->momentum);
-  const Mat matrix = wall_->momentum->matrix;
+  Mat matrix = wall_->momentum->matrix;
   if (first) {
     OwnedVec places;
     petsc_check(MatCreateVecs(matrix, places.fresh(), nullptr));

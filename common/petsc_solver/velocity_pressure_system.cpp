@@ -322,7 +322,7 @@ void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
 template <int n>
 double VelocityPressureSystem<n>::bytes() const {
   double sum = 8.0 * static_cast<double>(gradient_values_.size() + scaled_values_.size() + continuity_values_.size());
-  for (const Mat matrix : {Mat(momentum_), Mat(gradient_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)})
+  for (Mat matrix : {Mat(momentum_), Mat(gradient_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)})
     sum += petsc_bytes(matrix);
   return sum;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fem/nodal_layout.hpp"
+#include "math/pi.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/point_distance.hpp"
@@ -16,7 +17,6 @@ namespace fsi {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double rounding = 1e-12;  // of the part's size: nodes this near to the plane lie on it
 constexpr int most_vertices = 4;    // of a cell
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "time/time_rounding.hpp"
+
 namespace fsi {
 
 namespace {
@@ -11,8 +13,7 @@ constexpr double safety = 0.9, growth = 2, shrinkage = 0.2;
 constexpr double smallest_change = 0.95;  // downwards
 constexpr double rungs = 4;               // to an octave
 constexpr double negligible = 1e-10;      // an error below this says no more than that
-constexpr double rounding = 1e-9;
-constexpr double of_failed_step = 0.25;  // what is left of the length of a step without solution
+constexpr double of_failed_step = 0.25;   // what is left of the length of a step without solution
 
 }  // namespace
 
@@ -20,7 +21,7 @@ StepController::StepController(const StepLimits& limits, int order)
     : limits_(limits), order_(order), wanted_(limits.first) {}
 
 double StepController::rung(double length) const {
-  const double number = std::floor(rungs * std::log2(length / limits_.first) + rounding);
+  const double number = std::floor(rungs * std::log2(length / limits_.first) + time_rounding);
   return std::clamp(limits_.first * std::exp2(number / rungs), limits_.smallest, limits_.largest);
 }
 
@@ -51,7 +52,7 @@ void StepController::accept(double length, double error) {
 }
 
 bool StepController::reject(double length, double error) {
-  if (length <= limits_.smallest * (1 + rounding)) return false;
+  if (length <= limits_.smallest * (1 + time_rounding)) return false;
   const double factor = std::clamp(safety * std::pow(error, -1.0 / order_), shrinkage, 0.8);
   wanted_ = rung(factor * length);
   held_ = true;

@@ -9,12 +9,9 @@
 
 #include "case/openings.hpp"
 #include "case/support_loads.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
-
-namespace {
-constexpr double rounding = 1e-9;  // of a step: no further one for what is left
-}  // namespace
 
 TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullptr) {
   if (time_ != nullptr)
@@ -32,7 +29,7 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
     for (double time : output_times(setup))
       if (time > 0 && time < time_->end) stops_.push_back(time);
   std::sort(stops_.begin(), stops_.end());
-  const double same = rounding * (time_ != nullptr ? time_->end : 1);
+  const double same = time_rounding * (time_ != nullptr ? time_->end : 1);
   stops_.erase(std::unique(stops_.begin(), stops_.end(), [&](double a, double b) { return b - a <= same; }),
                stops_.end());
   rows_ = rows_of(stops_);
@@ -55,16 +52,16 @@ template <class Visit>
 void TimeAxis::for_each_piece(const Stretch& stretch, Visit visit) const {
   double start = stretch.start;
   const double asked = length_in(stretch);
-  for (auto stop = std::upper_bound(stops_.begin(), stops_.end(), start + rounding * asked); stop != stops_.end();
+  for (auto stop = std::upper_bound(stops_.begin(), stops_.end(), start + time_rounding * asked); stop != stops_.end();
        ++stop) {
-    if (*stop <= start + rounding * asked) continue;
+    if (*stop <= start + time_rounding * asked) continue;
     const double steps = (*stop - start) / asked;
-    const int count = static_cast<int>(std::ceil(steps - rounding));
-    const bool whole = std::abs(steps - count) <= rounding;
+    const int count = static_cast<int>(std::ceil(steps - time_rounding));
+    const bool whole = std::abs(steps - count) <= time_rounding;
     if (!visit(Piece{start, *stop, count, whole ? asked : (*stop - start) / count})) return;
     start = *stop;
   }
-  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - rounding));
+  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - time_rounding));
   visit(Piece{start, time_->end, std::max(0, count), asked});
 }
 
@@ -84,20 +81,22 @@ const TimeAxis::Plan& TimeAxis::plan(std::size_t stretch) const {
 int TimeAxis::planned(std::size_t stretch) const {
   const double asked = stretches_[stretch].asked;
   // The rest of the load in equal steps, none larger than one of a whole run would be.
-  if (time_ == nullptr) return static_cast<int>(std::ceil((1 - stretches_[stretch].start) * asked - rounding));
+  if (time_ == nullptr) return static_cast<int>(std::ceil((1 - stretches_[stretch].start) * asked - time_rounding));
   return asked > 0 ? plan(stretch).until.back() : estimated(stretches_[stretch]);
 }
 
 int TimeAxis::estimated(const Stretch& stretch) const {
   const double asked = length_in(stretch);
-  const auto steps = [&](double length) { return std::max(0, static_cast<int>(std::ceil(length / asked - rounding))); };
+  const auto steps = [&](double length) {
+    return std::max(0, static_cast<int>(std::ceil(length / asked - time_rounding)));
+  };
   double start = stretch.start;
   int sum = 0;
   for (const Row& row : rows_) {
-    if (row.last <= start + rounding * asked) continue;
+    if (row.last <= start + time_rounding * asked) continue;
     double first = row.first;  // the next stop
-    if (first <= start + rounding * asked) {
-      const double passed = std::floor((start + rounding * asked - row.first) / row.distance);
+    if (first <= start + time_rounding * asked) {
+      const double passed = std::floor((start + time_rounding * asked - row.first) / row.distance);
       first = std::min(row.last, row.first + (passed + 1) * row.distance);
     }
     sum += steps(first - start);
@@ -126,7 +125,7 @@ std::vector<TimeAxis::Row> TimeAxis::rows_of(const std::vector<double>& times) {
 }
 
 bool TimeAxis::jumps_at(double time) const {
-  const double same = time_ == nullptr ? 0 : std::max(rounding * stretches_.back().asked, 1e-12 * time_->end);
+  const double same = time_ == nullptr ? 0 : std::max(time_rounding * stretches_.back().asked, 1e-12 * time_->end);
   const auto next = std::lower_bound(jumps_.begin(), jumps_.end(), time);
   return (next != jumps_.end() && *next - time <= same) || (next != jumps_.begin() && time - *(next - 1) <= same);
 }
@@ -196,17 +195,17 @@ double TimeAxis::length_of(int step) const {
   if (const Insertion* inserted = insertion(step)) return inserted->length;
   const double length = time_of(step) - time_of(step - 1);
   const double asked = length_in(stretches_.back());
-  return std::abs(length - asked) <= rounding * asked ? asked : length;
+  return std::abs(length - asked) <= time_rounding * asked ? asked : length;
 }
 
 double TimeAxis::next_stop(double time) const {
-  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time + rounding * time_->end);
+  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time + time_rounding * time_->end);
   return next == stops_.end() ? time_->end : *next;
 }
 
 double TimeAxis::choose(int step, double time, double longest) {
   const double stop = next_stop(time);
-  const int count = std::max(1, static_cast<int>(std::ceil((stop - time) / longest - rounding)));
+  const int count = std::max(1, static_cast<int>(std::ceil((stop - time) / longest - time_rounding)));
   double length = (stop - time) / count;
   drop_insertions_after(step - 1);
   // Rounding is no reason for another Jacobian.
@@ -258,7 +257,7 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vect
     return true;
   }
   // A run that ended between two steps of its stretch, its last one cut short, goes on from that end.
-  const bool between = time_ != nullptr && std::abs(time_of(last) - time) > rounding * asked;
+  const bool between = time_ != nullptr && std::abs(time_of(last) - time) > time_rounding * asked;
   if (changed || between) {
     drop_insertions_after(last);
     if (insertion(last) != nullptr) insertions_.pop_back();  // from here the new steps are planned

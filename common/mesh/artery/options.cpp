@@ -8,12 +8,11 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/names.hpp"
+#include "math/pi.hpp"
 
 namespace fsi {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Level {
   const char* name;

@@ -5,13 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "math/pi.hpp"
 #include "mesh/mirror.hpp"
 
 namespace fsi {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A point of the sector in its image number `image`: every second one is turned, the others are turned and mirrored.
 Point image_of(const Point& x, int image, int degrees) {

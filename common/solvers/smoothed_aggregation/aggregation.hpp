@@ -6,6 +6,9 @@
 
 namespace fsi {
 
+/// Products for the largest eigenvalue that a smoother or a prolongation is scaled by: a few percent will do.
+inline constexpr int eigenvalue_iterations = 12;
+
 /// Which entries couple strongly, |a_ij| > threshold sqrt(|a_ii a_jj|); the diagonal always does.
 std::vector<char> strong_entries(const CsrMatrix<double>& a, const std::vector<double>& diagonal, double threshold);
 

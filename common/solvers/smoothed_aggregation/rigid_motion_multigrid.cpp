@@ -17,8 +17,6 @@ namespace fsi {
 
 namespace {
 
-constexpr int eigenvalue_iterations = 12;  // a few percent will do
-
 template <int n>
 constexpr int modes_of = RigidMotionMultigrid<n>::modes;
 

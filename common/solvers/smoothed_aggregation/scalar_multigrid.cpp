@@ -14,8 +14,6 @@ namespace fsi {
 
 namespace {
 
-constexpr int eigenvalue_iterations = 12;  // a few percent will do
-
 /// Largest eigenvalue of D^-1 A.
 double largest_eigenvalue_of(const CsrMatrix<double>& a, const std::vector<double>& diagonal) {
   return largest_eigenvalue(rough_vector(a.rows()), eigenvalue_iterations, [&](const auto& x, auto& y) {
