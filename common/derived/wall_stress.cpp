@@ -141,7 +141,11 @@ class WallStressOf : public WallStress<Element::components> {
     all.cauchy.assign(static_cast<std::size_t>(node_count_), Mat3<double>{});
     if (has_fibres())
       for (auto& family : all.of_fibres) family.assign(static_cast<std::size_t>(node_count_), 0.0);
-    for (const auto& layer : layers_) std::visit([&](const auto& law) { add(law, layer, wall, all); }, layer.law);
+    std::vector<double> buffer;
+    for (const auto& layer : layers_) {
+      const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
+      std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
+    }
     if (wall_.nodes().share) update_copies(all);
     return all;
   }
@@ -174,8 +178,6 @@ class WallStressOf : public WallStress<Element::components> {
   template <class Law>
   void add(const Law& law, const StressLayer& layer, const std::vector<double>& wall, WallStresses& all) const {
     const auto& nodes = layer.gradients.nodes();
-    std::vector<double> buffer;
-    const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
     for (std::size_t first = 0; first < nodes.size(); first += pack_width) {
       const std::size_t filled = std::min<std::size_t>(pack_width, nodes.size() - first);
       Mat3<Pack> grad_d;
@@ -184,13 +186,13 @@ class WallStressOf : public WallStress<Element::components> {
       for (std::size_t lane = 0; lane < pack_width; ++lane) {
         const std::size_t i = first + std::min(lane, filled - 1);
         const auto l = static_cast<int>(lane);
-        const auto h = layer.gradients.gradient<Mixed>(i, reached);
+        const auto h = layer.gradients.gradient<Mixed>(i, wall);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) grad_d(r, c).set(l, h(r, c));
         pressure.set(l, wall[Mixed::scalar(nodes[i])]);
         for (int family = 0; family < 2; ++family)
           for (int k = 0; k < 3; ++k)
-            fibres.direction[family][k].set(l, !layer.has_fibres ? 0.0 : layer.fibres[i][family][k]);
+            fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
       }
       const Mat3<Pack> piola = piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
       const Deformation<Pack> f = deformation(grad_d);
@@ -204,7 +206,7 @@ class WallStressOf : public WallStress<Element::components> {
         for (int r = 0; r < 3; ++r)  // symmetric but for rounding
           for (int c = 0; c < 3; ++c) sigma(r, c) = 0.5 * (cauchy(r, c)[l] + cauchy(c, r)[l]);
         all.cauchy[node] = all.cauchy[node] + share_[node] * sigma;
-        if (!layer.has_fibres) continue;
+        if (layer.fibres.empty()) continue;
         for (std::size_t family = 0; family < 2; ++family) {
           Vec3<double> a{};
           for (int r = 0; r < 3; ++r)

@@ -142,14 +142,19 @@ class EnergyBalance {
     scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures, rows);
     double power = 0;
     for (const auto& inflow : scene_.inflows)
-      for (const int node : inflow.nodes()) {
-        if (!scene_.fluid->nodes().owns(node)) continue;
+      for (const int node : own_nodes(inflow))
         for (int k = 0; k < n; ++k) {
           const std::size_t at = MixedLayout<n>::vector(node, k);
           power += rows[at] * balance.at.fluid[at];
         }
-      }
     return power;
+  }
+
+  std::vector<int> own_nodes(const PrescribedInflow<n>& inflow) const {
+    std::vector<int> own;
+    for (const int node : inflow.nodes())
+      if (scene_.fluid->nodes().owns(node)) own.push_back(node);
+    return own;
   }
 
   void add_wall(const State& state, const Balance& balance, double weight, double step,

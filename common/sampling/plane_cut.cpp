@@ -24,11 +24,9 @@ constexpr int most_vertices = 4;    // of a cell
 struct Sums {
   double flow = 0, area = 0;
   double pressure = 0;  ///< times area
-};
 
-PlaneRow row_of(const Sums& sums) {
-  return {sums.flow, sums.area > 0 ? sums.pressure / sums.area : 0, sums.area};
-}
+  PlaneRow row() const { return {flow, area > 0 ? pressure / area : 0, area}; }
+};
 
 /// What a process sees of a connected piece.
 struct SeenPiece {
@@ -78,14 +76,7 @@ class PlaneCutOf : public PlaneCut {
     const auto cut = cut_cells(f);
     if (cut.empty()) return {};
     const auto piece = pieces_of_cut<Dim, Order>(cells_, cut, [&](int cell) { return control_values(f, cell); });
-    int chosen = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < cut.size(); ++k)
-      if (nearer(*x, f, cut[k], least)) chosen = piece[k];
-    Sums sums;
-    for (std::size_t k = 0; k < cut.size(); ++k)
-      if (piece[k] == chosen) add(*x, f, cut[k], fluid, sums);
-    return row_of(sums);
+    return integrals(*x, f, cut, piece, nearest_piece(*x, f, cut, piece), fluid).row();
   }
 
   /// The number of pieces; of each how near it is and its sums over the cells that are counted here; the number of cut
@@ -98,9 +89,11 @@ class PlaneCutOf : public PlaneCut {
     const auto piece = pieces_of_cut<Dim, Order>(cells_, cut, [&](int cell) { return control_values(f, cell); });
     std::vector<SeenPiece> seen(cut.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1);
     std::vector<double> shared;
+    for (std::size_t p = 0; p < seen.size(); ++p) {
+      nearest_piece(*x, f, cut, piece, static_cast<int>(p), seen[p].away);
+      seen[p].sums = integrals(*x, f, cut, piece, static_cast<int>(p), fluid);
+    }
     for (std::size_t k = 0; k < cut.size(); ++k) {
-      nearer(*x, f, cut[k], seen[piece[k]].away);
-      if (here_->counted.empty() || here_->counted[cut[k]] != 0) add(*x, f, cut[k], fluid, seen[piece[k]].sums);
       if (!here_->share) continue;
       const Cell& cell = cells_[cut[k]];
       if (std::all_of(cell.begin(), cell.end(), [&](int node) { return here_->owns(node); })) continue;
@@ -126,43 +119,32 @@ class PlaneCutOf : public PlaneCut {
       for (int k = 0; k < Dim; ++k) (*now)[a][axes_[k]] += mesh[VectorLayout<Dim>::vector(static_cast<int>(a), k)];
     return now;
   }
-  /// Adds the part of the plane in a cell.
-  void add(const std::vector<Point>& x, const std::vector<double>& f, int number, const std::vector<double>& fluid,
-           Sums& to) const {
-    const Cell& cell = cells_[number];
-    const Map map = map_of(x, number);
-    cut_cell<Dim, Order>(at_cell(f, number), [&](const CutPiece<Dim>& part) {
-      for_points_of<Dim, Order>(part, map, [&](const CutPoint<Dim>& point) {
-        const double weight = side_ * (turned_ ? 2 * pi * point.at[0] : 1);
-        const auto shape = Map::shape(point.place);
-        for (std::size_t a = 0; a < cell.size(); ++a)
-          for (int c = 0; c < Dim; ++c)
-            to.flow += weight * shape[a] * point.area[axes_[c]] * fluid[MixedLayout<Dim>::vector(cell[a], c)];
-        const double area = weight * dot(point.area, normal_);
-        to.area += area;
-        for (int a = 0; a <= Dim; ++a) to.pressure += area * point.place[a] * fluid[MixedLayout<Dim>::scalar(cell[a])];
+  /// Over the cells of a piece that are counted here.
+  Sums integrals(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
+                 const std::vector<int>& piece, int chosen, const std::vector<double>& fluid) const {
+    Sums sums;
+    double pressure = 0;
+    for (std::size_t k = 0; k < cut.size(); ++k) {
+      if (piece[k] != chosen || !is_counted(cut[k])) continue;
+      const Cell& cell = cells_[cut[k]];
+      const Map map = map_of(x, cut[k]);
+      cut_cell<Dim, Order>(at_cell(f, cut[k]), [&](const CutPiece<Dim>& part) {
+        for_points_of<Dim, Order>(part, map, [&](const CutPoint<Dim>& point) {
+          const double weight = side_ * (turned_ ? 2 * pi * point.at[0] : 1);
+          const auto shape = Map::shape(point.place);
+          for (std::size_t a = 0; a < cell.size(); ++a)
+            for (int c = 0; c < Dim; ++c)
+              sums.flow += weight * shape[a] * point.area[axes_[c]] * fluid[MixedLayout<Dim>::vector(cell[a], c)];
+          const double area = weight * dot(point.area, normal_);
+          sums.area += area;
+          for (int a = 0; a <= Dim; ++a) pressure += area * point.place[a] * fluid[MixedLayout<Dim>::scalar(cell[a])];
+        });
       });
-    });
+    }
+    sums.pressure = pressure;
+    return sums;
   }
-  /// Whether the plane's origin is nearer to the cut of a cell than `least`, which is then set to that.
-  bool nearer(const std::vector<Point>& x, const std::vector<double>& f, int cell, double& least) const {
-    bool found = false;
-    const Map map = map_of(x, cell);
-    cut_cell<Dim, Order>(at_cell(f, cell), [&](const CutPiece<Dim>& part) {
-      const auto& c = part.corners;
-      double away = distance(origin_, map.at(c[0]));
-      double over = 0;  // not a number in pieces without extent
-      if constexpr (Dim == 3)
-        over = distance_to_triangle(origin_, map.at(c[0]), map.at(c[1]), map.at(c[2]));
-      else
-        over = distance_to_segment(origin_, map.at(c[0]), map.at(c[1]));
-      if (over < away) away = over;
-      if (away >= least) return;
-      least = away;
-      found = true;
-    });
-    return found;
-  }
+  bool is_counted(int cell) const { return !here_ || here_->counted.empty() || here_->counted[cell] != 0; }
   Map map_of(const std::vector<Point>& x, int cell) const {
     Map map;
     for (std::size_t i = 0; i < map.x.size(); ++i) map.x[i] = x[cells_[cell][i]];
@@ -202,6 +184,34 @@ class PlaneCutOf : public PlaneCut {
       if (below > 0 && below < static_cast<std::ptrdiff_t>(values.size())) cut.push_back(static_cast<int>(c));
     }
     return cut;
+  }
+  int nearest_piece(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
+                    const std::vector<int>& piece) const {
+    double least = std::numeric_limits<double>::infinity();
+    return nearest_piece(x, f, cut, piece, -1, least);
+  }
+  /// Of all pieces, or of one alone. \param least  that are nearer than this, mm, which becomes how near it is
+  int nearest_piece(const std::vector<Point>& x, const std::vector<double>& f, const std::vector<int>& cut,
+                    const std::vector<int>& piece, int alone, double& least) const {
+    int nearest = 0;
+    for (std::size_t k = 0; k < cut.size(); ++k) {
+      if (alone >= 0 && piece[k] != alone) continue;
+      const Map map = map_of(x, cut[k]);
+      cut_cell<Dim, Order>(at_cell(f, cut[k]), [&](const CutPiece<Dim>& part) {
+        const auto& c = part.corners;
+        double away = distance(origin_, map.at(c[0]));
+        double over = 0;  // not a number in pieces without extent
+        if constexpr (Dim == 3)
+          over = distance_to_triangle(origin_, map.at(c[0]), map.at(c[1]), map.at(c[2]));
+        else
+          over = distance_to_segment(origin_, map.at(c[0]), map.at(c[1]));
+        if (over < away) away = over;
+        if (away >= least) return;
+        least = away;
+        nearest = piece[k];
+      });
+    }
+    return nearest;
   }
 
   const std::vector<Point>& nodes_;  ///< of the part
@@ -266,7 +276,7 @@ std::vector<PlaneRow> rows_of_messages(const std::vector<double>& messages, std:
       sums.area += seen[i].sums.area;
       sums.pressure += seen[i].sums.pressure;
     }
-    rows.push_back(row_of(sums));
+    rows.push_back(sums.row());
   }
   return rows;
 }

@@ -22,6 +22,7 @@
 #include "mesh/sampling.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
+#include "support/vessels.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi::test {
@@ -273,6 +274,41 @@ TYPED_TEST(SharedScene, HintsAreTheSameAtAllProcesses) {
   const auto known = hint(*twins.whole, [](Solution level) { return level; });
   EXPECT_FALSE(known.empty());
   EXPECT_EQ(hint(*twins.here, [&](const Solution& level) { return twins.restricted_level(level); }), known);
+}
+
+// Both legs of a U are cut, each perhaps by several processes: the one near the origin counts, and all of it.
+TEST(SharedPlane, IsThePieceNearestToItsOriginOfAllProcesses) {
+  constexpr double bend = 5, pi = 3.14159265358979323846;
+  auto vessel = straight_vessel<1>(bend * pi, 2, 24);
+  bend_about(bend, vessel.part);
+  TetrahedralMesh mesh;
+  mesh.nodes = vessel.part.nodes;
+  mesh.cells = vessel.part.cells;
+  mesh.regions = {"fluid"};
+  mesh.cell_region.assign(mesh.cells.size(), 0);
+  const auto whole = submesh(mesh, {0});
+  const MeshShare share = share_mesh(mesh, Communicator::world());
+  const PartRestriction restriction(whole, share);
+  std::vector<int> cells;
+  const auto here = restriction.part(whole, cells);
+  const auto flow = random_field(whole.nodes, 4, 1, 0.1, 3);
+  std::vector<std::shared_ptr<const PlaneCut>> planes, planes_here;
+  for (const Point& origin : {Point{0, 0, 0.5}, Point{2 * bend, 0, 0.5}, Point{bend, 0, bend}})
+    for (const Point& normal : {Point{0, 0, 1}, Point{1, 0, 0.2}}) {
+      planes.push_back(plane_cut(whole, origin, normal, false));
+      ASSERT_TRUE(planes.back());
+      planes_here.push_back(planes.back()->through(here));
+    }
+  std::vector<const PlaneCut*> all;
+  for (const auto& plane : planes_here) all.push_back(plane.get());
+  const auto rows = look_at(all, {}, restriction.field(flow, 4), Communicator::world());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const PlaneRow known = planes[i]->look({}, flow);
+    EXPECT_NEAR(rows[i].flow, known.flow, 1e-12) << i;
+    EXPECT_NEAR(rows[i].area, known.area, 1e-12) << i;
+    EXPECT_NEAR(rows[i].pressure, known.pressure, 1e-12) << i;
+  }
+  EXPECT_GT(std::abs(rows[0].flow - rows[2].flow), 1e-3);  // another leg
 }
 
 }  // namespace
