@@ -83,6 +83,7 @@ struct PetscSolver<n>::Iterative {
     // By measurement: half the seconds of BoomerAMG (docs/solvers.md).
     petsc_check(PCSetType(pc, PCGAMG));
     petsc_check(PCGAMGSetCoarseEqLim(pc, 400));
+    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_FALSE));  // a restart could not
     petsc_check(KSPSetFromOptions(pressure));
   }
 
