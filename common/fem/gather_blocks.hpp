@@ -30,9 +30,8 @@ void gather_blocks(Builder& builder, const BlockMatrix<Rows, Columns>& matrix, c
 /// The same for a matrix whose blocks hold one number per component of space, as the mesh motion's.
 /// \param frames  in which rows and columns are counted; null: along the axes of space
 template <class Builder, int Components>
-void gather_diagonal_blocks(Builder& builder, const BlockMatrix<1, Components>& matrix,
-                            const UnknownMap& rows, const UnknownMap& columns,
-                            const NodalFrames<Components>* frames = nullptr) {
+void gather_diagonal_blocks(Builder& builder, const BlockMatrix<1, Components>& matrix, const UnknownMap& rows,
+                            const UnknownMap& columns, const NodalFrames<Components>* frames = nullptr) {
   const auto& graph = *matrix.graph;
   for (int a = 0; a < graph.rows(); ++a)
     for (int at = graph.offsets[a]; at < graph.offsets[a + 1]; ++at) {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/dimensions.hpp"
+#include "petsc_solver/petsc_options.hpp"
 #include "system/direct_linear_solver.hpp"
 #ifdef FSI_WITH_MPI
 #include "petsc_solver/petsc_direct_solver.hpp"
@@ -26,7 +27,8 @@ std::unique_ptr<LinearSolver> make_petsc([[maybe_unused]] const Blocks<n>& block
 #ifdef FSI_WITH_MPI
   return std::make_unique<PetscSolver<n>>(blocks, fast);
 #else
-  throw InputError("", "linear_solver", "\"petsc\" is not in this build, which is without MPI (FSI_MPI=OFF)",
+  throw InputError(case_of_petsc_options(), "linear_solver",
+                   "\"petsc\" is not in this build, which is without MPI (FSI_MPI=OFF)",
                    "configure with -DFSI_MPI=ON and build again, or give \"fast\"");
 #endif
 }

@@ -97,6 +97,7 @@ void PetscMomentumSolver<n>::set_up_wall() {
     PC pc = nullptr;
     petsc_check(KSPGetPC(wall_->solver, &pc));
     petsc_check(PCSetType(pc, PCGAMG));
+    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_FALSE));  // a restart could not
   }
   petsc_check(KSPSetOperators(wall_->solver, matrix, matrix));
   if (first) petsc_check(KSPSetFromOptions(wall_->solver));

@@ -39,6 +39,10 @@ void set_petsc_options(const std::string& options, const std::string& case_file)
   given.case_file = case_file;
 }
 
+const std::string& case_of_petsc_options() {
+  return given.case_file;
+}
+
 bool has_petsc_options() {
   return !given.options.empty();
 }

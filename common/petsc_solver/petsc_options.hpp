@@ -9,6 +9,8 @@ namespace fsi {
 /// \param options    as on PETSc's command line: "-fsi_..." with values
 /// \param case_file  named in errors
 void set_petsc_options(const std::string& options, const std::string& case_file);
+/// What was set, for errors that name the case. \returns its file
+const std::string& case_of_petsc_options();
 
 /// Parts of the solver that read options of their own, by prefix.
 enum class PetscPart {

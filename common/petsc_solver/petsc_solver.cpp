@@ -80,7 +80,10 @@ struct PetscSolver<n>::Iterative {
     petsc_check(KSPSetType(pressure, KSPPREONLY));
     PC pc = nullptr;
     petsc_check(KSPGetPC(pressure, &pc));
-    petsc_check(PCSetType(pc, PCGAMG));  // half the seconds of BoomerAMG here (docs/solvers.md)
+    // By measurement: half the seconds of BoomerAMG (docs/solvers.md).
+    petsc_check(PCSetType(pc, PCGAMG));
+    petsc_check(PCGAMGSetCoarseEqLim(pc, 400));
+    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_FALSE));  // a restart could not
     petsc_check(KSPSetFromOptions(pressure));
   }
 

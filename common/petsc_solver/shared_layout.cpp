@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "petsc_solver/petsc_options.hpp"
 
 namespace fsi {
 
@@ -31,7 +32,8 @@ SharedLayout<n>::SharedLayout(const JacobianBlocks<n>& blocks, const VelocityPre
   whole_velocities = whole[0];
   whole_pressures = whole[1];
   if (n * whole_velocities + whole_pressures > std::numeric_limits<PetscInt>::max())
-    throw InputError("", "linear_solver", "more unknowns than PETSc counts as it is installed", "take a coarser mesh");
+    throw InputError(case_of_petsc_options(), "linear_solver", "more unknowns than PETSc counts as it is installed",
+                     "take a coarser mesh");
   const std::int64_t v_before = processes.sum_before(velocities), p_before = processes.sum_before(pressures);
   first_velocity = static_cast<PetscInt>(v_before);
   velocity_rows = static_cast<PetscInt>(n * velocities);

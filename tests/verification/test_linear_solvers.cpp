@@ -70,7 +70,14 @@ void expect_solution(LinearisedScene<n>& system, const std::string& name) {
   EXPECT_LT(norm(x), 1e-7 * norm(system.solution())) << name;
 }
 
-class EveryLinearSolver : public ::testing::TestWithParam<std::string> {};
+class EveryLinearSolver : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+#ifndef FSI_WITH_MPI
+    if (GetParam() == "petsc") GTEST_SKIP() << "a build without MPI";
+#endif
+  }
+};
 
 TEST_P(EveryLinearSolver, AgreesWithTheFactorisationOfADeformedArtery) {
   expect_solution(deformed("artery"), GetParam());

@@ -21,7 +21,7 @@ MULTILEVEL = {
     "amli_gmres": "AMLI_GMRES",
     "amli_fgmres": "AMLI_FGMRES",
 }
-METHODS = ("direct", "fast", *BLOCK_PRECONDITIONERS, *EXACT.values(), *MULTILEVEL)
+METHODS = ("direct", "fast", "petsc", *BLOCK_PRECONDITIONERS, *EXACT.values(), *MULTILEVEL)
 
 
 def pick(option: str, text: str, known: Sequence[str]) -> List[str]:

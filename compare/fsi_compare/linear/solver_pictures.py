@@ -125,7 +125,7 @@ def _paper_line(material: str) -> dict:
 
 def _counted(grid: Grid) -> List[str]:
     """Methods whose iterations mean something; those with exact sub-solves stay in the table."""
-    return [name for name in grid.methods if name in (*BLOCK_PRECONDITIONERS, *MULTILEVEL, "fast")]
+    return [name for name in grid.methods if name in (*BLOCK_PRECONDITIONERS, *MULTILEVEL, "fast", "petsc")]
 
 
 def _curve(grid: Grid, material: str, key: System, method: str, quantity: str) -> List[Tuple[float, float]]:

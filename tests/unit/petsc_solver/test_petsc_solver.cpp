@@ -170,7 +170,7 @@ TEST(PetscSolver, StepsOfDifferentLength) {
   DirectLinearSolver<3> direct(system.blocks());
   std::vector<std::vector<double>> solutions;
   std::vector<int> iterations;
-  for (double step : {0.125, 0.02, 0.125}) {
+  for (double step : {0.125, 0.02}) {
     State state = scene.at_rest();
     StepData data;
     data.rates = scene.integrator->rates(state, step);
@@ -191,8 +191,11 @@ TEST(PetscSolver, StepsOfDifferentLength) {
     solutions.push_back(x);
     iterations.push_back(report.iterations);
   }
-  EXPECT_EQ(solutions[2], solutions[0]);
-  EXPECT_EQ(iterations[2], iterations[0]);
+  PetscSolver<3> fresh(system.blocks());  // as after a restart
+  fresh.update();
+  std::vector<double> x;
+  EXPECT_EQ(fresh.solve(system.residual(), 1e-10, x).iterations, iterations.back());
+  EXPECT_EQ(x, solutions.back());
   EXPECT_GT(relative_difference(solutions[1], solutions[0]), 0.1);
 }
 

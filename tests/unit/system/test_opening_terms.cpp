@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "petsc_solver/general_solvers.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
