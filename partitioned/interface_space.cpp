@@ -22,6 +22,15 @@ double InterfaceSpace::norm(const std::vector<double>& x) const {
   return std::sqrt(dot(x, x));
 }
 
+std::vector<double> InterfaceSpace::norms(const std::vector<const std::vector<double>*>& vectors) const {
+  std::vector<double> lengths;
+  lengths.reserve(vectors.size());
+  for (const auto* x : vectors) lengths.push_back(own_dot(*x, *x));
+  processes_->sum(lengths);
+  for (double& length : lengths) length = std::sqrt(length);
+  return lengths;
+}
+
 std::vector<double> InterfaceSpace::dots(const std::vector<std::vector<double>>& q,
                                          const std::vector<double>& x) const {
   std::vector<double> products;

@@ -27,6 +27,8 @@ class InterfaceSpace {
 
   double dot(const std::vector<double>& x, const std::vector<double>& y) const;
   double norm(const std::vector<double>& x) const;
+  /// Of each of several vectors.
+  std::vector<double> norms(const std::vector<const std::vector<double>*>& vectors) const;
   /// q_i . x for each i.
   std::vector<double> dots(const std::vector<std::vector<double>>& q, const std::vector<double>& x) const;
   /// v -= Q Q^T v for orthonormal columns q, a sweep of Gram and Schmidt: the modified one where vectors are whole, else

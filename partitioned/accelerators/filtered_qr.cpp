@@ -10,9 +10,10 @@ namespace fsi {
 FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter,
                        const InterfaceSpace& space)
     : space_(space) {
+  const std::vector<double> lengths = space_.norms(columns);
   for (std::size_t j = 0; j < columns.size(); ++j) {
     std::vector<double> v = *columns[j];
-    const double length = space_.norm(v);
+    const double length = lengths[j];
     if (!(length > 0) || !std::isfinite(length)) continue;
     std::vector<double> r(q_.size() + 1, 0.0);
     for (int pass = 0; pass < 2; ++pass) {  // the second, where much cancels, makes Q orthogonal to rounding
