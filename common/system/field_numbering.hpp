@@ -40,6 +40,16 @@ struct Numbering {
   UnknownMap fluid_rows, fluid;  ///< momentum and continuity; (u, p_f); mixed layout
   UnknownMap wall_rows, wall;    ///< momentum and volume; (d_s, p_s); mixed layout
 
+  /// What the system has where this process has none of it, be it for want of nodes: share_out() sets it.
+  struct Elsewhere {
+    bool mesh = false, fluid = false, wall = false, interface = false;
+  };
+  Elsewhere elsewhere;
+  /// Whether the system has unknowns of a field, here or at another process: the same at all of them.
+  bool has_mesh() const { return !mesh.empty() || elsewhere.mesh; }
+  bool has_fluid() const { return !fluid.empty() || elsewhere.fluid; }
+  bool has_wall() const { return !wall.empty() || elsewhere.wall; }
+
   /// Entries of `fluid` whose unknown is the interface's displacement.
   std::vector<std::size_t> interface_velocities;
   /// Entries of `mesh` whose unknown is the interface's velocity.
@@ -49,11 +59,12 @@ struct Numbering {
   /// Raised when factors change: what was made of them is then out of date.
   int version = 0;
 
-  /// Takes over the kinematics of a step. \returns whether factors have changed
+  /// Takes over the kinematics of a step. \returns whether factors have changed, here or at another process
   bool follow(const InterfaceKinematics& of_step) {
     const bool changed = interface.period != of_step.period;
     interface = of_step;
-    if (!changed || (interface_velocities.empty() && interface_displacements.empty())) return false;
+    const bool here = !interface_velocities.empty() || !interface_displacements.empty();
+    if (!changed || (!here && !elsewhere.interface)) return false;
     for (std::size_t entry : interface_velocities) fluid[entry].factor = interface.rate();
     for (std::size_t entry : interface_displacements) mesh[entry].factor = interface.period;
     ++version;

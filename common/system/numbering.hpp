@@ -95,6 +95,10 @@ void share_out(const Scene<n>& scene, Numbering& numbering) {
   for (UnknownMap* rows : {&numbering.mesh_rows, &numbering.fluid_rows, &numbering.wall_rows})
     for (Unknown& row : *rows)
       if (row.index >= 0) row.index = own[row.index] != 0 ? place[row.index] : -1;
+  const auto elsewhere = [&](bool here) { return processes.any(here); };
+  numbering.elsewhere = {
+      elsewhere(!numbering.mesh.empty()), elsewhere(!numbering.fluid.empty()), elsewhere(!numbering.wall.empty()),
+      elsewhere(!numbering.interface_velocities.empty() || !numbering.interface_displacements.empty())};
   numbering.first = processes.sum_before(numbering.size);
   numbering.whole = processes.sum(numbering.size);
   numbering.copies.assign(all - static_cast<std::size_t>(numbering.size), -1);

@@ -26,11 +26,11 @@ System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const 
     : name_(std::move(name)),
       scene_(scene),
       numbering_(std::move(numbering)),
-      derivatives_(numbering_.fluid.empty()  ? FluidDerivatives::none
-                   : numbering_.mesh.empty() ? FluidDerivatives::fluid
-                                             : FluidDerivatives::fluid_and_domain),
+      derivatives_(!numbering_.has_fluid()  ? FluidDerivatives::none
+                   : !numbering_.has_mesh() ? FluidDerivatives::fluid
+                                            : FluidDerivatives::fluid_and_domain),
       interface_(interface_pairs(scene)),
-      mesh_tangent_(scene.nonlinear_mesh_motion && !numbering_.mesh_rows.empty()
+      mesh_tangent_(scene.nonlinear_mesh_motion && numbering_.has_mesh()
                         ? MeshMotionTangent<n>(scene.nonlinear_mesh_motion->graph())
                         : MeshMotionTangent<n>()),
       norm_(norm),
@@ -43,7 +43,7 @@ template <int n>
 std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>& make_solver) {
   std::unique_ptr<LinearSolver> solver =
       make_solver ? make_solver(blocks()) : std::make_unique<DirectLinearSolver<n>>(blocks());
-  if (numbering_.fluid_rows.empty()) return solver;
+  if (!numbering_.has_fluid()) return solver;
   scene_.for_each_law(
       [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
   if (opening_terms_.empty()) return solver;
@@ -54,17 +54,17 @@ std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>&
 template <int n>
 JacobianBlocks<n> System<n>::blocks() {
   JacobianBlocks<n> blocks{numbering_};
-  if (!numbering_.wall_rows.empty()) {
+  if (numbering_.has_wall()) {
     blocks.wall = &scene_.wall->jacobian();
     blocks.wall_nodes = &scene_.wall->nodes();
   }
-  if (!numbering_.fluid_rows.empty()) {
+  if (numbering_.has_fluid()) {
     auto& jacobian = scene_.fluid->jacobian(derivatives_);
     blocks.fluid = &jacobian.fluid;
-    if (!numbering_.mesh.empty()) blocks.shape_derivatives = &jacobian.shape_derivatives;
+    if (numbering_.has_mesh()) blocks.shape_derivatives = &jacobian.shape_derivatives;
     blocks.fluid_nodes = &scene_.fluid->nodes();
   }
-  if (!numbering_.mesh_rows.empty()) {
+  if (numbering_.has_mesh()) {
     if (scene_.nonlinear_mesh_motion)
       blocks.mesh_tangent = &mesh_tangent_;
     else
@@ -88,7 +88,7 @@ void System<n>::work_on(State& state, const StepData& data) {
 
 template <int n>
 double System<n>::evaluate() {
-  if (!numbering_.mesh_rows.empty()) scene_.renew_constant_operators();
+  if (numbering_.has_mesh()) scene_.renew_constant_operators();
   const auto phase = scene_.profile.phase("assembly: " + name_ + " residual");
   const AssemblyResult result = assemble(false);
   double sum = 0;
@@ -154,9 +154,9 @@ double System<n>::solve(double tolerance) {
 
 template <int n>
 void System<n>::move(double step) {
-  if (!numbering_.mesh.empty()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
-  if (!numbering_.fluid.empty()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
-  if (!numbering_.wall.empty()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
+  if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
+  if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
+  if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
 }
 
 template <int n>
@@ -188,9 +188,9 @@ void System<n>::add_rows(const UnknownMap& map, const NodalFrames<n>& frames, co
 
 template <int n>
 double System<n>::size() const {
-  return std::sqrt(processes().sum(weighted<Vector>(mesh_volumes_, state_->now.mesh, !numbering_.mesh.empty()) +
-                                   weighted<Mixed>(fluid_volumes_, state_->now.fluid, !numbering_.fluid.empty()) +
-                                   weighted<Mixed>(wall_volumes_, state_->now.wall, !numbering_.wall.empty())));
+  return std::sqrt(processes().sum(weighted<Vector>(mesh_volumes_, state_->now.mesh, numbering_.has_mesh()) +
+                                   weighted<Mixed>(fluid_volumes_, state_->now.fluid, numbering_.has_fluid()) +
+                                   weighted<Mixed>(wall_volumes_, state_->now.wall, numbering_.has_wall())));
 }
 
 template <int n>
@@ -211,7 +211,7 @@ bool System<n>::negligible(double, double share) const {
   };
   measure(numbering_.mesh, mesh_volumes_, state_->now.mesh, Vector::entries);
   measure(numbering_.fluid, fluid_volumes_, state_->now.fluid, Mixed::entries);
-  if (!numbering_.wall.empty())
+  if (numbering_.has_wall())
     measure(numbering_.wall, wall_volumes_, scene_.wall->from_unloaded(state_->now.wall), Mixed::entries);
   processes().sum(sums);
   for (std::size_t i = 0; i < sums.size(); i += 2)
@@ -265,7 +265,7 @@ double System<n>::rounding() {
   };
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
-  if (!numbering_.wall.empty()) values(numbering_.wall, scene_.wall->from_unloaded(state_->now.wall));
+  if (numbering_.has_wall()) values(numbering_.wall, scene_.wall->from_unloaded(state_->now.wall));
   add_absolute_products(x, terms);
   double sum = 0;
   for (double t : terms) sum += t * t;
@@ -283,7 +283,7 @@ template <int n>
 AssemblyResult System<n>::assemble(bool derivatives) {
   AssemblyResult result;
   residual_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
-  if (!numbering_.mesh_rows.empty()) {
+  if (numbering_.has_mesh()) {
     mesh_residual_.resize(state_->now.mesh.size());
     if (scene_.nonlinear_mesh_motion) {
       result.include(scene_.nonlinear_mesh_motion->assemble(state_->now.mesh, mesh_residual_,
@@ -294,7 +294,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     }
     add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_);
   }
-  if (!numbering_.fluid_rows.empty()) {
+  if (numbering_.has_fluid()) {
     assert(scene_.fluid);
     result.include(scene_.fluid->assemble(scene_.fluid_input(*state_, data_->rates), data_->opening_pressures,
                                           fluid_residual_, derivatives ? derivatives_ : FluidDerivatives::none));
@@ -308,7 +308,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     if (derivatives) linearise_openings();
     if (impedance_) add_impedance(derivatives);
   }
-  if (!numbering_.wall_rows.empty()) {
+  if (numbering_.has_wall()) {
     assert(scene_.wall);
     result.include(scene_.wall->assemble(scene_.wall_input(state_->now, *data_), data_->wall_pressure, state_->now.wall,
                                          wall_residual_, derivatives));
@@ -421,9 +421,9 @@ std::vector<double> System<n>::norm_weights() {
       if (!part.owns(a)) of_nodes[a] = 0;  // others count it
     return of_nodes;
   };
-  if ((!numbering_.fluid.empty() || !numbering_.mesh.empty()) && fluid_volumes_.empty())
+  if ((numbering_.has_fluid() || numbering_.has_mesh()) && fluid_volumes_.empty())
     mesh_volumes_ = fluid_volumes_ = weights_of(scene_.fluid->space(), scene_.fluid->nodes());
-  if (!numbering_.wall.empty() && wall_volumes_.empty())
+  if (numbering_.has_wall() && wall_volumes_.empty())
     wall_volumes_ = weights_of(scene_.wall->space(), scene_.wall->nodes());
   add(numbering_.mesh, mesh_volumes_, Vector::entries);
   add(numbering_.fluid, fluid_volumes_, Mixed::entries);

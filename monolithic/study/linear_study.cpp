@@ -117,6 +117,8 @@ class LinearStudy {
         loaded_(load_scene<n>(setup)),
         scene_(loaded_.scene.get()),
         loads_(setup) {
+    if (!scene_->processes().is_alone())
+      throw InputError("", "--linear-systems", "works on one process", "start it without mpirun");
     if (!scene_->coupled())
       throw InputError(setup.path.string(), "", "--linear-systems needs a scene of fluid and wall",
                        "give [fluid] and [structure]");

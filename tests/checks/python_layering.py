@@ -22,7 +22,7 @@ FLOORS = (
     ("linear", "gallery"),
     ("studies.running",),
     ("studies.evidence",),
-    ("studies.accuracy", "studies.coupling", "studies.paper", "studies.skip", "studies.stability"),
+    ("studies.accuracy", "studies.coupling", "studies.paper", "studies.scaling", "studies.skip", "studies.stability"),
     ("studies",),
     ("",),
 )

@@ -254,7 +254,7 @@ class Runner:
             settings["mesh.level"] = request.mesh.name
         for name, value in settings.items():
             words += ["--set", f"{name}={toml_value(value)}"]
-        return launched(words, self.processes_of(request), self.threads)
+        return launched(words, self.processes_of(request))
 
     def _finished(self, key: str, request: Request) -> Optional[StudyRun]:
         folder = self._place(key, request)

@@ -15,7 +15,7 @@ neighbours than it has faces, most of them at little more than a point.
 
 import math
 from dataclasses import dataclass
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 from .measured import Measured
 
@@ -79,15 +79,23 @@ class Counted:
 
 @dataclass(frozen=True)
 class Memory:
-    """MiB of a process: base + local (n + h) when it solves, and while it reads base + reading N."""
+    """MiB of a process: base + local (n + h) when it solves, and while it reads reading_base + reading N, where there
+    were meshes of several sizes to tell these."""
 
     base: float
     local: float
-    reading: float
+    reading_base: Optional[float]
+    reading: Optional[float]
+
+    def to_read(self, nodes: float) -> Optional[float]:
+        if self.reading_base is None or self.reading is None:
+            return None
+        return self.reading_base + self.reading * nodes
 
 
-def counted(runs: Sequence[Measured], dimension: int) -> Optional[Counted]:
-    """From the run on one process and the one on most; None where one of them is missing."""
+def counted(runs: Sequence[Measured], dimension: int, others: Sequence[Measured] = ()) -> Optional[Counted]:
+    """From the run on one process and the one on most; None where one of them is missing. `others`: on other meshes, too,
+    for the memory of the reading stage."""
     alone = next((run for run in runs if run.processes == 1), None)
     most = max((run for run in runs if run.processes > 1), key=lambda run: run.processes, default=None)
     if alone is None or most is None:
@@ -109,24 +117,31 @@ def counted(runs: Sequence[Measured], dimension: int) -> Optional[Counted]:
         bytes=1e6 * most.megabytes.mean / max(halo, 1e-9),
         reductions=most.reductions,
         solver_counted=most.solver_counted,
-        memory=_memory(alone, runs),
+        memory=_memory(runs, [*runs, *others]),
     )
 
 
-def _memory(alone: Measured, runs: Sequence[Measured]) -> Optional[Memory]:
-    """Least squares of peak memory over local nodes, of runs of one mesh."""
-    points = [
-        (run.nodes / run.processes + run.halo.mean / run.copies, run.memory.mean)
-        for run in runs
-        if run.memory is not None
-    ]
+def _memory(runs: Sequence[Measured], all_runs: Sequence[Measured]) -> Optional["Memory"]:
+    """Least squares of peak memory over local nodes, of runs of one mesh, and of the reading stage's over whole meshes."""
+    solving = _line(
+        [
+            (run.nodes / run.processes + run.halo.mean / run.copies, run.memory.mean)
+            for run in runs
+            if run.memory is not None
+        ]
+    )
+    reading = _line([(float(run.nodes), run.reading.maximum) for run in all_runs if run.reading is not None])
+    return None if solving is None else Memory(*solving, *(reading or (None, None)))
+
+
+def _line(points: Sequence[Tuple[float, float]]) -> Optional[Tuple[float, float]]:
+    """(value at zero, slope) by least squares, neither negative; None for points of one place."""
     if len({x for x, _ in points}) < 2:
         return None
     mean_x, mean_y = (sum(values) / len(points) for values in zip(*points))
     slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / sum((x - mean_x) ** 2 for x, _ in points)
-    base = max(0.0, mean_y - slope * mean_x)
-    reading = max((run.reading.maximum for run in runs if run.reading is not None), default=0.0)
-    return Memory(base, max(0.0, slope), max(0.0, reading - base) / alone.nodes)
+    slope = max(0.0, slope)
+    return max(0.0, mean_y - slope * mean_x), slope
 
 
 @dataclass(frozen=True)
@@ -190,7 +205,7 @@ def step(counted: Counted, machine: Machine, nodes: int, processes: int) -> Step
         megabytes=sent / 1e6,
         reduction_count=reductions,
         memory=None if memory is None else memory.base + memory.local * (own + halo),
-        reading=None if memory is None else memory.base + memory.reading * nodes,
+        reading=None if memory is None else memory.to_read(nodes),
     )
 
 

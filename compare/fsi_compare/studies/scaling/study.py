@@ -18,7 +18,7 @@ from ..running.study_file import Study
 from ..running.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step
-from .tables import alone, counts_table, model_table, strong_table, weak_efficiency, weak_table
+from .tables import alone, counts_table, short, model_table, strong_table, weak_efficiency, weak_table
 
 GROUPS = ("strong", "weak", "counts", "reference")
 MODEL_KEYS = (
@@ -111,7 +111,8 @@ def evaluate(context: Context) -> int:
 
     strong, weak, counts, reference = (lines(group) for group in GROUPS)
     single = [run for runs in reference for run in runs]
-    models = [(runs, _counted(_with_counts(runs, counts))) for runs in strong]
+    everything = [run for lines_of_group in (strong, weak, counts) for runs in lines_of_group for run in runs]
+    models = [(runs, _counted(_with_counts(runs, counts), everything)) for runs in strong]
     modelled = _modelled([(runs, model) for runs, model in models if model is not None], settings)
 
     report.section("In short")
@@ -171,8 +172,8 @@ def _with_counts(runs: Sequence[Measured], counts: Sequence[Sequence[Measured]])
     return sorted([*runs, *more], key=lambda run: run.processes)
 
 
-def _counted(runs: Sequence[Measured]) -> Optional[Counted]:
-    return counted(runs, _dimension(runs[0].run)) if runs else None
+def _counted(runs: Sequence[Measured], others: Sequence[Measured]) -> Optional[Counted]:
+    return counted(runs, _dimension(runs[0].run), others) if runs else None
 
 
 def _mesh(run: StudyRun) -> str:
@@ -216,7 +217,10 @@ def _in_short(strong: Sequence[Sequence[Measured]], single: Sequence[Measured], 
             continue
         words = f"{runs[0].label}, {one.nodes:,} nodes: "
         if most.processes > 1 and not most.crowded:
-            words += f"{most.processes} processes take a step {one.seconds / most.seconds:.2f} times faster than one. "
+            words += (
+                f"a step on {most.processes} processes takes {most.seconds / one.seconds:.2f} of the time on one (speed-up "
+                f"{one.seconds / most.seconds:.2f}). "
+            )
         elif cores == 1:
             words += "there is one core, so that no speed-up can be measured. "
         fast = _reference(runs, single)
@@ -245,7 +249,7 @@ def _model_in_short(modelled: Sequence[Tuple[str, Step, Step]]) -> List[str]:
     tell: Callable[
         [Step, Step], str
     ] = (
-        lambda one, many: f"{many.nodes:,} nodes on {many.processes:,} processes {one.seconds / many.seconds:.3g} times faster"
+        lambda one, many: f"{many.nodes:,} nodes on {many.processes:,} processes {short(one.seconds / many.seconds)} times faster"
     )
     names = list(dict.fromkeys(name for name, _, _ in modelled))
     return [

@@ -9,6 +9,11 @@ from .model import Step
 MEANINGLESS = "-"  # where there were more processes than cores
 
 
+def short(value: float) -> str:
+    """Three digits, or all before the point."""
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+
+
 def alone(runs: Sequence[Measured]) -> Optional[Measured]:
     return next((run for run in runs if run.processes == 1), None)
 
@@ -273,10 +278,10 @@ def model_table(steps: Sequence[Tuple[str, Step, Step]]) -> Table:
                 f"{step.own:.0f}",
                 f"{step.halo:.0f}",
                 *(
-                    f"{1e3 * value:.3g}"
+                    short(1e3 * value)
                     for value in (step.work, step.latency, step.transfer, step.reductions, step.output, step.seconds)
                 ),
-                f"{speed:.3g}",
+                short(speed),
                 f"{speed / step.processes:.0%}",
                 fixed(step.memory, ".0f"),
                 fixed(step.reading, ".0f"),
