@@ -11,11 +11,11 @@
 
 #include "algebra/block_products.hpp"
 #include "base/error.hpp"
-#include "condensed_solver/fast_or_direct.hpp"
 #include "diagnostics/energy_balance.hpp"
 #include "fem/elements.hpp"
 #include "fluid/fluid_problem.hpp"
 #include "monolithic/coupled_numbering.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "scene/moving_openings.hpp"
 #include "support/differences.hpp"
 #include "support/element_meshes.hpp"
@@ -155,7 +155,7 @@ TYPED_TEST(SurfaceOfElement, AtRestItIsTheOneThatStays) {
   FluidInput in = s.input(rest, s.flow);
   in.mesh_reference = rest.data();
   EXPECT_NEAR(s.moving->kinetic_outflow(in), open.kinetic_outflow(s.part.nodes, s.flow), 1e-13);
-  BackflowFacets<TypeParam> facets(0.5, s.part.nodes, open.facets(), *s.jacobian.fluid.graph);
+  BackflowFacets<TypeParam> facets(0.5, s.part, open.facets(), *s.jacobian.fluid.graph);
   std::vector<double> staying(s.flow.size(), 0.0), rows = staying;
   facets.add(1.3, s.flow.data(), staying.data(), nullptr);
   s.moving->add_backflow(1.3, 0.5, in, rows.data(), nullptr, FluidDerivatives::none);
