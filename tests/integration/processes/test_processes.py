@@ -255,14 +255,6 @@ class Files(ProcessTest):
                 self.assertGreater(len(chosen), 9)
                 self.assertClose(chosen, other)
 
-    def test_have_the_bits_of_a_run_that_was_not_interrupted(self):
-        whole, part = self.run_together(2, self.base / "both", steps=4), self.base / "two"
-        self.run_together(2, part, steps=2)
-        self.run_together(2, part, "--restart", part, steps=4)
-        one, other = (arrays(run / "checkpoint.h5") for run in (whole, part))
-        differ = [name for name in one if not np.array_equal(one[name], other.get(name))]
-        self.assertEqual([name for name in differ if name != "integers/field_entries"], [])
-
     def test_a_checkpoint_that_is_read_is_written_again_as_it_was(self):
         for program in DRIVERS:
             with self.subTest(program=program):
