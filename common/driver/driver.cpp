@@ -268,7 +268,7 @@ class Run {
   /// \throws InputError where a scene is not shared out by all processes
   static const Communicator& shared_by_all(const Scene<n>& scene) {
     if (scene.processes().size() == Communicator::world().size()) return scene.processes();
-    throw InputError("", "mpirun", "this scene works on one process", "start the program by itself");
+    throw InputError("mpirun", "", "this scene works on one process", "start the program by itself");
   }
 
   /// Whether a signal has come to one of the processes: they stop after the same step.
@@ -636,7 +636,7 @@ class Run {
 void require_no_other_task(const OtherTask& other) {
   for (const ExtraOption& option : other.options)
     if ((option.flag != nullptr && *option.flag) || (option.text != nullptr && !option.text->empty()))
-      throw InputError("", option.name, "works on one process", "start the program by itself");
+      throw InputError("mpirun", option.name, "works on one process", "start the program by itself");
 }
 
 /// What to do once a file can be written again.

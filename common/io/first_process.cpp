@@ -48,13 +48,15 @@ Failure failure_of(const std::exception_ptr& exception) {
   }
 }
 
+const std::string named_in_text;  // the file of a message that is put together already
+
 [[noreturn]] void throw_again(const Failure& failure) {
   const std::string& said = failure.parts.at(0);
   switch (failure.kind) {
     case Kind::not_written:
       throw WriteError(said, failure.parts.at(1), failure.parts.at(2), failure.parts.at(3));
     case Kind::bad_input:
-      throw SaidElsewhere<InputError>(InputError("", "", said, ""), said);
+      throw SaidElsewhere<InputError>(InputError(named_in_text, "", said, ""), said);
     case Kind::not_converged:
       throw SaidElsewhere<ConvergenceError>(ConvergenceError(said, ""), said);
     default:

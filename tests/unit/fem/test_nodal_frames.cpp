@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "algebra/gathered_matrix.hpp"
 #include "fem/gather_blocks.hpp"
 #include "fem/held_components.hpp"
 #include "support/random.hpp"
