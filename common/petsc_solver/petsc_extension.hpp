@@ -15,7 +15,7 @@
 namespace fsi {
 
 /// The equations of a mesh motion whose nodes are shared out among processes, or not: conjugate gradients preconditioned
-/// by BoomerAMG for each component alone, by Korn's inequality as good as for a Laplacian but for a constant
+/// by smoothed aggregation (GAMG) for each component alone, by Korn's inequality as good as for a Laplacian but for a constant
 /// [Blaheta1994]. What defeats them, as a tangent that is not positive, is factorised. Options by the prefix -fsi_mesh_.
 /// \tparam n  components of a node
 template <int n>
