@@ -404,7 +404,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:32: partitioned.filter: 1 is out of range; give a number >= 0 and < 1 (part of a difference that "
        "must be new for a quasi-Newton scheme to keep it, default 0.01)"},
       {"SubProblemSolverUnknown", coupled_case, "tolerance = 1e-6", "linear_solver = \"slow\"",
-       "case.toml:32: partitioned.linear_solver: \"slow\" is unknown; did you mean fast? There are fast or direct"},
+       "case.toml:32: partitioned.linear_solver: \"slow\" is unknown; did you mean fast? There are fast, direct or "
+       "petsc"},
       {"FieldUnknown", coupled_case, "\"velocity\"", "\"velocities\"",
        "case.toml:34: output.fields[1]: \"velocities\" is unknown; did you mean velocity? There are displacement, "
        "velocity, pressure, wall_shear_stress, cauchy_stress, principal_stress, von_mises_stress or fibre_stress"},
