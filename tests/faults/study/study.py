@@ -146,6 +146,8 @@ def _absolute(tree, folder):
     """Files are named relative to a study file, which lies elsewhere here."""
     for name, entry in tree["cases"].items():
         if isinstance(entry, dict):
+            if "file" not in entry:
+                continue  # a scene of the gallery
             entry["file"] = str((folder / entry["file"]).resolve())
         else:
             tree["cases"][name] = str((folder / entry).resolve())

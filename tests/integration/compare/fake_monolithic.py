@@ -34,6 +34,7 @@ PAPER = {  # neo-Hookean column, the others fall back on it
     "amli_gmres": (7, 7, 8),
     "amli_fgmres": (6, 7, 8),
     "fast": (9, 10, 11),
+    "petsc": (9, 10, 11),
     "direct": (1, 1, 1),
 }
 
