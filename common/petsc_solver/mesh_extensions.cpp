@@ -30,11 +30,13 @@ std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent
   return std::make_unique<TangentExtension<n>>(tangent, std::move(inner));
 }
 
-#define FSI_INSTANTIATE(n)                                                                                          \
-  template std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>,   \
-                                                                     const NodalFrames<n>*, const PartNodes&);      \
-  template std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, \
-                                                                    const PartNodes&);
+template <int n>
+using OwnedExtension = std::unique_ptr<MeshExtension<n>>;
+
+#define FSI_INSTANTIATE(n)                                                                        \
+  template OwnedExtension<n> make_harmonic_extension(const BlockMatrix<1, n>&, std::vector<char>, \
+                                                     const NodalFrames<n>*, const PartNodes&);    \
+  template OwnedExtension<n> make_tangent_extension(const MeshMotionTangent<n>&, std::vector<char>, const PartNodes&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

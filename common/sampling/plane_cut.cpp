@@ -106,7 +106,8 @@ class PlaneCutOf : public PlaneCut {
     said.push_back(static_cast<double>(seen.size()));
     for (const SeenPiece& one : seen)
       said.insert(said.end(), {one.away, one.sums.flow, one.sums.area, one.sums.pressure});
-    said.push_back(static_cast<double>(shared.size() / (most_vertices + 1)));
+    const std::size_t cells = shared.size() / (most_vertices + 1);
+    said.push_back(static_cast<double>(cells));
     said.insert(said.end(), shared.begin(), shared.end());
   }
 

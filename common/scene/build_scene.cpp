@@ -95,7 +95,7 @@ std::vector<double> of_cells(const std::vector<double>& whole, const std::vector
   return whole.empty() ? whole : here;
 }
 
-FrameFields restricted(FrameFields whole, const PartRestriction& here) {
+FrameFields restricted(const FrameFields& whole, const PartRestriction& here) {
   return {here.field(whole.radial), here.field(whole.axial), here.field(whole.radial_slope),
           here.field(whole.axial_slope)};
 }
@@ -164,7 +164,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
       std::vector<int> cells;
       wall_here = whole->wall_here->part(wall_part, cells);
       pressurised = whole->wall_here->facets(pressurised);
-      if (!frame.empty()) frame = restricted(std::move(frame), *whole->wall_here);
+      if (!frame.empty()) frame = restricted(frame, *whole->wall_here);
     }
     auto wall = std::make_unique<WallProblem<Element>>(
         share ? std::move(wall_here) : wall_part, WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)},
