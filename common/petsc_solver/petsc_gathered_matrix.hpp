@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "petsc_solver/petsc_call.hpp"
+#include "petsc_solver/listed_matrix.hpp"
 
 namespace fsi {
 
@@ -36,9 +36,9 @@ class PetscGatheredMatrix {
   Mat matrix() const { return matrix_; }
 
  private:
-  OwnedMat matrix_;
+  ListedMatrix matrix_;
   std::vector<const double*> numbers_;
-  std::vector<double> factors_, values_;
+  std::vector<double> factors_;
 };
 
 }  // namespace fsi

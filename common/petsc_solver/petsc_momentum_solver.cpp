@@ -97,7 +97,12 @@ void PetscMomentumSolver<n>::set_up_wall() {
     PC pc = nullptr;
     petsc_check(KSPGetPC(wall_->solver, &pc));
     petsc_check(PCSetType(pc, PCGAMG));
-    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_FALSE));  // a restart could not
+    // Aggregates' rigid motions as they are: smoothed ones take more iterations and twice the set-up (docs/solvers.md).
+    // They are of the pattern and the places at rest alone, the same for all Jacobians of a run and after a restart.
+    PetscReal no_threshold = -1;
+    petsc_check(PCGAMGSetNSmooths(pc, 0));
+    petsc_check(PCGAMGSetThreshold(pc, &no_threshold, 1));
+    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_TRUE));
   }
   petsc_check(KSPSetOperators(wall_->solver, matrix, matrix));
   if (first) petsc_check(KSPSetFromOptions(wall_->solver));

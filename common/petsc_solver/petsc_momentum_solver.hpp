@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Approximate A^-1 of the momentum: symmetric Gauss-Seidel sweeps over n x n blocks within each process and, where the
-/// wall is stiff, coarse levels of its own momentum between two of them (GAMG that knows rigid motions). Options by the
+/// wall is stiff, coarse levels of its own momentum between two of them (GAMG on rigid motions of aggregates). Options by the
 /// prefixes -fsi_velocity_ and -fsi_wall_.
 template <int n>
 class PetscMomentumSolver {

@@ -106,17 +106,6 @@ void VelocityPressureSystem<n>::make_momentum() {
 }
 
 template <int n>
-OwnedMat VelocityPressureSystem<n>::listed_matrix(PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
-                                                  std::vector<PetscInt>& j) const {
-  OwnedMat matrix;
-  petsc_check(MatCreate(communicator_, matrix.fresh()));
-  petsc_check(MatSetSizes(matrix, rows, columns, PETSC_DECIDE, PETSC_DECIDE));
-  petsc_check(MatSetType(matrix, MATAIJ));
-  petsc_check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(i.size()), i.data(), j.data()));
-  return matrix;
-}
-
-template <int n>
 void VelocityPressureSystem<n>::make_lists() {
   std::vector<PetscInt> gradient_rows, gradient_columns, scaled_rows, scaled_columns, rows, columns;
   for (const int v : shared_.own_velocities)
@@ -142,26 +131,23 @@ void VelocityPressureSystem<n>::make_lists() {
                                  columns.push_back(shared_.pressure_place[q]);
                                });
   }
-  gradient_values_.resize(gradient_rows.size());
-  scaled_values_.resize(scaled_rows.size());
-  continuity_values_.resize(rows.size());
-  gradient_ = listed_matrix(shared_.velocity_rows, shared_.pressure_rows, gradient_rows, gradient_columns);
-  scaled_gradient_ = listed_matrix(shared_.rows(), shared_.pressure_rows, scaled_rows, scaled_columns);
-  continuity_ = listed_matrix(shared_.pressure_rows, shared_.rows(), rows, columns);
+  continuity_ = {communicator_, shared_.pressure_rows, shared_.rows(), rows, columns};
+  gradient_ = {communicator_, shared_.velocity_rows, shared_.pressure_rows, gradient_rows, gradient_columns};
+  scaled_gradient_ = {communicator_, shared_.rows(), shared_.pressure_rows, scaled_rows, scaled_columns};
 }
 
 template <int n>
 void VelocityPressureSystem<n>::fill() {
   diagonals_.fill(
       blocks_, has_few_pressures(), [](int, const auto&) {}, shared_.owns_velocity, processes_);
-  fill_momentum_and_gradient();
+  fill_momentum();
+  fill_gradient();
   fill_continuity();
 }
 
 template <int n>
-void VelocityPressureSystem<n>::fill_momentum_and_gradient() {
+void VelocityPressureSystem<n>::fill_momentum() {
   petsc_check(MatZeroEntries(momentum_));
-  std::size_t gradient_at = 0;
   {
     const BlockArrays arrays(momentum_);
     const auto block_of = [&](std::ptrdiff_t position) {
@@ -171,13 +157,7 @@ void VelocityPressureSystem<n>::fill_momentum_and_gradient() {
     for (const int v : shared_.own_velocities) {
       const auto begin = pattern_.columns.begin() + pattern_.offsets[v],
                  end = pattern_.columns.begin() + pattern_.offsets[v + 1];
-      const double* inverse = diagonals_.inverse_lumped().data() + VectorLayout<n>::vector(v);
-      blocks_.for_blocks_of(v, [&](const double* block, int u, int p, double factor) {
-        for (int k = 0; k < n && p >= 0; ++k, ++gradient_at) {
-          const double g = block[MixedLayout<n>::in_block(k, n)];
-          gradient_values_[gradient_at] = g;
-          scaled_values_[gradient_at] = -inverse[k] * g;
-        }
+      blocks_.for_blocks_of(v, [&](const double* block, int u, int, double factor) {
         if (u < 0) return;
         double* a = block_of(std::lower_bound(begin, end, u) - pattern_.columns.begin());
         for (int i = 0; i < n; ++i)
@@ -189,29 +169,41 @@ void VelocityPressureSystem<n>::fill_momentum_and_gradient() {
   }
   petsc_check(MatAssemblyBegin(momentum_, MAT_FINAL_ASSEMBLY));
   petsc_check(MatAssemblyEnd(momentum_, MAT_FINAL_ASSEMBLY));
-  std::fill(scaled_values_.begin() + static_cast<std::ptrdiff_t>(gradient_at), scaled_values_.end(), 1.0);
-  petsc_check(MatSetValuesCOO(gradient_, gradient_values_.data(), INSERT_VALUES));
-  petsc_check(MatSetValuesCOO(scaled_gradient_, scaled_values_.data(), INSERT_VALUES));
+}
+
+template <int n>
+void VelocityPressureSystem<n>::fill_gradient() {
+  const auto for_entries = [&](auto work) {
+    for (const int v : shared_.own_velocities)
+      blocks_.for_blocks_of(v, [&](const double* block, int, int p, double) {
+        for (int k = 0; k < n && p >= 0; ++k) work(v, k, block[MixedLayout<n>::in_block(k, n)]);
+      });
+  };
+  gradient_.fill([&](auto add) { for_entries([&](int, int, double g) { add(g); }); });
+  const auto& inverse = diagonals_.inverse_lumped();
+  scaled_gradient_.fill([&](auto add) {
+    for_entries([&](int v, int k, double g) { add(-inverse[VectorLayout<n>::vector(v) + k] * g); });
+    for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) add(1.0);
+  });
 }
 
 template <int n>
 void VelocityPressureSystem<n>::fill_continuity() {
-  std::size_t at = 0;
   double* scale = nullptr;
   petsc_check(VecGetArray(row_scale_, &scale));
-  for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) {
-    const int pressure = shared_.own_pressures[i];
-    scale[i] = layout_.row_scale(pressure);
-    blocks_.for_blocks_of_node(layout_.wall_pressure[pressure] != 0, layout_.node_of_pressure[pressure],
-                               [&](const double* block, int v, int q, double factor) {
-                                 for (int k = 0; k < n && v >= 0; ++k)
-                                   continuity_values_[at++] = factor * block[MixedLayout<n>::in_block(n, k)];
-                                 if (q >= 0) continuity_values_[at++] = block[MixedLayout<n>::in_block(n, n)];
-                               });
-  }
+  continuity_.fill([&](auto add) {
+    for (std::size_t i = 0; i < shared_.own_pressures.size(); ++i) {
+      const int pressure = shared_.own_pressures[i];
+      scale[i] = layout_.row_scale(pressure);
+      blocks_.for_blocks_of_node(layout_.wall_pressure[pressure] != 0, layout_.node_of_pressure[pressure],
+                                 [&](const double* block, int v, int q, double factor) {
+                                   for (int k = 0; k < n && v >= 0; ++k)
+                                     add(factor * block[MixedLayout<n>::in_block(n, k)]);
+                                   if (q >= 0) add(block[MixedLayout<n>::in_block(n, n)]);
+                                 });
+    }
+  });
   petsc_check(VecRestoreArray(row_scale_, &scale));
-
-  petsc_check(MatSetValuesCOO(continuity_, continuity_values_.data(), INSERT_VALUES));
 }
 
 template <int n>
@@ -296,32 +288,25 @@ std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressu
     }
   }
   const auto size = static_cast<PetscInt>(own * n);
-  petsc_check(MatCreate(communicator_, wall->matrix.fresh()));
-  petsc_check(MatSetSizes(wall->matrix, size, size, PETSC_DECIDE, PETSC_DECIDE));
-  petsc_check(MatSetType(wall->matrix, MATAIJ));
-  petsc_check(MatSetBlockSize(wall->matrix, n));
-  petsc_check(MatSetPreallocationCOO(wall->matrix, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()));
+  wall->matrix = {communicator_, size, size, rows, columns, n};
   return wall;
 }
 
 template <int n>
 void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
-  std::vector<double> values;
-  values.reserve(wall.from.size() * n * n);
-  {
-    const BlockArrays arrays(momentum_);
+  const BlockArrays arrays(momentum_);
+  wall.matrix.fill([&](auto add) {
     for (const int at : wall.from) {
       const double* block =
           (shared_.owns_velocity[pattern_.columns[at]] ? arrays.own() : arrays.other()) + block_at_[at] * n * n;
-      values.insert(values.end(), block, block + n * n);
+      for (int entry = 0; entry < n * n; ++entry) add(block[entry]);
     }
-  }
-  petsc_check(MatSetValuesCOO(wall.matrix, values.data(), INSERT_VALUES));
+  });
 }
 
 template <int n>
 double VelocityPressureSystem<n>::bytes() const {
-  double sum = 8.0 * static_cast<double>(gradient_values_.size() + scaled_values_.size() + continuity_values_.size());
+  double sum = 0;
   for (Mat matrix : {Mat(momentum_), Mat(gradient_), Mat(continuity_), Mat(scaled_gradient_), Mat(schur_)})
     sum += petsc_bytes(matrix);
   return sum;

@@ -7,13 +7,14 @@
 #include "condensed_solver/interface_shape_derivatives.hpp"
 #include "condensed_solver/momentum_diagonals.hpp"
 #include "condensed_solver/velocity_pressure_blocks.hpp"
+#include "petsc_solver/listed_matrix.hpp"
 #include "petsc_solver/shared_layout.hpp"
 
 namespace fsi {
 
 /// The Jacobian of velocities and pressures F = [A G; B C] and its Schur complement S = C - B D^-1 G as matrices of
 /// PETSc, by rows of all processes. Of the mesh motion A has what InterfaceShapeDerivatives gives. All numbers go to
-/// places that are worked out once: A, in blocks of n x n, straight into PETSc's arrays, the others by lists of entries.
+/// places that are worked out once: A, in blocks of n x n, straight into PETSc's arrays, those of the others as ListedMatrix does.
 template <int n>
 class VelocityPressureSystem {
  public:
@@ -42,7 +43,7 @@ class VelocityPressureSystem {
   struct WallMomentum {
     std::vector<int> own;                       ///< places among own_velocities
     std::vector<std::array<double, 3>> points;  ///< mm
-    OwnedMat matrix;
+    ListedMatrix matrix;
     std::vector<int> from;  ///< A's blocks that it has, in the order of its entries
   };
   std::unique_ptr<WallMomentum> make_wall_momentum() const;
@@ -74,9 +75,9 @@ class VelocityPressureSystem {
 
   void make_momentum();
   void make_lists();
-  void fill_momentum_and_gradient();
+  void fill_momentum();
+  void fill_gradient();
   void fill_continuity();
-  OwnedMat listed_matrix(PetscInt rows, PetscInt columns, std::vector<PetscInt>& i, std::vector<PetscInt>& j) const;
 
   VelocityPressureBlocks<n> blocks_;
   const VelocityPressureLayout<n>& layout_;
@@ -86,12 +87,12 @@ class VelocityPressureSystem {
   Pattern pattern_;
   InterfaceShapeDerivatives<n> shape_derivatives_;
   MomentumDiagonals<n> diagonals_;
-  OwnedMat momentum_, gradient_, schur_;
-  OwnedMat continuity_;       ///< [B C], columns in the rows of both
-  OwnedMat scaled_gradient_;  ///< [-D^-1 G; 1]: S = [B C] times this
+  OwnedMat momentum_, schur_;
+  ListedMatrix gradient_;
+  ListedMatrix continuity_;       ///< [B C], columns in the rows of both
+  ListedMatrix scaled_gradient_;  ///< [-D^-1 G; 1]: S = [B C] times this
   OwnedVec row_scale_;
   std::vector<std::size_t> block_at_;  ///< of A's blocks in the arrays of the part with own columns, then of the other
-  std::vector<double> gradient_values_, scaled_values_, continuity_values_;
   OwnedVec x_velocities_, x_pressures_, y_velocities_, y_pressures_;
 };
 
