@@ -88,7 +88,7 @@ class OpenBoundary {
 
   /// Of a mesh displacement and a flow array (u, p): volume flow outward through the surface where it is, mm^3/ms.
   double outflow(const double* mesh, const double* flow) const {
-    return moving_ ? moving_->outflow(mesh, flow) : outflow(flow);
+    return moving_ ? processes_->sum(moving_->outflow(mesh, flow)) : outflow(flow);
   }
   double outflow(const std::vector<double>& mesh, const std::vector<double>& flow) const {
     return outflow(mesh.data(), flow.data());
@@ -107,7 +107,7 @@ class OpenBoundary {
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity where the opening moves, mm^5/ms^3: times the density the
   /// kinetic energy that flows out, uJ/ms. \param flow  that of `in`
   double kinetic_outflow(const std::vector<Point>& nodes, const FluidInput& in, const std::vector<double>& flow) const {
-    return moving_ ? moving_->kinetic_outflow(in) : kinetic_outflow(nodes, flow);
+    return moving_ ? processes_->sum(moving_->kinetic_outflow(in)) : kinetic_outflow(nodes, flow);
   }
   /// Of an opening that stays.
   double kinetic_outflow(const std::vector<Point>& nodes, const std::vector<double>& flow) const {
@@ -132,7 +132,7 @@ class OpenBoundary {
   std::vector<int> facets_;
   const Communicator* processes_;
   bool empty_;
-  std::shared_ptr<const MovingSurface<n>> moving_;  ///< of one process alone
+  std::shared_ptr<const MovingSurface<n>> moving_;
   std::optional<OutflowLaw> law_;
   std::size_t place_ = 0;
 };

@@ -114,8 +114,9 @@ Boundaries<Element> openings_here(const Boundaries<Element>& whole, const std::v
     FacetsOf<Element> facets(boundary.facets().size() / size);
     for (std::size_t f = 0; f < facets.size(); ++f)
       std::copy_n(boundary.facets().begin() + static_cast<std::ptrdiff_t>(f * size), size, facets[f].begin());
-    open.push_back(open_boundary<Element>(boundary.name(), nodes, here.facets(facets), &here.share(),
-                                          here.counted_facets(facets)));
+    const auto touched = here.facets(facets);
+    open.push_back(open_boundary<Element>(boundary.name(), nodes, touched, &here.share(), here.counted_facets(facets)));
+    if (boundary.moving()) open.back().move_by(moving_surface<Element>(nodes, touched, &here.share()));
     if (boundary.law()) open.back().set_law(*boundary.law(), boundary.place());
   }
   return open;
@@ -193,7 +194,6 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->interface_areas = std::move(boundary.interface_areas);
     PartOf<Element> fluid_here;
     if (share) {
-      require_openings_that_stay(setup, boundary.open);
       whole->fluid = std::make_unique<const PartOf<Element>>(part);
       whole->fluid_here = std::make_unique<const PartRestriction>(*whole->fluid, *share);
       here = whole->fluid_here.get();

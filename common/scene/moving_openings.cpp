@@ -126,19 +126,6 @@ void require_pressure_where_openings_move(const Case& setup, const std::vector<O
 template void require_pressure_where_openings_move<2>(const Case&, const std::vector<OpenBoundary<2>>&);
 template void require_pressure_where_openings_move<3>(const Case&, const std::vector<OpenBoundary<3>>&);
 
-template <int n>
-void require_openings_that_stay(const Case& setup, const std::vector<OpenBoundary<n>>& open) {
-  for (const auto& boundary : open)
-    if (boundary.moving())
-      throw InputError(
-          setup.path.string(), "support",
-          "the wall's end at the opening " + boundary.name() +
-              " is not clamped, so that the opening moves, which several processes do not compute together",
-          "run it with one process, or fix all components of the wall's end there");
-}
-template void require_openings_that_stay<2>(const Case&, const std::vector<OpenBoundary<2>>&);
-template void require_openings_that_stay<3>(const Case&, const std::vector<OpenBoundary<3>>&);
-
 #define FSI_INSTANTIATE(Element)                                                                                   \
   template std::vector<std::optional<MovingOpening<Element::components>>> moving_openings<Element>(                \
       const MeshOf<Element>&, const PartOf<Element>&, const std::vector<OpenBoundary<Element::components>>&,       \

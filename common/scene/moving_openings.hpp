@@ -34,8 +34,4 @@ void hold_with_openings(const MeshOf<Element>& mesh, const PartOf<Element>& flui
 template <int n>
 void require_pressure_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open);
 
-/// \throws InputError where an opening moves: of a scene that several processes share they all stay
-template <int n>
-void require_openings_that_stay(const Case& setup, const std::vector<OpenBoundary<n>>& open);
-
 }  // namespace fsi
