@@ -63,42 +63,26 @@ class MovingFacets : public MovingSurface<Element::components> {
   }
 
   double outflow(const double* mesh, const double* flow) const override {
-    double sum = 0;
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      if (counted_[f] == 0) continue;
-      const Facet& facet = facets_[f];
-      Vec3<Pack> x[F::nodes];
-      positions(facet, mesh, x);
-      for (int q = 0; q < F::points; ++q) {
-        const auto normal = F::weighted_normal(x, q);
-        for (int a = 0; a < F::nodes; ++a)
-          for (int k = 0; k < n; ++k)
-            sum += F::shape(q, a) * normal[Element::axis[k]][0] * flow[Mixed::vector(facet[a], k)];
-      }
-    }
-    return sum;
+    return flow_through(mesh, [&](int node, int k) { return flow[Mixed::vector(node, k)]; });
+  }
+  double relative_outflow(const FluidInput& in) const override {
+    return flow_through(in.mesh,
+                   [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
   }
 
   std::vector<double> outflow_slope(const double* mesh, const double* flow) const override {
-    std::vector<double> slope(Vector::size(static_cast<int>(nodes_.size())), 0.0);
-    for (const auto& facet : facets_)
-      for (int b = 0; b < F::nodes; ++b) {
-        Vec3<Dual<n>> x[F::nodes];
-        positions(facet, mesh, x);
-        for (int k = 0; k < n; ++k) x[b][Element::axis[k]].slope[k] = Pack(1.0);
-        for (int q = 0; q < F::points; ++q) {
-          const auto normal = F::weighted_normal(x, q);
-          for (int k = 0; k < n; ++k) {
-            double u = 0;
-            for (int a = 0; a < F::nodes; ++a) u += F::shape(q, a) * flow[Mixed::vector(facet[a], k)];
-            for (int s = 0; s < n; ++s) slope[Vector::vector(facet[b], s)] += u * normal[Element::axis[k]].slope[s][0];
-          }
-        }
-      }
-    drop_copies(slope, Vector::entries);
+    return flow_slope(mesh, [&](int node, int k) { return flow[Mixed::vector(node, k)]; });
+  }
+  std::vector<double> relative_outflow_slope(const FluidInput& in) const override {
+    auto slope = flow_slope(
+        in.mesh, [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
+    const auto weights = normals(in.mesh);
+    for (std::size_t a = 0; a < nodes_.size(); ++a)
+      for (int k = 0; k < n; ++k)
+        slope[Vector::vector(static_cast<int>(a), k)] -=
+            in.mesh_factor * weights[Mixed::vector(static_cast<int>(a), k)];
     return slope;
   }
-
   double kinetic_outflow(const FluidInput& in) const override {
     double flux = 0;
     for (std::size_t f = 0; f < facets_.size(); ++f) {
@@ -150,6 +134,46 @@ class MovingFacets : public MovingSurface<Element::components> {
   }
 
  private:
+  /// Integral of v . n over the facets that are counted here. \param velocity  velocity(node, k): v
+  template <class Velocity>
+  double flow_through(const double* mesh, Velocity velocity) const {
+    double sum = 0;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (counted_[f] == 0) continue;
+      const Facet& facet = facets_[f];
+      Vec3<Pack> x[F::nodes];
+      positions(facet, mesh, x);
+      for (int q = 0; q < F::points; ++q) {
+        const auto normal = F::weighted_normal(x, q);
+        for (int a = 0; a < F::nodes; ++a)
+          for (int k = 0; k < n; ++k) sum += F::shape(q, a) * normal[Element::axis[k]][0] * velocity(facet[a], k);
+      }
+    }
+    return sum;
+  }
+
+  /// Its derivative by the mesh's displacement, v being what it is.
+  template <class Velocity>
+  std::vector<double> flow_slope(const double* mesh, Velocity velocity) const {
+    std::vector<double> slope(Vector::size(static_cast<int>(nodes_.size())), 0.0);
+    for (const auto& facet : facets_)
+      for (int b = 0; b < F::nodes; ++b) {
+        Vec3<Dual<n>> x[F::nodes];
+        positions(facet, mesh, x);
+        for (int k = 0; k < n; ++k) x[b][Element::axis[k]].slope[k] = Pack(1.0);
+        for (int q = 0; q < F::points; ++q) {
+          const auto normal = F::weighted_normal(x, q);
+          for (int k = 0; k < n; ++k) {
+            double u = 0;
+            for (int a = 0; a < F::nodes; ++a) u += F::shape(q, a) * velocity(facet[a], k);
+            for (int s = 0; s < n; ++s) slope[Vector::vector(facet[b], s)] += u * normal[Element::axis[k]].slope[s][0];
+          }
+        }
+      }
+    drop_copies(slope, Vector::entries);
+    return slope;
+  }
+
   /// Current positions of a facet's nodes.
   template <class T>
   void positions(const Facet& facet, const double* mesh, Vec3<T> (&x)[F::nodes]) const {

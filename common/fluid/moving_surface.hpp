@@ -32,6 +32,9 @@ class MovingSurface {
   /// at copies.
   virtual double outflow(const double* mesh, const double* flow) const = 0;
   virtual std::vector<double> outflow_slope(const double* mesh, const double* flow) const = 0;
+  /// The flow that the surface's own motion leaves: integral of (u - w) . n, and its derivative by the displacement.
+  virtual double relative_outflow(const FluidInput& in) const = 0;
+  virtual std::vector<double> relative_outflow_slope(const FluidInput& in) const = 0;
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity, mm^5/ms^3.
   virtual double kinetic_outflow(const FluidInput& in) const = 0;
 

@@ -4,12 +4,14 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/function_space.hpp"
+#include "scene/wave_speed.hpp"
 #include "system/direct_linear_solver.hpp"
 
 namespace fsi {
@@ -46,9 +48,19 @@ std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>&
   if (!numbering_.has_fluid()) return solver;
   scene_.for_each_law(
       [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
+  scene_.for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t number) {
+    const auto& normals = open.normals();
+    const double square = processes().sum(std::inner_product(normals.begin(), normals.end(), normals.begin(), 0.0));
+    const double speed = wave_speed(scene_);
+    given_flows_.push_back({&open, number, opening_terms_.size(), std::sqrt(square), open.area(),
+                            scene_.fluid->form().density * speed * speed / scene_.fluid->volume(), 0});
+    opening_terms_.push_back({&normals, 0, nullptr, true, 0});
+  });
   if (opening_terms_.empty()) return solver;
   moving_terms_.resize(opening_terms_.size());
-  return std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
+  auto with_terms = std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
+  with_terms_ = with_terms.get();
+  return with_terms;
 }
 
 template <int n>
@@ -93,6 +105,7 @@ double System<n>::evaluate() {
   const AssemblyResult result = assemble(false);
   double sum = 0;
   for (double r : residual_) sum += r * r;
+  if (const double forces = compare_flows(); processes().is_first()) sum += forces;
   // One number tells all: not a number where an element of any process is inverted.
   return std::sqrt(processes().sum(result.inverted() ? std::numeric_limits<double>::quiet_NaN() : sum));
 }
@@ -124,9 +137,10 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
   if (!openings_move()) data.rates.windkessel_reference.clear();  // then no derivative depends on them
-  std::size_t stores = 0;
+  std::size_t stores = 2 * given_flows_.size();
   scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) { stores += law.stores() ? 1 : 0; });
   data.rates.windkessel_reference.resize(stores, 0.0);
+  state.now.windkessel.resize(stores, 0.0);
   data.support_loads = point.support_loads;
   data.opening_pressures = point.opening_pressures;
   if (!point.rates.is_static() && scene_.wall)
@@ -142,6 +156,7 @@ double System<n>::solve(double tolerance) {
   const auto phase = scene_.profile.phase("solve: " + name_);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
+  for (GivenFlow& flow : given_flows_) flow.increment = -with_terms_->pressures()[flow.term];
   increment_.resize(numbering_.columns());
   numbering_.update_copies(increment_);
   double sum = 0;
@@ -157,6 +172,7 @@ void System<n>::move(double step) {
   if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
   if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
   if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
+  for (const GivenFlow& flow : given_flows_) state_->now.windkessel[*flow.open->given_flow()] += step * flow.increment;
 }
 
 template <int n>
@@ -266,8 +282,8 @@ double System<n>::rounding() {
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
   if (numbering_.has_wall()) values(numbering_.wall, scene_.wall->from_unloaded(state_->now.wall));
-  add_absolute_products(x, terms);
-  double sum = 0;
+  const double forces = add_absolute_products(x, terms);
+  double sum = processes().is_first() ? forces : 0;
   for (double t : terms) sum += t * t;
   return std::numeric_limits<double>::epsilon() * std::sqrt(processes().sum(sum));
 }
@@ -342,6 +358,45 @@ void System<n>::linearise_openings() {
     moving.by_mesh = open.moving()->outflow_slope(mesh.data(), flow.data());
     term.by_mesh = &moving.by_mesh;
   });
+  const FluidInput in = scene_.fluid_input(*state_, data_->rates);
+  for (const GivenFlow& flow : given_flows_) {
+    OpeningTerm& term = opening_terms_[flow.term];
+    MovingTerm& moving = moving_terms_[flow.term];
+    moving.normals = flow.open->moving()->normals(in.mesh);
+    term.normals = &moving.normals;
+    if (numbering_.mesh.empty()) continue;
+    moving.by_mesh = flow.open->moving()->relative_outflow_slope(in);
+    term.by_mesh = &moving.by_mesh;
+  }
+}
+
+template <int n>
+double System<n>::compare_flows() {
+  double forces = 0;
+  for (const GivenFlow& flow : given_flows_) {
+    double& gap = opening_terms_[flow.term].gap;
+    gap = flow.open->relative_outflow(scene_.fluid_input(*state_, data_->rates)) -
+          scene_.given_outflow(*flow.open, flow.number, state_->before[0], *data_);
+    const double force = force_of_gap(flow) * gap;
+    forces += force * force;
+  }
+  return forces;
+}
+
+template <int n>
+double System<n>::force_of_gap(const GivenFlow& flow) const {
+  const AleFluid& form = scene_.fluid->form();
+  const double k = data_->rates.fluid_factor, width = std::sqrt(flow.area);
+  const double pressure = (form.density * k + form.viscosity / flow.area) / width + (k > 0 ? flow.stiffness / k : 0);
+  return flow.normal * pressure;
+}
+
+template <int n>
+std::vector<double> System<n>::flow_gaps() const {
+  std::vector<double> gaps;
+  for (const OpeningTerm& term : opening_terms_)
+    if (term.given) gaps.push_back(term.gap);
+  return gaps;
 }
 
 template <int n>
@@ -366,7 +421,7 @@ void System<n>::add_impedance(bool derivatives) {
 }
 
 template <int n>
-void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
+double System<n>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
   const JacobianBlocks<n> j = blocks();
   const auto add = [&](const auto& matrix, const UnknownMap& rows, const UnknownMap& columns, bool by_component) {
     constexpr int r = std::decay_t<decltype(matrix)>::rows, c = std::decay_t<decltype(matrix)>::columns;
@@ -391,7 +446,10 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
   if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
   if (j.mesh_tangent) add(*j.mesh_tangent, numbering_.mesh_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
-  for (const auto& [normals, slope, by_mesh] : opening_terms_) {
+  std::size_t given = 0;
+  double forces = 0;
+  for (const OpeningTerm& term : opening_terms_) {
+    const auto &normals = term.normals, &by_mesh = term.by_mesh;
     double flow = 0;
     for (std::size_t i = 0; by_mesh && i < by_mesh->size(); ++i)
       if (const Unknown& column = numbering_.mesh[i]; column.index >= 0)
@@ -400,10 +458,17 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
       if (const Unknown& column = numbering_.fluid[i]; column.index >= 0)
         flow += std::abs((*normals)[i] * column.factor) * x[column.index];
     flow = processes().sum(flow);
+    double pressure = term.slope * flow;
+    if (term.given) {
+      const GivenFlow& known = given_flows_[given++];
+      pressure = std::abs(state_->now.windkessel[*known.open->given_flow()]);
+      forces += std::pow(force_of_gap(known) * flow, 2);
+    }
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& row = numbering_.fluid_rows[i]; row.index >= 0)
-        terms[row.index] += std::abs((*normals)[i] * row.factor) * slope * flow;
+        terms[row.index] += std::abs((*normals)[i] * row.factor) * pressure;
   }
+  return forces;
 }
 
 template <int n>

@@ -61,6 +61,9 @@ class System : public NewtonProblem {
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
 
+  /// What the flows through openings that move lack to what is given there, outward, at the last residual, mm^3/ms.
+  std::vector<double> flow_gaps() const;
+
   /// The state and step that evaluate(), linearise() and move() refer to from now on.
   /// A Jacobian made for other factors than this step's is no longer kept.
   void work_on(State& state, const StepData& data);
@@ -112,8 +115,8 @@ class System : public NewtonProblem {
   template <class Layout>
   void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows);
 
-  /// terms += |J| |x| of the Jacobian last assembled.
-  void add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
+  /// terms += |J| |x| of the Jacobian last assembled. \returns the squares of what flows that are given add to its norm
+  double add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
 
   template <class Layout>
   static double weighted(const std::vector<double>& volumes, const std::vector<double>& field, bool present) {
@@ -129,8 +132,15 @@ class System : public NewtonProblem {
 
   /// Whether there is an opening that moves, on whose pressure derivatives depend.
   bool openings_move() const;
-  /// The terms of openings whose pressure answers the flow, as they are now.
+  /// The terms of openings whose pressure answers the flow or whose flow is given, as they are now.
   void linearise_openings();
+  /// Finds by what flows miss what is given. \returns the sum of squares of the forces that this is worth in the norm of
+  /// the residual
+  double compare_flows();
+  struct GivenFlow;
+  /// What 1 mm^3/ms of a gap is worth there, kPa mm^2: that of a pressure on the opening which within a step accelerates
+  /// the flow over the opening's width, and widens the wall by what has come in.
+  double force_of_gap(const GivenFlow& flow) const;
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
@@ -146,7 +156,18 @@ class System : public NewtonProblem {
   };
   std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
   std::vector<MovingTerm> moving_terms_;    ///< in their order, empty for openings that stay
-  MeshMotionTangent<n> mesh_tangent_;       ///< of a nonlinear mesh motion; empty otherwise
+  /// An opening that moves and whose flow is given.
+  struct GivenFlow {
+    const OpenBoundary<n>* open;
+    std::size_t number;   ///< of the opening
+    std::size_t term;     ///< of the terms, the one that is its
+    double normal, area;  ///< at rest, mm^2: Euclidean norm of the integrals of N_a n; the area
+    double stiffness;     ///< of the wall around the fluid's volume, kPa/mm^3
+    double increment;     ///< of its pressure, kPa
+  };
+  std::vector<GivenFlow> given_flows_;
+  const LowRankLinearSolver<n>* with_terms_ = nullptr;  ///< the solver, where there are terms
+  MeshMotionTangent<n> mesh_tangent_;                   ///< of a nonlinear mesh motion; empty otherwise
   SystemNorm norm_;
   const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;

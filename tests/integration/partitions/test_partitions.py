@@ -199,7 +199,7 @@ material = "neo-hookean"
 c10 = 0.3
 [[opening]]
 surface = "inlet"
-pressure = [[0, 0], [0.25, 0.2]]
+ENTERING
 [[opening]]
 surface = "outlet"
 windkessel = { proximal = 0.02, compliance = 1.0, distal = 0.1 }
@@ -219,15 +219,15 @@ every = 0
 
 
 class Openings(FolderTest):
-    """Openings that move with wall ends which slide or are free."""
+    """Openings that move with wall ends which slide or are free; a pressure or a flow is given there."""
 
     def test_they_move_as_on_one_process(self):
-        for element, geometry, fixed, solver, processes in (
-            ("p1", "3d", '["normal"]', "fast", 3),
-            ("p2p1", "axisymmetric", "[]", "direct", 2),
+        for element, geometry, fixed, entering, solver, processes in (
+            ("p1", "3d", '["normal"]', "pressure = [[0, 0], [0.25, 0.2]]", "fast", 3),
+            ("p2p1", "axisymmetric", "[]", "flow_rate = [[0, 0], [0.25, 2.0]]", "direct", 2),
         ):
             case = self.base / f"{geometry}.toml"
-            case.write_text(SLIDING.replace("FIXED", fixed))
+            case.write_text(SLIDING.replace("FIXED", fixed).replace("ENTERING", entering))
             for program in DRIVERS:
                 name = Path(program).name
                 section = name.removeprefix("fsi-")
