@@ -67,7 +67,7 @@ class MovingFacets : public MovingSurface<Element::components> {
   }
   double relative_outflow(const FluidInput& in) const override {
     return flow_through(in.mesh,
-                   [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
+                        [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
   }
 
   std::vector<double> outflow_slope(const double* mesh, const double* flow) const override {
