@@ -148,6 +148,7 @@ class Both {
     scene.impose_conditions(at.now);
     scene.impose_interface(at, data.rates);
     data.opening_pressures = {1.332, 0.2};
+    data.opening_flows = {0.7, -0.4};
     return data;
   }
 
@@ -176,6 +177,9 @@ void compare(const Case& setup, const MeshOf<Element>& mesh = small_mesh<Element
   EXPECT_NEAR(mine.size(), all.size(), 1e-12 * all.size());
   all.linearise();
   mine.linearise();
+  ASSERT_EQ(mine.flow_gaps().size(), all.flow_gaps().size());
+  for (std::size_t i = 0; i < all.flow_gaps().size(); ++i)
+    EXPECT_NEAR(mine.flow_gaps()[i], all.flow_gaps()[i], 1e-12 * (1 + std::abs(all.flow_gaps()[i])));
   EXPECT_NEAR(mine.rounding(), all.rounding(), 1e-9 * all.rounding());
 
   // Equations, and products with the Jacobian, row by row.
@@ -223,6 +227,7 @@ void compare(const Case& setup, const MeshOf<Element>& mesh = small_mesh<Element
   same(both.state.now.mesh, moved.mesh);
   same(both.state.now.fluid, moved.fluid);
   same(both.state.now.wall, moved.wall);
+  same(both.state.now.windkessel, moved.windkessel);
 
   // What belongs to the whole scene.
   EXPECT_NEAR(both.here->fluid->volume(), both.whole->fluid->volume(), 1e-12 * both.whole->fluid->volume());
@@ -270,10 +275,15 @@ TYPED_TEST(SharedScene, WithFibresAndContinuousPressure) {
 }
 
 /// Openings that follow wall ends which slide in an oblique plane beside planes of symmetry, or are free: forces, flows
-/// and their derivatives are those of the current face, and nodes in it have axes of their own.
+/// and their derivatives are those of the current face, and nodes in it have axes of their own. At the free ones a flow
+/// is given beside a Windkessel.
 TYPED_TEST(SharedScene, WithOpeningsThatMove) {
   for (const auto ends : {Ends::slide, Ends::free}) {
     Case setup = case_with(ends, "normal", 0.1);
+    if (ends == Ends::free) {
+      setup.openings["inlet"] = {};
+      setup.openings["inlet"].flow_rate = FlowRateData{PressureTable{{{0.0, 0.7}}}};
+    }
     setup.stabilisation = Stabilisation::projected;
     if constexpr (TypeParam::dim == 3) {
       compare<TypeParam>(setup, box<TypeParam>(3, turned, true));
