@@ -4,14 +4,12 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/function_space.hpp"
-#include "scene/wave_speed.hpp"
 #include "system/direct_linear_solver.hpp"
 
 namespace fsi {
@@ -48,14 +46,9 @@ std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>&
   if (!numbering_.has_fluid()) return solver;
   scene_.for_each_law(
       [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
-  scene_.for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t number) {
-    const auto& normals = open.normals();
-    const double square = processes().sum(std::inner_product(normals.begin(), normals.end(), normals.begin(), 0.0));
-    const double speed = wave_speed(scene_);
-    given_flows_.push_back({&open, number, opening_terms_.size(), std::sqrt(square), open.area(),
-                            scene_.fluid->form().density * speed * speed / scene_.fluid->volume(), 0});
-    opening_terms_.push_back({&normals, 0, nullptr, true, 0});
-  });
+  given_flows_ = GivenFlows<n>(scene_);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    opening_terms_.push_back({&given_flows_.open(i).normals(), 0, nullptr, true, 0});
   if (opening_terms_.empty()) return solver;
   moving_terms_.resize(opening_terms_.size());
   auto with_terms = std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
@@ -105,7 +98,7 @@ double System<n>::evaluate() {
   const AssemblyResult result = assemble(false);
   double sum = 0;
   for (double r : residual_) sum += r * r;
-  if (const double forces = compare_flows(); processes().is_first()) sum += forces;
+  if (const double forces = given_flows_.compare(*state_, *data_); processes().is_first()) sum += forces;
   // One number tells all: not a number where an element of any process is inverted.
   return std::sqrt(processes().sum(result.inverted() ? std::numeric_limits<double>::quiet_NaN() : sum));
 }
@@ -137,7 +130,7 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
   if (!openings_move()) data.rates.windkessel_reference.clear();  // then no derivative depends on them
-  std::size_t stores = 2 * given_flows_.size();
+  std::size_t stores = 2 * given_flows_.count();
   scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) { stores += law.stores() ? 1 : 0; });
   data.rates.windkessel_reference.resize(stores, 0.0);
   state.now.windkessel.resize(stores, 0.0);
@@ -154,9 +147,12 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
 template <int n>
 double System<n>::solve(double tolerance) {
   const auto phase = scene_.profile.phase("solve: " + name_);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) opening_terms_[term_of(i)].gap = given_flows_.gap(i);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
-  for (GivenFlow& flow : given_flows_) flow.increment = -with_terms_->pressures()[flow.term];
+  flow_pressures_.clear();
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    flow_pressures_.push_back(-with_terms_->pressures()[term_of(i)]);
   increment_.resize(numbering_.columns());
   numbering_.update_copies(increment_);
   double sum = 0;
@@ -172,7 +168,8 @@ void System<n>::move(double step) {
   if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
   if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
   if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
-  for (const GivenFlow& flow : given_flows_) state_->now.windkessel[*flow.open->given_flow()] += step * flow.increment;
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    given_flows_.pressure(i, state_->now) += step * flow_pressures_[i];
 }
 
 template <int n>
@@ -359,43 +356,22 @@ void System<n>::linearise_openings() {
     term.by_mesh = &moving.by_mesh;
   });
   const FluidInput in = scene_.fluid_input(*state_, data_->rates);
-  for (const GivenFlow& flow : given_flows_) {
-    OpeningTerm& term = opening_terms_[flow.term];
-    MovingTerm& moving = moving_terms_[flow.term];
-    moving.normals = flow.open->moving()->normals(in.mesh);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) {
+    OpeningTerm& term = opening_terms_[term_of(i)];
+    MovingTerm& moving = moving_terms_[term_of(i)];
+    const MovingSurface<n>& surface = *given_flows_.open(i).moving();
+    moving.normals = surface.normals(in.mesh);
     term.normals = &moving.normals;
     if (numbering_.mesh.empty()) continue;
-    moving.by_mesh = flow.open->moving()->relative_outflow_slope(in);
+    moving.by_mesh = surface.relative_outflow_slope(in);
     term.by_mesh = &moving.by_mesh;
   }
 }
 
 template <int n>
-double System<n>::compare_flows() {
-  double forces = 0;
-  for (const GivenFlow& flow : given_flows_) {
-    double& gap = opening_terms_[flow.term].gap;
-    gap = flow.open->relative_outflow(scene_.fluid_input(*state_, data_->rates)) -
-          scene_.given_outflow(*flow.open, flow.number, state_->before[0], *data_);
-    const double force = force_of_gap(flow) * gap;
-    forces += force * force;
-  }
-  return forces;
-}
-
-template <int n>
-double System<n>::force_of_gap(const GivenFlow& flow) const {
-  const AleFluid& form = scene_.fluid->form();
-  const double k = data_->rates.fluid_factor, width = std::sqrt(flow.area);
-  const double pressure = (form.density * k + form.viscosity / flow.area) / width + (k > 0 ? flow.stiffness / k : 0);
-  return flow.normal * pressure;
-}
-
-template <int n>
 std::vector<double> System<n>::flow_gaps() const {
   std::vector<double> gaps;
-  for (const OpeningTerm& term : opening_terms_)
-    if (term.given) gaps.push_back(term.gap);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) gaps.push_back(given_flows_.gap(i));
   return gaps;
 }
 
@@ -460,9 +436,9 @@ double System<n>::add_absolute_products(const std::vector<double>& x, std::vecto
     flow = processes().sum(flow);
     double pressure = term.slope * flow;
     if (term.given) {
-      const GivenFlow& known = given_flows_[given++];
-      pressure = std::abs(state_->now.windkessel[*known.open->given_flow()]);
-      forces += std::pow(force_of_gap(known) * flow, 2);
+      pressure = std::abs(given_flows_.pressure(given, state_->now));
+      forces += std::pow(given_flows_.force_of_gap(given, data_->rates.fluid_factor) * flow, 2);
+      ++given;
     }
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& row = numbering_.fluid_rows[i]; row.index >= 0)

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "solvers/newton.hpp"
 #include "system/direct_linear_solver.hpp"
+#include "system/given_flows.hpp"
 #include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
 #include "system/low_rank_solver.hpp"
@@ -134,13 +135,10 @@ class System : public NewtonProblem {
   bool openings_move() const;
   /// The terms of openings whose pressure answers the flow or whose flow is given, as they are now.
   void linearise_openings();
-  /// Finds by what flows miss what is given. \returns the sum of squares of the forces that this is worth in the norm of
-  /// the residual
-  double compare_flows();
-  struct GivenFlow;
-  /// What 1 mm^3/ms of a gap is worth there, kPa mm^2: that of a pressure on the opening which within a step accelerates
-  /// the flow over the opening's width, and widens the wall by what has come in.
-  double force_of_gap(const GivenFlow& flow) const;
+  /// The term of the i-th flow that is given: they are the last ones.
+  std::size_t term_of(std::size_t given_flow) const {
+    return opening_terms_.size() - given_flows_.count() + given_flow;
+  }
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
@@ -156,16 +154,8 @@ class System : public NewtonProblem {
   };
   std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
   std::vector<MovingTerm> moving_terms_;    ///< in their order, empty for openings that stay
-  /// An opening that moves and whose flow is given.
-  struct GivenFlow {
-    const OpenBoundary<n>* open;
-    std::size_t number;   ///< of the opening
-    std::size_t term;     ///< of the terms, the one that is its
-    double normal, area;  ///< at rest, mm^2: Euclidean norm of the integrals of N_a n; the area
-    double stiffness;     ///< of the wall around the fluid's volume, kPa/mm^3
-    double increment;     ///< of its pressure, kPa
-  };
-  std::vector<GivenFlow> given_flows_;
+  GivenFlows<n> given_flows_;
+  std::vector<double> flow_pressures_;                  ///< the increments of their pressures
   const LowRankLinearSolver<n>* with_terms_ = nullptr;  ///< the solver, where there are terms
   MeshMotionTangent<n> mesh_tangent_;                   ///< of a nonlinear mesh motion; empty otherwise
   SystemNorm norm_;
