@@ -35,11 +35,11 @@ constexpr std::array fields{Row{"mesh", ArrayKind::mesh}, Row{"mesh_reference", 
                             Row{"wall", ArrayKind::wall}, Row{"windkessel", ArrayKind::alike}};
 // Of what steppers keep besides.
 constexpr std::array memories{Row{"support_loads", ArrayKind::alike}, Row{"opening_pressures", ArrayKind::alike},
-                              Row{"windkessels", ArrayKind::alike},   Row{"v", ArrayKind::interface_columns},
-                              Row{"w", ArrayKind::interface_columns}, Row{"a", ArrayKind::interface_columns},
-                              Row{"b", ArrayKind::interface_columns}, Row{"age", ArrayKind::alike},
-                              Row{"load0", ArrayKind::interface},     Row{"load1", ArrayKind::interface},
-                              Row{"load2", ArrayKind::interface}};
+                              Row{"windkessels", ArrayKind::alike},   Row{"opening_values", ArrayKind::alike},
+                              Row{"v", ArrayKind::interface_columns}, Row{"w", ArrayKind::interface_columns},
+                              Row{"a", ArrayKind::interface_columns}, Row{"b", ArrayKind::interface_columns},
+                              Row{"age", ArrayKind::alike},           Row{"load0", ArrayKind::interface},
+                              Row{"load1", ArrayKind::interface},     Row{"load2", ArrayKind::interface}};
 constexpr std::array marches{Row{"controller", ArrayKind::alike}, Row{"estimate", ArrayKind::alike}};
 constexpr std::array statistics{Row{"times", ArrayKind::alike},
                                 Row{"now", ArrayKind::shear_vectors},

@@ -137,7 +137,7 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
           require(name, array.size(), ends_with(name, ".controller") ? 3 : 4);
         } else if (ends_with(name, ".support_loads")) {
           require(name, array.size(), state.support_loads);
-        } else if (ends_with(name, ".windkessels")) {
+        } else if (ends_with(name, ".windkessels") || ends_with(name, ".opening_values")) {
           require(name, array.size(), state.now.windkessel.size());
         } else if (ends_with(name, ".opening_pressures")) {
           if (array.size() > most_openings) refuse(file, name, "is too long", another_version);

@@ -19,6 +19,8 @@ struct FluidInput {
   double step = 0;          ///< ms, for the stabilisation
   /// Of what the Windkessels behind the openings store, kPa: dp_c/dt = fluid_factor (p_c - reference). Null: there is none.
   const double* windkessel_reference = nullptr;
+  /// What openings keep at the balance, Solution::windkessel. Null: nothing.
+  const double* opening_values = nullptr;
   /// The projected pressure gradient of the stabilisation, vector layout, kPa/mm. The sub-problem finds it itself.
   const double* projected_gradient = nullptr;
 };

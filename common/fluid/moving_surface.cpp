@@ -26,12 +26,19 @@ class MovingFacets : public MovingSurface<Element::components> {
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
 
-  MovingFacets(std::vector<Point> nodes, std::vector<Facet> facets)
-      : nodes_(std::move(nodes)), facets_(std::move(facets)) {}
+  MovingFacets(std::vector<Point> nodes, std::vector<Facet> facets, const NodeShare* share)
+      : nodes_(std::move(nodes)), facets_(std::move(facets)), counted_(facets_.size(), 1) {
+    if (share == nullptr) return;
+    for (int a = 0; a < static_cast<int>(nodes_.size()); ++a)
+      if (share->owned[a] == 0) copies_.push_back(a);
+    for (std::size_t f = 0; f < facets_.size(); ++f)  // PartRestriction::counts
+      counted_[f] = share->owned[*std::min_element(facets_[f].begin(), facets_[f].end())];
+  }
 
   std::vector<double> normals(const double* mesh) const override {
     std::vector<double> weights(Mixed::size(static_cast<int>(nodes_.size())), 0.0);
     add_pressure(1, mesh, weights.data(), nullptr);
+    drop_copies(weights, Mixed::entries);
     return weights;
   }
 
@@ -46,6 +53,7 @@ class MovingFacets : public MovingSurface<Element::components> {
         for (int a = 0; a < F::scalar_nodes; ++a) areas[facet[a]] += F::scalar_shape(q, a) * area;
       }
     }
+    drop_copies(areas, 1);
     return areas;
   }
 
@@ -55,42 +63,31 @@ class MovingFacets : public MovingSurface<Element::components> {
   }
 
   double outflow(const double* mesh, const double* flow) const override {
-    double sum = 0;
-    for (const auto& facet : facets_) {
-      Vec3<Pack> x[F::nodes];
-      positions(facet, mesh, x);
-      for (int q = 0; q < F::points; ++q) {
-        const auto normal = F::weighted_normal(x, q);
-        for (int a = 0; a < F::nodes; ++a)
-          for (int k = 0; k < n; ++k)
-            sum += F::shape(q, a) * normal[Element::axis[k]][0] * flow[Mixed::vector(facet[a], k)];
-      }
-    }
-    return sum;
+    return flow_through(mesh, [&](int node, int k) { return flow[Mixed::vector(node, k)]; });
+  }
+  double relative_outflow(const FluidInput& in) const override {
+    return flow_through(in.mesh,
+                        [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
   }
 
   std::vector<double> outflow_slope(const double* mesh, const double* flow) const override {
-    std::vector<double> slope(Vector::size(static_cast<int>(nodes_.size())), 0.0);
-    for (const auto& facet : facets_)
-      for (int b = 0; b < F::nodes; ++b) {
-        Vec3<Dual<n>> x[F::nodes];
-        positions(facet, mesh, x);
-        for (int k = 0; k < n; ++k) x[b][Element::axis[k]].slope[k] = Pack(1.0);
-        for (int q = 0; q < F::points; ++q) {
-          const auto normal = F::weighted_normal(x, q);
-          for (int k = 0; k < n; ++k) {
-            double u = 0;
-            for (int a = 0; a < F::nodes; ++a) u += F::shape(q, a) * flow[Mixed::vector(facet[a], k)];
-            for (int s = 0; s < n; ++s) slope[Vector::vector(facet[b], s)] += u * normal[Element::axis[k]].slope[s][0];
-          }
-        }
-      }
+    return flow_slope(mesh, [&](int node, int k) { return flow[Mixed::vector(node, k)]; });
+  }
+  std::vector<double> relative_outflow_slope(const FluidInput& in) const override {
+    auto slope = flow_slope(
+        in.mesh, [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
+    const auto weights = normals(in.mesh);
+    for (std::size_t a = 0; a < nodes_.size(); ++a)
+      for (int k = 0; k < n; ++k)
+        slope[Vector::vector(static_cast<int>(a), k)] -=
+            in.mesh_factor * weights[Mixed::vector(static_cast<int>(a), k)];
     return slope;
   }
-
   double kinetic_outflow(const FluidInput& in) const override {
     double flux = 0;
-    for (const auto& facet : facets_) {
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (counted_[f] == 0) continue;
+      const Facet& facet = facets_[f];
       Vec3<Pack> x[F::nodes];
       positions(facet, in.mesh, x);
       for (int q = 0; q < F::cubic_points; ++q) {
@@ -130,12 +127,53 @@ class MovingFacets : public MovingSurface<Element::components> {
       for (int q = 0; q < Shapes::points; ++q) {
         const auto [u, traction] = traction_at<Pack>(density, beta, in, first, -1, q);
         const Pack taken = dot(u, traction);
-        for (int lane = 0; lane < lanes_from(first); ++lane) power += taken[lane];
+        for (int lane = 0; lane < lanes_from(first); ++lane)
+          if (counted_[first + static_cast<std::size_t>(lane)] != 0) power += taken[lane];
       }
     return power;
   }
 
  private:
+  /// Integral of v . n over the facets that are counted here. \param velocity  velocity(node, k): v
+  template <class Velocity>
+  double flow_through(const double* mesh, Velocity velocity) const {
+    double sum = 0;
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      if (counted_[f] == 0) continue;
+      const Facet& facet = facets_[f];
+      Vec3<Pack> x[F::nodes];
+      positions(facet, mesh, x);
+      for (int q = 0; q < F::points; ++q) {
+        const auto normal = F::weighted_normal(x, q);
+        for (int a = 0; a < F::nodes; ++a)
+          for (int k = 0; k < n; ++k) sum += F::shape(q, a) * normal[Element::axis[k]][0] * velocity(facet[a], k);
+      }
+    }
+    return sum;
+  }
+
+  /// Its derivative by the mesh's displacement, v being what it is.
+  template <class Velocity>
+  std::vector<double> flow_slope(const double* mesh, Velocity velocity) const {
+    std::vector<double> slope(Vector::size(static_cast<int>(nodes_.size())), 0.0);
+    for (const auto& facet : facets_)
+      for (int b = 0; b < F::nodes; ++b) {
+        Vec3<Dual<n>> x[F::nodes];
+        positions(facet, mesh, x);
+        for (int k = 0; k < n; ++k) x[b][Element::axis[k]].slope[k] = Pack(1.0);
+        for (int q = 0; q < F::points; ++q) {
+          const auto normal = F::weighted_normal(x, q);
+          for (int k = 0; k < n; ++k) {
+            double u = 0;
+            for (int a = 0; a < F::nodes; ++a) u += F::shape(q, a) * velocity(facet[a], k);
+            for (int s = 0; s < n; ++s) slope[Vector::vector(facet[b], s)] += u * normal[Element::axis[k]].slope[s][0];
+          }
+        }
+      }
+    drop_copies(slope, Vector::entries);
+    return slope;
+  }
+
   /// Current positions of a facet's nodes.
   template <class T>
   void positions(const Facet& facet, const double* mesh, Vec3<T> (&x)[F::nodes]) const {
@@ -143,6 +181,11 @@ class MovingFacets : public MovingSurface<Element::components> {
       for (int i = 0; i < 3; ++i) x[a][i] = T(nodes_[facet[a]][i]);
       for (int k = 0; k < n; ++k) x[a][Element::axis[k]] += Pack(mesh[Vector::vector(facet[a], k)]);
     }
+  }
+  /// Copies of other processes' nodes lack the facets that touch no own node; their owners have them whole.
+  void drop_copies(std::vector<double>& field, int entries) const {
+    for (const int node : copies_)
+      std::fill_n(field.begin() + static_cast<std::ptrdiff_t>(node) * entries, entries, 0.0);
   }
   static double mesh_velocity(const FluidInput& in, int node, int k) {
     const std::size_t at = Vector::vector(node, k);
@@ -225,6 +268,8 @@ class MovingFacets : public MovingSurface<Element::components> {
 
   std::vector<Point> nodes_;
   std::vector<Facet> facets_;
+  std::vector<char> counted_;  ///< per facet: in sums, by this process
+  std::vector<int> copies_;    ///< nodes of other processes
 };
 
 }  // namespace
@@ -232,13 +277,14 @@ class MovingFacets : public MovingSurface<Element::components> {
 template <class Element>
 std::shared_ptr<const MovingSurface<Element::components>> moving_surface(
     const std::vector<Point>& nodes,
-    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets) {
-  return std::make_shared<MovingFacets<Element>>(nodes, facets);
+    const std::vector<typename SimplexMesh<Element::dim, Element::order>::Facet>& facets, const NodeShare* share) {
+  return std::make_shared<MovingFacets<Element>>(nodes, facets, share);
 }
 
-#define FSI_INSTANTIATE(Element)                                                              \
-  template std::shared_ptr<const MovingSurface<Element::components>> moving_surface<Element>( \
-      const std::vector<Point>&, const std::vector<SimplexMesh<Element::dim, Element::order>::Facet>&);
+#define FSI_INSTANTIATE(Element)                                                                       \
+  template std::shared_ptr<const MovingSurface<Element::components>> moving_surface<Element>(          \
+      const std::vector<Point>&, const std::vector<SimplexMesh<Element::dim, Element::order>::Facet>&, \
+      const NodeShare*);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -62,8 +62,14 @@ class OpenBoundary {
   const OutflowLaw* law() const { return law_ ? &*law_ : nullptr; }
   /// Of the p_c of a law that stores, in Solution::windkessel.
   std::size_t place() const { return place_; }
+  /// Of an opening that moves: the flow through it is given, and the pressure that drives it is found with the step.
+  /// \param place  in Solution::windkessel, of that pressure, kPa, and behind it the flow, outward, mm^3/ms
+  void set_given_flow(std::size_t place) { flow_place_ = place; }
+  /// That place; none where the flow is not given like this.
+  const std::optional<std::size_t>& given_flow() const { return flow_place_; }
   /// The pressure from outside at a balance, kPa. \param applied  of a table
   double outside_pressure(double applied, const FluidInput& in) const {
+    if (flow_place_) return in.opening_values[*flow_place_];
     if (!law_) return applied;
     const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
     return applied + law_->pressure(in.fluid_factor, reference, outflow(in.mesh, in.fluid));
@@ -88,7 +94,7 @@ class OpenBoundary {
 
   /// Of a mesh displacement and a flow array (u, p): volume flow outward through the surface where it is, mm^3/ms.
   double outflow(const double* mesh, const double* flow) const {
-    return moving_ ? moving_->outflow(mesh, flow) : outflow(flow);
+    return moving_ ? processes_->sum(moving_->outflow(mesh, flow)) : outflow(flow);
   }
   double outflow(const std::vector<double>& mesh, const std::vector<double>& flow) const {
     return outflow(mesh.data(), flow.data());
@@ -98,6 +104,10 @@ class OpenBoundary {
   double outflow(const double* flow) const {
     return processes_->sum(std::inner_product(normals_.begin(), normals_.end(), flow, 0.0));
   }
+  /// Of an opening that moves: what passes it as it moves, integral of (u - w) . n, mm^3/ms.
+  double relative_outflow(const FluidInput& in) const { return processes_->sum(moving_->relative_outflow(in)); }
+  /// Area at rest, mm^2, as far as scalar shape functions have it.
+  double area() const { return processes_->sum(std::accumulate(areas_.begin(), areas_.end(), 0.0)); }
   /// Mean pressure, kPa; 0 on an empty surface.
   double mean_pressure(const std::vector<double>& mesh, const std::vector<double>& flow) const {
     return moving_ ? mean_of(moving_->areas(mesh.data()), flow) : mean_of(areas_, flow);
@@ -107,7 +117,7 @@ class OpenBoundary {
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity where the opening moves, mm^5/ms^3: times the density the
   /// kinetic energy that flows out, uJ/ms. \param flow  that of `in`
   double kinetic_outflow(const std::vector<Point>& nodes, const FluidInput& in, const std::vector<double>& flow) const {
-    return moving_ ? moving_->kinetic_outflow(in) : kinetic_outflow(nodes, flow);
+    return moving_ ? processes_->sum(moving_->kinetic_outflow(in)) : kinetic_outflow(nodes, flow);
   }
   /// Of an opening that stays.
   double kinetic_outflow(const std::vector<Point>& nodes, const std::vector<double>& flow) const {
@@ -132,9 +142,10 @@ class OpenBoundary {
   std::vector<int> facets_;
   const Communicator* processes_;
   bool empty_;
-  std::shared_ptr<const MovingSurface<n>> moving_;  ///< of one process alone
+  std::shared_ptr<const MovingSurface<n>> moving_;
   std::optional<OutflowLaw> law_;
   std::size_t place_ = 0;
+  std::optional<std::size_t> flow_place_;
 };
 
 /// \param nodes   reference positions of the fluid's nodes, mm

@@ -182,6 +182,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
     const FacetsOf<Element> facets = group_facets(mesh, openings[i].surface);
     if (moving[i]) {
       boundary.open[i].move_by(moving_surface<Element>(fluid.nodes, in_part<Element>(fluid, facets)));
+      if (openings[i].flow_rate) boundary.open[i].set_given_flow(std::exchange(stores, stores + 2));
       continue;
     }
     const auto on = nodes_on<Element>(fluid, facets);
@@ -202,7 +203,7 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
     hold_with_openings<Element>(mesh, fluid, moving, wet, *wall, boundary);
   }
   for (std::size_t i = 0; i < openings.size(); ++i) {
-    if (!openings[i].flow_rate || boundary.open[i].empty()) continue;
+    if (!openings[i].flow_rate || boundary.open[i].empty() || moving[i]) continue;
     InflowNodes inflow{i, {}, std::vector<char>(nodes, 0)};
     const auto on = nodes_on<Element>(fluid, group_facets(mesh, openings[i].surface));
     for (int a = 0; a < nodes; ++a) {

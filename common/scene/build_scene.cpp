@@ -28,9 +28,11 @@ namespace fsi {
 
 namespace {
 
-/// beta of the stabilisation of backflow: on by default where the case lists openings, save where their flow is given.
-double backflow_of(const OpeningData& opening) {
-  return opening.listed && !opening.flow_rate ? opening.backflow.value_or(BackflowTraction::standard) : 0;
+/// beta of the stabilisation of backflow: on by default where the case lists openings, save where their velocity is given.
+template <int n>
+double backflow_of(const OpeningData& opening, const OpenBoundary<n>& open) {
+  const bool velocity = opening.flow_rate && !open.moving();
+  return opening.listed && !velocity ? opening.backflow.value_or(BackflowTraction::standard) : 0;
 }
 
 CylinderAxis cylinder_axis(const StructureData& data) {
@@ -114,9 +116,11 @@ Boundaries<Element> openings_here(const Boundaries<Element>& whole, const std::v
     FacetsOf<Element> facets(boundary.facets().size() / size);
     for (std::size_t f = 0; f < facets.size(); ++f)
       std::copy_n(boundary.facets().begin() + static_cast<std::ptrdiff_t>(f * size), size, facets[f].begin());
-    open.push_back(open_boundary<Element>(boundary.name(), nodes, here.facets(facets), &here.share(),
-                                          here.counted_facets(facets)));
+    const auto touched = here.facets(facets);
+    open.push_back(open_boundary<Element>(boundary.name(), nodes, touched, &here.share(), here.counted_facets(facets)));
+    if (boundary.moving()) open.back().move_by(moving_surface<Element>(nodes, touched, &here.share()));
     if (boundary.law()) open.back().set_law(*boundary.law(), boundary.place());
+    if (boundary.given_flow()) open.back().set_given_flow(*boundary.given_flow());
   }
   return open;
 }
@@ -185,7 +189,7 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     if (scene->wall)
       side.emplace(WallSide<Element>{wall_part, held, surfaces_held_by_supports<Element>(setup, mesh, wall_part)});
     auto boundary = fluid_boundary<Element>(openings_of(setup), mesh, part, interface, side ? &*side : nullptr);
-    require_pressure_where_openings_move(setup, boundary.open);
+    require_no_profile_where_openings_move(setup, boundary.open);
     const PartRestriction* here = nullptr;
     std::vector<double> stiffness;
     if (scene->wall) stiffness = mesh_stiffness(part, fluid_nodes_of<n>(boundary.interface), setup.mesh_motion);
@@ -193,7 +197,6 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->interface_areas = std::move(boundary.interface_areas);
     PartOf<Element> fluid_here;
     if (share) {
-      require_openings_that_stay(setup, boundary.open);
       whole->fluid = std::make_unique<const PartOf<Element>>(part);
       whole->fluid_here = std::make_unique<const PartRestriction>(*whole->fluid, *share);
       here = whole->fluid_here.get();
@@ -227,7 +230,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
     scene->profile.count("fluid elements", elements_of(fluid->part(), {fluid_region}));
     const auto openings = openings_of(setup);
     for (std::size_t i = 0; i < openings.size(); ++i)
-      if (!fluid->open_boundaries()[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i]));
+      if (!fluid->open_boundaries()[i].empty())
+        fluid->stabilise_backflow(i, backflow_of(openings[i], fluid->open_boundaries()[i]));
     if (scene->wall) build_mesh_motion(setup.mesh_motion, *fluid, std::move(stiffness), *scene);
     scene->fluid = std::move(fluid);
   } else if (share && scene->wall) {

@@ -113,31 +113,17 @@ void hold_with_openings(const MeshOf<Element>& mesh, const PartOf<Element>& flui
 }
 
 template <int n>
-void require_pressure_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open) {
+void require_no_profile_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open) {
   const auto openings = openings_of(setup);
   for (std::size_t i = 0; i < open.size(); ++i)
-    if (open[i].moving() && openings[i].flow_rate)
-      throw InputError(
-          setup.path.string(), "opening." + open[i].name() + ".flow_rate",
-          "the wall's end at this opening is not clamped: the opening widens with it, and a profile of the "
-          "velocity is known of one that stays",
-          "fix all components of the wall's end there, or give the opening a pressure");
+    if (const auto& rate = openings[i].flow_rate; open[i].moving() && rate && rate->profile != FlowRateData{}.profile)
+      throw InputError(setup.path.string(), "opening." + open[i].name() + ".profile",
+                       "the wall's end at this opening is not clamped: the opening moves with it, and of a flow that "
+                       "is given there the velocity is found with the step",
+                       "remove profile, or fix all components of the wall's end there");
 }
-template void require_pressure_where_openings_move<2>(const Case&, const std::vector<OpenBoundary<2>>&);
-template void require_pressure_where_openings_move<3>(const Case&, const std::vector<OpenBoundary<3>>&);
-
-template <int n>
-void require_openings_that_stay(const Case& setup, const std::vector<OpenBoundary<n>>& open) {
-  for (const auto& boundary : open)
-    if (boundary.moving())
-      throw InputError(
-          setup.path.string(), "support",
-          "the wall's end at the opening " + boundary.name() +
-              " is not clamped, so that the opening moves, which several processes do not compute together",
-          "run it with one process, or fix all components of the wall's end there");
-}
-template void require_openings_that_stay<2>(const Case&, const std::vector<OpenBoundary<2>>&);
-template void require_openings_that_stay<3>(const Case&, const std::vector<OpenBoundary<3>>&);
+template void require_no_profile_where_openings_move<2>(const Case&, const std::vector<OpenBoundary<2>>&);
+template void require_no_profile_where_openings_move<3>(const Case&, const std::vector<OpenBoundary<3>>&);
 
 #define FSI_INSTANTIATE(Element)                                                                                   \
   template std::vector<std::optional<MovingOpening<Element::components>>> moving_openings<Element>(                \

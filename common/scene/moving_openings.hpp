@@ -30,12 +30,8 @@ void hold_with_openings(const MeshOf<Element>& mesh, const PartOf<Element>& flui
                         const std::vector<std::optional<MovingOpening<Element::components>>>& moving,
                         const std::vector<char>& wet, const WallSide<Element>& wall, FluidBoundary<Element>& boundary);
 
-/// \throws InputError where the flow of a moving opening is given: its velocity is that of an opening that stays
+/// \throws InputError where the flow of a moving opening is given with a profile: its velocity is found, not given
 template <int n>
-void require_pressure_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open);
-
-/// \throws InputError where an opening moves: of a scene that several processes share they all stay
-template <int n>
-void require_openings_that_stay(const Case& setup, const std::vector<OpenBoundary<n>>& open);
+void require_no_profile_where_openings_move(const Case& setup, const std::vector<OpenBoundary<n>>& open);
 
 }  // namespace fsi

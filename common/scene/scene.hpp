@@ -119,6 +119,9 @@ class Scene {
     for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
       if (law.stores()) state.now.windkessel.push_back(law.initial_pressure);
     });
+    for_each_given_flow([&](const OpenBoundary<n>&, std::size_t) {
+      state.now.windkessel.insert(state.now.windkessel.end(), {initial_load ? initial_load->pressure : 0.0, 0.0});
+    });
     state.before = {state.now, state.now, state.now};
     integrator->prepare(state);
     for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
@@ -157,6 +160,7 @@ class Scene {
     in.fluid_factor = rates.fluid_factor;
     in.step = rates.interface.period;
     if (!rates.windkessel_reference.empty()) in.windkessel_reference = rates.windkessel_reference.data();
+    if (!now.windkessel.empty()) in.opening_values = now.windkessel.data();
     return in;
   }
   WallInput wall_input(const Solution& now, const StepRates& rates) const {
@@ -185,12 +189,21 @@ class Scene {
     for (const auto& open : fluid->open_boundaries())
       if (open.law() != nullptr) visit(open, *open.law());
   }
-  /// Whether the velocity is given wherever fluid may pass, so that nothing but a moving wall determines its pressure.
+  /// Calls visit(open boundary, its number) for each opening that moves and whose flow is given.
+  template <class Visit>
+  void for_each_given_flow(Visit visit) const {
+    if (!fluid) return;
+    const auto& open = fluid->open_boundaries();
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (open[i].given_flow()) visit(open[i], i);
+  }
+  /// Whether the flow is given wherever fluid may pass, so that nothing but a moving wall determines its pressure.
   bool has_flow_only() const {
-    if (!fluid || inflows.empty()) return false;
-    std::size_t open = 0;
+    if (!fluid) return false;
+    std::size_t open = 0, given = inflows.size();
     for (const auto& boundary : fluid->open_boundaries()) open += !boundary.empty();
-    return open == inflows.size();
+    for_each_given_flow([&](const OpenBoundary<n>&, std::size_t) { ++given; });
+    return given > 0 && open == given;
   }
 
   /// Writes the velocities of the openings whose flow is given to state.now: so that the stage ends with that flow.
@@ -198,12 +211,24 @@ class Scene {
     for (const auto& inflow : inflows) inflow.impose(state.before[0].fluid, data, state.now.fluid);
   }
 
-  /// Sets what the Windkessels store at a balance from the flow there.
+  /// The flow outward that is given at a balance of the step from `level` on, mm^3/ms: such that the stage ends with that
+  /// of `data`.
+  double given_outflow(const OpenBoundary<n>& open, std::size_t number, const Solution& level,
+                       const StepData& data) const {
+    const double start = level.windkessel[*open.given_flow() + 1];
+    const double end = data.opening_flows.empty() ? 0.0 : -data.opening_flows[number];
+    return data.rates.carry == 1 ? end : start + data.rates.carry * (end - start);
+  }
+
+  /// Sets what the Windkessels store at a balance from the flow there, and that flow where it is given.
   void set_windkessels(Solution& balance, const StepRates& rates) const {
     for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
       if (law.stores())
         balance.windkessel[open.place()] = law.stored_pressure(
             rates.fluid_factor, rates.windkessel_reference[open.place()], open.outflow(balance.mesh, balance.fluid));
+    });
+    for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t) {
+      balance.windkessel[*open.given_flow() + 1] = open.relative_outflow(fluid_input(balance, rates));
     });
   }
 

@@ -1,5 +1,6 @@
 #include "system/low_rank_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -31,12 +32,14 @@ void LowRankLinearSolver<n>::update() {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     Term& term = of_system_[i];
     term.slope = terms_[i].slope;
+    term.given = terms_[i].given;
     std::vector<double> normals = *terms_[i].normals;
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<MixedLayout<n>>(normals);
     term.rows.assign(size, 0.0);
     term.columns.assign(numbering.columns(), 0.0);
     add_to_system(numbering.fluid_rows, normals, term.rows);
     add_to_system(numbering.fluid, normals, term.columns);
+    if (term.given) term.size = norm_of(term.rows);
     if (terms_[i].by_mesh && !numbering.mesh.empty()) {
       std::vector<double> by_mesh = *terms_[i].by_mesh;
       if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<VectorLayout<n>>(by_mesh);
@@ -60,25 +63,33 @@ LinearReport LowRankLinearSolver<n>::prepare() {
   std::vector<double> matrix(m * m);
   for (std::size_t j = 0; j < m; ++j) {
     const std::vector<double> answers = flows(of_system_[j].solution);
-    for (std::size_t i = 0; i < m; ++i) matrix[i * m + j] = (i == j ? 1 : 0) + of_system_[i].slope * answers[i];
+    for (std::size_t i = 0; i < m; ++i)
+      matrix[i * m + j] = of_system_[i].given ? answers[i] : (i == j ? 1 : 0) + of_system_[i].slope * answers[i];
+    of_system_[j].answer = answers[j];
   }
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; of_system_[i].given && j < m; ++j) matrix[i * m + j] /= of_system_[i].answer;
   inverse_ = dense_inverse(matrix, static_cast<int>(m));
-  report.converged = !inverse_.empty();
-  if (inverse_.empty()) report.failure = "the equations of the openings are singular";
+  report.converged =
+      !inverse_.empty() && std::all_of(inverse_.begin(), inverse_.end(), [](double x) { return std::isfinite(x); });
+  if (!report.converged) report.failure = "the equations of the openings are singular";
   prepared_ = report.converged;
   return report;
 }
 
 template <int n>
-void LowRankLinearSolver<n>::correct(std::vector<double>& z) const {
+std::vector<double> LowRankLinearSolver<n>::correct(std::vector<double>& z, const std::vector<double>& gaps) const {
   const std::size_t m = of_system_.size();
-  std::vector<double> pressures = flows(z);
-  for (std::size_t i = 0; i < m; ++i) pressures[i] *= of_system_[i].slope;
+  std::vector<double> right = flows(z), pressures(m);
+  for (std::size_t i = 0; i < m; ++i)
+    right[i] = of_system_[i].given ? (right[i] - gaps[i]) / of_system_[i].answer : right[i] * of_system_[i].slope;
   for (std::size_t i = 0; i < m; ++i) {
     double sum = 0;
-    for (std::size_t j = 0; j < m; ++j) sum += inverse_[i * m + j] * pressures[j];
+    for (std::size_t j = 0; j < m; ++j) sum += inverse_[i * m + j] * right[j];
+    pressures[i] = sum;
     axpy(-sum, of_system_[i].solution, z);
   }
+  return pressures;
 }
 
 template <int n>
@@ -86,7 +97,8 @@ double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, std::
   blocks_.numbering.update_copies(x);
   product_.multiply(x, residual_);
   const std::vector<double> flow = flows(x);
-  for (std::size_t i = 0; i < flow.size(); ++i) axpy(of_system_[i].slope * flow[i], of_system_[i].rows, residual_);
+  for (std::size_t i = 0; i < flow.size(); ++i)
+    axpy(of_system_[i].given ? pressures_[i] : of_system_[i].slope * flow[i], of_system_[i].rows, residual_);
   for (std::size_t i = 0; i < b.size(); ++i) residual_[i] = b[i] - residual_[i];
   return norm_of(residual_);
 }
@@ -115,14 +127,20 @@ LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double 
   LinearReport report = solver_->solve(b, tolerance, x);
   iterations += report.iterations;
   if (!report.converged) return report;
-  correct(x);
-  if (const double size = norm_of(b); report.relative_residual > 0 && size > 0) {
+  std::vector<double> gaps;
+  for (const OpeningTerm& term : terms_) gaps.push_back(term.gap);
+  pressures_ = correct(x, gaps);
+  double size = norm_of(b);  // with what the pressures take, which may be all there is
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (of_system_[i].given) size += std::abs(pressures_[i]) * of_system_[i].size;
+  if (report.relative_residual > 0 && size > 0) {
     double left = residual_norm(b, x) / size;
     for (int k = 0; k < most_corrections && left > tolerance; ++k) {
       const LinearReport again = solver_->solve(residual_, 0.5 * tolerance / left, correction_);
       iterations += again.iterations;
       if (!again.converged) break;
-      correct(correction_);
+      const std::vector<double> further = correct(correction_, std::vector<double>(terms_.size(), 0.0));
+      for (std::size_t i = 0; i < further.size(); ++i) pressures_[i] += further[i];
       axpy(1, correction_, x);
       left = residual_norm(b, x) / size;
     }

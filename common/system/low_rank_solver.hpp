@@ -14,10 +14,15 @@ struct OpeningTerm {
   const std::vector<double>* normals = nullptr;  ///< w, as a flow array along the axes of space, mm^2
   double slope = 0;                              ///< dp/dQ, kPa ms/mm^3
   const std::vector<double>* by_mesh = nullptr;  ///< dQ/dd_m, vector layout, mm^2/ms; null: the opening stays
+  /// The flow is given, and the pressure p that drives it is one more unknown, with w as its column and one more equation
+  /// v^T x = gap. `slope` is not read.
+  bool given = false;
+  double gap = 0;  ///< mm^3/ms; may differ at each solve
 };
 
 /// Solves with A + sum of slope w v^T by any solver for A, after Sherman, Morrison and Woodbury ([Golub2013]):
-///   x = z - Y (1 + S V^T Y)^-1 S V^T z,   A z = b,   A Y = W.
+///   x = z - Y p,   (1 + S V^T Y) p = S V^T z,   A z = b,   A Y = W.
+/// Where a flow is given, its row is v^T Y p = v^T z - gap (block elimination).
 /// Y is found with the first solve after an update() and serves as long as what A's solver has prepared. So the matrix
 /// stays as sparse as it was, and Newton's method keeps its convergence. Solutions of iterative solvers are corrected
 /// until the residual of the whole is as small as demanded.
@@ -28,6 +33,9 @@ class LowRankLinearSolver : public LinearSolver {
   /// \param terms   not owned; slopes may differ at each update()
   LowRankLinearSolver(const JacobianBlocks<n>& blocks, std::unique_ptr<LinearSolver> solver,
                       const std::vector<OpeningTerm>& terms);
+
+  /// p of the terms, of the last solution, kPa: of pressures that are unknowns the solution.
+  const std::vector<double>& pressures() const { return pressures_; }
 
   void update() override;
   const char* preparation() const override { return solver_->preparation(); }
@@ -43,14 +51,17 @@ class LowRankLinearSolver : public LinearSolver {
   /// A term in the unknowns of the numbering.
   struct Term {
     double slope;
+    bool given;
+    double answer = 0;                            ///< v^T A^-1 w
+    double size = 0;                              ///< |w|, where the flow is given
     std::vector<double> rows, columns, solution;  ///< w as equations, v as own unknowns; A^-1 w
   };
 
   /// Finds A^-1 w of all terms. \returns what went wrong, of the first that did
   LinearReport prepare();
-  /// z - Y (1 + S V^T Y)^-1 S V^T z
-  void correct(std::vector<double>& z) const;
-  /// |b - (A + sum) x|; leaves b - (A + sum) x in residual_.
+  /// z - Y p. \param gaps  of the terms whose flow is given \returns p
+  std::vector<double> correct(std::vector<double>& z, const std::vector<double>& gaps) const;
+  /// |b - (A + sum) x - W p|, W p of the terms whose flow is given; leaves it in residual_.
   double residual_norm(const std::vector<double>& b, std::vector<double>& x);
   /// Of all terms W^T x, summed over processes.
   std::vector<double> flows(const std::vector<double>& x) const;
@@ -61,10 +72,10 @@ class LowRankLinearSolver : public LinearSolver {
   const std::vector<OpeningTerm>& terms_;
   JacobianProduct<n> product_;
   std::vector<Term> of_system_;
-  std::vector<double> inverse_;  ///< of 1 + S V^T Y, row by row
+  std::vector<double> inverse_;  ///< of 1 + S V^T Y, or V^T Y over its diagonal, row by row
   bool prepared_ = false;
   int preparing_iterations_ = 0;
-  std::vector<double> residual_, correction_;
+  std::vector<double> residual_, correction_, pressures_;
 };
 
 }  // namespace fsi

@@ -37,6 +37,7 @@ void remember(const std::string& name, const LinearisationPoint& point, Memory& 
     memory.arrays[name + ".opening_pressures"] = point.opening_pressures;
     if (!point.rates.windkessel_reference.empty())
       memory.arrays[name + ".windkessels"] = point.rates.windkessel_reference;
+    if (!point.now.windkessel.empty()) memory.arrays[name + ".opening_values"] = point.now.windkessel;
   }
   memory.numbers[name + ".step"] = point.rates.step;
   memory.numbers[name + ".period"] = point.rates.interface.period;
@@ -58,6 +59,7 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   point.support_loads = array(".support_loads");
   point.opening_pressures = array(".opening_pressures");
   point.rates.windkessel_reference = array(".windkessels");
+  point.now.windkessel = array(".opening_values");
   point.rates.step = number(".step");
   point.rates.interface.period = number(".period");
   point.rates.fluid_factor = number(".flow_factor");

@@ -46,9 +46,14 @@ std::unique_ptr<LinearSolver> System<n>::solver_by(const LinearSolverFactory<n>&
   if (!numbering_.has_fluid()) return solver;
   scene_.for_each_law(
       [&](const OpenBoundary<n>& open, const OutflowLaw&) { opening_terms_.push_back({&open.normals()}); });
+  given_flows_ = GivenFlows<n>(scene_);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    opening_terms_.push_back({&given_flows_.open(i).normals(), 0, nullptr, true, 0});
   if (opening_terms_.empty()) return solver;
   moving_terms_.resize(opening_terms_.size());
-  return std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
+  auto with_terms = std::make_unique<LowRankLinearSolver<n>>(blocks(), std::move(solver), opening_terms_);
+  with_terms_ = with_terms.get();
+  return with_terms;
 }
 
 template <int n>
@@ -93,6 +98,7 @@ double System<n>::evaluate() {
   const AssemblyResult result = assemble(false);
   double sum = 0;
   for (double r : residual_) sum += r * r;
+  if (const double forces = given_flows_.compare(*state_, *data_); processes().is_first()) sum += forces;
   // One number tells all: not a number where an element of any process is inverted.
   return std::sqrt(processes().sum(result.inverted() ? std::numeric_limits<double>::quiet_NaN() : sum));
 }
@@ -124,9 +130,10 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
   if (!openings_move()) data.rates.windkessel_reference.clear();  // then no derivative depends on them
-  std::size_t stores = 0;
+  std::size_t stores = 2 * given_flows_.count();
   scene_.for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) { stores += law.stores() ? 1 : 0; });
   data.rates.windkessel_reference.resize(stores, 0.0);
+  state.now.windkessel.resize(stores, 0.0);
   data.support_loads = point.support_loads;
   data.opening_pressures = point.opening_pressures;
   if (!point.rates.is_static() && scene_.wall)
@@ -140,8 +147,12 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
 template <int n>
 double System<n>::solve(double tolerance) {
   const auto phase = scene_.profile.phase("solve: " + name_);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) opening_terms_[term_of(i)].gap = given_flows_.gap(i);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
+  flow_pressures_.clear();
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    flow_pressures_.push_back(-with_terms_->pressures()[term_of(i)]);
   increment_.resize(numbering_.columns());
   numbering_.update_copies(increment_);
   double sum = 0;
@@ -157,6 +168,8 @@ void System<n>::move(double step) {
   if (numbering_.has_mesh()) add_increment<Vector>(numbering_.mesh, scene_.fluid_frames, step, state_->now.mesh);
   if (numbering_.has_fluid()) add_increment<Mixed>(numbering_.fluid, scene_.fluid_frames, step, state_->now.fluid);
   if (numbering_.has_wall()) add_increment<Mixed>(numbering_.wall, scene_.wall_frames, step, state_->now.wall);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i)
+    given_flows_.pressure(i, state_->now) += step * flow_pressures_[i];
 }
 
 template <int n>
@@ -266,8 +279,8 @@ double System<n>::rounding() {
   values(numbering_.mesh, state_->now.mesh);
   values(numbering_.fluid, state_->now.fluid);
   if (numbering_.has_wall()) values(numbering_.wall, scene_.wall->from_unloaded(state_->now.wall));
-  add_absolute_products(x, terms);
-  double sum = 0;
+  const double forces = add_absolute_products(x, terms);
+  double sum = processes().is_first() ? forces : 0;
   for (double t : terms) sum += t * t;
   return std::numeric_limits<double>::epsilon() * std::sqrt(processes().sum(sum));
 }
@@ -342,6 +355,24 @@ void System<n>::linearise_openings() {
     moving.by_mesh = open.moving()->outflow_slope(mesh.data(), flow.data());
     term.by_mesh = &moving.by_mesh;
   });
+  const FluidInput in = scene_.fluid_input(*state_, data_->rates);
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) {
+    OpeningTerm& term = opening_terms_[term_of(i)];
+    MovingTerm& moving = moving_terms_[term_of(i)];
+    const MovingSurface<n>& surface = *given_flows_.open(i).moving();
+    moving.normals = surface.normals(in.mesh);
+    term.normals = &moving.normals;
+    if (numbering_.mesh.empty()) continue;
+    moving.by_mesh = surface.relative_outflow_slope(in);
+    term.by_mesh = &moving.by_mesh;
+  }
+}
+
+template <int n>
+std::vector<double> System<n>::flow_gaps() const {
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) gaps.push_back(given_flows_.gap(i));
+  return gaps;
 }
 
 template <int n>
@@ -366,7 +397,7 @@ void System<n>::add_impedance(bool derivatives) {
 }
 
 template <int n>
-void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
+double System<n>::add_absolute_products(const std::vector<double>& x, std::vector<double>& terms) {
   const JacobianBlocks<n> j = blocks();
   const auto add = [&](const auto& matrix, const UnknownMap& rows, const UnknownMap& columns, bool by_component) {
     constexpr int r = std::decay_t<decltype(matrix)>::rows, c = std::decay_t<decltype(matrix)>::columns;
@@ -391,7 +422,10 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
   if (j.shape_derivatives) add(*j.shape_derivatives, numbering_.fluid_rows, numbering_.mesh, false);
   if (j.mesh_tangent) add(*j.mesh_tangent, numbering_.mesh_rows, numbering_.mesh, false);
   if (j.mesh_laplacian) add(*j.mesh_laplacian, numbering_.mesh_rows, numbering_.mesh, true);
-  for (const auto& [normals, slope, by_mesh] : opening_terms_) {
+  std::size_t given = 0;
+  double forces = 0;
+  for (const OpeningTerm& term : opening_terms_) {
+    const auto &normals = term.normals, &by_mesh = term.by_mesh;
     double flow = 0;
     for (std::size_t i = 0; by_mesh && i < by_mesh->size(); ++i)
       if (const Unknown& column = numbering_.mesh[i]; column.index >= 0)
@@ -400,10 +434,17 @@ void System<n>::add_absolute_products(const std::vector<double>& x, std::vector<
       if (const Unknown& column = numbering_.fluid[i]; column.index >= 0)
         flow += std::abs((*normals)[i] * column.factor) * x[column.index];
     flow = processes().sum(flow);
+    double pressure = term.slope * flow;
+    if (term.given) {
+      pressure = std::abs(given_flows_.pressure(given, state_->now));
+      forces += std::pow(given_flows_.force_of_gap(given, data_->rates.fluid_factor) * flow, 2);
+      ++given;
+    }
     for (std::size_t i = 0; i < normals->size(); ++i)
       if (const Unknown& row = numbering_.fluid_rows[i]; row.index >= 0)
-        terms[row.index] += std::abs((*normals)[i] * row.factor) * slope * flow;
+        terms[row.index] += std::abs((*normals)[i] * row.factor) * pressure;
   }
+  return forces;
 }
 
 template <int n>

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "solvers/newton.hpp"
 #include "system/direct_linear_solver.hpp"
+#include "system/given_flows.hpp"
 #include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
 #include "system/low_rank_solver.hpp"
@@ -60,6 +61,9 @@ class System : public NewtonProblem {
   const LinearisationPoint& linearisation_point() const { return point_; }
   /// Rows of the fluid's last residual before boundary conditions: on the interface the force of the fluid on the wall.
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
+
+  /// What the flows through openings that move lack to what is given there, outward, at the last residual, mm^3/ms.
+  std::vector<double> flow_gaps() const;
 
   /// The state and step that evaluate(), linearise() and move() refer to from now on.
   /// A Jacobian made for other factors than this step's is no longer kept.
@@ -112,8 +116,8 @@ class System : public NewtonProblem {
   template <class Layout>
   void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows);
 
-  /// terms += |J| |x| of the Jacobian last assembled.
-  void add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
+  /// terms += |J| |x| of the Jacobian last assembled. \returns the squares of what flows that are given add to its norm
+  double add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
 
   template <class Layout>
   static double weighted(const std::vector<double>& volumes, const std::vector<double>& field, bool present) {
@@ -129,8 +133,12 @@ class System : public NewtonProblem {
 
   /// Whether there is an opening that moves, on whose pressure derivatives depend.
   bool openings_move() const;
-  /// The terms of openings whose pressure answers the flow, as they are now.
+  /// The terms of openings whose pressure answers the flow or whose flow is given, as they are now.
   void linearise_openings();
+  /// The term of the i-th flow that is given: they are the last ones.
+  std::size_t term_of(std::size_t given_flow) const {
+    return opening_terms_.size() - given_flows_.count() + given_flow;
+  }
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
@@ -146,7 +154,10 @@ class System : public NewtonProblem {
   };
   std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
   std::vector<MovingTerm> moving_terms_;    ///< in their order, empty for openings that stay
-  MeshMotionTangent<n> mesh_tangent_;       ///< of a nonlinear mesh motion; empty otherwise
+  GivenFlows<n> given_flows_;
+  std::vector<double> flow_pressures_;                  ///< the increments of their pressures
+  const LowRankLinearSolver<n>* with_terms_ = nullptr;  ///< the solver, where there are terms
+  MeshMotionTangent<n> mesh_tangent_;                   ///< of a nonlinear mesh motion; empty otherwise
   SystemNorm norm_;
   const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;

@@ -14,8 +14,8 @@ struct Solution {
   std::vector<double> mesh;   ///< d_m, vectors per fluid node, mm
   std::vector<double> fluid;  ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
   std::vector<double> wall;   ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
-  /// p_c of the Windkessels behind open boundaries (fluid/outflow_law.hpp), in their order, kPa; no unknowns of the
-  /// equations, which have it eliminated. Empty where there is none.
+  /// p_c of the Windkessels behind open boundaries (fluid/outflow_law.hpp), in their order, kPa, which equations have
+  /// eliminated; then pressure and flow of openings that move whose flow is given (fluid/open_boundary.hpp).
   std::vector<double> windkessel{};
 };
 

@@ -130,6 +130,12 @@ class LinearStudy {
                        "--linear-systems studies matrices, and the pressure of a resistance or a windkessel is in none",
                        "give this opening a pressure");
     });
+    scene_->for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t) {
+      throw InputError(setup.path.string(), "opening." + open.name(),
+                       "--linear-systems studies matrices, and the pressure that drives the flow which is given at an "
+                       "opening that moves is in none",
+                       "give this opening a pressure, or clamp the wall there");
+    });
     if (systems_.back().step > loads_.steps())
       throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
                        fmt::format("give steps up to {}", loads_.steps()));

@@ -7,6 +7,7 @@ from programs import (
     DRIVERS,
     MESH,
     MONOLITHIC,
+    PARTITIONED,
     FolderTest,
     arrays,
     attempt,
@@ -171,14 +172,34 @@ class Supports(FolderTest):
                     self.assertEqual(restart(program, case, begun, *settings), begun)
                     self.assertEqual(differing_arrays(folder / "checkpoint.h5", begun / "checkpoint.h5"), [])
 
-    def test_a_flow_that_is_given_wants_ends_that_are_clamped(self):
+    def test_a_flow_is_given_where_the_opening_moves(self):
+        """Its pressure is found with the step, by both drivers; a run goes on with the same bits."""
+        settings = scene(self.base, "p1", "axisymmetric")
+        case = self.case("flow", more='[[support]]\nsurface = "wall_ends"\nfixed = ["z"]', scheme="midpoint")
+        self.between_openings(case, "flow_rate = [[0, 0], [0.5, 0.5]]")
+        folders = [run(program, case, self.base / f"flow{i}", *settings) for i, program in enumerate(DRIVERS)]
+        self.assertLess(difference(pressure(folders[0]), pressure(folders[1])).max(), 1e-6)
+        for program, folder in zip(DRIVERS, folders):
+            rows = np.genfromtxt(folder / "openings.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+            rows = rows[rows["opening"] == "outlet"]
+            np.testing.assert_allclose(rows["flow_mm3_per_ms"], -rows["time_ms"], atol=1e-3 * rows["time_ms"][-1])
+            begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+            self.assertEqual(restart(program, case, begun, *settings), begun)
+            self.assertEqual(differing_arrays(folder / "checkpoint.h5", begun / "checkpoint.h5"), [])
+
+    def test_a_given_flow_s_refusals(self):
         settings = scene(self.base, "p1", "axisymmetric")
         case = self.case("flow", more='[[support]]\nsurface = "wall_ends"\nfixed = ["z"]')
-        self.between_openings(case, "flow_rate = -1.0")
+        self.between_openings(case, 'flow_rate = -1.0\nprofile = "plug"')
         process = attempt(MONOLITHIC, case, "-q", folder=self.base / "refused", settings=settings)
         self.assertEqual(process.returncode, 1, process.stderr)
-        self.assertIn("opening.outlet.flow_rate: the wall's end at this opening is not clamped", process.stderr)
-        self.assertEqual(process.stderr.count("\n"), 1)
+        self.assertIn("opening.outlet.profile: the wall's end at this opening is not clamped", process.stderr)
+        text = case.read_text().replace("pressure = 0.2\n", "flow_rate = 1.0\n").replace('profile = "plug"\n', "")
+        case.write_text(text)
+        only = (*settings, "partitioned.scheme=iqn-ils")
+        process = attempt(PARTITIONED, case, "-q", folder=self.base / "refused", settings=only)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("its pressure is not determined", process.stderr)
 
     def test_prestress_is_kept_and_used_again(self):
         settings = scene(self.base, "p2p1", "axisymmetric")

@@ -13,6 +13,7 @@
 #include "monolithic/coupled_numbering.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "support/element_meshes.hpp"
+#include "support/moving_opening_scenes.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
@@ -92,7 +93,8 @@ class Both {
     const auto& y = whole->wall->nodes().nodes;
     const auto random_solution = [&](unsigned seed) {
       Solution s{random_field(x, n, 0.01, 0.002, seed), random_field(x, n + 1, 3.0, 0.5, seed + 1),
-                 random_field(y, n + 1, 0.01, 0.002, seed + 2)};
+                 random_field(y, n + 1, 0.01, 0.002, seed + 2),
+                 std::vector<double>(whole_state.now.windkessel.size(), 0.3)};
       for (int a = 0; a < whole->wall->node_count(); ++a)
         std::copy_n(s.wall.begin() + static_cast<std::ptrdiff_t>(Mixed::vector(whole->wall->nodes().original_of(a))), n,
                     s.wall.begin() + static_cast<std::ptrdiff_t>(Mixed::vector(a)));
@@ -118,7 +120,7 @@ class Both {
     return parts_.wall_here ? parts_.wall_here->field(field, entries) : field;
   }
   Solution share_of(const Solution& s) const {
-    return {fluid_field(s.mesh, n), fluid_field(s.fluid, n + 1), wall_field(s.wall, n + 1)};
+    return {fluid_field(s.mesh, n), fluid_field(s.fluid, n + 1), wall_field(s.wall, n + 1), s.windkessel};
   }
 
   /// Calls visit(map here, its places in the whole map) for the fields of two numberings.
@@ -146,6 +148,7 @@ class Both {
     scene.impose_conditions(at.now);
     scene.impose_interface(at, data.rates);
     data.opening_pressures = {1.332, 0.2};
+    data.opening_flows = {0.7, -0.4};
     return data;
   }
 
@@ -159,9 +162,9 @@ class Both {
 };
 
 template <class Element>
-void compare(const Case& setup) {
+void compare(const Case& setup, const MeshOf<Element>& mesh = small_mesh<Element>()) {
   constexpr int n = Element::components;
-  Both<Element> both(setup);
+  Both<Element> both(setup, mesh);
   const auto identity = [](const JacobianBlocks<n>& blocks) { return std::make_unique<Identity<n>>(blocks); };
   System<n> all("coupled", *both.whole, number_scene(*both.whole), identity),
       mine("coupled", *both.here, number_scene(*both.here), identity);
@@ -174,6 +177,9 @@ void compare(const Case& setup) {
   EXPECT_NEAR(mine.size(), all.size(), 1e-12 * all.size());
   all.linearise();
   mine.linearise();
+  ASSERT_EQ(mine.flow_gaps().size(), all.flow_gaps().size());
+  for (std::size_t i = 0; i < all.flow_gaps().size(); ++i)
+    EXPECT_NEAR(mine.flow_gaps()[i], all.flow_gaps()[i], 1e-12 * (1 + std::abs(all.flow_gaps()[i])));
   EXPECT_NEAR(mine.rounding(), all.rounding(), 1e-9 * all.rounding());
 
   // Equations, and products with the Jacobian, row by row.
@@ -221,19 +227,34 @@ void compare(const Case& setup) {
   same(both.state.now.mesh, moved.mesh);
   same(both.state.now.fluid, moved.fluid);
   same(both.state.now.wall, moved.wall);
+  same(both.state.now.windkessel, moved.windkessel);
 
   // What belongs to the whole scene.
   EXPECT_NEAR(both.here->fluid->volume(), both.whole->fluid->volume(), 1e-12 * both.whole->fluid->volume());
   EXPECT_NEAR(both.here->interface_area(), both.whole->interface_area(), 1e-12 * both.whole->interface_area());
+  const auto in = both.here->fluid_input(both.state, both.data.rates),
+             whole_in = both.whole->fluid_input(both.whole_state, both.whole_data.rates);
   for (std::size_t i = 0; i < both.whole->fluid->open_boundaries().size(); ++i) {
     const auto &a = both.here->fluid->open_boundaries()[i], &b = both.whole->fluid->open_boundaries()[i];
     EXPECT_EQ(a.empty(), b.empty());
-    const auto &flow = both.state.now.fluid, &whole_flow = both.whole_state.now.fluid;
-    EXPECT_NEAR(a.outflow(flow), b.outflow(whole_flow), 1e-12 + 1e-10 * std::abs(b.outflow(whole_flow)));
-    EXPECT_NEAR(a.mean_pressure(flow), b.mean_pressure(whole_flow), 1e-10);
-    EXPECT_NEAR(both.here->fluid->kinetic_outflow(a, flow), both.whole->fluid->kinetic_outflow(b, whole_flow),
-                1e-10 * (1 + std::abs(both.whole->fluid->kinetic_outflow(b, whole_flow))));
+    EXPECT_EQ(a.moving() == nullptr, setup.supports.empty());
+    EXPECT_EQ(b.moving() == nullptr, setup.supports.empty());
+    const Solution &now = both.state.now, &whole_now = both.whole_state.now;
+    const double outflow = b.outflow(whole_now.mesh, whole_now.fluid);
+    EXPECT_NEAR(a.outflow(now.mesh, now.fluid), outflow, 1e-12 + 1e-10 * std::abs(outflow));
+    EXPECT_NEAR(a.mean_pressure(now.mesh, now.fluid), b.mean_pressure(whole_now.mesh, whole_now.fluid), 1e-10);
+    const double energy = both.whole->fluid->kinetic_outflow(b, whole_in, whole_now.fluid);
+    EXPECT_NEAR(both.here->fluid->kinetic_outflow(a, in, now.fluid), energy, 1e-10 * (1 + std::abs(energy)));
   }
+  const auto backflow = [](const Scene<n>& scene, const FluidInput& balance) {
+    FluidStep step{balance, 0.1};
+    step.mesh_start = step.mesh_end = balance.mesh;
+    step.fluid_start = step.fluid_end = balance.fluid;
+    return world().sum(scene.fluid->work(step).backflow);
+  };
+  const double taken = backflow(*both.whole, whole_in) / world().size();  // each process has all of it
+  EXPECT_EQ(taken > 0, both.whole->fluid->stabilises_backflow());
+  EXPECT_NEAR(backflow(*both.here, in), taken, 1e-10 * taken);
 }
 
 template <class Element>
@@ -251,6 +272,28 @@ TYPED_TEST(SharedScene, IsTheWholeScene) {
 
 TYPED_TEST(SharedScene, WithFibresAndContinuousPressure) {
   compare<TypeParam>(case_of("artery", LayerPressure::continuous));
+}
+
+/// Openings that follow wall ends which slide in an oblique plane beside planes of symmetry, or are free: forces, flows
+/// and their derivatives are those of the current face, and nodes in it have axes of their own. At the free ones a flow
+/// is given beside a Windkessel.
+TYPED_TEST(SharedScene, WithOpeningsThatMove) {
+  for (const auto ends : {Ends::slide, Ends::free}) {
+    Case setup = case_with(ends, "normal", 0.1);
+    if (ends == Ends::free) {
+      setup.openings["inlet"] = {};
+      setup.openings["inlet"].flow_rate = FlowRateData{PressureTable{{{0.0, 0.7}}}};
+    }
+    setup.stabilisation = Stabilisation::projected;
+    if constexpr (TypeParam::dim == 3) {
+      compare<TypeParam>(setup, box<TypeParam>(3, turned, true));
+    } else {
+      auto mesh = small_mesh<TypeParam>();
+      for (auto& group : mesh.facet_groups)
+        if (group.name == group::wall_ends) group.name = "ends";
+      compare<TypeParam>(setup, mesh);
+    }
+  }
 }
 
 }  // namespace fsi::test

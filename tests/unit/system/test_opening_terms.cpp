@@ -12,6 +12,7 @@
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
+#include "system/jacobian_product.hpp"
 #include "system/numbering.hpp"
 #include "system/system.hpp"
 
@@ -133,6 +134,40 @@ TEST(OpeningTerms, HoldTheFlowBack) {
   const double free = flow_with(0), answer = free / flow_with(1) - 1;  // Q = Q_0 / (1 + slope w^T A^-1 w)
   EXPECT_GT(answer, 0);
   EXPECT_NEAR(flow_with(1e4), free / (1 + 1e4 * answer), 1e-9 * std::abs(free));
+}
+
+/// A flow that is given beside a resistance: its pressure balances the equations, whichever solver is behind.
+TEST(OpeningTerms, FindThePressureOfAGivenFlow) {
+  OpenFluid open;
+  const auto system = open.system();
+  system->evaluate();
+  std::vector<double> b = system->residual();
+  system->linearise();
+  const auto& numbering = system->numbering();
+  const auto &inlet = open.scene->fluid->open_boundaries()[0], &outlet = open.scene->fluid->open_boundaries()[1];
+  constexpr double slope = 2.0, given = 0.3;
+  FastOptions iterative;
+  iterative.direct_below = 0;
+  for (const std::string name : {"direct", "fast"})
+    for (const double share : {1.0, 0.0}) {  // of the residual: at last the gap is all there is
+      for (double& row : b) row *= share;
+      std::vector<OpeningTerm> terms{{&inlet.normals(), slope}, {&outlet.normals(), 0, nullptr, true, given}};
+      LowRankLinearSolver<3> solver(system->blocks(), general_solver_factory<3>(name, iterative)(system->blocks()),
+                                    terms);
+      solver.update();
+      std::vector<double> x, rows;
+      ASSERT_TRUE(solver.solve(b, 1e-10, x).converged) << name;
+      std::vector<double> flow(numbering.fluid.size(), 0.0), forces = flow;
+      add_to_field(numbering.fluid, x, 1, flow);
+      EXPECT_NEAR(outlet.outflow(flow), given, 1e-11);
+      JacobianProduct<3>(system->blocks()).multiply(x, rows);
+      inlet.add_pressure(slope * inlet.outflow(flow), forces);
+      outlet.add_pressure(solver.pressures()[1], forces);
+      EXPECT_GT(std::abs(solver.pressures()[1]), 1e-3);
+      const double size = norm(forces);
+      add_to_system(numbering.fluid_rows, forces, rows);
+      EXPECT_LT(norm(difference(rows, b)), 1e-8 * (size + norm(b))) << name << ", " << share;
+    }
 }
 
 TEST(OpeningTerms, AreNotBuiltWithoutThem) {

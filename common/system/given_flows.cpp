@@ -1,0 +1,49 @@
+#include "system/given_flows.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "fem/dimensions.hpp"
+#include "scene/wave_speed.hpp"
+
+namespace fsi {
+
+template <int n>
+GivenFlows<n>::GivenFlows(const Scene<n>& scene) : scene_(&scene) {
+  scene.for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t number) {
+    const auto& normals = open.normals();
+    const double square = std::inner_product(normals.begin(), normals.end(), normals.begin(), 0.0);
+    flows_.push_back({&open, number, std::sqrt(scene.processes().sum(square)), open.area(), 0});
+  });
+  if (flows_.empty()) return;
+  const double speed = wave_speed(scene);
+  stiffness_ = scene.fluid->form().density * speed * speed / scene.fluid->volume();
+}
+
+template <int n>
+double GivenFlows<n>::compare(const State& state, const StepData& data) {
+  double forces = 0;
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    Flow& flow = flows_[i];
+    flow.gap = flow.open->relative_outflow(scene_->fluid_input(state, data.rates)) -
+               scene_->given_outflow(*flow.open, flow.number, state.before[0], data);
+    const double force = force_of_gap(i, data.rates.fluid_factor) * flow.gap;
+    forces += force * force;
+  }
+  return forces;
+}
+
+template <int n>
+double GivenFlows<n>::force_of_gap(std::size_t i, double fluid_factor) const {
+  const AleFluid& form = scene_->fluid->form();
+  const double area = flows_[i].area;
+  const double pressure = (form.density * fluid_factor + form.viscosity / area) / std::sqrt(area) +
+                          (fluid_factor > 0 ? stiffness_ / fluid_factor : 0);
+  return flows_[i].normal * pressure;
+}
+
+#define FSI_INSTANTIATE(n) template class GivenFlows<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

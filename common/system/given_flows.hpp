@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "time/step_data.hpp"
+
+namespace fsi {
+
+/// The openings of a scene that move and whose flow is given (docs/theory.md, section 3.8): what their flows lack, and
+/// what that counts in the norm of a residual. Processes that share the scene ask together and get the same numbers.
+template <int n>
+class GivenFlows {
+ public:
+  GivenFlows() = default;  ///< none
+  /// \param scene  must outlive this
+  explicit GivenFlows(const Scene<n>& scene);
+
+  std::size_t count() const { return flows_.size(); }
+  const OpenBoundary<n>& open(std::size_t i) const { return *flows_[i].open; }
+  /// The pressure that drives it, kPa: unknown, part of a solution.
+  double& pressure(std::size_t i, Solution& solution) const { return solution.windkessel[*open(i).given_flow()]; }
+  /// What it lacks to what is given, outward, mm^3/ms, at the last compare().
+  double gap(std::size_t i) const { return flows_[i].gap; }
+
+  /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth
+  double compare(const State& state, const StepData& data);
+  /// What 1 mm^3/ms of a gap is worth, kPa mm^2: the force on the opening of a pressure which within a step accelerates
+  /// the flow over the opening's width, and widens the wall by what has come in. \param fluid_factor  of the step, 1/ms
+  double force_of_gap(std::size_t i, double fluid_factor) const;
+
+ private:
+  struct Flow {
+    const OpenBoundary<n>* open;
+    std::size_t number;   ///< of the opening
+    double normal, area;  ///< at rest, mm^2: Euclidean norm of the integrals of N_a n; the area
+    double gap;
+  };
+  const Scene<n>* scene_ = nullptr;
+  double stiffness_ = 0;  ///< of the wall around the fluid's volume, kPa/mm^3
+  std::vector<Flow> flows_;
+};
+
+}  // namespace fsi
