@@ -7,6 +7,7 @@ namespace fsi {
 
 template <int n>
 struct PetscMomentumSolver<n>::WallLevels {
+  bool smoothed;
   std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> momentum;
   OwnedKsp solver;
   OwnedVec x, y;
@@ -18,7 +19,7 @@ void PetscMomentumSolver<n>::set_up(const BlockPreconditionerChoices& choices) {
   const bool wall_levels = choices.has_coarse_levels(stiffness);
   if (!wall_levels) wall_.reset();
   if (!solver_ || around_wall_ != wall_levels) make_sweeps(wall_levels);
-  if (wall_levels) set_up_wall();
+  if (wall_levels) set_up_wall(choices.smooths_aggregates(stiffness));
   for (PC sweep : sweeps_) {
     PetscBool is_sweep = PETSC_FALSE;
     petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(sweep), PCSOR, &is_sweep));
@@ -66,10 +67,12 @@ void PetscMomentumSolver<n>::make_sweeps(bool wall_levels) {
 }
 
 template <int n>
-void PetscMomentumSolver<n>::set_up_wall() {
+void PetscMomentumSolver<n>::set_up_wall(bool smoothed) {
+  if (wall_ && wall_->smoothed != smoothed) wall_.reset();
   const bool first = wall_ == nullptr;
   if (first) {
     wall_ = std::make_shared<WallLevels>();
+    wall_->smoothed = smoothed;
     wall_->momentum = system_.make_wall_momentum();
     const auto size = static_cast<PetscInt>(wall_->momentum->own.size() * n);
     wall_->x = petsc_vector(system_.communicator(), size);
@@ -97,12 +100,12 @@ void PetscMomentumSolver<n>::set_up_wall() {
     PC pc = nullptr;
     petsc_check(KSPGetPC(wall_->solver, &pc));
     petsc_check(PCSetType(pc, PCGAMG));
-    // Aggregates' rigid motions as they are: smoothed ones take more iterations and twice the set-up (docs/solvers.md).
-    // They are of the pattern and the places at rest alone, the same for all Jacobians of a run and after a restart.
+    // Aggregates are of the pattern and the places at rest alone, the same for all Jacobians of a run and after a
+    // restart; as long as their rigid motions are not smoothed, by the matrix, so is the interpolation.
     PetscReal no_threshold = -1;
-    petsc_check(PCGAMGSetNSmooths(pc, 0));
     petsc_check(PCGAMGSetThreshold(pc, &no_threshold, 1));
-    petsc_check(PCGAMGSetReuseInterpolation(pc, PETSC_TRUE));
+    petsc_check(PCGAMGSetNSmooths(pc, smoothed ? 1 : 0));
+    petsc_check(PCGAMGSetReuseInterpolation(pc, smoothed ? PETSC_FALSE : PETSC_TRUE));
   }
   petsc_check(KSPSetOperators(wall_->solver, matrix, matrix));
   if (first) petsc_check(KSPSetFromOptions(wall_->solver));

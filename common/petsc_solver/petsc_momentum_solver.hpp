@@ -26,7 +26,7 @@ class PetscMomentumSolver {
   struct WallLevels;
 
   void make_sweeps(bool wall_levels);
-  void set_up_wall();
+  void set_up_wall(bool smoothed);
   static PetscErrorCode apply_wall(PC shell, Vec x, Vec y);
 
   const VelocityPressureSystem<n>& system_;
