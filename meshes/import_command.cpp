@@ -33,7 +33,7 @@ struct ImportRequest {
 };
 
 /// What was said of a file, said of the one that the user knows.
-[[noreturn]] void refuse(const std::string& file, const std::string& said_of, std::string said) {
+[[noreturn]] void refuse_mesh(const std::string& file, const std::string& said_of, std::string said) {
   if (said.rfind(said_of + ": ", 0) == 0) said.erase(0, said_of.size() + 2);
   throw InputError(file, "", said, "");
 }
@@ -52,7 +52,7 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
   if (end.code == 0) return end.output;
   std::string said = end.errors.substr(0, end.errors.find('\n'));
   if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
-  refuse(request.file, request.file, said.empty() ? "fsi-compare ended without a message" : said);
+  refuse_mesh(request.file, request.file, said.empty() ? "fsi-compare ended without a message" : said);
 }
 
 /// Second-order cells keep their order unless another is asked for.
@@ -81,7 +81,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
     if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
     return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);
   } catch (const InputError& error) {
-    refuse(request.file, file.string(), error.what());
+    refuse_mesh(request.file, file.string(), error.what());
   }
 }
 

@@ -15,11 +15,11 @@ namespace fsi {
 namespace {
 
 /// Vertices that share a cell, as compressed rows, ascending; rows of mid-edge nodes are empty.
-struct NodeGraph {
+struct MeshGraph {
   std::vector<int> start, neighbour;
 
   template <int Dim, int Order>
-  explicit NodeGraph(const SimplexMesh<Dim, Order>& mesh) {
+  explicit MeshGraph(const SimplexMesh<Dim, Order>& mesh) {
     std::vector<std::pair<int, int>> edges;
     edges.reserve(Dim * (Dim + 1) * mesh.cells.size());
     for (const auto& cell : mesh.cells)
@@ -41,7 +41,7 @@ struct NodeGraph {
 
 /// Breadth-first levels from `root` over nodes not yet `placed`. Leaves the visited nodes in `order`, level by level,
 /// and returns the number of levels; `last_level` is where the last one starts. `seen` carries a stamp per sweep.
-int levels_from(const NodeGraph& graph, int root, const std::vector<char>& placed, std::vector<int>& seen, int stamp,
+int levels_from(const MeshGraph& graph, int root, const std::vector<char>& placed, std::vector<int>& seen, int stamp,
                 std::vector<int>& order, std::size_t& last_level) {
   order.assign(1, root);
   seen[root] = stamp;
@@ -97,7 +97,7 @@ template <int Dim, int Order>
 Renumbering reverse_cuthill_mckee(const SimplexMesh<Dim, Order>& mesh) {
   constexpr int nodes = nodes_of_simplex(Dim, Order);
   const auto ends = edge_of_nodes(mesh);
-  const NodeGraph graph(mesh);
+  const MeshGraph graph(mesh);
   const int count = static_cast<int>(mesh.nodes.size());
   const auto lower_degree = [&](int a, int b) {
     return std::make_tuple(graph.degree(a), a) < std::make_tuple(graph.degree(b), b);

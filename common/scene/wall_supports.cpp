@@ -26,16 +26,16 @@ constexpr std::size_t most_planes = 6;  // of one surface: more of them are a cu
 
 /// Facets of one normal.
 template <class Element>
-struct FlatPart {
+struct SupportedPart {
   Direction<Element::components> normal;  ///< unit vector; components below 1e-10 are taken for rounding
   FacetsOf<Element> facets;
 };
 
 template <class Element>
-std::vector<FlatPart<Element>> flat_parts(const MeshOf<Element>& mesh, const FacetsOf<Element>& facets) {
+std::vector<SupportedPart<Element>> flat_parts(const MeshOf<Element>& mesh, const FacetsOf<Element>& facets) {
   constexpr int n = Element::components;
   using F = typename Element::Facet;
-  std::vector<FlatPart<Element>> parts;
+  std::vector<SupportedPart<Element>> parts;
   for (const auto& facet : facets) {
     Vec3<Pack> corner[F::nodes];
     facet_corners<F>(mesh.nodes, facet, corner);

@@ -10,10 +10,10 @@ namespace fsi {
 namespace {
 
 constexpr double safety = 0.9, growth = 2, shrinkage = 0.2;
-constexpr double smallest_change = 0.95;  // downwards
-constexpr double rungs = 4;               // to an octave
-constexpr double negligible = 1e-10;      // an error below this says no more than that
-constexpr double of_failed_step = 0.25;   // what is left of the length of a step without solution
+constexpr double least_change = 0.95;    // downwards
+constexpr double rungs = 4;              // to an octave
+constexpr double negligible = 1e-10;     // an error below this says no more than that
+constexpr double of_failed_step = 0.25;  // what is left of the length of a step without solution
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void StepController::accept(double length, double error) {
   const double factor = safety * std::pow(error * before, -0.5 / order_);
   const double next = rung(std::clamp(factor, shrinkage, growth) * length);
   // Two rungs up are worth another Jacobian.
-  if ((may_grow && next > wanted_ * std::exp2(1.5 / rungs)) || (factor < smallest_change && next < wanted_))
+  if ((may_grow && next > wanted_ * std::exp2(1.5 / rungs)) || (factor < least_change && next < wanted_))
     wanted_ = next;
 }
 

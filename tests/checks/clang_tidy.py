@@ -1,9 +1,10 @@
 """clang_tidy.py CLANG_TIDY ROOT BUILD COMPILER: fails on any finding of .clang-tidy in the programs' and libraries' sources
 and the headers they include. BUILD holds compile_commands.json, made for COMPILER.
 
-Half of the time goes to headers, which are searched anew for each source. So the sources of a folder are put behind each
-other into one text, whose headers are searched once. Sources that do not compile as one text, because two of them give
-one name to different things, are looked at one by one. So does the analyser always: in a longer text it finds less.
+Most of the time goes to headers, which are searched anew for each source. So sources are put behind each other into one
+text, whose headers are searched once. Where they do not compile as one text, because two of them give one name to different
+things, the sources of each folder are one text; where those do not, they are looked at one by one. So does the analyser
+always: in a longer text it finds less.
 """
 
 from __future__ import annotations
@@ -15,11 +16,13 @@ import shlex
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 FOLDERS = ("common", "monolithic", "partitioned", "meshes")
-LARGEST_TEXT = 100_000  # characters: texts of about equal size keep all cores busy to the end
+LARGEST_TEXT = 200_000  # characters: texts of about equal size keep all cores busy to the end
 # The analyser follows this many steps through a function; with its own 225000 the whole takes three times as long.
 STEPS = 20_000
 INCLUDE = re.compile(r"\s*#\s*include\s*(\S+)")
@@ -46,12 +49,16 @@ def compiler_flags(build: Path, compiler: str) -> dict[str, list[str]]:
 
 
 def groups(root: Path, flags: dict[str, list[str]]) -> list[list[Path]]:
-    """The compiled sources by folder and flags, in lists that make texts of at most LARGEST_TEXT; largest first."""
-    found: dict[tuple[Path, str], list[list[Path]]] = {}
+    """The compiled sources by flags, in lists that make texts of at most LARGEST_TEXT; largest first.
+
+    The order of the flags, and what they say of warnings, is no matter: compiler_flags silences all.
+    """
+    found: dict[tuple[str, ...], list[list[Path]]] = {}
     for source in sorted(path for folder in FOLDERS for path in (root / folder).rglob("*.cpp")):
         if str(source) not in flags:
             continue  # of an option that this build does without, such as MPI
-        lists = found.setdefault((source.parent, shlex.join(flags[str(source)])), [[]])
+        words = {word for word in flags[str(source)] if not word.startswith("-W")}
+        lists = found.setdefault(tuple(sorted(words)), [[]])
         if lists[-1] and sum(path.stat().st_size for path in lists[-1] + [source]) > LARGEST_TEXT:
             lists.append([])
         lists[-1].append(source)
@@ -99,9 +106,9 @@ def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path],
             "--",
             *flags[1:],
         ]
-        done = subprocess.run(
-            command + ["-iquote", str(sources[0].parent)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
+        for parent in dict.fromkeys(source.parent for source in sources):
+            command += ["-iquote", str(parent)]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         written = done.stdout if done.stdout.strip() or done.returncode == 0 else done.stderr
         if done.returncode != 0 and not written.strip():
             written = f"clang-tidy ended with exit code {done.returncode}"
@@ -113,14 +120,28 @@ def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path],
         return re.sub(re.escape(str(file)) + r":(\d+):", original, written).strip()
 
 
-def check(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> str:
-    """The findings of the sources: of all together or, where that does not compile, of each."""
+def check_text(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> str:
+    """What all but the analyser finds in the sources: in all together or, where that does not compile, in smaller texts."""
     written = findings(clang_tidy, root, flags, sources, False)
-    each = [findings(clang_tidy, root, flags, [source], True) for source in sources]
-    if len(sources) > 1 and "[clang-diagnostic-error]" in written:
-        written = ""
-        each += [findings(clang_tidy, root, flags, [source], False) for source in sources]
-    return "\n".join(found for found in [written, *each] if found)
+    if len(sources) == 1 or "[clang-diagnostic-error]" not in written:
+        return written
+    parents = dict.fromkeys(source.parent for source in sources)
+    parts = [[source for source in sources if source.parent == parent] for parent in parents]
+    if len(parts) == 1:
+        parts = [[source] for source in sources]
+    each = [check_text(clang_tidy, root, flags, part) for part in parts]
+    return "\n".join(found for found in each if found)
+
+
+def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], texts: list[list[Path]]) -> list[Callable[[], str]]:
+    """What is to be done, each job for one core: the long ones first. Each gives its findings."""
+    long = [partial(check_text, clang_tidy, root, flags[str(sources[0])], sources) for sources in texts]
+    short = [
+        partial(findings, clang_tidy, root, flags[str(source)], [source], True)
+        for sources in texts
+        for source in sources
+    ]
+    return [*long, *short]
 
 
 def main() -> int:
@@ -130,8 +151,7 @@ def main() -> int:
     if not texts:
         raise SystemExit(f"clang_tidy.py: error: no source files in {root}")
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        results = pool.map(lambda sources: check(clang_tidy, root, flags[str(sources[0])], sources), texts)
-        found = [result for result in results if result]
+        found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags, texts)) if result]
     print("\n".join(found))
     if found:
         print("clang_tidy.py: error: see the findings above; .clang-tidy says which checks there are", file=sys.stderr)

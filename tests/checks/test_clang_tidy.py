@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from clang_tidy import check, compiler_flags, groups, text_of
+from clang_tidy import compiler_flags, groups, jobs, text_of
 
 HERE = Path(__file__).resolve().parent
 GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
@@ -26,12 +26,14 @@ class ClangTidy(unittest.TestCase):
         shutil.copy(HERE.parents[1] / ".clang-tidy", self.root)
 
     def found(self, **sources: str) -> str:
-        """Findings of common/mesh/NAME.cpp for each name, which must make one text."""
+        """Findings of common/mesh/NAME.cpp for each name, or of common/FOLDER/NAME.cpp for FOLDER__NAME; all in one text."""
         compiler = os.environ.get("CXX", "c++")
         (self.root / "common/mesh/header.hpp").write_text(HEADER)
         commands = []
         for name, text in sources.items():
-            file = self.root / f"common/mesh/{name}.cpp"
+            folder, name = name.split("__") if "__" in name else ("mesh", name)
+            file = self.root / f"common/{folder}/{name}.cpp"
+            file.parent.mkdir(exist_ok=True)
             file.write_text(text)
             command = f"{compiler} -I{self.root}/common -std=c++17 -o {name}.o -c {file}"
             commands.append({"directory": str(self.root), "file": str(file), "command": command})
@@ -39,8 +41,8 @@ class ClangTidy(unittest.TestCase):
         flags = compiler_flags(self.root, compiler)
         texts = groups(self.root, flags)
         self.assertEqual(len(texts), 1)
-        files = texts[0]
-        return check(os.environ.get("CLANG_TIDY", "clang-tidy"), self.root, flags[str(files[0])], files)
+        program = os.environ.get("CLANG_TIDY", "clang-tidy")
+        return "\n".join(found for job in jobs(program, self.root, flags, texts) if (found := job()))
 
     def test_nothing_is_found_in_a_clean_tree(self) -> None:
         self.assertEqual(self.found(a=GOOD, b=GOOD.replace("one", "other")), "")
@@ -62,6 +64,18 @@ class ClangTidy(unittest.TestCase):
         found = self.found(a=local + "int a() { return size; }\n", b=local + NULL)
         self.assertIn("common/mesh/b.cpp:8:", found)
         self.assertNotIn("redefinition", found)
+
+    def test_one_name_of_two_things_in_two_folders_hides_no_finding(self) -> None:
+        local = "namespace {\nconstexpr int size = 2;\n}\n"
+        found = self.found(a=local + "int a() { return size; }\n", b=POINTER, other__c=local + POINTER)
+        self.assertIn("common/mesh/b.cpp:2:", found)
+        self.assertIn("common/other/c.cpp:5:", found)
+        self.assertNotIn("redefinition", found)
+
+    def test_a_header_is_looked_for_beside_its_source(self) -> None:
+        (self.root / "common/other").mkdir()
+        (self.root / "common/other/beside.hpp").write_text("#pragma once\ninline int here() { return 1; }\n")
+        self.assertEqual(self.found(a=GOOD, other__b='#include "beside.hpp"\nint b() { return here(); }\n'), "")
 
     def test_what_does_not_compile(self) -> None:
         self.assertIn("common/mesh/b.cpp:1:", self.found(a=GOOD, b="int broken( {\n"))

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "support/pi.hpp"
+
 namespace fsi::test {
 
 using Complex = std::complex<double>;
@@ -13,7 +15,7 @@ struct Bessel {
   Complex j0, j1, y0, y1;
 
   explicit Bessel(Complex z) {
-    constexpr double pi = 3.14159265358979323846, euler = 0.57721566490153286061;
+    constexpr double euler = 0.57721566490153286061;
     const Complex square = -0.25 * z * z;
     Complex term = 1.0;  // (-z^2/4)^k / (k!)^2
     Complex sum0 = 0.0, sum1 = 0.0;

@@ -29,7 +29,6 @@ namespace {
 
 [[maybe_unused]] const int single_thread = set_threads(1);
 
-const double pi = std::acos(-1.0);
 constexpr double radius = 1.2, density = 1.06;  // mm, mg/mm^3
 
 /// A rigid pipe 0 < z < length with groups inlet and outlet: of revolution, cells smaller towards the wall; of

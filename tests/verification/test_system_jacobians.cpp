@@ -22,7 +22,7 @@ namespace {
 
 using Tet = P1Tetrahedron;
 
-[[maybe_unused]] const int single_thread = set_threads(1);
+[[maybe_unused]] const int one_thread = set_threads(1);
 
 /// A scene in the middle of a step, every field and history nonzero and nothing in equilibrium. Softer volume, more
 /// viscous fluid and longer step than the artery's, so that no term drowns in another.

@@ -29,7 +29,7 @@ void require(bool good, const std::string& option, double value, const std::stri
   if (!good) throw InputError("fsi-mesh", option, fmt::format("{} mm will not do", value), remedy);
 }
 
-bool positive(double value) {
+bool is_positive(double value) {
   return std::isfinite(value) && value > 0;
 }
 
@@ -64,18 +64,18 @@ ArteryOptions artery_level(const std::string& name) {
 }
 
 void require_tube(const ArteryShape& shape) {
-  require(positive(shape.inner_radius), "--inner-radius", shape.inner_radius, "give a positive radius");
-  require(positive(shape.media), "--media", shape.media, "give a positive thickness");
+  require(is_positive(shape.inner_radius), "--inner-radius", shape.inner_radius, "give a positive radius");
+  require(is_positive(shape.media), "--media", shape.media, "give a positive thickness");
   require(std::isfinite(shape.adventitia) && shape.adventitia >= 0, "--adventitia", shape.adventitia,
           "give a positive thickness, or 0 for a wall of media alone");
-  require(positive(shape.length), "--length", shape.length, "give a positive length");
+  require(is_positive(shape.length), "--length", shape.length, "give a positive length");
 }
 
 ArteryCells artery_cells(const ArteryOptions& o) {
   require_tube(o);
-  require(positive(o.size), "--size", o.size, "give a positive element size");
+  require(is_positive(o.size), "--size", o.size, "give a positive element size");
   const double axial_size = o.axial_size.value_or(o.size);
-  require(positive(axial_size), "--axial-size", axial_size, "give a positive element size");
+  require(is_positive(axial_size), "--axial-size", axial_size, "give a positive element size");
 
   const double lumen = std::max(2.0, std::round(2 * pi * o.inner_radius / (6 * o.size)));
   const double media = std::max(1.0, std::round(o.media / (ring_to_size * o.size)));

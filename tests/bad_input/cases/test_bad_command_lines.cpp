@@ -20,7 +20,7 @@ struct BadLine {
 void PrintTo(const BadLine& bad, std::ostream* stream) {
   *stream << bad.name;
 }
-std::string name_of(const testing::TestParamInfo<BadLine>& info) {
+std::string name_of_line(const testing::TestParamInfo<BadLine>& info) {
   return info.param.name;
 }
 
@@ -75,7 +75,7 @@ TEST_P(BadCommandLine, IsRefusedInOneLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BadCommandLine, testing::ValuesIn(bad_lines()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, BadCommandLine, testing::ValuesIn(bad_lines()), name_of_line);
 
 TEST(BadCommandLine, EndsTheProgramWithOneLineAndCodeOne) {
   testing::internal::CaptureStderr();

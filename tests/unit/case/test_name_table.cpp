@@ -12,15 +12,15 @@ namespace fsi::test {
 
 namespace {
 
-const NameTable<int> table{"fruit", {{"apple", 1}, {"pear", 2}, {"plum", 2}}};
+const NameTable<int> fruits{"fruit", {{"apple", 1}, {"pear", 2}, {"plum", 2}}};
 
 TEST(NameTable, FindsValuesAndNames) {
-  EXPECT_EQ(table.at("pear"), 2);
-  EXPECT_EQ(*table.find("apple"), 1);
-  EXPECT_EQ(table.find("apples"), nullptr);
-  EXPECT_EQ(table.name_of(2), "pear") << "the first of two names";
-  EXPECT_EQ(table.name_of(3), "");
-  EXPECT_EQ(table.names(), (std::vector<std::string>{"apple", "pear", "plum"}));
+  EXPECT_EQ(fruits.at("pear"), 2);
+  EXPECT_EQ(*fruits.find("apple"), 1);
+  EXPECT_EQ(fruits.find("apples"), nullptr);
+  EXPECT_EQ(fruits.name_of(2), "pear") << "the first of two names";
+  EXPECT_EQ(fruits.name_of(3), "");
+  EXPECT_EQ(fruits.names(), (std::vector<std::string>{"apple", "pear", "plum"}));
 }
 
 std::string complaint(const std::function<void()>& what) {
@@ -33,7 +33,7 @@ std::string complaint(const std::function<void()>& what) {
 }
 
 TEST(NameTable, RefusesAnUnknownNameWithTheNearest) {
-  EXPECT_EQ(complaint([] { table.at("paer"); }),
+  EXPECT_EQ(complaint([] { fruits.at("paer"); }),
             "fruit: \"paer\" is unknown; did you mean pear? There are apple, pear or plum");
 }
 

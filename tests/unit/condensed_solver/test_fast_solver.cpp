@@ -6,6 +6,7 @@
 
 #include "base/threads.hpp"
 #include "condensed_solver/fast_solver.hpp"
+#include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
 #include "fem/p2p1_triangle.hpp"
@@ -20,21 +21,6 @@ namespace fsi::test {
 namespace {
 
 using Tet = P1Tetrahedron;
-
-FastOptions iterative() {
-  FastOptions options;
-  options.direct_below = 0;
-  return options;
-}
-
-double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double error = 0, size = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    error += (a[i] - b[i]) * (a[i] - b[i]);
-    size += b[i] * b[i];
-  }
-  return std::sqrt(error / size);
-}
 
 /// A short, coarse artery of fibred wall in its third step: every block of the Jacobian is there.
 LinearisedScene<3>& artery() {

@@ -6,6 +6,7 @@
 
 #include "condensed_solver/fast_solver.hpp"
 #include "condensed_solver/velocity_pressure_preconditioner.hpp"
+#include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p2p1_tetrahedron.hpp"
 #include "fem/p2p1_triangle.hpp"
@@ -16,8 +17,6 @@
 namespace fsi::test {
 
 namespace {
-
-using Tet = P2P1Tetrahedron;
 
 ArteryShape short_tube() {
   ArteryShape shape;
@@ -37,7 +36,7 @@ ArteryCells cells(int axial) {
 }
 
 std::unique_ptr<Scene<3>> artery(const Case& setup, int axial) {
-  return build_scene<Tet>(setup, with_mid_edge_nodes(generate_artery(short_tube(), cells(axial))));
+  return build_scene<P2P1Tetrahedron>(setup, with_mid_edge_nodes(generate_artery(short_tube(), cells(axial))));
 }
 
 /// The case with steps of this length.
@@ -56,21 +55,6 @@ Case static_wall() {
   setup.static_load = StaticData{};
   setup.load = PressureTable{{{0.0, 0.1}}};
   return setup;
-}
-
-double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double error = 0, size = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    error += (a[i] - b[i]) * (a[i] - b[i]);
-    size += b[i] * b[i];
-  }
-  return std::sqrt(error / size);
-}
-
-FastOptions iterative() {
-  FastOptions options;
-  options.direct_below = 0;
-  return options;
 }
 
 /// Iterations to 1e-8 of the system's first Newton equations at rest; the solution is that of the factorisation.

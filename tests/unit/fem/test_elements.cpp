@@ -6,6 +6,7 @@
 #include "fem/facet_load.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
+#include "support/pi.hpp"
 #include "support/random.hpp"
 
 namespace fsi::test {
@@ -15,8 +16,6 @@ namespace {
 using Tet = P1Tetrahedron;
 using Triangle = P1AxisymmetricTriangle;
 using Corners = std::array<std::array<double, 3>, 4>;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Positively oriented, no two edges alike.
 const Corners irregular{{{0.1, -0.2, 0.3}, {1.2, 0.1, 0.0}, {0.3, 0.9, -0.1}, {0.2, 0.3, 1.4}}};

@@ -10,13 +10,12 @@
 #include "fem/function_space.hpp"
 #include "mesh/facets.hpp"
 #include "support/element_meshes.hpp"
+#include "support/pi.hpp"
 #include "wall/fibre_directions.hpp"
 
 namespace fsi::test {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double factorial(int n) {
   return std::tgamma(n + 1.0);

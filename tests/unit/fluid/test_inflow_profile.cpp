@@ -7,12 +7,11 @@
 #include "fem/elements.hpp"
 #include "fluid/opening_profile.hpp"
 #include "opening_meshes.hpp"
+#include "support/pi.hpp"
 
 namespace fsi::test {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 double centre_velocity(const UnitInflow& inflow, const Point& inward) {
   return along<P1Tetrahedron>(inflow.velocity, 0, inward);

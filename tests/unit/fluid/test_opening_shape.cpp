@@ -7,13 +7,13 @@
 #include "fluid/opening_shape.hpp"
 #include "opening_meshes.hpp"
 #include "support/messages.hpp"
+#include "support/pi.hpp"
 
 namespace fsi::test {
 
 namespace {
 
 using Kind = OpeningShape::Kind;
-const double pi = std::acos(-1.0);
 
 void expect_circle(const OpeningShape& shape, double radius) {
   ASSERT_EQ(shape.kind, Kind::circle);

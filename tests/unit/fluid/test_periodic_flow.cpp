@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "fluid/periodic_flow.hpp"
+#include "support/pi.hpp"
 
 namespace fsi::test {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 TEST(PeriodicFlow, IsLinearBetweenPointsAndFromTheLastToTheNextPeriod) {
   const PeriodicFlow flow{10, {{2, 1}, {4, 5}, {8, 3}}};

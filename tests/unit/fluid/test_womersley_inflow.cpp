@@ -9,12 +9,12 @@
 #include "fluid/womersley_inflow.hpp"
 #include "opening_meshes.hpp"
 #include "support/bessel_series.hpp"
+#include "support/pi.hpp"
 
 namespace fsi::test {
 
 namespace {
 
-const double pi = std::acos(-1.0);
 constexpr double density = 1.06, viscosity = 3.5e-3;
 
 /// One mode: samples of a cosine so close that their corners do not count.

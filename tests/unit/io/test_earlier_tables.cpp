@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultTables tables{true, true, true, false, EnergyParts{true, true}, {}, {"wall", "3"}};
+const ResultTables earlier_tables{true, true, true, false, EnergyParts{true, true}, {}, {"wall", "3"}};
 const std::vector<double> centre{0, 0.5, 1}, wall{0, 1};
 
 using Lines = std::vector<std::string>;
@@ -33,7 +33,7 @@ class Tables : public FolderTest {
 
   void SetUp() override {
     FolderTest::SetUp();
-    ResultFolder results(folder_ / "run", tables);
+    ResultFolder results(folder_ / "run", earlier_tables);
     for (int k = 1; k <= written; ++k) {
       const double time = 0.1 * k;
       results.write_iterations({k, time, 1, 3, 0, 0.5, 1e-4});
@@ -50,7 +50,9 @@ class Tables : public FolderTest {
   }
 
   EarlierSteps steps(int levels = step) const { return {step, 0.1 * step, levels, centre, wall}; }
-  EarlierTables read(const EarlierSteps& earlier) const { return EarlierTables(folder_ / "run", tables, earlier); }
+  EarlierTables read(const EarlierSteps& earlier) const {
+    return EarlierTables(folder_ / "run", earlier_tables, earlier);
+  }
 
   void change(const std::string& file, const std::function<void(Lines&)>& what) {
     Lines lines = lines_of(folder_ / "run" / file);
@@ -182,7 +184,7 @@ TEST_F(Tables, ThatAreNoFilesAreRefused) {
   EXPECT_THROW(read(steps()), InputError);
   fs::create_directories(folder_ / "run" / "flow.csv");
   EXPECT_THROW(read(steps()), InputError);
-  EXPECT_THROW(EarlierTables(folder_ / "missing", tables, steps()), InputError);
+  EXPECT_THROW(EarlierTables(folder_ / "missing", earlier_tables, steps()), InputError);
 }
 
 }  // namespace

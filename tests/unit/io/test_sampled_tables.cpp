@@ -19,7 +19,7 @@ namespace {
 const SampledTable points{
     points_file, "time_ms,point,x_mm,y_mm,pressure_Pa,velocity_x_mm_per_ms", {"a,0,1.5", "b,2,-1"}, {0, 1}};
 
-ResultTables tables(const SampledTable& sampled = points) {
+ResultTables tables_of(const SampledTable& sampled = points) {
   ResultTables wanted{false, false, true};
   wanted.sampled = {sampled};
   return wanted;
@@ -31,7 +31,7 @@ class SampledTables : public FolderTest {
 
   void SetUp() override {
     FolderTest::SetUp();
-    ResultFolder results(folder_ / "run", tables());
+    ResultFolder results(folder_ / "run", tables_of());
     for (int k = 1; k <= written; ++k) {
       const double time = 0.1 * k;
       results.write_iterations({k, time, 1, 3, 0, 0.5, 1e-4});
@@ -41,7 +41,7 @@ class SampledTables : public FolderTest {
   }
 
   EarlierTables read(const SampledTable& sampled = points) const {
-    return EarlierTables(folder_ / "run", tables(sampled), {step, 0.1 * step, step, {}, {}});
+    return EarlierTables(folder_ / "run", tables_of(sampled), {step, 0.1 * step, step, {}, {}});
   }
   std::string refusal(const SampledTable& sampled = points) const {
     try {
@@ -71,7 +71,7 @@ TEST_F(SampledTables, ARestartTakesOverTheRowsUpToItsCheckpoint) {
   EXPECT_EQ(last[0], 200);
   EXPECT_TRUE(std::isnan(last[1]));
   EXPECT_EQ(last[3], 0.5);
-  { const ResultFolder again(folder_ / "again", tables(), earlier); }
+  { const ResultFolder again(folder_ / "again", tables_of(), earlier); }
   EXPECT_EQ(contents_of(folder_ / "again" / points_file),
             points.header + "\n0.1,a,0,1.5,100,\n0.1,b,2,-1,-0.001,0.25\n0.2,a,0,1.5,200,\n0.2,b,2,-1,-0.001,0.5\n");
 }
@@ -103,7 +103,7 @@ TEST_F(SampledTables, WordsForNumbersAreRefused) {
 }
 
 TEST_F(SampledTables, NumbersThatAreNotFiniteAreNotWritten) {
-  ResultFolder results(folder_ / "other", tables());
+  ResultFolder results(folder_ / "other", tables_of());
   EXPECT_THROW(results.write_sampled(points, 0.1, {{1, 2}, {std::numeric_limits<double>::infinity(), std::nullopt}}),
                ConvergenceError);
   EXPECT_EQ(contents_of(folder_ / "other" / points_file), points.header + "\n");

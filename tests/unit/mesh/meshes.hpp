@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesh/artery_generator.hpp"
+#include "mesh/mesh_checks.hpp"
 
 namespace fsi::test {
 
@@ -15,6 +16,14 @@ inline TetrahedralMesh short_artery() {
   ArteryOptions options;
   options.length = 3;
   return generate_artery(options);
+}
+
+/// What a scene asks of the meshes of an artery.
+inline SceneMeshNeeds artery_needs() {
+  SceneMeshNeeds needs;
+  needs.fluid = needs.inlet = needs.outlet = true;
+  needs.layers = {"media", "adventitia"};
+  return needs;
 }
 
 /// Any linear function.

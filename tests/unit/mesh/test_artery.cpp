@@ -15,13 +15,6 @@
 namespace fsi {
 namespace {
 
-SceneMeshNeeds artery_needs() {
-  SceneMeshNeeds needs;
-  needs.fluid = needs.inlet = needs.outlet = true;
-  needs.layers = {"media", "adventitia"};
-  return needs;
-}
-
 struct Expected {
   const char* level;
   double nodes, tetrahedra;  // of the paper's meshes (Langer & Yang, table of meshes)
@@ -38,7 +31,7 @@ class ArteryLevel : public testing::TestWithParam<Expected> {};
 TEST_P(ArteryLevel, HasThePapersSizeAndIsFitForUse) {
   const auto& expected = GetParam();
   const auto mesh = generate_artery(artery_level(expected.level));
-  EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), expected.level));
+  EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), expected.level));
   const auto quality = measure_quality(mesh);
   EXPECT_NEAR(static_cast<double>(quality.nodes) / expected.nodes, 1, 0.1);
   EXPECT_NEAR(static_cast<double>(quality.cells) / expected.tetrahedra, 1, 0.1);
@@ -86,7 +79,7 @@ TEST(Artery, StationsCloseTogetherAreLeftInLine) {
   options.length = 1;
   options.axial_size = 0.1;
   const auto mesh = generate_artery(options);
-  EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "in line"));
+  EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "in line"));
   const double polygon = 12 * 0.5 * std::sin(2 * M_PI / 12) * 1.43 * 1.43;
   EXPECT_NEAR(measure_quality(mesh).regions[0].volume, polygon, 1e-12);
 }
@@ -99,7 +92,7 @@ TEST(Artery, DimensionsAreFree) {
   options.length = 7;
   options.size = 0.9;
   const auto mesh = generate_artery(options);
-  EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "free"));
+  EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "free"));
   double radius = 0, length = 0;
   for (const auto& x : mesh.nodes) {
     radius = std::max(radius, std::hypot(x[0], x[1]));
@@ -114,7 +107,7 @@ TEST(Artery, WithoutAdventitiaTheWallIsMediaAlone) {
   options.adventitia = 0;
   const auto mesh = generate_artery(options);
   EXPECT_EQ(mesh.regions, (std::vector<std::string>{"fluid", "media"}));
-  auto needs = artery_needs();
+  auto needs = test::artery_needs();
   needs.layers = {"media"};
   EXPECT_NO_THROW(check_scene_mesh(mesh, needs, "one layer"));
 }

@@ -17,6 +17,7 @@
 #include "mesh/mesh_checks.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
+#include "meshes.hpp"
 
 namespace fsi {
 namespace {
@@ -36,19 +37,12 @@ ArteryCells graded_cells() {
   return cells;
 }
 
-SceneMeshNeeds artery_needs() {
-  SceneMeshNeeds needs;
-  needs.fluid = needs.inlet = needs.outlet = true;
-  needs.layers = {"media", "adventitia"};
-  return needs;
-}
-
 /// Part of a circle's area that the inscribed polygon has.
 double polygon(int sides) {
   return 0.5 * sides * std::sin(2 * M_PI / sides) / M_PI;
 }
 
-const double circles[] = {M_PI * 1.43 * 1.43, M_PI*(1.69 * 1.69 - 1.43 * 1.43), M_PI*(1.82 * 1.82 - 1.69 * 1.69)};
+const double circle_areas[] = {M_PI * 1.43 * 1.43, M_PI*(1.69 * 1.69 - 1.43 * 1.43), M_PI*(1.82 * 1.82 - 1.69 * 1.69)};
 
 TEST(GradedLine, HasOneRatioFromCellToCellAndTheAskedOneFromFirstToLast) {
   const auto ends = graded_line(18, 7, 5);
@@ -68,9 +62,9 @@ TEST(ArteryCellsTest, WholeTubeIsFitForUseAndFillsItsPolygons) {
     auto cells = graded_cells();
     cells.around = around;
     const auto mesh = generate_artery(short_shape(), cells);
-    EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "whole"));
+    EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "whole"));
     const auto quality = measure_quality(mesh);
-    for (int r = 0; r < 3; ++r) EXPECT_NEAR(quality.regions[r].volume, 6 * polygon(around) * circles[r], 1e-11);
+    for (int r = 0; r < 3; ++r) EXPECT_NEAR(quality.regions[r].volume, 6 * polygon(around) * circle_areas[r], 1e-11);
     EXPECT_GT(quality.min_eta, 0.05);
     EXPECT_EQ(quality.regions[1].layers, 2);
     EXPECT_EQ(quality.regions[2].layers, 2);
@@ -148,12 +142,12 @@ TEST(ArterySector, QuarterAndHalfAreFitForUseAndLieBetweenTheirPlanes) {
   for (const int degrees : {90, 180}) {
     SCOPED_TRACE(degrees);
     const auto mesh = generate_artery(short_shape(), graded_cells(), degrees);
-    EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "sector"));
+    EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "sector"));
     expect_groups_complete<3>(mesh, [](const Point&) { return false; });
     expect_outward<3>(mesh);
     const auto quality = measure_quality(mesh);
     for (int r = 0; r < 3; ++r)
-      EXPECT_NEAR(quality.regions[r].volume, degrees / 360.0 * 6 * polygon(12) * circles[r], 1e-11);
+      EXPECT_NEAR(quality.regions[r].volume, degrees / 360.0 * 6 * polygon(12) * circle_areas[r], 1e-11);
 
     EXPECT_EQ(mesh.facets("symmetry_x") != nullptr, degrees == 90);
     ASSERT_NE(mesh.facets("symmetry_y"), nullptr);
@@ -174,12 +168,12 @@ TEST(ArterySector, OtherAnglesAreBoundedByAPlaneNormalToNoAxis) {
     auto cells = graded_cells();
     cells.around = 2 * 360 / degrees;
     const auto mesh = generate_artery(short_shape(), cells, degrees);
-    EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "sector"));
+    EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "sector"));
     expect_groups_complete<3>(mesh, [](const Point&) { return false; });
     expect_outward<3>(mesh);
     const auto quality = measure_quality(mesh);
     for (int r = 0; r < 3; ++r)
-      EXPECT_NEAR(quality.regions[r].volume, degrees / 360.0 * 6 * polygon(cells.around) * circles[r], 1e-11);
+      EXPECT_NEAR(quality.regions[r].volume, degrees / 360.0 * 6 * polygon(cells.around) * circle_areas[r], 1e-11);
     EXPECT_EQ(mesh.facets("symmetry_x"), nullptr);
     for (const int node : facet_nodes(*mesh.facets("symmetry_y"))) EXPECT_EQ(mesh.nodes[node][1], 0);
     const double angle = degrees * std::acos(-1.0) / 180;
@@ -202,7 +196,7 @@ TEST(ArterySection, FillsTheRectanglesAndNamesTheirSides) {
   EXPECT_EQ(mesh.regions, (std::vector<std::string>{"fluid", "media", "adventitia"}));
   EXPECT_EQ(mesh.nodes.size(), 9u * 10);
   EXPECT_EQ(mesh.cells.size(), 2u * 8 * 9);
-  EXPECT_NO_THROW(check_scene_mesh(mesh, artery_needs(), "section"));
+  EXPECT_NO_THROW(check_scene_mesh(mesh, test::artery_needs(), "section"));
   std::array<double, 3> area{};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& [a, b, d] = mesh.cells[c];

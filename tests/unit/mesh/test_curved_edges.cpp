@@ -27,7 +27,7 @@ double volume(const SimplexMesh<3, 2>& mesh, int region) {
   return sum;
 }
 
-ArteryShape short_shape() {
+ArteryShape tube_shape() {
   ArteryShape shape;
   shape.length = 3;
   return shape;
@@ -56,7 +56,7 @@ TetrahedralMesh tube(int lumen, int media, int around, int axial, double grading
   cells.around = around;
   cells.axial = axial;
   cells.lumen_grading = cells.axial_grading = grading;
-  return generate_artery(short_shape(), cells, degrees);
+  return generate_artery(tube_shape(), cells, degrees);
 }
 
 class CurvedEdges : public testing::TestWithParam<Tube> {};

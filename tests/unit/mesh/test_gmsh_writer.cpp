@@ -15,7 +15,7 @@
 namespace fsi {
 namespace {
 
-ArteryShape short_shape() {
+ArteryShape stub_shape() {
   ArteryShape shape;
   shape.length = 2;
   return shape;
@@ -112,11 +112,11 @@ constexpr double outer_radius = 1.82, length = 2;
 
 TEST_F(GmshWriter, LinearTetrahedra) {
   const double polygon = 6 * std::sin(2 * M_PI / 12) * outer_radius * outer_radius;
-  expect_understood(generate_artery(short_shape(), few_cells()), 4, 2, polygon * length, 1e-9);
+  expect_understood(generate_artery(stub_shape(), few_cells()), 4, 2, polygon * length, 1e-9);
 }
 
 TEST_F(GmshWriter, QuadraticTetrahedra) {
-  const auto linear = generate_artery(short_shape(), few_cells());
+  const auto linear = generate_artery(stub_shape(), few_cells());
   const double polygon = 6 * std::sin(2 * M_PI / 12) * outer_radius * outer_radius;
   expect_understood(with_mid_edge_nodes(linear), 11, 9, polygon * length, 1e-9);
   // Area between a chord and the parabola to the arc's middle: 2/3 of width times height, twelve times.
@@ -125,11 +125,11 @@ TEST_F(GmshWriter, QuadraticTetrahedra) {
 }
 
 TEST_F(GmshWriter, LinearTriangles) {
-  expect_understood(generate_artery_section(short_shape(), few_cells()), 2, 1, outer_radius * length, 1e-13);
+  expect_understood(generate_artery_section(stub_shape(), few_cells()), 2, 1, outer_radius * length, 1e-13);
 }
 
 TEST_F(GmshWriter, QuadraticTriangles) {
-  expect_understood(with_mid_edge_nodes(generate_artery_section(short_shape(), few_cells())), 9, 8,
+  expect_understood(with_mid_edge_nodes(generate_artery_section(stub_shape(), few_cells())), 9, 8,
                     outer_radius * length, 1e-13);
 }
 

@@ -11,6 +11,7 @@
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/quality.hpp"
+#include "meshes.hpp"
 
 namespace fsi {
 namespace {
@@ -22,13 +23,6 @@ TetrahedralMesh quarter() {
   cells.axial = 3;
   cells.lumen_grading = cells.axial_grading = 2;
   return generate_artery(shape, cells, 90);
-}
-
-SceneMeshNeeds artery_needs() {
-  SceneMeshNeeds needs;
-  needs.fluid = needs.inlet = needs.outlet = true;
-  needs.layers = {"media", "adventitia"};
-  return needs;
 }
 
 /// The mesh's image in a plane has the same nodes and cells.
@@ -59,10 +53,10 @@ TEST(Mirror, FourQuartersAreTheWholeTube) {
   const auto half = joined_with_mirror_image(part, 1);
   EXPECT_EQ(half.facets("symmetry_y"), nullptr);
   EXPECT_EQ(half.facets("symmetry_x")->size(), 2 * part.facets("symmetry_x")->size());
-  EXPECT_NO_THROW(check_scene_mesh(half, artery_needs(), "half"));
+  EXPECT_NO_THROW(check_scene_mesh(half, test::artery_needs(), "half"));
   const auto whole = joined_with_mirror_image(half, 0);
   EXPECT_EQ(whole.facets("symmetry_x"), nullptr);
-  EXPECT_NO_THROW(check_scene_mesh(whole, artery_needs(), "whole"));
+  EXPECT_NO_THROW(check_scene_mesh(whole, test::artery_needs(), "whole"));
   EXPECT_EQ(whole.cells.size(), 4 * part.cells.size());
   for (const char* group : {"inlet", "outlet", "wall_ends", "outer"})
     EXPECT_EQ(whole.facets(group)->size(), 4 * part.facets(group)->size()) << group;
@@ -109,7 +103,7 @@ TEST(SectorImages, AreTheWholeTube) {
     const int images = 360 / degrees;
     const char* last = degrees == 90 ? "symmetry_x" : "symmetry_1";
     const auto whole = joined_with_sector_images(part, degrees, "symmetry_y", last);
-    EXPECT_NO_THROW(check_scene_mesh(whole, artery_needs(), "whole"));
+    EXPECT_NO_THROW(check_scene_mesh(whole, test::artery_needs(), "whole"));
     EXPECT_EQ(whole.facets("symmetry_y"), nullptr);
     EXPECT_EQ(whole.facets(last), nullptr);
     EXPECT_EQ(whole.cells.size(), images * part.cells.size());

@@ -14,19 +14,19 @@ namespace {
 
 using Tet = P1Tetrahedron;
 
-TangentExtensionOptions iterative() {
+TangentExtensionOptions iterative_tangent() {
   TangentExtensionOptions options;
   options.iterative_from = 0;
   return options;
 }
-TangentExtensionOptions direct() {
+TangentExtensionOptions direct_tangent() {
   TangentExtensionOptions options;
   options.iterative_from = 1 << 30;
   return options;
 }
 
 /// The tangent of a pseudo-solid in a deformed cube around a body.
-struct Problem {
+struct TangentProblem {
   PrescribedMotion<Tet> body = body_in_a_box<Tet>(10);
   FunctionSpace<3> space = function_space<Tet>(body.part);
   ElementPacks<Tet> packs{body.part.nodes, body.part.cells, all_cells(body.part), *space.graph()};
@@ -36,7 +36,7 @@ struct Problem {
   std::vector<char> inner;
   std::vector<double> right, field;
 
-  Problem() {
+  TangentProblem() {
     std::vector<double> rows;
     EXPECT_FALSE(motion.assemble(random_field(body.part.nodes, 3, 0.05, 0.002, 1), rows, &tangent).inverted());
     Random random(7);
@@ -56,9 +56,9 @@ struct Problem {
 };
 
 TEST(TangentExtension, IterationAndFactorisationAgree) {
-  const Problem problem;
-  TangentExtension<3> by_factors(problem.tangent, problem.inner, direct()),
-      by_iteration(problem.tangent, problem.inner, iterative());
+  const TangentProblem problem;
+  TangentExtension<3> by_factors(problem.tangent, problem.inner, direct_tangent()),
+      by_iteration(problem.tangent, problem.inner, iterative_tangent());
   by_factors.update();
   by_iteration.update();
   auto first = problem.field, second = problem.field;
@@ -78,8 +78,8 @@ TEST(TangentExtension, IterationAndFactorisationAgree) {
 }
 
 TEST(TangentExtension, AFactorisationFollowsWhenTheIterationIsCutShort) {
-  Problem problem;
-  auto options = iterative();
+  TangentProblem problem;
+  auto options = iterative_tangent();
   options.max_iterations = 2;
   TangentExtension<3> extension(problem.tangent, problem.inner, options);
   for (const double factor : {1.0, 2.0}) {
@@ -94,9 +94,9 @@ TEST(TangentExtension, AFactorisationFollowsWhenTheIterationIsCutShort) {
 }
 
 TEST(TangentExtension, ATangentThatIsNotPositiveIsFactorised) {
-  Problem problem;
+  TangentProblem problem;
   for (double& value : problem.tangent.values) value = -value;
-  TangentExtension<3> extension(problem.tangent, problem.inner, iterative());
+  TangentExtension<3> extension(problem.tangent, problem.inner, iterative_tangent());
   extension.update();
   auto field = problem.field;
   extension.solve(problem.right, field);
@@ -109,8 +109,8 @@ TEST(TangentExtension, SameBitsForAnyNumberOfThreads) {
   std::vector<double> of_threads[2];
   for (const int count : {1, 2}) {
     set_threads(count);
-    const Problem problem;
-    TangentExtension<3> extension(problem.tangent, problem.inner, iterative());
+    const TangentProblem problem;
+    TangentExtension<3> extension(problem.tangent, problem.inner, iterative_tangent());
     extension.update();
     of_threads[count - 1] = problem.field;
     extension.solve(problem.right, of_threads[count - 1]);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "algebra/direct_solver.hpp"
+#include "coupled_waves.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "support/linear_systems.hpp"
@@ -25,14 +26,6 @@ struct PaperForm {
     system.expand(box.b(), b);
   }
 };
-
-CoupledVector waves(const CoupledMatrix<3>& k) {
-  CoupledVector x = k.zero_vector();
-  int i = 0;
-  for (auto* part : {&x.mesh, &x.fluid, &x.wall})
-    for (double& value : *part) value = std::sin(1.0 + 0.7 * i++);
-  return x;
-}
 
 // The paper's system is the condensed one with its two identity rows put back (docs/theory.md, section 9).
 TEST(CoupledMatrix, HasTheSolutionOfTheCondensedSystem) {

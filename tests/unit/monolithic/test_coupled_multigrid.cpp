@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include "coupled_waves.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
 #include "support/linear_systems.hpp"
@@ -26,14 +27,6 @@ struct Hierarchy {
     multigrid = std::make_unique<CoupledMultigrid<3>>(system, linearised_box().blocks(), options);
   }
 };
-
-CoupledVector waves(const CoupledMatrix<3>& k) {
-  CoupledVector x = k.zero_vector();
-  int i = 0;
-  for (auto* part : {&x.mesh, &x.fluid, &x.wall})
-    for (double& value : *part) value = std::sin(1.0 + 0.7 * i++);
-  return x;
-}
 
 /// x = P y
 CoupledVector prolongated(const CoupledTransfer& p, const CoupledVector& y, CoupledVector x) {

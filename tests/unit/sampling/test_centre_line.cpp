@@ -9,12 +9,11 @@
 #include "mesh/point_math.hpp"
 #include "sampling/harmonic_coordinate.hpp"
 #include "sampling/smooth_curve.hpp"
+#include "support/pi.hpp"
 #include "support/vessels.hpp"
 
 namespace fsi::test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 TEST(SmoothCurve, ThroughACircleItErrsByTheFourthPowerInsideAndKeepsItsLength) {
   double before = 0;

@@ -11,7 +11,7 @@
 namespace fsi::test {
 namespace {
 
-constexpr double bend = 5;
+constexpr double bend_radius = 5;
 
 double linear(const Point& x) {
   return 2 + 3 * x[0] - x[1] + 0.5 * x[2];
@@ -20,15 +20,16 @@ double linear(const Point& x) {
 template <int Order>
 void expect_exact() {
   auto tube = straight_vessel<Order>(6, 2, 8);
-  bend_about(bend, tube.part);
+  bend_about(bend_radius, tube.part);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> one(0, 1);
   std::vector<Point> points;
   for (int i = 0; i < 200; ++i) {
     // 12 edges around come no nearer than cos 15 degrees to the axis.
     const double radius = 0.9 * one(random), angle = 6.28 * one(random), s = 6 * one(random);
-    const double off = bend - radius * std::cos(angle);
-    points.push_back({bend - off * std::cos(s / bend), radius * std::sin(angle), off * std::sin(s / bend)});
+    const double off = bend_radius - radius * std::cos(angle);
+    points.push_back(
+        {bend_radius - off * std::cos(s / bend_radius), radius * std::sin(angle), off * std::sin(s / bend_radius)});
   }
   int found = 0;
   const auto samples = locate_in_cells(tube.part, points);

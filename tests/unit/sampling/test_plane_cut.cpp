@@ -10,12 +10,11 @@
 #include "mesh/curved_cells.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
+#include "support/pi.hpp"
 #include "support/vessels.hpp"
 
 namespace fsi::test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 using Field = std::function<double(const Point&)>;
 using VectorField = std::function<Point(const Point&)>;

@@ -264,16 +264,16 @@ TEST(Pressures, AreBroughtToTheLevelsFromBalances) {
       at.now.wall[1] = -p;
     };
     int i = 0;
-    for (double end : {0.2, 0.5, 0.6, 1.0, 1.3, 1.5, 1.9}) {
+    for (double until : {0.2, 0.5, 0.6, 1.0, 1.3, 1.5, 1.9}) {
       ++i;
-      march_step(*scheme, state, end, load, set);
+      march_step(*scheme, state, until, load, set);
       const bool first = i == 1 || i == 5;  // after a jump: of its balance alone, until the next is known
       if (!(first && scheme->pressures_lag())) {
-        EXPECT_NEAR(state.before[0].fluid[1], pressure(end), 1e-12) << end;
-        EXPECT_NEAR(state.before[0].wall[1], -pressure(end), 1e-12) << end;
+        EXPECT_NEAR(state.before[0].fluid[1], pressure(until), 1e-12) << until;
+        EXPECT_NEAR(state.before[0].wall[1], -pressure(until), 1e-12) << until;
       }
       if (i > 1) {
-        EXPECT_NEAR(state.before[1].fluid[1], pressure(state.times[1]), 1e-12) << end;
+        EXPECT_NEAR(state.before[1].fluid[1], pressure(state.times[1]), 1e-12) << until;
       }
     }
   }

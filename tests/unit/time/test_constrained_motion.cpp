@@ -40,7 +40,7 @@ void swing(State& state, const StepData& data) {
 }
 
 const PressureTable force{{{0, 3}, {0.5, 3}, {0.5, -1}}};
-constexpr double jump = 0.5, end = 1;
+constexpr double turn = 0.5, final_time = 1;
 
 struct Angle {
   double value = 0, rate = 0;
@@ -62,8 +62,8 @@ Angle exact(double t) {
       now.rate += h / 6 * (a.rate + 2 * b.rate + 2 * c.rate + d.rate);
     }
   };
-  march(std::min(t, jump), 3);
-  if (t > jump) march(t - jump, -1);
+  march(std::min(t, turn), 3);
+  if (t > turn) march(t - turn, -1);
   return now;
 }
 double pressure(const Angle& at, double f) {
@@ -82,11 +82,11 @@ Errors errors_of(const TimeIntegrator& scheme, const std::vector<double>& ends) 
   const int level = scheme.pressures_lag() ? 1 : 0;
   for (double time : ends) {
     march_step(scheme, state, time, force, swing);
-    const double then = state.times[level], since = then > jump ? then - jump : then;
-    errors.pressure = std::abs(state.before[level].wall[2] - pressure(exact(then), then > jump ? -1 : 3));
+    const double then = state.times[level], since = then > turn ? then - turn : then;
+    errors.pressure = std::abs(state.before[level].wall[2] - pressure(exact(then), then > turn ? -1 : 3));
     if (since > 0.1) errors.largest_pressure = std::max(errors.largest_pressure, errors.pressure);
   }
-  const Angle at = exact(end);
+  const Angle at = exact(final_time);
   errors.position = std::hypot(state.now.wall[0] - std::cos(at.value), state.now.wall[1] - std::sin(at.value));
   errors.velocity = std::hypot(state.wall_velocity[0] + at.rate * std::sin(at.value),
                                state.wall_velocity[1] - at.rate * std::cos(at.value));
@@ -98,8 +98,8 @@ Errors orders(const Errors& coarse, const Errors& fine) {
           std::log2(coarse.pressure / fine.pressure), std::log2(coarse.largest_pressure / fine.largest_pressure)};
 }
 Errors orders_of(const TimeIntegrator& scheme, bool uneven) {
-  return orders(errors_of(scheme, step_ends({0, jump, end}, 60, uneven)),
-                errors_of(scheme, step_ends({0, jump, end}, 120, uneven)));
+  return orders(errors_of(scheme, step_ends({0, turn, final_time}, 60, uneven)),
+                errors_of(scheme, step_ends({0, turn, final_time}, 120, uneven)));
 }
 
 TEST(ConstrainedMotion, IsOfSecondOrderInPositionVelocityAndPressureThroughAJump) {
@@ -134,7 +134,7 @@ TEST(ConstrainedMotion, PressuresOfBackwardDifferencesWithUnequalStepsAreOfFirst
 /// Steps twice as long from the middle of each half on.
 std::vector<double> longer_steps(int steps) {
   std::vector<double> ends;
-  for (double from : {0.0, jump}) {
+  for (double from : {0.0, turn}) {
     for (int i = 1; i <= steps; ++i) ends.push_back(from + 0.25 * i / steps);
     for (int i = 1; i <= steps / 2; ++i) ends.push_back(i == steps / 2 ? from + 0.5 : from + 0.25 + 0.5 * i / steps);
   }
@@ -185,10 +185,10 @@ class MidpointBdf2 : public BalanceScheme<2> {
 // Its first stage ends off the constraint by O(dt^2), which the second one corrects within a part of the step: an
 // acceleration, and so a pressure, that is wrong at every step length.
 TEST(ConstrainedMotion, MidpointStageBeforeBackwardDifferencesHasWrongPressuresAtEveryStepLength) {
-  const auto ends = [](int steps) { return step_ends({0, jump, end}, steps, false); };
+  const auto ends = [](int steps) { return step_ends({0, turn, final_time}, steps, false); };
   const MidpointBdf2 refused;
   const Errors coarse = errors_of(refused, ends(60)), fine = errors_of(refused, ends(240));
-  const double largest = pressure(exact(jump), 3);
+  const double largest = pressure(exact(turn), 3);
   EXPECT_GT(coarse.largest_pressure, largest);
   EXPECT_NEAR(fine.largest_pressure, coarse.largest_pressure, 0.1 * coarse.largest_pressure);
   const Errors of_tr_bdf2 = errors_of(TrBdf2<2>(), ends(240));

@@ -22,7 +22,7 @@ namespace fsi::test {
 namespace {
 
 const OutflowLaw law{0.7, 2.0, 3.0, 0.4, 1.3};  // R_p, C, R_d, p_d, p_c at the start
-constexpr double amplitude = 1.5, frequency = 2.5, end = 3;
+constexpr double amplitude = 1.5, frequency = 2.5, duration = 3;
 
 double flow(double t) {
   return amplitude * (1 - std::cos(frequency * t));
@@ -42,8 +42,8 @@ struct Marched {
   double at_balances = 0;  ///< largest, of p less R_p Q at balances
 };
 
-Marched march(const TimeIntegrator& scheme, int steps, const std::function<double(double)>& inflow, double until = end,
-              bool uneven = false) {
+Marched march(const TimeIntegrator& scheme, int steps, const std::function<double(double)>& inflow,
+              double until = duration, bool uneven = false) {
   State state;
   state.now.windkessel = {law.initial_pressure};
   state.before = {state.now, state.now, state.now};
@@ -90,7 +90,7 @@ TEST(Windkessel, FollowsItsEquationAtTheSchemesOrder) {
       SCOPED_TRACE(number++);
       std::vector<double> stored, pressure;
       for (const int steps : {80, 160, 320}) {
-        const Marched marched = march(*scheme, steps, flow, end, uneven);
+        const Marched marched = march(*scheme, steps, flow, duration, uneven);
         stored.push_back(marched.error);
         pressure.push_back(marched.at_balances);
       }
