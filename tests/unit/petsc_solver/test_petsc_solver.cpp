@@ -14,6 +14,7 @@
 #include "petsc_solver/petsc_solver.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
+#include "system/central_direct_solver.hpp"
 
 namespace fsi::test {
 
@@ -168,6 +169,7 @@ TEST(PetscSolver, StepsOfDifferentLength) {
   PetscSolver<3> petsc(system.blocks());
   PetscDirectSolver<3> mumps(system.blocks());
   DirectLinearSolver<3> direct(system.blocks());
+  CentralDirectSolver<3> central(system.blocks());
   std::vector<std::vector<double>> solutions;
   std::vector<int> iterations;
   for (double step : {0.125, 0.02}) {
@@ -181,6 +183,9 @@ TEST(PetscSolver, StepsOfDifferentLength) {
     std::vector<double> expected, x, by_mumps;
     direct.update();
     direct.solve(system.residual(), 0, expected);
+    central.update();
+    EXPECT_TRUE(central.solve(system.residual(), 0, x).converged);
+    EXPECT_EQ(x, expected) << "alone it is the same factorisation";
     petsc.update();
     const auto report = petsc.solve(system.residual(), 1e-10, x);
     EXPECT_TRUE(report.converged);
