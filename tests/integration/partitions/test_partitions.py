@@ -118,7 +118,8 @@ class Agreement(Processes):
         self.assertSameTables(one, alone)
 
     def test_the_same_bits_again(self):
-        first, again = (self.march(PARTITIONED, NEO_HOOKEAN, ("p1", "plane"), 3, name=name) for name in ("a", "b"))
+        kind = ("p1", "plane")
+        first, again = (self.march(PARTITIONED, NEO_HOOKEAN, kind, 3, ITERATION, name=name) for name in ("a", "b"))
         self.assertSameTables(first, again)
 
 
