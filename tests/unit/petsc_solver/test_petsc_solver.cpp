@@ -11,6 +11,7 @@
 #include "mesh/artery_generator.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "petsc_solver/petsc_direct_solver.hpp"
+#include "petsc_solver/petsc_options.hpp"
 #include "petsc_solver/petsc_solver.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
@@ -64,7 +65,13 @@ void expect_solved(LinearisedScene<n>& scene, int most_iterations, double tolera
 }
 
 TEST(PetscSolver, SolvesTheCoupledSystemAtADeformedState) {
+  expect_solved(artery(), 35);
+}
+
+TEST(PetscSolver, SolvesItByMultigridForThePressuresAsInLargeSystems) {
+  set_petsc_options("-fsi_pressure_pc_type gamg", "");
   expect_solved(artery(), 50);
+  set_petsc_options("", "");
 }
 
 TEST(PetscSolver, ZeroRightHandSide) {
