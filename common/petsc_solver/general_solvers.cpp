@@ -77,6 +77,14 @@ bool is_general_solver(const std::string& name) {
   return find_general_solver<3>(name) != nullptr;
 }
 
+bool has_petsc() {
+#ifdef FSI_WITH_MPI
+  return true;
+#else
+  return false;
+#endif
+}
+
 template <int n>
 std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
                                                   const JacobianBlocks<n>& blocks) {

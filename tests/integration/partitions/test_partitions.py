@@ -16,6 +16,7 @@ from programs import (
     FolderTest,
     attempt,
     driver_command,
+    execute,
     make_mesh,
     restart,
     run,
@@ -268,6 +269,7 @@ class Refusals(Processes):
         self.assertIn("monolithic.linear_solver", process.stderr)
         self.assertIn("one process", process.stderr)
         self.assertFalse((self.base / "paper").exists())
+        self.assertNotIn("not in this build", execute(MONOLITHIC, "--help").stdout)
 
 
 class WithoutMpi(FolderTest):
@@ -279,6 +281,9 @@ class WithoutMpi(FolderTest):
                 program, NEO_HOOKEAN, self.base / Path(program).name, *scene(self.base, "p1", "plane"), "time.end=0.25"
             )
             self.assertEqual(summary(folder)["processes"], 1)
+
+    def test_the_help_says_that_petsc_is_missing(self):
+        self.assertIn("petsc is not in this build", execute(MONOLITHIC, "--help").stdout)
 
     def test_several_are_refused(self):
         environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0"}
