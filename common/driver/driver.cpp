@@ -445,8 +445,9 @@ class Run {
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
     if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
     const bool sub_problems = program_ == "fsi-partitioned" && scene_->coupled();
-    if (const std::string other = other_solver_on_processes(
-            sub_problems ? setup_.partitioned.linear_solver : setup_.monolithic.linear_solver, processes_);
+    if (const std::string other =
+            other_solver_on_processes(sub_problems ? setup_.partitioned.linear_solver : setup_.monolithic.linear_solver,
+                                      sub_problems ? setup_.partitioned.fast : setup_.monolithic.fast, n, processes_);
         !other.empty())
       log.info(other);
     for (const auto& warning : setup_.warnings) log.warning(warning);

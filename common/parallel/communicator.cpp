@@ -103,6 +103,26 @@ bool is_launched() {
   return false;
 }
 
+/// While MPI begins in a process that no launcher has started: there is nobody to talk to. Open MPI otherwise starts a
+/// daemon of its own and looks for networks, half a second. What the user's environment says about it stands.
+class LoneStart {
+ public:
+  LoneStart() {
+    for (const auto& [name, value] : settings)
+      if (std::getenv(name) == nullptr && setenv(name, value, 0) == 0) set_.push_back(name);
+  }
+  ~LoneStart() {
+    for (const char* name : set_) unsetenv(name);  // programs that this one starts may be launchers
+  }
+  LoneStart(const LoneStart&) = delete;
+  LoneStart& operator=(const LoneStart&) = delete;
+
+ private:
+  static constexpr std::pair<const char*, const char*> settings[] = {
+      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
+  std::vector<const char*> set_;
+};
+
 template <class T>
 std::vector<T> gather_all(const std::vector<T>& mine, MPI_Datatype type, MPI_Comm communicator, int size) {
   const int count = static_cast<int>(mine.size());
@@ -226,6 +246,7 @@ ProcessGroup::~ProcessGroup() {
 
 void ProcessGroup::require_mpi() {
   if (has_begun()) return;
+  const std::unique_ptr<LoneStart> lone(is_launched() ? nullptr : new LoneStart);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
 }

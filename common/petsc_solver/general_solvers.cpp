@@ -8,6 +8,8 @@
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/dimensions.hpp"
 #include "petsc_solver/petsc_options.hpp"
+#include "petsc_solver/small_systems.hpp"
+#include "system/central_direct_solver.hpp"
 #include "system/direct_linear_solver.hpp"
 #ifdef FSI_WITH_MPI
 #include "petsc_solver/petsc_direct_solver.hpp"
@@ -35,8 +37,10 @@ std::unique_ptr<LinearSolver> make_petsc([[maybe_unused]] const Blocks<n>& block
 
 template <int n>
 std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
-  if (!blocks.numbering.processes->is_alone()) return make_petsc<n>(blocks, fast);
-  return std::make_unique<FastSolver<n>>(blocks, fast);
+  if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
+  if (is_factorised_at_first(blocks.numbering.whole_size(), n, fast))
+    return std::make_unique<CentralDirectSolver<n>>(blocks);
+  return make_petsc<n>(blocks, fast);
 }
 
 template <int n>
@@ -73,6 +77,14 @@ bool is_general_solver(const std::string& name) {
   return find_general_solver<3>(name) != nullptr;
 }
 
+bool has_petsc() {
+#ifdef FSI_WITH_MPI
+  return true;
+#else
+  return false;
+#endif
+}
+
 template <int n>
 std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
                                                   const JacobianBlocks<n>& blocks) {
@@ -96,9 +108,15 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
   return make_general_solver<n>(name, setup.monolithic.fast, blocks);
 }
 
-std::string other_solver_on_processes(const std::string& name, const Communicator& processes) {
+std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
+                                      const Communicator& processes) {
   if (processes.is_alone()) return "";
-  if (name == "fast") return fmt::format("linear_solver = \"petsc\" in place of \"fast\", which works on one process");
+  if (name == "fast") {
+    const std::string other = "linear_solver = \"petsc\" in place of \"fast\", which works on one process";
+    const auto bound = factorised_at_first_below(dimension, fast);
+    return bound == 0 ? other
+                      : fmt::format("{}; systems below {} unknowns are factorised at the first process", other, bound);
+  }
   if (name == "direct") return "linear_solver = \"direct\" factorises by MUMPS, since UMFPACK works on one process";
   return "";
 }

@@ -11,8 +11,12 @@ namespace fsi {
 /// Whether `name` serves any scene and any sub-problem.
 bool is_general_solver(const std::string& name);
 
+/// Whether this build has `petsc`.
+bool has_petsc();
+
 /// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
-/// share out the blocks' numbering: on several `petsc` stands in for "fast" and MUMPS for the sparse factorisation.
+/// share out the blocks' numbering: on several `petsc` stands in for "fast", but for what is_factorised_at_first(), and
+/// MUMPS for the sparse factorisation.
 /// \throws InputError for "petsc" in a build without it
 template <int n>
 std::unique_ptr<LinearSolver> make_general_solver(const std::string& name, const FastOptions& fast,
@@ -30,6 +34,9 @@ std::unique_ptr<LinearSolver> make_fast_or_direct(const std::string& name, const
                                                   const JacobianBlocks<n>& blocks);
 
 /// What is taken in place of the linear solver that the case names, a sentence for the user; empty: nothing is.
-std::string other_solver_on_processes(const std::string& name, const Communicator& processes);
+/// \param fast       options of "fast"
+/// \param dimension  of the scene
+std::string other_solver_on_processes(const std::string& name, const FastOptions& fast, int dimension,
+                                      const Communicator& processes);
 
 }  // namespace fsi

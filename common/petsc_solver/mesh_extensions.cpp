@@ -7,6 +7,7 @@
 #include "mesh_motion/tangent_extension.hpp"
 #ifdef FSI_WITH_MPI
 #include "petsc_solver/petsc_extension.hpp"
+#include "petsc_solver/small_systems.hpp"
 #endif
 
 namespace fsi {
@@ -16,7 +17,8 @@ std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n
                                                           const NodalFrames<n>* frames,
                                                           [[maybe_unused]] const PartNodes& part) {
 #ifdef FSI_WITH_MPI
-  if (part.share) return std::make_unique<PetscExtension<n>>(laplacian, std::move(inner), frames, part);
+  if (part.share)
+    return std::make_unique<PetscExtension<n>>(laplacian, std::move(inner), frames, part, factorised_at_first_below(n));
 #endif
   return std::make_unique<HarmonicExtension<n>>(laplacian, std::move(inner), HarmonicExtensionOptions{}, frames);
 }
@@ -25,7 +27,8 @@ template <int n>
 std::unique_ptr<MeshExtension<n>> make_tangent_extension(const MeshMotionTangent<n>& tangent, std::vector<char> inner,
                                                          [[maybe_unused]] const PartNodes& part) {
 #ifdef FSI_WITH_MPI
-  if (part.share) return std::make_unique<PetscExtension<n>>(tangent, std::move(inner), part);
+  if (part.share)
+    return std::make_unique<PetscExtension<n>>(tangent, std::move(inner), part, factorised_at_first_below(n));
 #endif
   return std::make_unique<TangentExtension<n>>(tangent, std::move(inner));
 }

@@ -28,6 +28,8 @@ void begin_petsc() {
   // Signals are the driver's, and options the case's alone.
   for (const char* option : {"-no_signal_handler", "-skip_petscrc"}) PetscOptionsSetValue(nullptr, option, nullptr);
   PetscOptionsSetValue(nullptr, "-options_left", "no");
+  // Galerkin products of multigrid. PETSc's own way adds what two other processes send in the order in which it comes.
+  if (Communicator::world().size() > 2) PetscOptionsSetValue(nullptr, "-matptap_via", "backend");
   petsc_check(PetscInitializeNoArguments());
   petsc_check(PetscPushErrorHandler(remember, nullptr));
   int key = MPI_KEYVAL_INVALID;

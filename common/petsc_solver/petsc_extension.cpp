@@ -1,5 +1,6 @@
 #include "petsc_solver/petsc_extension.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -16,35 +17,38 @@ namespace fsi {
 
 template <int n>
 PetscExtension<n>::PetscExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,
-                                  const NodalFrames<n>* frames, const PartNodes& part)
+                                  const NodalFrames<n>* frames, const PartNodes& part, std::int64_t central_below)
     : laplacian_(&laplacian),
       frames_(frames && !frames->empty() ? frames : nullptr),
       part_(part),
       communicator_(petsc_communicator(part.processes())),
       inner_(std::move(inner)) {
-  number_entries();
+  number_entries(central_below);
   components_apart_ = !part.processes().any(frames_ != nullptr);
   PetscExtension<n>::update();
 }
 
 template <int n>
-PetscExtension<n>::PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part)
+PetscExtension<n>::PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part,
+                                  std::int64_t central_below)
     : tangent_(&tangent), part_(part), communicator_(petsc_communicator(part.processes())), inner_(std::move(inner)) {
-  number_entries();
+  number_entries(central_below);
 }
 
 template <int n>
-void PetscExtension<n>::number_entries() {
+void PetscExtension<n>::number_entries(std::int64_t central_below) {
   assert(inner_.size() == VectorLayout<n>::size(part_.node_count()));
   for (std::size_t i = 0; i < inner_.size(); ++i) {
     if (!part_.owns(static_cast<int>(i / n))) inner_[i] = 0;
     if (inner_[i]) entry_.push_back(i);
   }
   const auto own = static_cast<std::int64_t>(entry_.size());
-  const std::int64_t first = part_.processes().sum_before(own);
+  first_ = part_.processes().sum_before(own);
+  whole_ = part_.processes().sum(own);
+  central_ = whole_ < central_below;
   std::vector<double> numbers(inner_.size(), -1.0);
   for (std::size_t row = 0; row < entry_.size(); ++row)
-    numbers[entry_[row]] = static_cast<double>(first + static_cast<std::int64_t>(row));
+    numbers[entry_[row]] = static_cast<double>(first_ + static_cast<std::int64_t>(row));
   if (part_.share) part_.share->template update<VectorLayout<n>>(numbers);
   rows_.resize(inner_.size());
   columns_.resize(inner_.size());
@@ -62,16 +66,26 @@ void PetscExtension<n>::number_entries() {
 }
 
 template <int n>
+template <class Builder>
+void PetscExtension<n>::gather(Builder& builder, const UnknownMap& rows, const UnknownMap& columns) const {
+  if (tangent_)
+    gather_blocks(builder, *tangent_, rows, columns);
+  else
+    gather_diagonal_blocks(builder, *laplacian_, rows, columns, frames_);
+}
+
+template <int n>
+CentralFactorisation PetscExtension<n>::gather_at_first() const {
+  GatheredMatrix::Builder builder(whole_);
+  gather(builder, rows_, columns_);
+  return {part_.processes(), std::move(builder)};
+}
+
+template <int n>
 PetscGatheredMatrix PetscExtension<n>::gather(bool whole) const {
   PetscGatheredMatrix::Builder builder;
-  const auto add = [&](const UnknownMap& rows, const UnknownMap& columns) {
-    if (tangent_)
-      gather_blocks(builder, *tangent_, rows, columns);
-    else
-      gather_diagonal_blocks(builder, *laplacian_, rows, columns, frames_);
-  };
   if (whole) {
-    add(rows_, columns_);
+    gather(builder, rows_, columns_);
   } else {
     for (int k = 0; k < n; ++k) {
       UnknownMap rows(rows_.size()), columns(columns_.size());
@@ -79,7 +93,7 @@ PetscGatheredMatrix PetscExtension<n>::gather(bool whole) const {
         rows[i] = rows_[i];
         columns[i] = columns_[i];
       }
-      add(rows, columns);
+      gather(builder, rows, columns);
     }
   }
   return {communicator_, static_cast<PetscInt>(entry_.size()), std::move(builder)};
@@ -88,6 +102,11 @@ PetscGatheredMatrix PetscExtension<n>::gather(bool whole) const {
 template <int n>
 void PetscExtension<n>::update() {
   const OneDenseThread same_bits_for_any_number;
+  if (central_) {
+    if (!at_first_.factorised()) at_first_ = gather_at_first();
+    at_first_.update();
+    return;
+  }
   if (matrix_.matrix() == nullptr) {
     matrix_ = gather(true);
     if (!components_apart_) of_components_ = gather(false);
@@ -149,13 +168,30 @@ void PetscExtension<n>::solve(const std::vector<double>& right, std::vector<doub
   const OneDenseThread same_bits_for_any_number;
   for (std::size_t i = 0; i < inner_.size(); ++i) given_[i] = inner_[i] ? 0 : field[i];
   multiply_given();
+  right_.resize(entry_.size());
+  solution_.resize(entry_.size());
+  for (std::size_t row = 0; row < entry_.size(); ++row) {
+    right_[row] = right[entry_[row]] - given_rows_[entry_[row]];
+    solution_[row] = field[entry_[row]];
+  }
+  if (central_) {
+    at_first_.solve(right_, of_all_);
+    std::copy_n(of_all_.begin() + first_, entry_.size(), solution_.begin());
+  } else {
+    solve_by_petsc(tolerance);
+  }
+  for (std::size_t row = 0; row < entry_.size(); ++row) field[entry_[row]] = solution_[row];
+  if (part_.share) part_.share->template update<VectorLayout<n>>(field);
+}
+
+/// solution_ is the first guess.
+template <int n>
+void PetscExtension<n>::solve_by_petsc(double tolerance) {
   double *b = nullptr, *x = nullptr;
   petsc_check(VecGetArray(b_, &b));
   petsc_check(VecGetArray(x_, &x));
-  for (std::size_t row = 0; row < entry_.size(); ++row) {
-    b[row] = right[entry_[row]] - given_rows_[entry_[row]];
-    x[row] = field[entry_[row]];
-  }
+  std::copy(right_.begin(), right_.end(), b);
+  std::copy(solution_.begin(), solution_.end(), x);
   petsc_check(VecRestoreArray(b_, &b));
   petsc_check(VecRestoreArray(x_, &x));
   if (factorised_ || !iterate(tolerance)) {
@@ -164,9 +200,8 @@ void PetscExtension<n>::solve(const std::vector<double>& right, std::vector<doub
   }
   const double* found = nullptr;
   petsc_check(VecGetArrayRead(x_, &found));
-  for (std::size_t row = 0; row < entry_.size(); ++row) field[entry_[row]] = found[row];
+  std::copy_n(found, solution_.size(), solution_.begin());
   petsc_check(VecRestoreArrayRead(x_, &found));
-  if (part_.share) part_.share->template update<VectorLayout<n>>(field);
 }
 
 template <int n>
@@ -183,6 +218,7 @@ bool PetscExtension<n>::iterate(double tolerance) {
 
 template <int n>
 double PetscExtension<n>::memory_mib() const {
+  if (central_) return at_first_.memory_mib();
   return (petsc_bytes(matrix_.matrix()) + petsc_bytes(of_components_.matrix())) / (1 << 20);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "algebra/central_factorisation.hpp"
 #include "fem/nodal_frames.hpp"
 #include "fem/unknowns.hpp"
 #include "mesh/submesh.hpp"
@@ -16,32 +17,39 @@ namespace fsi {
 
 /// The equations of a mesh motion whose nodes are shared out among processes, or not: conjugate gradients preconditioned
 /// by smoothed aggregation (GAMG) for each component alone, by Korn's inequality as good as for a Laplacian but for a constant
-/// [Blaheta1994]. What defeats them, as a tangent that is not positive, is factorised. Options by the prefix -fsi_mesh_.
+/// [Blaheta1994]. What defeats them, as a tangent that is not positive, is factorised, and so are small systems. Options
+/// by the prefix -fsi_mesh_.
 /// \tparam n  components of a node
 template <int n>
 class PetscExtension : public MeshExtension<n> {
  public:
   /// As make_harmonic_extension() has them.
+  /// \param central_below  unknowns below which the first process factorises the system
   PetscExtension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner, const NodalFrames<n>* frames,
-                 const PartNodes& part);
+                 const PartNodes& part, std::int64_t central_below = 0);
   /// As make_tangent_extension() has them.
-  PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part);
+  PetscExtension(const MeshMotionTangent<n>& tangent, std::vector<char> inner, const PartNodes& part,
+                 std::int64_t central_below = 0);
 
   void update() override;
   void solve(const std::vector<double>& right, std::vector<double>& field, double tolerance) override;
-  bool iterates() const override { return !factorised_; }
+  bool iterates() const override { return !central_ && !factorised_; }
   double memory_mib() const override;
   int iterations() const override { return iterations_; }
 
  private:
   static constexpr int most_iterations = 200;  ///< of conjugate gradients; a solve that needs more is factorised
 
-  void number_entries();
+  void number_entries(std::int64_t central_below);
+  template <class Builder>
+  void gather(Builder& builder, const UnknownMap& rows, const UnknownMap& columns) const;
   /// All entries, or those that couple no two components.
   PetscGatheredMatrix gather(bool whole) const;
+  CentralFactorisation gather_at_first() const;
   void set_up_iteration();
   void factorise();
   void multiply_given();
+  void solve_by_petsc(double tolerance);
   bool iterate(double tolerance);
 
   const BlockMatrix<1, n>* laplacian_ = nullptr;
@@ -54,11 +62,15 @@ class PetscExtension : public MeshExtension<n> {
   std::vector<std::size_t> entry_;  ///< per own unknown
   PetscGatheredMatrix matrix_, of_components_;
   bool components_apart_ = false;  ///< the matrix couples no two components
+  bool central_ = false;           ///< the first process factorises
+  std::int64_t first_ = 0;         ///< number among all processes' of the first own unknown
+  std::int64_t whole_ = 0;         ///< unknowns of all processes
+  CentralFactorisation at_first_;
   OwnedKsp iteration_, factors_;
   OwnedVec b_, x_;
   bool factorised_ = false;
   int iterations_ = 0;
-  std::vector<double> given_, given_rows_;
+  std::vector<double> given_, given_rows_, right_, solution_, of_all_;
 };
 
 }  // namespace fsi

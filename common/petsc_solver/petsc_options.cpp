@@ -20,11 +20,11 @@ struct {
 #endif
 } given;
 
-[[maybe_unused]] bool begins_with(const std::string& text, const std::string& beginning) {
+bool begins_with(const std::string& text, const std::string& beginning) {
   return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-[[maybe_unused]] std::vector<std::string> names_in(const std::string& options) {
+std::vector<std::string> names_in(const std::string& options) {
   std::vector<std::string> names;
   std::istringstream words(options);
   for (std::string word; words >> word;)
@@ -45,6 +45,12 @@ const std::string& case_of_petsc_options() {
 
 bool has_petsc_options() {
   return !given.options.empty();
+}
+
+bool has_petsc_options(const std::string& prefix) {
+  for (const auto& name : names_in(given.options))
+    if (begins_with(name, "-" + prefix)) return true;
+  return false;
 }
 
 const char* prefix_of(PetscPart part) {

@@ -29,5 +29,7 @@ void refuse_unread_petsc_options(PetscPart part);
 /// \throws PetscFailure again
 [[noreturn]] void blame_petsc_options(const std::string& failure);
 bool has_petsc_options();
+/// Whether one begins with -fsi_pressure_ or another such prefix.
+bool has_petsc_options(const std::string& prefix);
 
 }  // namespace fsi

@@ -28,6 +28,7 @@
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
+#include "petsc_solver/general_solvers.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
 #include "system/jacobian_product.hpp"
 #include "system/newton_stepper.hpp"
@@ -391,11 +392,14 @@ std::vector<NamedSystem> parse_systems(const std::string& text) {
 }
 
 std::vector<ExtraOption> LinearStudyRequest::options() {
+  // fsi-compare looks for this.
+  const std::string without = has_petsc() ? "" : "; petsc is not in this build";
   return {
       {"--linear-systems", "STEP:ITERATION,...",
        "In place of a run: solve these Newton systems with the named linear solvers, write linear_solvers.json",
        &systems_, nullptr},
-      {"--linear-solvers", "NAME,...", "Solvers for --linear-systems; default fast,direct", &solvers_, nullptr},
+      {"--linear-solvers", "NAME,...", "Solvers for --linear-systems; default fast,direct" + without, &solvers_,
+       nullptr},
       {"--linear-tolerance", "NUMBER", "Relative residual for --linear-systems, default 1e-9", &tolerance_, nullptr},
       {"--sub-problems", "", "With --linear-systems: the sub-problems' multigrid as solvers of their own", nullptr,
        &sub_problems_}};

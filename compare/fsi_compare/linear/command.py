@@ -3,16 +3,17 @@
 import argparse
 import math
 import os
+import sys
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
-from ..base.errors import InputError
+from ..base.errors import InputError, printable
 from ..base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
 from ..base.folder_lock import locked
 from ..base.names import MATERIALS, MESHES, METHODS, pick
 from ..reporting.layout import Table, say_written, write_markdown
 from ..reporting.matplotlib_loader import load_matplotlib
-from ..runs.programs import Program, find_monolithic
+from ..runs.programs import Program, find_monolithic, has_petsc
 from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study
@@ -135,9 +136,22 @@ def solvers(options: argparse.Namespace) -> int:
     for material in materials:
         check_case(options.case_dir, material)
     program = find_monolithic(options.program)
+    if "petsc" in methods and not has_petsc(program):
+        methods = leave_out_petsc(options, program, methods)
     with output_folder(options.output), locked(options.output):
         check_writable(options.output)
         return solve(options, program, methods, materials, meshes, systems, without, settings)
+
+
+def leave_out_petsc(options: argparse.Namespace, program: Program, methods: Sequence[str]) -> List[str]:
+    """The methods that a program without PETSc has. Raises InputError where petsc is asked for by name."""
+    if options.methods:
+        raise InputError(
+            program.path, "--methods", "petsc is not in this build (FSI_MPI=OFF)", "leave it out, or build with MPI"
+        )
+    if not options.quiet:
+        print(f"{printable(str(program.path))} is without petsc, which is left out", file=sys.stderr)
+    return [name for name in methods if name != "petsc"]
 
 
 def solve(

@@ -42,6 +42,11 @@ def require_linear_systems(program: Program) -> None:
         )
 
 
+def has_petsc(program: Program) -> bool:
+    """Whether fsi-monolithic was built with PETSc: it says where not."""
+    return "petsc is not in this build" not in _answer(program.path, "--help")
+
+
 def find_program(name: str, named: Optional[Path] = None, option: str = "--program") -> Program:
     """The program `named`, else the one of this name beside fsi-compare, else the one on the path. It must answer."""
     path = named if named is not None else _beside(Path(sys.argv[0]), name)

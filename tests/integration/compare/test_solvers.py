@@ -239,6 +239,35 @@ class Tables(StudyTest):
         self.assertEqual(len(self.csv("cost_step1_newton1.csv")), 5)
 
 
+class WithoutPetsc(StudyTest):
+    HELP = (
+        "  --linear-systems STEP:IT,...\n  --linear-solvers NAME,...  default fast,direct; petsc is not in this build"
+    )
+    FEW = ("--materials", "neo-hookean", "--meshes", "coarse", "--systems", "1:1")
+
+    def setUp(self):
+        super().setUp()
+        behave(self.program, help=self.HELP)
+
+    def test_it_is_left_out_of_all(self):
+        code, out, err = self.call(*self.FEW)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(err.count("is without petsc, which is left out"), 1)
+        methods = [row["method"] for row in self.csv("cost_step1_newton1.csv")]
+        self.assertEqual(sorted(methods), sorted(set(METHODS) - {"petsc"}))
+
+    def test_asked_for_by_name_it_is_an_error(self):
+        code, _, err = self.call(*self.FEW, "--methods", "fast,petsc")
+        self.assertEqual(code, 1)
+        self.assertIn("--methods: petsc is not in this build", err)
+        self.assertEqual(calls(self.program), [])
+
+    def test_where_nobody_asks_nothing_is_said(self):
+        code, _, err = self.call(*SMALL)
+        self.assertEqual(code, 0, err)
+        self.assertNotIn("petsc", err)
+
+
 class Failures(StudyTest):
     def test_not_converged_is_no_number(self):
         behave(self.program, iterations=[["neo-hookean", "coarse", "1:1", "amg", None]])

@@ -45,7 +45,7 @@ class Petsc(FolderTest):
 
     def test_two_processes_take_petsc_for_fast_and_mumps_for_direct(self):
         for solver, said in (("fast", '"petsc" in place of "fast"'), ("direct", "MUMPS")):
-            folder = self.solve(f"two-{solver}", solver, processes=2)
+            folder = self.solve(f"two-{solver}", solver, "monolithic.direct_below=0", processes=2)
             self.expect_exact(folder)
             self.assertEqual((folder / "run.log").read_text().count(said), 1)
 

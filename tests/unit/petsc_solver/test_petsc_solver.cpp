@@ -11,9 +11,11 @@
 #include "mesh/artery_generator.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "petsc_solver/petsc_direct_solver.hpp"
+#include "petsc_solver/petsc_options.hpp"
 #include "petsc_solver/petsc_solver.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
+#include "system/central_direct_solver.hpp"
 
 namespace fsi::test {
 
@@ -63,7 +65,13 @@ void expect_solved(LinearisedScene<n>& scene, int most_iterations, double tolera
 }
 
 TEST(PetscSolver, SolvesTheCoupledSystemAtADeformedState) {
+  expect_solved(artery(), 35);
+}
+
+TEST(PetscSolver, SolvesItByMultigridForThePressuresAsInLargeSystems) {
+  set_petsc_options("-fsi_pressure_pc_type gamg", "");
   expect_solved(artery(), 50);
+  set_petsc_options("", "");
 }
 
 TEST(PetscSolver, ZeroRightHandSide) {
@@ -168,6 +176,7 @@ TEST(PetscSolver, StepsOfDifferentLength) {
   PetscSolver<3> petsc(system.blocks());
   PetscDirectSolver<3> mumps(system.blocks());
   DirectLinearSolver<3> direct(system.blocks());
+  CentralDirectSolver<3> central(system.blocks());
   std::vector<std::vector<double>> solutions;
   std::vector<int> iterations;
   for (double step : {0.125, 0.02}) {
@@ -181,6 +190,9 @@ TEST(PetscSolver, StepsOfDifferentLength) {
     std::vector<double> expected, x, by_mumps;
     direct.update();
     direct.solve(system.residual(), 0, expected);
+    central.update();
+    EXPECT_TRUE(central.solve(system.residual(), 0, x).converged);
+    EXPECT_EQ(x, expected) << "alone it is the same factorisation";
     petsc.update();
     const auto report = petsc.solve(system.residual(), 1e-10, x);
     EXPECT_TRUE(report.converged);
