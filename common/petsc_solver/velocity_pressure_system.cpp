@@ -273,20 +273,24 @@ std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressu
   const std::int64_t first = processes_.sum_before(own);
   for (std::int64_t i = 0; i < own; ++i) numbers[shared_.own_velocities[wall->own[i]]] = static_cast<double>(first + i);
   shared_.update_velocities(numbers);
-  std::vector<PetscInt> rows, columns;
-  for (const int i : wall->own) {
-    const int v = shared_.own_velocities[i];
-    for (int at = pattern_.offsets[v]; at < pattern_.offsets[v + 1]; ++at) {
-      const int u = pattern_.columns[at];
-      if (layout_.wall_of_velocity[u] < 0) continue;
-      wall->from.push_back(at);
-      for (int k = 0; k < n; ++k)
-        for (int row = 0; row < n; ++row) {
-          rows.push_back(static_cast<PetscInt>(numbers[v]) * n + row);
-          columns.push_back(static_cast<PetscInt>(numbers[u]) * n + k);
-        }
+  const auto for_blocks = [&](auto work) {
+    for (const int i : wall->own) {
+      const int v = shared_.own_velocities[i];
+      for (int at = pattern_.offsets[v]; at < pattern_.offsets[v + 1]; ++at)
+        if (layout_.wall_of_velocity[pattern_.columns[at]] >= 0) work(v, at);
     }
-  }
+  };
+  for_blocks([&](int, int at) { wall->from.push_back(at); });
+  std::vector<PetscInt> rows, columns;  // the largest lists of all: not a place more than they need
+  rows.reserve(wall->from.size() * n * n);
+  columns.reserve(wall->from.size() * n * n);
+  for_blocks([&](int v, int at) {
+    for (int k = 0; k < n; ++k)
+      for (int row = 0; row < n; ++row) {
+        rows.push_back(static_cast<PetscInt>(numbers[v]) * n + row);
+        columns.push_back(static_cast<PetscInt>(numbers[pattern_.columns[at]]) * n + k);
+      }
+  });
   const auto size = static_cast<PetscInt>(own * n);
   wall->matrix = {communicator_, size, size, rows, columns, n};
   return wall;
