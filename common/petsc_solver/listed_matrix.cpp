@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace fsi {
 
-ListedMatrix::ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt columns, const std::vector<PetscInt>& i,
+ListedMatrix::ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt columns, std::vector<PetscInt> i,
                            const std::vector<PetscInt>& j, PetscInt block_size) {
   if (i.size() > static_cast<std::size_t>(std::numeric_limits<PetscInt>::max()))
     throw PetscFailure("a matrix has more entries on one process than PETSc counts as it is installed");
@@ -28,7 +29,7 @@ ListedMatrix::ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt column
   std::vector<PetscInt> order(i.size()), next(begin.begin(), begin.end() - 1);
   for (std::size_t k = 0; k < i.size(); ++k) order[next[i[k] - first_row]++] = static_cast<PetscInt>(k);
 
-  places_.resize(i.size());
+  places_ = std::move(i);  // no longer wanted: memory peaks here
   std::vector<PetscInt> offsets{0}, entries;
   PetscInt own = 0, other = 0;
   for (PetscInt row = 0; row < rows; ++row) {

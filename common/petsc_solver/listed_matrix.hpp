@@ -15,7 +15,7 @@ class ListedMatrix {
   /// \param rows, columns  of this process
   /// \param i, j           per number of the list: its row, one of this process's, and its column, among all processes'
   /// \throws PetscFailure, also when there are more entries than PETSc counts
-  ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt columns, const std::vector<PetscInt>& i,
+  ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt columns, std::vector<PetscInt> i,
                const std::vector<PetscInt>& j, PetscInt block_size = 1);
 
   operator Mat() const { return matrix_; }

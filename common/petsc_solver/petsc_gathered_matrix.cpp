@@ -5,7 +5,7 @@
 namespace fsi {
 
 PetscGatheredMatrix::PetscGatheredMatrix(MPI_Comm communicator, PetscInt rows, Builder&& builder)
-    : matrix_(communicator, rows, rows, builder.rows_, builder.columns_),
+    : matrix_(communicator, rows, rows, std::move(builder.rows_), builder.columns_),
       numbers_(std::move(builder.numbers_)),
       factors_(std::move(builder.factors_)) {}
 

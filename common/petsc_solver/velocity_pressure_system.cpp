@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "fem/dimensions.hpp"
 
@@ -131,9 +132,9 @@ void VelocityPressureSystem<n>::make_lists() {
                                  columns.push_back(shared_.pressure_place[q]);
                                });
   }
-  continuity_ = {communicator_, shared_.pressure_rows, shared_.rows(), rows, columns};
-  gradient_ = {communicator_, shared_.velocity_rows, shared_.pressure_rows, gradient_rows, gradient_columns};
-  scaled_gradient_ = {communicator_, shared_.rows(), shared_.pressure_rows, scaled_rows, scaled_columns};
+  continuity_ = {communicator_, shared_.pressure_rows, shared_.rows(), std::move(rows), columns};
+  gradient_ = {communicator_, shared_.velocity_rows, shared_.pressure_rows, std::move(gradient_rows), gradient_columns};
+  scaled_gradient_ = {communicator_, shared_.rows(), shared_.pressure_rows, std::move(scaled_rows), scaled_columns};
 }
 
 template <int n>
@@ -292,7 +293,7 @@ std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressu
       }
   });
   const auto size = static_cast<PetscInt>(own * n);
-  wall->matrix = {communicator_, size, size, rows, columns, n};
+  wall->matrix = {communicator_, size, size, std::move(rows), columns, n};
   return wall;
 }
 

@@ -8,9 +8,9 @@ amplitude of u_y by 1.2 %; about 1.5 % are left here, and marked. Half the time 
 nodes again, none of them along the flag, by 0.1 %.
 """
 
-from fsi_compare.gallery.turek_hron import CHANNEL, COARSE_CHANNEL, Benchmark, Known
+from fsi_compare.gallery.turek_hron import COARSE_CHANNEL, FINE_CHANNEL, Benchmark, Known
 
-MESH = CHANNEL
+MESH = FINE_CHANNEL
 QUICK_MESH = COARSE_CHANNEL
 QUICK = {"time.end": 100}
 LONG = True
