@@ -70,9 +70,6 @@ class MovingFacets : public MovingSurface<Element::components> {
                         [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });
   }
 
-  std::vector<double> outflow_slope(const double* mesh, const double* flow) const override {
-    return flow_slope(mesh, [&](int node, int k) { return flow[Mixed::vector(node, k)]; });
-  }
   std::vector<double> relative_outflow_slope(const FluidInput& in) const override {
     auto slope = flow_slope(
         in.mesh, [&](int node, int k) { return in.fluid[Mixed::vector(node, k)] - mesh_velocity(in, node, k); });

@@ -28,11 +28,10 @@ class MovingSurface {
   /// Adds the traction -pressure n to the fluid's residual and, unless null, its derivative by the mesh's displacement.
   virtual void add_pressure(double pressure, const double* mesh, double* residual,
                             ShapeDerivatives* derivatives) const = 0;
-  /// Volume flow outward, integral of u . n, mm^3/ms, and its derivative by the mesh's displacement, vector layout, zero
-  /// at copies.
+  /// Volume flow outward, integral of u . n, mm^3/ms.
   virtual double outflow(const double* mesh, const double* flow) const = 0;
-  virtual std::vector<double> outflow_slope(const double* mesh, const double* flow) const = 0;
-  /// The flow that the surface's own motion leaves: integral of (u - w) . n, and its derivative by the displacement.
+  /// The flow that the surface's own motion leaves, integral of (u - w) . n, w the mesh's velocity, and its derivative by
+  /// the mesh's displacement, vector layout, zero at copies.
   virtual double relative_outflow(const FluidInput& in) const = 0;
   virtual std::vector<double> relative_outflow_slope(const FluidInput& in) const = 0;
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity, mm^5/ms^3.

@@ -72,7 +72,7 @@ class OpenBoundary {
     if (flow_place_) return in.opening_values[*flow_place_];
     if (!law_) return applied;
     const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
-    return applied + law_->pressure(in.fluid_factor, reference, outflow(in.mesh, in.fluid));
+    return applied + law_->pressure(in.fluid_factor, reference, relative_outflow(in));
   }
   /// The nodes of its facets, one after the other, normals outward.
   const std::vector<int>& facets() const { return facets_; }
@@ -104,8 +104,10 @@ class OpenBoundary {
   double outflow(const double* flow) const {
     return processes_->sum(std::inner_product(normals_.begin(), normals_.end(), flow, 0.0));
   }
-  /// Of an opening that moves: what passes it as it moves, integral of (u - w) . n, mm^3/ms.
-  double relative_outflow(const FluidInput& in) const { return processes_->sum(moving_->relative_outflow(in)); }
+  /// What passes it as it moves, integral of (u - w) . n, w the mesh's velocity where the opening moves, mm^3/ms.
+  double relative_outflow(const FluidInput& in) const {
+    return moving_ ? processes_->sum(moving_->relative_outflow(in)) : outflow(in.fluid);
+  }
   /// Area at rest, mm^2, as far as scalar shape functions have it.
   double area() const { return processes_->sum(std::accumulate(areas_.begin(), areas_.end(), 0.0)); }
   /// Mean pressure, kPa; 0 on an empty surface.

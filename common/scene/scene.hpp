@@ -224,8 +224,9 @@ class Scene {
   void set_windkessels(Solution& balance, const StepRates& rates) const {
     for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
       if (law.stores())
-        balance.windkessel[open.place()] = law.stored_pressure(
-            rates.fluid_factor, rates.windkessel_reference[open.place()], open.outflow(balance.mesh, balance.fluid));
+        balance.windkessel[open.place()] =
+            law.stored_pressure(rates.fluid_factor, rates.windkessel_reference[open.place()],
+                                open.relative_outflow(fluid_input(balance, rates)));
     });
     for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t) {
       balance.windkessel[*open.given_flow() + 1] = open.relative_outflow(fluid_input(balance, rates));

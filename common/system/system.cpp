@@ -342,30 +342,23 @@ bool System<n>::openings_move() const {
 
 template <int n>
 void System<n>::linearise_openings() {
-  std::size_t place = 0;
-  scene_.for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
-    OpeningTerm& term = opening_terms_[place];
-    MovingTerm& moving = moving_terms_[place++];
-    term.slope = law.slope(data_->rates.fluid_factor);
-    if (!open.moving()) return;
-    const auto &mesh = state_->now.mesh, &flow = state_->now.fluid;
-    moving.normals = open.moving()->normals(mesh.data());
-    term.normals = &moving.normals;
-    if (numbering_.mesh.empty()) return;
-    moving.by_mesh = open.moving()->outflow_slope(mesh.data(), flow.data());
-    term.by_mesh = &moving.by_mesh;
-  });
   const FluidInput in = scene_.fluid_input(*state_, data_->rates);
-  for (std::size_t i = 0; i < given_flows_.count(); ++i) {
-    OpeningTerm& term = opening_terms_[term_of(i)];
-    MovingTerm& moving = moving_terms_[term_of(i)];
-    const MovingSurface<n>& surface = *given_flows_.open(i).moving();
+  const auto linearise_flow = [&](const MovingSurface<n>& surface, std::size_t place) {
+    OpeningTerm& term = opening_terms_[place];
+    MovingTerm& moving = moving_terms_[place];
     moving.normals = surface.normals(in.mesh);
     term.normals = &moving.normals;
-    if (numbering_.mesh.empty()) continue;
+    if (numbering_.mesh.empty()) return;
     moving.by_mesh = surface.relative_outflow_slope(in);
     term.by_mesh = &moving.by_mesh;
-  }
+  };
+  std::size_t place = 0;
+  scene_.for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
+    opening_terms_[place].slope = law.slope(in.fluid_factor);
+    if (open.moving()) linearise_flow(*open.moving(), place);
+    ++place;
+  });
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) linearise_flow(*given_flows_.open(i).moving(), term_of(i));
 }
 
 template <int n>
