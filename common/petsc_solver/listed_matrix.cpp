@@ -50,21 +50,4 @@ ListedMatrix::ListedMatrix(MPI_Comm communicator, PetscInt rows, PetscInt column
   petsc_check(MatMPIAIJSetPreallocationCSR(matrix_, offsets.data(), entries.data(), nullptr));
 }
 
-ListedMatrix::Arrays::Arrays(Mat matrix) {
-  petsc_check(MatZeroEntries(matrix));
-  PetscBool sequential = PETSC_FALSE;
-  petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQAIJ, &sequential));
-  if (sequential)
-    parts_[0] = matrix;
-  else
-    petsc_check(MatMPIAIJGetSeqAIJ(matrix, &parts_[0], &parts_[1], nullptr));
-  for (int part = 0; part < 2; ++part)
-    if (parts_[part] != nullptr) petsc_check(MatSeqAIJGetArray(parts_[part], &arrays_[part]));
-}
-
-ListedMatrix::Arrays::~Arrays() {
-  for (int part = 0; part < 2; ++part)
-    if (parts_[part] != nullptr) MatSeqAIJRestoreArray(parts_[part], &arrays_[part]);
-}
-
 }  // namespace fsi

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "petsc_solver/matrix_arrays.hpp"
 #include "petsc_solver/petsc_call.hpp"
 
 namespace fsi {
@@ -24,8 +25,9 @@ class ListedMatrix {
   /// All processes together.
   template <class Work>
   void fill(Work&& work) {
+    petsc_check(MatZeroEntries(matrix_));
     {
-      const Arrays arrays(matrix_);
+      const MatrixArrays arrays(matrix_);
       const PetscInt* place = places_.data();
       work([&](double number) {
         const PetscInt at = *place++;
@@ -37,23 +39,6 @@ class ListedMatrix {
   }
 
  private:
-  /// The entries, row by row with ascending columns, all zero: of the part with own columns, and of the other, which
-  /// there is not on one process. In PETSc's hands again when this ends.
-  class Arrays {
-   public:
-    explicit Arrays(Mat matrix);
-    ~Arrays();
-    Arrays(const Arrays&) = delete;
-    Arrays& operator=(const Arrays&) = delete;
-
-    double* own() const { return arrays_[0]; }
-    double* other() const { return arrays_[1]; }
-
-   private:
-    Mat parts_[2] = {nullptr, nullptr};
-    double* arrays_[2] = {nullptr, nullptr};
-  };
-
   OwnedMat matrix_;
   std::vector<PetscInt> places_;  ///< in the array of own columns, or -1 - place in that of the others
 };

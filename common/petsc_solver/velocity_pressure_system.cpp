@@ -5,41 +5,9 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
+#include "petsc_solver/matrix_arrays.hpp"
 
 namespace fsi {
-
-namespace {
-
-/// The numbers of a matrix in blocks, block by block and column by column: of its part with own columns, and of the
-/// other, which there is not on one process. In PETSc's hands again when this ends.
-class BlockArrays {
- public:
-  explicit BlockArrays(Mat matrix) {
-    PetscBool sequential = PETSC_FALSE;
-    petsc_check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQBAIJ, &sequential));
-    if (sequential)
-      parts_[0] = matrix;
-    else
-      petsc_check(MatMPIBAIJGetSeqBAIJ(matrix, &parts_[0], &parts_[1], nullptr));
-    for (int i = 0; i < 2; ++i)
-      if (parts_[i] != nullptr) petsc_check(MatSeqBAIJGetArray(parts_[i], &arrays_[i]));
-  }
-  ~BlockArrays() {
-    for (int i = 0; i < 2; ++i)
-      if (parts_[i] != nullptr) MatSeqBAIJRestoreArray(parts_[i], &arrays_[i]);
-  }
-  BlockArrays(const BlockArrays&) = delete;
-  BlockArrays& operator=(const BlockArrays&) = delete;
-
-  double* own() const { return arrays_[0]; }
-  double* other() const { return arrays_[1]; }
-
- private:
-  Mat parts_[2] = {nullptr, nullptr};
-  double* arrays_[2] = {nullptr, nullptr};
-};
-
-}  // namespace
 
 template <int n>
 VelocityPressureSystem<n>::VelocityPressureSystem(const JacobianBlocks<n>& blocks,
@@ -150,7 +118,7 @@ template <int n>
 void VelocityPressureSystem<n>::fill_momentum() {
   petsc_check(MatZeroEntries(momentum_));
   {
-    const BlockArrays arrays(momentum_);
+    const MatrixArrays arrays(momentum_);
     const auto block_of = [&](std::ptrdiff_t position) {
       return (shared_.owns_velocity[pattern_.columns[position]] ? arrays.own() : arrays.other()) +
              block_at_[position] * n * n;
@@ -299,7 +267,7 @@ std::unique_ptr<typename VelocityPressureSystem<n>::WallMomentum> VelocityPressu
 
 template <int n>
 void VelocityPressureSystem<n>::fill_wall_momentum(WallMomentum& wall) const {
-  const BlockArrays arrays(momentum_);
+  const MatrixArrays arrays(momentum_);
   wall.matrix.fill([&](auto add) {
     for (const int at : wall.from) {
       const double* block =
