@@ -51,10 +51,25 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
         setup.path.string(), scheme_.name,
         scene.has_flow_only() ? "give one opening a pressure, a resistance or a windkessel, and name \"iqn-ils\""
                               : "name \"iqn-ils\""));
+  else if (scheme_.robin)
+    note_long_steps(setup);
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
     problem_ = std::make_unique<DirichletNeumann<n>>(scene, options_);
+}
+
+template <int n>
+void CouplingStepper<n>::note_long_steps(const Case& setup) {
+  constexpr double long_step =
+      4;  // in answer times of the wall; about 2 is where both cost the same (docs/coupling.md)
+  if (!setup.time || !scene_.coupled() || scene_.has_flow_only()) return;
+  const double steps = setup.time->step / membrane_of(scene_).answer_time();
+  if (steps > long_step)
+    scene_.notices.push_back(fmt::format(
+        "{}: partitioned.scheme: a step of {:g} ms is {:.2g} times as long as the wall takes to answer, and "
+        "\"{}\" takes many passes in such steps; \"iqn-ils\" takes fewer",
+        setup.path.string(), setup.time->step, steps, scheme_.name));
 }
 
 template <int n>

@@ -82,6 +82,8 @@ class CouplingStepper : public Stepper {
   void advance_stage(State& state, StepData& data);
 
   void start(State& state, StepData& data);
+  /// Warns where the scheme is made for steps that are shorter than the case's.
+  void note_long_steps(const Case& setup);
   /// Tells the accelerator when the interface's displacements weigh otherwise than they did.
   void note_period(double period);
 

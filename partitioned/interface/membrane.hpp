@@ -21,6 +21,8 @@ struct Membrane {
 
   /// Hoop stiffness E h / ((1 - nu^2) R^2): pressure per normal displacement, kPa/mm.
   double stiffness() const { return tension / (radius * radius); }
+  /// Time within which the wall's ring answers, ms: R sqrt(rho_s (1 - nu^2) / E).
+  double answer_time() const { return std::sqrt(density * thickness / stiffness()); }
   /// Pressure per normal displacement within a step, kPa/mm, a being `acceleration_factor` (1/ms^2):
   ///   a rho_s h + E h / ((1 - nu^2) R^2).
   double push_stiffness(double acceleration_factor) const {

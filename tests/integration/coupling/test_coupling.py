@@ -288,8 +288,8 @@ class Failures(FolderTest):
         self.assertIn("partitioned.max_iterations", message)
 
 
-class WallInTheFluid(FolderTest):
-    """A flag in a channel: Robin-Neumann's impedance is that of a tube around the fluid."""
+class SchemesThatDoNotSuit(FolderTest):
+    """Robin-Neumann's impedance is that of a tube around the fluid, within steps that its wall does not outrun."""
 
     def warnings(self, name, case, *settings):
         process = attempt(PARTITIONED, case, "-q", folder=self.base / name, settings=settings)
@@ -312,6 +312,14 @@ class WallInTheFluid(FolderTest):
 
     def test_a_tube_is_no_reason_to_warn(self):
         self.assertEqual(self.warnings("tube", AXISYMMETRIC, "mesh.level=coarse", "time.end=0.125"), "")
+
+    def test_long_steps_want_another_scheme(self):
+        settings = ("mesh.level=coarse", "time.step=4", "time.end=4")
+        said = self.warnings("long", AXISYMMETRIC, *settings)
+        for part in (f"{AXISYMMETRIC}: partitioned.scheme", "a step of 4 ms", '"robin-neumann-iqn"', '"iqn-ils"'):
+            self.assertIn(part, said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertEqual(self.warnings("long-iqn", AXISYMMETRIC, *settings, *scheme("iqn-ils")), "")
 
 
 if __name__ == "__main__":
