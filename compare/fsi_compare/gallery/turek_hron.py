@@ -20,7 +20,6 @@ SOURCE = "Turek and Hron"
 CHANNEL = "geo ../turek-hron-cfd1/channel.geo --order 2"
 # Where vortices are shed: on the other one the lift of CFD3 swings 3 % too far, with 5 mm along the flag as with 3.
 FINE_CHANNEL = CHANNEL + " --set far=15 --set near=3 --set flag=3 --set tip=2 --set wake=8"
-FINER_CHANNEL = CHANNEL + " --set far=12 --set near=2.4 --set flag=2.4 --set tip=1.6 --set wake=6.4"
 COARSE_CHANNEL = CHANNEL + " --set far=80 --set near=20 --set flag=14 --set tip=14 --set wake=50"
 
 COLUMNS = {  # file, column and unit of a quantity; a force on 1 mm of thickness in mN is one on 1 m in N
