@@ -68,7 +68,8 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
   try {
     require_regular_file(file, {"no such file", remedy.c_str(), remedy.c_str(), 64 << 20});
   } catch (const InputError& problem) {
-    entry.refuse(fmt::format("\"{}\" cannot be read: {}", file.string(), problem.what()), remedy);
+    const std::string_view said = problem.what();  // the file, what is wrong, and the remedy
+    entry.refuse(fmt::format("cannot be read: {}", said.substr(0, said.rfind("; " + remedy))), remedy);
   }
   std::ifstream stream(file);
   if (!stream) entry.refuse(fmt::format("\"{}\" cannot be read", file.string()), "check its permissions");

@@ -20,9 +20,11 @@ body { font: 16px/1.5 "DejaVu Sans", "Helvetica Neue", Arial, sans-serif; color:
   max-width: 68rem; margin: 2rem auto; padding: 0 1.5rem; }
 h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.3rem; margin-top: 2.5rem; border-bottom: 1px solid #bbb; }
 h3 { font-size: 1.05rem; margin-top: 1.6rem; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: .85rem; margin: .6rem 0; }
+.wide { overflow-x: auto; width: fit-content; max-width: min(100vw - 4rem, 50vw + 31rem); }
+table { border-collapse: collapse; font-size: .85rem; margin: .6rem 0; }
 caption { text-align: left; font-weight: bold; padding: .3rem 0; }
 th, td { padding: .2rem .6rem; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; }
+td { white-space: nowrap; } td.l { white-space: normal; }
 th.l, td.l { text-align: left; } thead th { border-bottom: 1px solid #333; }
 thead tr.groups th { border-bottom: none; text-align: center; }
 figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; }
@@ -30,7 +32,9 @@ figcaption, .note { font-size: .85rem; color: #333; }
 ol.answer { padding-left: 1.4rem; } ol.answer li { margin: .35rem 0; }
 details { margin: 1.2rem 0; } summary { cursor: pointer; font-weight: bold; }
 nav { font-size: .9rem; } code { font-family: "DejaVu Sans Mono", monospace; font-size: .85em; }
-@media print { body { max-width: none; margin: 0; } figure, table { break-inside: avoid; } }
+@media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
+  .wide { max-width: 100%; overflow: visible; } .wide table { font-size: .6rem; }
+  .wide td, .wide th { padding: .1rem .25rem; } }
 """
 
 

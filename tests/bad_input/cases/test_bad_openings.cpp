@@ -144,8 +144,9 @@ TEST_F(Openings, AreRefusedWithOneMessage) {
        "plug? There are plug, parabolic or womersley"},
   };
   for (const auto& [keys, message] : mistakes) EXPECT_EQ(complaint(opening(keys)), message);
-  EXPECT_NE(complaint(opening("pressure = { file = \"none.csv\" }")).find("none.csv: no such file"), std::string::npos)
-      << complaint(opening("pressure = { file = \"none.csv\" }"));
+  const std::string missing = complaint(opening("pressure = { file = \"none.csv\" }"));
+  EXPECT_NE(missing.find("none.csv: no such file; give a CSV file with a header"), std::string::npos) << missing;
+  EXPECT_EQ(missing.find("give a CSV file"), missing.rfind("give a CSV file")) << missing;
   EXPECT_NE(complaint(opening("pressure = { file = \"empty.csv\" }")).find("has no row below its header"),
             std::string::npos);
   EXPECT_NE(complaint(opening("pressure = { file = \".\" }")).find("cannot be read"), std::string::npos);
