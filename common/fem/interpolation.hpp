@@ -41,11 +41,15 @@ struct NodalScalar {
 template <class Layout, class Element>
 inline void gather(NodalVector<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,
                    const double* from) {
-  for (int a = 0; a < Element::nodes; ++a)
-    for (int lane = 0; lane < pack_width; ++lane) {
-      const double* node = from + Layout::vector(pack.node[a][lane]);
-      for (int i = 0; i < Element::components; ++i) to.at[a][i].lanes[lane] = node[i];
+  for (int a = 0; a < Element::nodes; ++a) {
+    const double* nodes[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane) nodes[lane] = from + Layout::vector(pack.node[a][lane]);
+    for (int i = 0; i < Element::components; ++i) {
+      Pack::Lanes lanes = {};  // a pack is stored whole: a lane of what is not set yet is no value to start from
+      for (int lane = 0; lane < pack_width; ++lane) lanes[lane] = nodes[lane][i];
+      to.at[a][i] = Pack(lanes);
     }
+  }
 }
 template <class Layout, class Element>
 inline void gather(NodalScalar<Element>& to, const typename ElementPacks<Element>::ElementPack& pack,

@@ -3,7 +3,8 @@
 import os
 import sys
 import traceback
-from typing import NoReturn, Sequence
+from pathlib import Path
+from typing import Callable, NoReturn, Sequence
 
 from .base import interruption
 from .base.errors import PROBLEM_LIMIT, PROGRAM, InputError, say_error, shortened
@@ -27,8 +28,7 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
     try:
         if not _has_working_folder():
             raise InputError(".", "", "the working folder has been removed", "change to another one")
-        from .cli import run  # takes a while to load: signals are watched by now
-
+        run = _loaded()  # takes a while: signals are watched by now
         interruption.check()
         code = run(arguments, version)
         sys.stdout.flush()
@@ -54,6 +54,17 @@ def _guarded_main(arguments: Sequence[str], version: str) -> int:
         text = shortened(f"{type(error).__name__}: {' '.join(str(error).split())}", PROBLEM_LIMIT)
         say_error(f"unexpected: {text}; {TRACEBACK}=1 shows where")
         return 1
+
+
+def _loaded() -> Callable[[Sequence[str], str], int]:
+    try:
+        from .cli import run
+    except EOFError:  # what Python says of byte code that was cut by a full disk; none is written today
+        folder = Path(__file__).parent
+        raise InputError(
+            str(folder), "", "byte code beside the sources is damaged", f"remove the folders __pycache__ in {folder}"
+        ) from None
+    return run
 
 
 def _what_stays(arguments: Sequence[str]) -> str:

@@ -40,7 +40,7 @@ def install_mpirun(folder):
     folder.mkdir(parents=True, exist_ok=True)
     fake_monolithic.make_executable(
         folder / "mpirun",
-        f"#!{sys.executable} -E\nimport os, sys\n"
+        f"#!{sys.executable} -EB\nimport os, sys\n"
         "words = sys.argv\n"
         "first = next(i for i, word in enumerate(words) if 'fsi-' in word)\n"
         "os.environ['FAKE_PROCESSES'] = words[words.index('-n') + 1]\n"

@@ -49,7 +49,7 @@ def install(folder, name="fsi-monolithic", module="fake_monolithic"):
     program = Path(folder) / name
     make_executable(
         program,
-        f"#!{sys.executable} -E\nimport sys\n"
+        f"#!{sys.executable} -EB\nimport sys\n"
         f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         f"from {module} import main\nsys.exit(main(sys.argv))\n",
     )

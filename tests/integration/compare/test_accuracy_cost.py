@@ -132,7 +132,7 @@ class Errors(unittest.TestCase):
 
 
 # A driver of known error: 0.16 size^2 + 0.8 step + 10 tolerance, size 1, 1/2, 1/4; 1e-6 s a node and step.
-DRIVER = """#!{python} -E
+DRIVER = """#!{python} -EB
 import json, math, sys
 from pathlib import Path
 words = sys.argv

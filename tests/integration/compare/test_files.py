@@ -1,6 +1,7 @@
 """Files that are read whole or refused, and output that is complete or absent."""
 
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -100,11 +101,33 @@ class Writing(FolderCase):
         script = "import sys; sys.path.insert(0, sys.argv.pop(1)); from fsi_compare.start import program; program()"
         package = Path(__file__).resolve().parents[3] / "compare"
         for size in (0, 5000, 60_000):
-            words = ["prlimit", f"--fsize={size}", sys.executable, "-E", "-c", script, package, "pressure", run]
+            words = ["prlimit", f"--fsize={size}", sys.executable, "-E", "-B", "-c", script, package, "pressure", run]
             done = subprocess.run([*words, "-q", "-o", self.out], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertIn("File too large", done.stderr)
             self.assertFalse(self.out.exists())
+
+    @unittest.skipUnless(os.environ.get("FSI_COMPARE"), "FSI_COMPARE names the built program")
+    def test_a_full_disk_leaves_no_byte_code(self):
+        # Python 3.11 does not notice when its byte code is cut: it would lie beside the sources, and end every later call.
+        built = Path(os.environ["FSI_COMPARE"])
+        sources, copied = Path(__file__).resolve().parents[3] / "compare", self.base / "compare"
+        shutil.copytree(sources, copied, ignore=shutil.ignore_patterns("__pycache__"))
+        for name in ("fsi-compare", "fsi-python"):
+            text = (built.parent / name).read_text()
+            self.assertIn(str(sources), text)
+            (self.base / name).write_text(text.replace(str(sources), str(copied)))
+            (self.base / name).chmod(0o755)
+        run = write_run(self.base / "run", parabola(0.6))
+        call = [self.base / "fsi-compare", "pressure", run, "-q", "-o", self.out]
+        options = {"capture_output": True, "text": True, "env": dict(os.environ)}
+        options["env"].pop("PYTHONDONTWRITEBYTECODE", None)  # a user's environment has none
+        limited = subprocess.run(["prlimit", "--fsize=5000", *call], **options)
+        self.assertEqual(limited.returncode, 1, limited.stderr)
+        subprocess.run([self.base / "fsi-python", "-c", "import fsi_compare"], check=True, **options)
+        free = subprocess.run(call, **options)
+        self.assertEqual((free.returncode, free.stderr), (0, ""))
+        self.assertEqual(list(copied.rglob("__pycache__")), [])
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ class Surroundings(Program):
             (">/dev/full", 1, "fsi-compare: error: standard output: cannot be written: No space left on device"),
         ):
             script = f'set -o pipefail; "$@" {redirection}'
-            command = ["bash", "-c", script, "bash", sys.executable, "-E", "-c", SCRIPT, PACKAGE, *words]
+            command = ["bash", "-c", script, "bash", sys.executable, "-E", "-B", "-c", SCRIPT, PACKAGE, *words]
             done = subprocess.run(command, capture_output=True, text=True)
             self.assertEqual(done.returncode, code, done.stderr)
             self.assertEqual(done.stderr.partition(";")[0].strip(), said)

@@ -121,6 +121,7 @@ class Restart(StudyCase):
                 [
                     sys.executable,
                     "-E",
+                    "-B",
                     "-c",
                     "import sys; sys.path.insert(0, sys.argv[1]); "
                     "from fsi_compare.start import main; sys.exit(main(sys.argv[2:]))",

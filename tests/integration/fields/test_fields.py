@@ -1,13 +1,13 @@
 """ParaView's reader finds in fields.xdmf, and meshio in fluid.xdmf and wall.xdmf, what the run computed."""
 
 import json
-import os
 import subprocess
 import time
 import unittest
 from pathlib import Path
 
 import numpy as np
+from other_readers import read_by_others
 from programs import (
     ARTERY,
     DRIVERS,
@@ -15,7 +15,6 @@ from programs import (
     FolderTest,
     arrays,
     driver_command,
-    execute,
     make_small_mesh,
     restart,
     run,
@@ -30,18 +29,12 @@ STEPS, STEP = 5, 0.125
 
 
 def shown_by_paraview(folder):
-    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", READER, folder)
-    if process.returncode != 0:
-        raise AssertionError(process.stderr)
-    return json.loads(process.stdout)
+    return json.loads(read_by_others(READER, folder))
 
 
 def shown_by_meshio(folder, *options):
     """{medium: {times, cells, points, fields}} once all is found equal to the HDF5 files."""
-    process = execute(os.environ["FSI_VTK_PYTHON"], "-E", "-B", MESHIO_READER, folder, *options)
-    if process.returncode != 0:
-        raise AssertionError(process.stderr)
-    return json.loads(process.stdout)
+    return json.loads(read_by_others(MESHIO_READER, folder, *options))
 
 
 class Fields(FolderTest):

@@ -31,7 +31,7 @@ class Page(HTMLParser):
 
 
 def make(*words):
-    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], capture_output=True, text=True, timeout=300)
+    return subprocess.run([sys.executable, "-B", SCRIPT, *map(str, words)], capture_output=True, text=True, timeout=300)
 
 
 class Site(FolderTest):

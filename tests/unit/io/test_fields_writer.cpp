@@ -36,6 +36,16 @@ TEST(PlannedFieldSteps, HaveTheFirstAndTheLastStep) {
   EXPECT_EQ(planned_field_steps(16, 0, steps_of(0.5)).entries, 0);
 }
 
+TEST(PlannedFieldSteps, HaveFurtherOnesInTheirPlaces) {
+  const FieldPlan plan = planned_field_steps(20, 8, steps_of(0.5), {1, 7, 8, 13, 20});
+  const std::int64_t steps[] = {0, 1, 7, 8, 13, 16, 20};
+  ASSERT_EQ(plan.entries, 7);
+  for (std::int64_t entry = 0; entry < plan.entries; ++entry) {
+    EXPECT_EQ(plan.at(entry).step, steps[entry]);
+    EXPECT_EQ(plan.at(entry).time, 0.5 * static_cast<double>(steps[entry]));
+  }
+}
+
 TEST_F(Fields, ListOnlyFinishedSteps) {
   FieldsWriter writer(folder_, grids_, planned_);
   EXPECT_TRUE(writer.wants(8));
