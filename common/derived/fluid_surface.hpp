@@ -11,6 +11,7 @@
 
 #include "case/openings.hpp"
 #include "derived/gradient_recovery.hpp"
+#include "derived/recovery_mirrors.hpp"
 #include "fem/facet_load.hpp"
 #include "fem/nodal_layout.hpp"
 #include "fluid/fluid_problem.hpp"
@@ -96,15 +97,18 @@ const PartOf<Element>& whole_fluid(const Scene<Element::components>& scene, cons
 }
 
 /// Gradients of the fluid's fields at some of its nodes.
+/// \param mesh  with its planes of symmetry
 /// \param part  the whole fluid
 /// \param at    nodes of it that are here
 /// \param here  what of the fluid this process has; null: all
 template <class Element>
-GradientRecovery fluid_gradients(const PartOf<Element>& part, std::vector<int> at, const PartRestriction* here) {
+GradientRecovery fluid_gradients(const MeshOf<Element>& mesh, const PartOf<Element>& part, std::vector<int> at,
+                                 const PartRestriction* here) {
   RecoveryCells cells{
       part.nodes,           {}, Element::nodes, Element::order, {std::begin(Element::axis), std::end(Element::axis)},
       Element::axisymmetric};
   for (const auto& cell : part.cells) cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
+  cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
   GradientRecovery gradients(cells, std::move(at));
   if (here) gradients.restrict_to(*here);
   return gradients;

@@ -5,31 +5,24 @@
 #include <optional>
 #include <vector>
 
+#include "derived/recovery_patches.hpp"
 #include "math/tensor.hpp"
 #include "mesh/far_nodes.hpp"
-#include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
-
-/// The cells that a field is smooth on, and what it is there: which axes of space coordinates and components lie along.
-struct RecoveryCells {
-  const std::vector<Point>& points;  ///< mm, per node
-  std::vector<int> nodes;            ///< of the cells, nodes_per_cell for each
-  int nodes_per_cell;
-  int order;              ///< of the element: 1 or 2
-  std::vector<int> axes;  ///< of space, one per coordinate
-  bool axisymmetric = false;
-};
 
 /// Gradients of nodal fields at nodes, by polynomial-preserving recovery [Zhang2005]: a polynomial of a degree above
 /// the element's is fitted by least squares to the nodal values on the cells around a node, and its gradient taken
 /// there. Exact for fields that are such polynomials, at the boundary as well as inside: of order 2 for linear and 3
 /// for quadratic elements, where the gradient of the finite-element function itself has order 1 and 2.
 ///
-/// The patch grows, up to four rings of cells, until the fit is determined: until the sum of the weights' sizes is
-/// below `largest_weights` over the distance of the nearest node. Where even that is not enough, as in a layer one
-/// linear element thick, powers that the patch cannot tell from others are left out; at the least the polynomial has the
-/// element's own degree. There the gradient has the order of the element's own.
+/// Of patches of one to four rings of cells the first is taken whose GradientFit::amplification() is at most
+/// `largest_amplification`; a larger one instead if that is above `good_amplification` and the larger one has half its
+/// remainder. Where no patch is as good, as in a layer one linear element thick, directions that the patch cannot tell
+/// from others are left out, the weakest first; the polynomial always has the element's own degree. There the gradient
+/// has the order of the element's own. At planes of symmetry patches are continued by mirror images, so that they have
+/// two sides. All this depends on lengths and angles alone: a body that is turned or mirrored has turned or mirrored
+/// gradients.
 ///
 /// The weights depend on reference positions alone and are found once; a gradient is then a short sum.
 ///
@@ -38,17 +31,19 @@ struct RecoveryCells {
 /// (reach()).
 class GradientRecovery {
  public:
-  static constexpr double largest_weights = 16;
+  /// From measured errors: on an unstructured bend (docs/theory.md, section 11a.1) the largest one of a wall's stress
+  /// grows by a fifth with 20, and with 10 corners of a cube have no patch.
+  static constexpr double largest_amplification = 14, good_amplification = 8;
 
   /// \param at  nodes of the cells, each once: where gradients are wanted
   GradientRecovery(const RecoveryCells& cells, std::vector<int> at);
 
-  /// Puts the numbers of the nodes that a process holds in place of those of the whole part, which they were so far. The
-  /// gradients are at nodes that it holds. All processes do so together.
+  /// Puts the numbers of the nodes that a process holds in place of those of the whole part, which they were so far.
+  /// The gradients are at nodes that it holds. All processes do so together.
   void restrict_to(const PartRestriction& here);
 
-  /// The field as gradient() wants it; none stays none. All processes ask together. \param buffer  storage, which may be
-  /// returned
+  /// The field as gradient() wants it; none stays none. All processes ask together. \param buffer  storage, which may
+  /// be returned
   template <class Layout>
   const std::vector<double>& reach(const std::vector<double>& field, std::vector<double>& buffer) const {
     if (!far_ || field.empty()) return field;
@@ -58,11 +53,11 @@ class GradientRecovery {
 
   const std::vector<int>& nodes() const { return at_; }
   std::size_t size() const { return at_.size(); }
-  /// Nodes at which the polynomial lacks some powers of the degree above the element's.
+  /// Nodes at which the polynomial lacks some directions of the degree above the element's.
   std::size_t fallbacks() const { return fallbacks_; }
 
-  /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry i
-  /// of nodes().
+  /// Of the field's vectors, (i, j) = d u_i / d X_j in space, with u_r / r in (1, 1) of bodies of revolution; at entry
+  /// i of nodes().
   /// \param field    of reach()
   /// \tparam Layout  of the field (fem/nodal_layout.hpp), its vectors of `axes.size()` components
   template <class Layout>
@@ -70,7 +65,7 @@ class GradientRecovery {
     Mat3<double> h{};
     for (std::size_t k = offsets_[i]; k < offsets_[i + 1]; ++k)
       for (std::size_t c = 0; c < axes_.size(); ++c) {
-        const double value = field[Layout::vector(patch_[k], static_cast<int>(c))];
+        const double value = at_image<Layout>(k, static_cast<int>(c), field);
         for (std::size_t j = 0; j < axes_.size(); ++j) h(axes_[c], axes_[j]) += weights_[k][j] * value;
       }
     if (axisymmetric_)
@@ -79,6 +74,17 @@ class GradientRecovery {
   }
 
  private:
+  /// A component of the field at entry k of the patches: of a mirror image, of the mirrored vector.
+  template <class Layout>
+  double at_image(std::size_t k, int c, const std::vector<double>& field) const {
+    if (turn_.empty() || turn_[k] == 0) return field[Layout::vector(patch_[k], c)];
+    const Mat3<double>& turn = turns_[static_cast<std::size_t>(turn_[k])];
+    double value = 0;
+    for (std::size_t b = 0; b < axes_.size(); ++b)
+      value += turn(axes_[c], axes_[b]) * field[Layout::vector(patch_[k], static_cast<int>(b))];
+    return value;
+  }
+
   std::vector<int> at_;
   std::vector<int> axes_;
   bool axisymmetric_;
@@ -86,6 +92,8 @@ class GradientRecovery {
   std::vector<std::size_t> offsets_{0};         ///< per entry, into the patches
   std::vector<int> patch_;                      ///< nodes
   std::vector<std::array<double, 3>> weights_;  ///< 1/mm, per node of a patch and coordinate
+  std::vector<int> turn_;                       ///< per node of a patch, in turns_; empty: none is a mirror image
+  std::vector<Mat3<double>> turns_;             ///< of vectors to those of mirror images, the identity first
   std::size_t fallbacks_ = 0;
   std::optional<FarNodes> far_;  ///< none: all nodes of the patches are here
 };

@@ -107,7 +107,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     for (const auto& name : setup.output.derived.surfaces) add(name, "output.surfaces", {name});
     for (const auto& [name, members] : setup.output.derived.forces)
       add(name, "output.forces." + name + ".surfaces", members);
-    gradients_.emplace(fluid_gradients<Element>(fluid, {stressed.begin(), stressed.end()}, here));
+    gradients_.emplace(fluid_gradients<Element>(mesh, fluid, {stressed.begin(), stressed.end()}, here));
     if (here)
       for (Facet& facet : facets_)
         for (int& node : facet) node = here->local(node);

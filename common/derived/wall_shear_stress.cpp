@@ -24,7 +24,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
         viscosity_(scene.fluid->form().viscosity),
         mirrored_(mirrored_components<Element>(mesh, whole_fluid(scene, whole))),
         facets_(solid_facets(fluid_surface<Element>(setup, mesh, whole_fluid(scene, whole)))),
-        gradients_(fluid_gradients<Element>(whole_fluid(scene, whole), own_nodes(facets_, whole.fluid_here.get()),
+        gradients_(fluid_gradients<Element>(mesh, whole_fluid(scene, whole), own_nodes(facets_, whole.fluid_here.get()),
                                             whole.fluid_here.get())) {
     if (!whole.fluid_here) return;
     mirrored_ = restricted(mirrored_, *whole.fluid_here);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "derived/gradient_recovery.hpp"
+#include "derived/recovery_mirrors.hpp"
 #include "fem/elements.hpp"
 #include "parallel/whole_field.hpp"
 #include "wall/hyperelastic.hpp"
@@ -108,6 +109,7 @@ class WallStressOf : public WallStress<Element::components> {
         cells.nodes.insert(cells.nodes.end(), cell.begin(), cell.end());
         vertices.insert(vertices.end(), cell.begin(), cell.begin() + Element::scalar_nodes);
       }
+      cells.mirrors = recovery_mirrors<Element>(mesh, part, cells.nodes);
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
       if (here)

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "derived/stress_invariants.hpp"
@@ -17,7 +21,10 @@
 #include "support/element_meshes.hpp"
 #include "support/every_element.hpp"
 #include "support/inflated_tube.hpp"
+#include "support/orthogonal.hpp"
+#include "support/random.hpp"
 #include "support/scenes.hpp"
+#include "support/vessels.hpp"
 #include "system/system.hpp"
 
 namespace fsi::test {
@@ -379,6 +386,163 @@ TEST(StressOfTheTube, LinearElementsAreOfSecondOrder) {
 }
 TEST(StressOfTheTube, QuadraticElementsAreOfThirdOrder) {
   for (const auto& tube : tubes()) expect_stress_order<P2P1AxisymmetricTriangle>(tube, 2.6, 1e-4);
+}
+
+/// The mesh turned or mirrored; cells and facets positively oriented.
+template <class Element>
+MeshOf<Element> turned(MeshOf<Element> mesh, const Mat3<double>& q, bool mirrors) {
+  for (Point& x : mesh.nodes) x = turn(q, x);
+  if (!mirrors) return mesh;
+  // Two vertices change places, and with them the edges that they do not share.
+  const auto swap_first = [](auto& nodes, auto dim) {
+    std::swap(nodes[0], nodes[1]);
+    constexpr int first = decltype(dim)::value + 1;
+    if constexpr (Element::order == 2 && first > 2) std::swap(nodes[first + 1], nodes[first + 2]);
+    if constexpr (Element::order == 2 && first > 3) std::swap(nodes[first + 3], nodes[first + 4]);
+  };
+  for (auto& cell : mesh.cells) swap_first(cell, std::integral_constant<int, Element::dim>());
+  for (auto& group : mesh.facet_groups)
+    for (auto& facet : group.facets) swap_first(facet, std::integral_constant<int, Element::dim - 1>());
+  return mesh;
+}
+
+/// A random field of vectors as `size` numbers a node, of which the vectors are the first, turned.
+template <class Element>
+std::vector<double> random_vectors(const MeshOf<Element>& mesh, const Mat3<double>& q, int entries, double size,
+                                   bool of_revolution) {
+  constexpr int n = Element::components;
+  Random random(5);
+  std::vector<double> field(mesh.nodes.size() * static_cast<std::size_t>(entries), 0.0);
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    Vec3<double> u{};
+    for (int k = 0; k < n; ++k) u[Element::axis[k]] = size * random();
+    if (of_revolution && mesh.nodes[a][0] == 0) u[0] = 0;
+    u = q * u;
+    for (int k = 0; k < n; ++k)
+      field[a * static_cast<std::size_t>(entries) + static_cast<std::size_t>(k)] = u[Element::axis[k]];
+  }
+  return field;
+}
+
+template <class Element>
+class TurnedBodies : public testing::Test {};
+TYPED_TEST_SUITE(TurnedBodies, Elements);
+
+// Of any velocity, on a domain that has been deformed: 20 rotations and reflections, at every node.
+TYPED_TEST(TurnedBodies, HaveTheTurnedWallShearStress) {
+  constexpr int n = TypeParam::components;
+  const auto mesh = channel<TypeParam>(TypeParam::dim == 3 ? 3 : 5);
+  const Case setup = fluid_case(1, 0.4);
+  const auto shear_on = [&](const MeshOf<TypeParam>& body, const Mat3<double>& q) {
+    const auto scene = build_scene<TypeParam>(setup, body);
+    Solution level = scene->at_rest().now;
+    level.fluid = random_vectors<TypeParam>(mesh, q, MixedLayout<n>::entries, 1, TypeParam::axisymmetric);
+    level.mesh = random_vectors<TypeParam>(mesh, q, n, 0.01, TypeParam::axisymmetric);
+    return make_wall_shear_stress<TypeParam>(setup, body, *scene)->at_nodes(level);
+  };
+  const auto at_rest = shear_on(mesh, orthogonal<P1AxisymmetricTriangle>(0));
+  double size = 0, difference = 0;
+  for (const double number : at_rest) size = std::max(size, std::abs(number));
+  for (unsigned i = 0; i < 20; ++i) {
+    const auto q = orthogonal<TypeParam>(i);
+    const auto found = shear_on(turned<TypeParam>(mesh, q, i % 2 == 1), q);
+    ASSERT_EQ(found.size(), at_rest.size());
+    for (std::size_t a = 0; a < found.size(); a += 3) {
+      const auto expected = q * Vec3<double>{{at_rest[a], at_rest[a + 1], at_rest[a + 2]}};
+      for (int k = 0; k < 3; ++k)
+        difference = std::max(difference, std::abs(found[a + static_cast<std::size_t>(k)] - expected[k]));
+    }
+  }
+  EXPECT_LT(difference, 1e-10 * size);
+}
+
+TYPED_TEST(TurnedBodies, HaveTheTurnedWallStress) {
+  constexpr int n = TypeParam::components;
+  auto mesh = irregular_mesh<TypeParam>(TypeParam::dim == 3 ? 3 : 5, "wall");
+  name_surface<TypeParam>(mesh, group::inner, across_axis<TypeParam>, TypeParam::axisymmetric ? 1 : 0);
+  name_surface<TypeParam>(mesh, group::wall_ends, along_axis<TypeParam>, 0);
+  Case setup = coupled_case("neo-hookean");
+  const auto layer = setup.structure->layers.begin()->second;
+  setup.structure->layers.clear();
+  setup.structure->layers.emplace("wall", layer);
+  setup.fluid.reset();
+  setup.inlet.reset();
+  setup.load = PressureTable{{{0.0, 1.0}}};
+  const auto stress_on = [&](const MeshOf<TypeParam>& body, const Mat3<double>& q) {
+    const auto scene = build_scene<TypeParam>(setup, body);
+    return make_wall_stress<TypeParam>(setup, body, *scene)
+        ->of(random_vectors<TypeParam>(mesh, q, MixedLayout<n>::entries, 0.01, TypeParam::axisymmetric))
+        .cauchy;
+  };
+  const auto at_rest = stress_on(mesh, orthogonal<P1AxisymmetricTriangle>(0));
+  double size = 0, difference = 0;
+  for (const auto& sigma : at_rest) size = std::max(size, std::sqrt(contract(sigma, sigma)));
+  for (unsigned i = 0; i < 20; ++i) {
+    const auto q = orthogonal<TypeParam>(i);
+    const auto found = stress_on(turned<TypeParam>(mesh, q, i % 2 == 1), q);
+    for (std::size_t a = 0; a < found.size(); ++a) {
+      const auto apart = found[a] - times_transposed(q * at_rest[a], q);
+      difference = std::max(difference, std::sqrt(contract(apart, apart)));
+    }
+  }
+  EXPECT_GT(size, 0);
+  EXPECT_LT(difference, 1e-10 * size);
+}
+
+// Poiseuille's flow at the nodes of a pipe of linear elements, however it lies: the same shear stress at every node, and
+// 2 mu U / R as far as its facets are those of a circle.
+TEST(WallShearOfAPipe, DoesNotDependOnHowItLies) {
+  using Element = P1Tetrahedron;
+  const int around = 24;
+  ArteryShape shape;
+  shape.inner_radius = 1;
+  shape.media = 0.2;
+  shape.adventitia = 0;
+  shape.length = 1.5;
+  ArteryCells cells;
+  cells.lumen = 6;
+  cells.media = 1;
+  cells.around = around;
+  cells.axial = 8;
+  auto artery = generate_artery(shape, cells);
+  const int fluid = artery.region_index(group::fluid);
+  TetrahedralMesh pipe;
+  const auto part = submesh(artery, {fluid});
+  pipe.nodes = part.nodes;
+  pipe.cells = part.cells;
+  pipe.regions = {group::fluid};
+  pipe.cell_region.assign(pipe.cells.size(), 0);
+  for (const auto* name : {group::inlet, group::outlet}) {
+    pipe.facet_groups.push_back({name, {}});
+    for (const auto& facet : *artery.facets(name)) pipe.facet_groups.back().facets.push_back(part.local(facet));
+  }
+  const Case setup = fluid_case(1, 0.4);
+  const auto shear_on = [&](const Mat3<double>& q, bool mirrors) {
+    const auto body = turned<Element>(pipe, q, mirrors);
+    const auto scene = build_scene<Element>(setup, body);
+    Solution level = scene->at_rest().now;
+    for (std::size_t a = 0; a < pipe.nodes.size(); ++a) {
+      const Point& x = pipe.nodes[a];
+      const auto u = q * Vec3<double>{{0, 0, 3 * (1 - x[0] * x[0] - x[1] * x[1])}};
+      for (int k = 0; k < 3; ++k) level.fluid[MixedLayout<3>::vector(static_cast<int>(a), k)] = u[k];
+    }
+    const auto shear = make_wall_shear_stress<Element>(setup, body, *scene);
+    const auto values = shear->at_nodes(level);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < shear->nodes().size(); ++i) {
+      const double z = pipe.nodes[static_cast<std::size_t>(shear->nodes()[i])][2];
+      if (z > 0.2 && z < 1.3) sizes.push_back(std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]));
+    }
+    return sizes;
+  };
+  const auto at_rest = shear_on(orthogonal<Element>(0), false);
+  const double exact = 2 * 0.4 * 3;
+  ASSERT_GT(at_rest.size(), 100u);
+  for (const double tau : at_rest) EXPECT_NEAR(tau, exact, 1e-10 * exact);  // a quadratic field
+  for (unsigned i = 1; i < 20; ++i) {
+    const auto found = shear_on(orthogonal<Element>(i), i % 2 == 1);
+    for (std::size_t a = 0; a < found.size(); ++a) EXPECT_NEAR(found[a], at_rest[a], 1e-10 * exact);
+  }
 }
 
 }  // namespace
