@@ -49,10 +49,13 @@ MeshCommand geo_command(CLI::App& app) {
   const auto request = std::make_shared<GeoRequest>();
   options->add_option("script", request->script, "The script, .geo")->required();
   options->add_option("--set", request->settings, "name=number: another value of a constant of the script");
-  options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells with nodes on the shape")
+  options
+      ->add_option("--order", request->order,
+                   "1: straight edges; 2: quadratic cells with nodes on the shape, for the element p2p1")
       ->capture_default_str()
       ->check(CLI::Range(1, 2));
   add_output_options(*options, request->output);
+  request->output.advise = true;
   return {options, [request] { make(*request); }};
 }
 

@@ -110,7 +110,7 @@ MeshCommand import_command(CLI::App& app) {
                       "NAME=PART: a volume or surface of this name, from a part that --list shows; sets of points give "
                       "the surface between them; unless given all parts with a name of their own");
   options->add_option("--opening", request->openings,
-                      "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary nearest to this point");
+                      "NAME=X,Y,Z: surface of the fluid, the flat part of its boundary on which this point lies");
   options->add_option("--scale", request->scale, "From the file's unit of length to mm: 1000 for a mesh in m")
       ->capture_default_str();
   options->add_option("--order", request->order, "1: straight edges; 2: quadratic cells; the file's unless given")

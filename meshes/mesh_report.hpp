@@ -16,6 +16,7 @@ struct MeshOutput {
   GmshFormat format;
   int threads = 0;
   bool quiet = false;
+  bool advise = false;  ///< for a shape of the user's: says what its cells across the lumen are good for
 };
 
 /// -o, --format, --binary, --threads and -q.

@@ -10,4 +10,7 @@ namespace fsi {
 /// Of options --opening NAME=X,Y,Z. \throws InputError
 std::vector<FlatPart> flat_parts_of(const std::vector<std::string>& options);
 
+/// The points X,Y,Z of an option that is given any number of times, mm. \throws InputError
+std::vector<Point> points_of(const std::string& option, const std::vector<std::string>& given);
+
 }  // namespace fsi

@@ -23,7 +23,7 @@ namespace {
 
 struct ThickenRequest {
   std::string lumen;
-  std::vector<std::string> layers, openings;
+  std::vector<std::string> layers, openings, closed;
   WallGrowth growth;
   MeshOutput output;
 };
@@ -64,6 +64,7 @@ void make(ThickenRequest& request) {
   regular_output_file(request.output.file);  // before anything is computed
   for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text));
   const auto lumen = lumen_of(request);
+  if (request.growth.on.empty()) require_flat_parts_named(lumen, points_of("--closed", request.closed));
   write_and_report(request.growth.layers.empty() ? lumen : grow_wall(lumen, request.growth), request.output,
                    TriangleGeometry::plane);
 }
@@ -80,13 +81,15 @@ MeshCommand thicken_command(CLI::App& app) {
   options->add_option("--layer", request->layers,
                       "NAME=THICKNESS[:ELEMENTS], from the lumen outwards; none: the lumen alone");
   options->add_option("--opening", request->openings,
-                      "NAME=X,Y,Z: of a surface without names, the flat part nearest to this point");
+                      "NAME=X,Y,Z: of a surface without names, the flat part on which this point lies");
+  options->add_option("--closed", request->closed, "X,Y,Z: a flat part on which this point lies is wall, no opening");
   options->add_option("--on", request->growth.on,
                       "Surface that the wall grows on; all that has no name, or is called inner, unless given");
   options->add_option("--smoothing", request->growth.smoothing, "Times that the normals are averaged with neighbours'")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));
   add_output_options(*options, request->output);
+  request->output.advise = true;
   return {options, [request] { make(*request); }};
 }
 

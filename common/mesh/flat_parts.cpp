@@ -3,91 +3,85 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/flat_regions.hpp"
 #include "mesh/group_names.hpp"
+#include "mesh/point_distance.hpp"
 #include "mesh/point_math.hpp"
 
 namespace fsi {
 
 namespace {
 
-using Edge = std::pair<int, int>;
+constexpr const char* program = "fsi-mesh";
 
-/// Parts of a closed surface between sharp edges.
-struct Parts {
-  std::vector<int> of;        ///< per triangle
-  std::vector<Point> normal;  ///< unit, mean
-  std::vector<Point> centre;  ///< mm
-  std::vector<double> bent;   ///< degrees, of the triangle that is furthest out of the mean normal
+/// The fluid's boundary and its flat parts.
+template <int Order>
+struct FlatParts {
+  std::vector<BoundaryFacet<3, Order>> facets;
+  std::vector<SurfaceTriangle> triangles;
+  std::vector<FlatRegion> parts;
+
+  explicit FlatParts(const SimplexMesh<3, Order>& mesh)
+      : facets(boundary_facets(mesh, {mesh.region_index(group::fluid)})) {
+    for (const auto& facet : facets) triangles.push_back({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
+    parts = flat_regions(mesh.nodes, triangles);
+  }
 };
 
-double degrees_between(const Point& a, const Point& b) {
-  const double pi = std::acos(-1.0);
-  return std::atan2(norm(cross(a, b)), dot(a, b)) * 180 / pi;
+std::string coordinates(const Point& x) {
+  std::string text;
+  for (const double c : x) text += fmt::format("{}{:.3g}", text.empty() ? "" : ", ", std::abs(c) < 5e-4 ? 0.0 : c);
+  return "(" + text + ")";
 }
 
+std::string listed(const std::vector<const FlatRegion*>& parts) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(parts.size(), most); ++i)
+    text += fmt::format("{}{} with normal {} and {:.3g} mm^2", i == 0 ? "" : ", ", place_of(parts[i]->centre),
+                        coordinates(parts[i]->normal), parts[i]->area);
+  return parts.size() > most ? text + fmt::format(", and {} more", parts.size() - most) : text;
+}
+
+std::string all_places(const std::vector<FlatRegion>& parts) {
+  std::vector<const FlatRegion*> all;
+  for (const auto& part : parts) all.push_back(&part);
+  return all.empty() ? "the surface has no flat part with a sharp rim" : "flat parts are at " + listed(all);
+}
+
+/// The flat part that a point is on. \throws InputError \param option  for the message
 template <int Order>
-Parts parts_of(const SimplexMesh<3, Order>& mesh, const std::vector<BoundaryFacet<3, Order>>& facets) {
-  constexpr double sharp = 30;
-  std::vector<std::array<int, 3>> triangles;
-  for (const auto& facet : facets) triangles.push_back({facet.nodes[0], facet.nodes[1], facet.nodes[2]});
-  std::vector<Point> normals;
-  std::map<Edge, std::vector<int>> at_edge;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    normals.push_back(triangle_area_vector(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]));
-    for (int k = 0; k < 3; ++k)
-      at_edge[std::minmax(triangles[t][k], triangles[t][(k + 1) % 3])].push_back(static_cast<int>(t));
-  }
-  Parts parts;
-  parts.of.assign(triangles.size(), -1);
-  for (std::size_t start = 0; start < triangles.size(); ++start) {
-    if (parts.of[start] >= 0) continue;
-    const int part = static_cast<int>(parts.normal.size());
-    std::vector<int> members{static_cast<int>(start)};
-    parts.of[start] = part;
-    for (std::size_t i = 0; i < members.size(); ++i)
-      for (int k = 0; k < 3; ++k) {
-        const auto& t = triangles[members[i]];
-        for (const int next : at_edge[std::minmax(t[k], t[(k + 1) % 3])])
-          if (parts.of[next] < 0 && degrees_between(normals[members[i]], normals[next]) < sharp) {
-            parts.of[next] = part;
-            members.push_back(next);
-          }
+std::size_t part_at(const SimplexMesh<3, Order>& mesh, const FlatParts<Order>& flat, const Point& at,
+                    const std::string& option) {
+  if (flat.parts.empty()) throw InputError(program, option, all_places(flat.parts), "close the lumen by flat caps");
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < flat.parts.size(); ++i)
+    for (const int t : flat.parts[i].triangles) {
+      const auto& [a, b, c] = flat.triangles[t];
+      const double away = distance_to_triangle(at, mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]);
+      if (away < least) {
+        least = away;
+        nearest = i;
       }
-    Point normal{0, 0, 0}, centre{0, 0, 0};
-    double area = 0;
-    for (const int t : members) {
-      normal = normal + normals[t];
-      const double weight = norm(normals[t]);
-      area += weight;
-      for (const int node : triangles[t]) centre = centre + (weight / 3) * mesh.nodes[node];
     }
-    double bent = 0;
-    for (const int t : members) bent = std::max(bent, degrees_between(normals[t], normal));
-    parts.normal.push_back((1 / norm(normal)) * normal);
-    parts.centre.push_back((1 / area) * centre);
-    parts.bent.push_back(bent);
-  }
-  return parts;
-}
-
-constexpr double flat = 5;  // degrees
-
-std::string flat_places(const Parts& parts) {
-  std::string places;
-  int shown = 0;
-  for (std::size_t i = 0; i < parts.centre.size(); ++i)
-    if (parts.bent[i] < flat && ++shown <= 6) places += (places.empty() ? "" : ", ") + place_of(parts.centre[i]);
-  return places.empty() ? "the surface has no flat part with sharp edges" : "flat parts are at " + places;
+  const FlatRegion& part = flat.parts[nearest];
+  if (least > part.edge)
+    throw InputError(program, option,
+                     fmt::format("{} is {:.3g} mm away from the nearest flat part, at {}", place_of(at), least,
+                                 place_of(part.centre)),
+                     fmt::format("give a point within {:.2g} mm of one; ", part.edge) + all_places(flat.parts));
+  return nearest;
 }
 
 }  // namespace
@@ -100,43 +94,57 @@ std::string place_of(Point x) {
 
 template <int Order>
 std::string places_of_flat_parts(const SimplexMesh<3, Order>& mesh) {
-  return flat_places(parts_of(mesh, boundary_facets(mesh, {mesh.region_index(group::fluid)})));
+  return all_places(FlatParts<Order>(mesh).parts);
 }
 
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted) {
   if (wanted.empty()) return;
-  const auto facets = boundary_facets(mesh, {mesh.region_index(group::fluid)});
-  const Parts parts = parts_of(mesh, facets);
-  std::map<int, std::string> taken;
+  const FlatParts<Order> flat(mesh);
+  std::map<std::size_t, std::string> taken;
   for (const auto& part : wanted) {
+    const std::string option = "--opening " + part.name;
     if (mesh.facets(part.name) != nullptr)
-      throw InputError("fsi-mesh", "--opening " + part.name, "the mesh has a surface of this name",
-                       "leave it out, or give another name");
-    int nearest = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t t = 0; t < facets.size(); ++t)
-      for (const int node : facets[t].nodes) {
-        const double away = distance(mesh.nodes[node], part.at);
-        if (parts.bent[parts.of[t]] < flat && away < least) {
-          least = away;
-          nearest = parts.of[t];
-        }
-      }
-    if (nearest < 0)
-      throw InputError("fsi-mesh", "--opening " + part.name, flat_places(parts), "close the lumen by flat caps");
-    if (const auto [other, is_new] = taken.try_emplace(nearest, part.name); !is_new)
-      throw InputError("fsi-mesh", "--opening " + part.name, "is the same part of the surface as " + other->second,
-                       "give a point nearer to the other one: " + flat_places(parts));
+      throw InputError(program, option, "the mesh has a surface of this name", "leave it out, or give another name");
+    const std::size_t found = part_at(mesh, flat, part.at, option);
+    if (const auto [other, is_new] = taken.try_emplace(found, part.name); !is_new)
+      throw InputError(program, option, "is the same part of the surface as " + other->second,
+                       "give a point on the other one: " + all_places(flat.parts));
     typename SimplexMesh<3, Order>::FacetGroup group{part.name, {}};
-    for (std::size_t t = 0; t < facets.size(); ++t)
-      if (parts.of[t] == nearest) group.facets.push_back(facets[t].nodes);
+    for (const int t : flat.parts[found].triangles) group.facets.push_back(flat.facets[t].nodes);
     mesh.facet_groups.push_back(std::move(group));
   }
 }
 
+template <int Order>
+void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vector<Point>& closed) {
+  const FlatParts<Order> flat(mesh);
+  std::set<std::size_t> known;
+  for (const Point& at : closed) known.insert(part_at(mesh, flat, at, "--closed"));
+  std::set<FacetKey<3>> named;
+  for (const auto& group : mesh.facet_groups)
+    if (group.name != group::inner)
+      for (const auto& facet : group.facets) named.insert(facet_key<3>(facet));
+  std::vector<const FlatRegion*> forgotten;
+  for (std::size_t i = 0; i < flat.parts.size(); ++i) {
+    const auto& triangles = flat.parts[i].triangles;
+    const auto in_groups = std::count_if(triangles.begin(), triangles.end(),
+                                         [&](int t) { return named.count(facet_key<3>(flat.facets[t].nodes)) > 0; });
+    // Most of it: a name may leave out a triangle at the rim, or take one more.
+    if (known.count(i) == 0 && 2 * static_cast<std::size_t>(in_groups) < triangles.size())
+      forgotten.push_back(&flat.parts[i]);
+  }
+  if (forgotten.empty()) return;
+  throw InputError(
+      program, "--opening",
+      fmt::format("{} without a name: {}", forgotten.size() == 1 ? "a flat part is" : "flat parts are",
+                  listed(forgotten)),
+      "name each opening by --opening NAME=X,Y,Z, a point on it; say --closed X,Y,Z of a flat part of the wall");
+}
+
 template void name_flat_parts(SimplexMesh<3, 1>&, const std::vector<FlatPart>&);
 template void name_flat_parts(SimplexMesh<3, 2>&, const std::vector<FlatPart>&);
+template void require_flat_parts_named(const SimplexMesh<3, 1>&, const std::vector<Point>&);
 template std::string places_of_flat_parts(const SimplexMesh<3, 1>&);
 template std::string places_of_flat_parts(const SimplexMesh<3, 2>&);
 

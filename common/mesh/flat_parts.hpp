@@ -13,16 +13,24 @@ std::string place_of(Point x);
 /// A flat part of a lumen's surface that is to have a name.
 struct FlatPart {
   std::string name;
-  Point at;  ///< mm; the flat part of the surface nearest to it is meant
+  Point at;  ///< mm, on it
 };
 
-/// Adds a facet group for each of `wanted`: parts of the fluid's boundary that are flat to 5 degrees, with sharp edges
-/// (more than 30 degrees) around, as the cap of a segmented lumen is.
-/// \throws InputError when there is no flat part, for two of one place, and for a name that a surface has
+/// Adds a facet group for each of `wanted`: the flat part of the fluid's boundary (mesh/flat_regions.hpp) on which its
+/// point lies, within the mean length of the part's edges.
+/// \throws InputError for a point on no flat part, with the nearest one, for two on one part, and for a name that a
+/// surface has
 template <int Order>
 void name_flat_parts(SimplexMesh<3, Order>& mesh, const std::vector<FlatPart>& wanted);
 
-/// Where such parts are, for messages.
+/// Refuses a mesh in which a flat part is neither in a named surface nor `closed`: it may be an opening that was
+/// forgotten. The surface `inner` is no name here, since the wall grows on it.
+/// \param closed  points on flat parts that are no openings, mm
+/// \throws InputError that lists the parts with place, normal and area, and for a point that is on no flat part
+template <int Order>
+void require_flat_parts_named(const SimplexMesh<3, Order>& mesh, const std::vector<Point>& closed);
+
+/// Where such parts are, with normals and areas, for messages.
 template <int Order>
 std::string places_of_flat_parts(const SimplexMesh<3, Order>& mesh);
 

@@ -14,6 +14,11 @@ inline constexpr const char* outlet = "outlet";
 inline constexpr const char* wall_ends = "wall_ends";  ///< clamped end faces of all wall layers
 inline constexpr const char* outer = "outer";          ///< free outer face of the wall, optional
 inline constexpr const char* inner = "inner";          ///< loaded face of a wall without fluid
+inline constexpr const char* wall = "wall";            ///< where a fluid alone has its wall, optional
+/// Names of a fluid's surface that say themselves that it sticks there: no case need mention them.
+constexpr bool is_no_opening(std::string_view name) {
+  return name == wall || name == inner;
+}
 /// Planes normal to x, y, z that the body is mirrored in, or slides on: no displacement and no flow across them.
 /// Optional, on fluid and wall. The axis of an axisymmetric mesh needs no name: it is where r = 0.
 inline constexpr std::array<const char*, 3> symmetry{"symmetry_x", "symmetry_y", "symmetry_z"};

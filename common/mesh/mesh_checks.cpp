@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/names.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/cell_words.hpp"
 #include "mesh/curved_cells.hpp"
@@ -183,8 +184,9 @@ class Checks {
     if (facets == nullptr || facets->empty()) {
       if (required)
         fail(name, fmt::format("the {} is missing or empty", Words::facet_group),
-             fmt::format("name the {} of {} in gmsh, e.g. {}(\"{}\") = {{1}};", Dim == 3 ? "faces" : "sides", owner,
-                         Words::facet_command, name));
+             other_name_for(name, regions) + fmt::format("name the {} of {} in gmsh, e.g. {}(\"{}\") = {{1}};",
+                                                         Dim == 3 ? "faces" : "sides", owner, Words::facet_command,
+                                                         name));
       return;
     }
     const auto is_in = [&](int cell) {
@@ -214,6 +216,52 @@ class Checks {
            fmt::format("{} of {} {} lie between two {}, the first at {}", within, facets->size(), Words::facets,
                        Words::cells, text(centroid(*first))),
            fmt::format("put {} on the outside of the mesh only into this group", Dim == 3 ? "faces" : "sides"));
+  }
+
+  /// Surfaces on the outside of these volumes that the scene has no use for: one of them may be what is missed.
+  std::vector<std::string> unused_surfaces(const std::vector<int>& regions) const {
+    std::vector<std::string> used{group::inlet, group::outlet, group::wall_ends, group::outer, group::inner};
+    used.insert(used.end(), needs_.openings.begin(), needs_.openings.end());
+    used.insert(used.end(), needs_.supports.begin(), needs_.supports.end());
+    std::vector<std::string> found;
+    for (const auto& group : mesh_.facet_groups) {
+      if (group::is_symmetry_plane(group.name) || std::find(used.begin(), used.end(), group.name) != used.end())
+        continue;
+      const bool outside = std::all_of(group.facets.begin(), group.facets.end(), [&](const Facet& facet) {
+        const auto cells = cells_of_.find(facet_key<Dim>(facet));
+        return cells != cells_of_.end() && cells->second.second < 0 &&
+               std::find(regions.begin(), regions.end(), mesh_.cell_region[cells->second.first]) != regions.end();
+      });
+      if (outside && !group.facets.empty()) found.push_back(group.name);
+    }
+    return found;
+  }
+
+  /// What a surface of another name would have to be told, for remedies; empty when the mesh has none, else with ", or ".
+  std::string other_name_for(const std::string& missed, const std::vector<int>& regions) const {
+    const auto names = unused_surfaces(regions);
+    if (names.empty()) return "";
+    const std::string name = nearest_name(missed, names);
+    if (missed == group::wall_ends)
+      return fmt::format("if {} is meant, rename it, or add [[support]] with surface = \"{}\" and fixed = {}, or ",
+                         one_of(names), name, all_components());
+    if (missed == group::inlet || missed == group::outlet)
+      return fmt::format("if {} is meant, rename it, or add [[opening]] with surface = \"{}\", or ", one_of(names),
+                         name);
+    return fmt::format("if {} is meant, give that name, or ", one_of(names));
+  }
+
+  /// What `fixed` of a support says of a surface that cannot move.
+  const char* all_components() const {
+    if (Dim == 3) return R"(["x", "y", "z"])";
+    return axisymmetric() ? R"(["r", "z"])" : R"(["x", "y"])";
+  }
+
+  /// Of a wall that ends where it should go on.
+  std::string left_out_volumes() const {
+    if (needs_.left_out.empty()) return "";
+    return fmt::format("give {} of the mesh, which the case leaves out, a section [structure.layers.{}], or ",
+                       fmt::join(needs_.left_out, ", "), needs_.left_out.front());
   }
 
   void surfaces() const {
@@ -408,7 +456,7 @@ class Checks {
              fmt::format("a piece of {} with {} {} has no face {}", region_of(static_cast<int>(c)),
                          std::count(roots.begin(), roots.end(), roots[c]), Words::cells,
                          held_by_wall_ends_alone() ? "in this group" : "that is held"),
-             "connect it to the rest of the wall by shared facets, or clamp it");
+             left_out_volumes() + "connect it to the rest of the wall by shared facets, or clamp it");
   }
 
   void interface() const {
@@ -437,11 +485,13 @@ class Checks {
           group::wall_ends,
           fmt::format("the rim of the interface is not clamped: {} of its nodes are not in this group, the first at {}",
                       loose, text(mesh_.nodes[first])),
-          std::string(
-              std::find(needs_.clamping.begin(), needs_.clamping.end(), group::wall_ends) != needs_.clamping.end()
-                  ? ""
-                  : "fix all components of its support (only ends that a support names and that meet the fluid in an "
-                    "opening can slide or be free), or ") +
+          left_out_volumes() + other_name_for(group::wall_ends, layers_) +
+              std::string(std::find(needs_.clamping.begin(), needs_.clamping.end(), group::wall_ends) !=
+                                  needs_.clamping.end()
+                              ? ""
+                              : "fix all components of its support (only ends that a support names and that meet the "
+                                "fluid in an "
+                                "opening can slide or be free), or ") +
               "put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
               "symmetry_z, or symmetry_1 and so on");
   }

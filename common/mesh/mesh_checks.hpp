@@ -18,6 +18,7 @@ struct SceneMeshNeeds {
   std::vector<std::string> supports;    ///< surfaces on the outside of the wall that something holds or loads
   std::vector<std::string> holding = {"wall_ends"};   ///< of all surfaces, those that hold the wall
   std::vector<std::string> clamping = {"wall_ends"};  ///< those where it cannot move at all
+  std::vector<std::string> left_out{};  ///< volumes of the file that the scene does not have, for remedies
   /// Of triangle meshes: what is there called a volume is a physical surface, and what is called a surface a curve.
   TriangleGeometry geometry = TriangleGeometry::axisymmetric;
 };

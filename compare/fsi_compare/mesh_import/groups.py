@@ -81,8 +81,13 @@ def found_mesh(file: str, mesh: Any, scale: float) -> FoundMesh:
             masks = [v == value for v in values]
             named = families.get(int(value)) if name == "cell_tags" else None
             for text in named or [f"{name}:{int(value)}"]:
-                known = found.cells.get(text)
-                found.cells[text] = masks if known is None else [a | b for a, b in zip(known, masks)]
+                _join(found, text, masks)
+    for text, (number, dimension) in _gmsh_names(mesh).items():
+        if "gmsh:physical" in mesh.cell_data:
+            numbers = [np.asarray(mesh.cell_data["gmsh:physical"][i]) for i in kept]
+            masks = [(v == number) & (b.dimension == dimension) for v, b in zip(numbers, blocks)]
+            if any(mask.any() for mask in masks) and text not in found.cells:
+                found.cells[text] = masks
     for name, entries in mesh.point_sets.items():
         mask = np.zeros(len(points), dtype=bool)
         mask[np.asarray(entries, dtype=np.int64)] = True
@@ -93,6 +98,22 @@ def found_mesh(file: str, mesh: Any, scale: float) -> FoundMesh:
             for value in np.unique(v):
                 found.points_of[f"{name}:{int(value)}"] = v == value
     return found
+
+
+def _join(found: FoundMesh, name: str, masks: List[np.ndarray]) -> None:
+    known = found.cells.get(name)
+    found.cells[name] = masks if known is None else [a | b for a, b in zip(known, masks)]
+
+
+def _gmsh_names(mesh: Any) -> Dict[str, Tuple[int, int]]:
+    """$PhysicalNames of a gmsh file: name -> number and dimension. Of format 4 meshio makes sets of cells of them; of
+    format 2.2 the numbers alone stand with the cells."""
+    names = {}
+    for name, data in (getattr(mesh, "field_data", None) or {}).items():
+        pair = np.asarray(data).ravel()
+        if len(pair) == 2 and np.all(pair == np.round(pair)):
+            names[str(name)] = (int(pair[0]), int(pair[1]))
+    return names
 
 
 def _is_solid(name: str) -> bool:

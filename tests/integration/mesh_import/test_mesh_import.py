@@ -44,6 +44,22 @@ class MeshImport(FolderTest):
         self.assertEqual(set(re.findall(r'^\d \d+ "(\w+)"', text, re.MULTILINE)), {"fluid", "inlet", "outlet"})
         self.assertIn("\n1 9 2" if order == 2 else "\n1 2 2", text)
 
+    def test_gmsh_files_of_both_formats_keep_their_names(self):
+        """Volume and inlet have the same number, as gmsh gives them when left alone; names tell them apart."""
+        script = TUBE.replace('("fluid")', '("fluid", 1)').replace('("inlet")', '("inlet", 1)')
+        (self.base / "tube.geo").write_text(script)
+        for version in ("2.2", "4.1"):
+            file = self.base / f"tube-{version}.msh"
+            process = execute(MESH, "geo", self.base / "tube.geo", "-o", file, "-q", "--format", version)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            listed = execute(MESH, "import", file, "--list")
+            for name, kind in (("fluid", "tetrahedra"), ("inlet", "triangles"), ("outlet", "triangles")):
+                self.assertRegex(listed.stdout, rf"(?m)^{name} +\d+ {kind}$")
+            process = self.imported(file)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            text = (self.base / "out.msh").read_text()
+            self.assertEqual(set(re.findall(r'^\d \d+ "(\w+)"', text, re.MULTILINE)), {"fluid", "inlet", "outlet"})
+
     def test_vtu_with_numbered_cells_of_both_orders(self):
         for order in (1, 2):
             points, solid, sides = self.lumen(order)

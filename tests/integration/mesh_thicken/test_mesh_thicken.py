@@ -1,11 +1,14 @@
 """fsi-mesh thicken: a wall of given layers, grown on a lumen's volume or on its closed surface."""
 
 import math
+import random
 import re
 import unittest
+from pathlib import Path
 
 from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute
 
+GALLERY = Path(__file__).resolve().parents[3] / "gallery"
 TUBE = """
 SetFactory("OpenCASCADE");
 DefineConstant[ size = 0.5 ];
@@ -113,20 +116,81 @@ class MeshThicken(FolderTest):
             process = attempt(program, self.base / "case.toml", "-q", "--force", folder=self.base / "out")
             self.assertEqual((process.returncode, process.stderr), (0, ""))
 
+    def write_stl(self, nodes, faces):
+        with open(self.base / "lumen.stl", "w") as file:
+            print("solid lumen", file=file)
+            for face in faces:
+                print("facet normal 0 0 0\nouter loop", file=file)
+                for node in face:
+                    print("vertex", *nodes[node], file=file)
+                print("endloop\nendfacet", file=file)
+            print("endsolid lumen", file=file)
+
+    def fluid_surface(self):
+        """Nodes and faces of the boundary of the volume `fluid` of lumen.msh."""
+        text = (self.base / "lumen.msh").read_text()
+        number = re.search(r'^3 (\d+) "fluid"', text, re.MULTILINE).group(1)
+        nodes, elements = surface_of(text.splitlines())
+        return nodes, self.faces_of_tetrahedra([e for e in elements if e[1] == "4" and e[3] == number])
+
+    def jittered(self, nodes, faces, seed):
+        """Nodes off by up to a tenth of the edges around them, each way."""
+        numbers = random.Random(seed)
+        lengths = {}
+        for face in faces:
+            for one, other in zip(face, face[1:] + face[:1]):
+                for node in (one, other):
+                    lengths.setdefault(node, []).append(math.dist(nodes[one], nodes[other]))
+        return {
+            node: tuple(c + 0.1 * sum(edges) / len(edges) * numbers.uniform(-1, 1) for c in nodes[node])
+            for node, edges in lengths.items()
+        }
+
+    def test_openings_of_rough_surfaces_are_found_and_nothing_else(self):
+        """The gallery's bifurcation, whose branches meet in a sharp carina, and a tube: clean and rough."""
+        a, length = math.radians(35), 8
+        branch = (length * math.sin(a), length * math.cos(a) - 1)
+        self.geo((GALLERY / "bifurcation" / "fork.geo").read_text(), "--format", "2.2")
+        fork = self.fluid_surface()
+        self.geo(TUBE, "--format", "2.2")
+        tube = self.fluid_surface()
+        ends = [(0, 0, -length), (branch[0], 0, branch[1]), (-branch[0], 0, branch[1])]
+        for (nodes, faces), places in ((fork, ends), (tube, [(0, 0, 0), (0, 0, 5)])):
+            for seed in range(4):
+                self.write_stl(self.jittered(nodes, faces, seed) if seed > 0 else nodes, faces)
+                process = self.thicken("--layer", "media=0.1", lumen="lumen.stl")
+                self.assertEqual(process.returncode, 1)
+                found = re.findall(r"\(([^)]*)\) mm with normal", process.stderr)
+                self.assertEqual(len(found), len(places), process.stderr)
+                for text in found:
+                    place = tuple(map(float, text.split(",")))
+                    self.assertLess(min(math.dist(place, known) for known in places), 0.15)
+        # The tube is rough now: its openings can be named, and a wall grows on it.
+        named = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,5")
+        found = self.volumes(self.thicken("--layer", "media=0.1", *named, lumen="lumen.stl"))
+        self.assertAlmostEqual(found["media"][0] / (5 * math.pi * 0.21), 1, delta=0.1)
+        for options, words in (
+            (named[:2], ("a flat part is without a name: (",)),
+            ((*named, "--opening", "eca=-5,0,90"), ("--opening eca: (-5, 0, 90) mm is 85", "flat parts are at")),
+        ):
+            self.expect(self.thicken("--layer", "media=0.1", *options, lumen="lumen.stl"), *words)
+
+    def test_an_opening_of_a_mesh_that_is_forgotten(self):
+        self.geo(TUBE.replace('Physical Surface("outlet") = {2};', ""))
+        self.expect(
+            self.thicken("--layer", "a=.1"), "a flat part is without a name: (0, 0, 5) mm with normal (0, 0, 1)"
+        )
+        self.volumes(self.thicken("--layer", "a=.1", "--opening", "outlet=0,0,5"))
+        self.geo(TUBE.replace('Physical Surface("outlet") = {2};', 'Physical Surface("side") = {1};'))
+        self.volumes(self.thicken("--layer", "a=.1", "--on", "side"))
+
     def test_surface_is_closed_named_and_filled(self):
         self.geo(TUBE, "--format", "2.2")
         nodes, elements = surface_of((self.base / "lumen.msh").read_text().splitlines())
         solid = self.faces_of_tetrahedra(elements)
 
         def write(faces):
-            with open(self.base / "lumen.stl", "w") as file:
-                print("solid lumen", file=file)
-                for face in faces:
-                    print("facet normal 0 0 0\nouter loop", file=file)
-                    for node in face:
-                        print("vertex", *nodes[node], file=file)
-                    print("endloop\nendfacet", file=file)
-                print("endsolid lumen", file=file)
+            self.write_stl(nodes, faces)
 
         write(solid)
         named = ("--opening", "inlet=0,0,0", "--opening", "outlet=0,0,5")
@@ -135,10 +199,14 @@ class MeshThicken(FolderTest):
         self.assertAlmostEqual(found["media"][0] / (5 * math.pi * 0.44), found["fluid"][0] / (5 * math.pi), delta=3e-3)
         for options, words in (
             ((), ("--opening", "(0, 0, 5) mm")),
-            (("--opening", "a=0,0,0", "--opening", "b=0,0,1"), ("--opening b", "the same part of the surface as a")),
+            (("--opening", "a=0,0,0", "--opening", "b=0,.5,.1"), ("--opening b", "the same part of the surface as a")),
+            (named[:2], ("--opening: a flat part is without a name: (0, 0, 5) mm with normal (0, 0, 1) and 3.0",)),
+            ((*named[:2], "--opening", "b=0,0,90"), ("--opening b: (0, 0, 90) mm is 85 mm away", "at (0, 0, 5) mm")),
+            ((*named[:2], "--closed", "0,0,2"), ("--closed: (0, 0, 2) mm is 2 mm away from the nearest flat part",)),
             (("--opening", "a=0,0"), ("is no NAME=X,Y,Z",)),
         ):
             self.expect(self.thicken("--layer", "media=0.2", *options, lumen="lumen.stl"), *words)
+        self.volumes(self.thicken("--layer", "media=0.2", *named[:2], "--closed", "0,0,5", lumen="lumen.stl"))
         write(solid[2:])
         self.expect(self.thicken("--layer", "media=0.2", *named, lumen="lumen.stl"), "lumen.stl: surface: has", "hole")
         write(solid + solid[:1])

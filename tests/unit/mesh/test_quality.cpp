@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include "mesh/cells_across.hpp"
+#include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
 #include "meshes.hpp"
+#include "support/meshes.hpp"
 
 namespace fsi {
 namespace {
@@ -42,6 +45,25 @@ TEST(Quality, CountsLayersAcrossTheWall) {
   EXPECT_EQ(element_layers(mesh, 0), 0);
   EXPECT_EQ(element_layers(mesh, 1), 4);
   EXPECT_EQ(element_layers(mesh, 2), 2);
+}
+
+TEST(CellsAcross, AreTheDiameterOverTheMeanEdge) {
+  const auto mesh = test::short_artery();
+  const auto across = cells_across(mesh);
+  ASSERT_TRUE(across);
+  // 4 V / A = 4 (pi R^2 L) / (2 pi R L) = 2 R, but for what straight facets cut off; its interface has no name, its ends have.
+  EXPECT_NEAR(across->width, 2 * 1.43, 0.05 * 1.43);
+  double length = 0, count = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.regions[mesh.cell_region[c]] == "fluid")
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < a; ++b, ++count)
+          length += distance(mesh.nodes[mesh.cells[c][a]], mesh.nodes[mesh.cells[c][b]]);
+  EXPECT_NEAR(across->cells(), across->width * count / length, 1e-12 * across->cells());
+}
+
+TEST(CellsAcross, NeedAFluid) {
+  EXPECT_FALSE(cells_across(test::irregular_cube(2, 0.1, "media")));
 }
 
 TEST(Quality, WarnsOfBadElementsAndSaysWhereTheWorstIs) {

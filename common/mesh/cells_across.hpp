@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// How finely a mesh of tetrahedra divides the lumen.
+struct CellsAcross {
+  double width;  ///< mm; 4 V / A of the fluid's volume and the surface around it: the diameter of a tube
+  double edge;   ///< mm; mean length of the edges of the fluid's cells, between vertices
+  double cells() const { return width / edge; }
+};
+
+/// Of the volume `fluid`, the surface around it being all of its boundary that has no name. Empty where there is none.
+template <int Order>
+std::optional<CellsAcross> cells_across(const SimplexMesh<3, Order>& mesh);
+
+}  // namespace fsi

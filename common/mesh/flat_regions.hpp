@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+using SurfaceTriangle = std::array<int, 3>;  ///< nodes, seen from outside counter-clockwise
+
+/// A flat part of a closed surface that stands out from what is around it, as the cap over the opening of a lumen does.
+struct FlatRegion {
+  std::vector<int> triangles;  ///< ascending
+  Point centre;                ///< mm
+  Point normal;                ///< unit, outward
+  double area = 0;             ///< mm^2
+  double edge = 0;             ///< mean length of its edges, mm
+};
+
+/// The flat parts of a closed surface of triangles, largest first. A part is found by its plane and by its rim:
+/// - its nodes lie within a quarter of the edges' length of one plane, the least-squares one, and its triangles face
+///   along the plane's normal: nodes may be off by a tenth of an edge, as those of segmented surfaces are;
+/// - it has one rim, a closed line as round as three by one or rounder, of five edges or more;
+/// - along nearly all of the rim the surface turns away by more than 30 degrees, on average by 60 or more, to the inner side
+///   of the plane. A strip of a coarse tube's side turns by less. Where two branches meet (the carina), the surface rises
+///   out of any plane in one direction, however flat it is.
+std::vector<FlatRegion> flat_regions(const std::vector<Point>& nodes, const std::vector<SurfaceTriangle>& triangles);
+
+}  // namespace fsi
