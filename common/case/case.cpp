@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 
 namespace fsi {
@@ -31,6 +33,13 @@ std::vector<double> output_times(const Case& setup) {
   // To twelve digits, as the ends of steps.
   for (int k = 0; k < count; ++k) times.push_back(std::strtod(fmt::format("{:.12g}", k * interval).c_str(), nullptr));
   times.push_back(end);
+  const auto intervals = static_cast<std::ptrdiff_t>(times.size());
+  const double same = 1e-9 * end;
+  for (double time : setup.output.times) {
+    const auto next = std::lower_bound(times.begin(), times.begin() + intervals, time - same);
+    if (next == times.begin() + intervals || *next > time + same) times.push_back(time);
+  }
+  std::inplace_merge(times.begin(), times.begin() + intervals, times.end());
   return times;
 }
 

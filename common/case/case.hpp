@@ -56,6 +56,8 @@ struct FluidData {
   double viscosity = 0;   ///< kPa ms
   bool outlet = true;     ///< whether there is a surface `outlet`, free of traction
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
+  /// Surfaces that nothing passes although they have a name. Given at all, a case may be without openings.
+  std::optional<std::vector<std::string>> closed{};
 };
 
 /// [structure.layers.NAME]
@@ -84,15 +86,15 @@ struct TimeData {
   double newmark_beta = 1;
   double newmark_gamma = 1;
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
-  TimeScheme scheme = TimeScheme::midpoint;
-  std::optional<double> damping{};  ///< 1/ms, of the midpoint rule's shift; empty: from the scene
-  double spectral_radius = 0.5;     ///< of generalised-alpha, at infinite frequency
-  bool adaptive = false;            ///< steps by an estimate of their error
-  double tolerance = 0.01;          ///< of adaptive steps, relative to the solution
+  std::optional<TimeScheme> scheme{};  ///< empty: from the scene and the step (scene/time_scheme.hpp)
+  std::optional<double> damping{};     ///< 1/ms, of the midpoint rule's shift; empty: from the scene
+  double spectral_radius = 0.5;        ///< of generalised-alpha, at infinite frequency
+  bool adaptive = false;               ///< steps by an estimate of their error
+  double tolerance = 0.01;             ///< of adaptive steps, relative to the solution
   std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
   int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
 
-  int steps() const;  ///< number of fixed steps; `end` is hit exactly
+  int steps() const;  ///< number of fixed steps; `end` is hit exactly, by shorter last ones where it has to be
 };
 
 /// [static]: a wall without inertia, the load raised in equal steps
@@ -126,7 +128,7 @@ struct MonolithicData {
 
 /// [partitioned]
 struct PartitionedData {
-  std::string scheme = "robin-neumann-iqn";          ///< one of coupling_scheme_names()
+  std::optional<std::string> scheme;                 ///< one of coupling_scheme_names(); empty: by the scene
   double tolerance = 1e-6;                           ///< ||d~ - d|| <= tolerance ||d~|| on the interface
   ToleranceOf tolerance_of = ToleranceOf::pressure;  ///< pressure: alike for what the gap is worth as a pressure
   double absolute_tolerance = 0;                     ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
@@ -149,6 +151,7 @@ struct OutputData {
   std::vector<std::string> fields = standard_output_fields();
   int every = 8;                     ///< steps between entries of fields.h5; 0: no fields
   std::optional<double> interval{};  ///< ms between entries of fields.h5, in place of `every`; steps end there
+  std::vector<double> times{};       ///< ms, ascending: further times at which steps end and fields.h5 has entries
   int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
   bool energy = true;                ///< energy.csv
   DerivedOutput derived{};
@@ -164,7 +167,7 @@ struct EconomyData {
 struct Case {
   std::filesystem::path path;  ///< of the case file
   std::string title;
-  ElementPair element = ElementPair::p1;
+  ElementPair element = ElementPair::p2p1;  ///< at equal seconds the more accurate one: docs/accuracy.md
   Geometry geometry = Geometry::three_dimensional;
   Stabilisation stabilisation = Stabilisation::projected;
   MeshData mesh;
@@ -184,13 +187,15 @@ struct Case {
   OutputData output;
   EconomyData economy;
   std::vector<std::string> warnings;  ///< what the reader found strange but did not refuse, one line each
+  std::vector<std::string> remarks;   ///< what else it did with what the case says, for the log
 };
 
 /// alpha of the stabilisation of a case's wall: as given, or the standard of its kind (docs/theory.md, section 4.2).
 double wall_stabilisation(const Case& setup);
 
-/// Times at which steps end for the sake of output, ms: multiples of output.interval from 0 on, and the end. With adaptive
-/// steps a twelfth of the run stands for an interval that is not given. Empty where entries are counted in steps.
+/// Times of entries of fields.h5 at which steps end, ms: multiples of output.interval from 0 on, output.times and the end.
+/// With adaptive steps a twelfth of the run stands for an interval that is not given. Empty where entries are counted in
+/// steps.
 std::vector<double> output_times(const Case& setup);
 
 }  // namespace fsi

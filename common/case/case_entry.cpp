@@ -131,6 +131,10 @@ void CaseEntry::warn(const std::string& problem, const std::string& remedy) cons
       InputError(source_->place(key_, node_->source()), printable(key_), problem, remedy).what());
 }
 
+void CaseEntry::remark(const std::string& text) const {
+  source_->remarks.push_back(printable(key_ + ": " + text));
+}
+
 bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
   const auto slip = unit_slip(quantity, value);
   if (!slip) return false;
@@ -206,7 +210,11 @@ void refuse_unknown_keys(const CaseEntry& section, const std::vector<std::string
     const auto name = entry.key().substr(prefix.size());  // a quoted key may hold dots
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const auto nearest = nearest_name(name, known);
-    entry.refuse(entry.is_section() ? "unknown section" : "unknown key", "did you mean " + prefix + nearest + "?");
+    const std::string problem = entry.is_section() ? "unknown section" : "unknown key";
+    // Where most letters differ, the nearest name is none that was meant.
+    if (static_cast<std::size_t>(edit_distance(name, nearest)) >= name.size() && known.size() > 1)
+      entry.refuse(problem, "there are " + one_of(known));
+    entry.refuse(problem, "did you mean " + prefix + nearest + "?");
   }
 }
 

@@ -24,6 +24,7 @@ struct CaseSource {
   std::set<std::string> overridden;  ///< key paths that --set has put in place; all below them counts as well
   /// What looks wrong without being refused. Collected while entries are read, which only look at their source.
   mutable std::vector<std::string> warnings;
+  mutable std::vector<std::string> remarks{};  ///< what was done with what is given, for the log
 
   bool is_overridden(const std::string& key) const;
   /// "case.toml:12", "--set", or "case.toml" when there is no line.
@@ -51,6 +52,7 @@ class CaseEntry {
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& remedy) const;
 
   void warn(const std::string& problem, const std::string& remedy) const;
+  void remark(const std::string& text) const;
   /// Warns when the value seems to be in a wrong unit. \return whether it does
   bool warn_of_unit(const Quantity& quantity, double value) const;
 

@@ -15,6 +15,7 @@
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
 #include "case/support_keys.hpp"
+#include "case/windkessel_units.hpp"
 
 namespace fsi {
 
@@ -37,8 +38,9 @@ void check_sections(const CaseEntry& whole_case, const Case& scene) {
       {in_static && fluid, "static", "is for a wall without fluid", "replace it by [time]"},
       {!in_time && !in_static && fluid, "", "no [time]", "add [time] with step and end"},
       {!in_time && !in_static, "", "neither [time] nor [static]", "add [time] with step and end, or [static]"},
-      {fluid && !scene.inlet && scene.openings.empty(), "", "no [inlet]",
-       "add [inlet] with pressure, since there is a fluid, or [[opening]]"},
+      {fluid && !scene.inlet && scene.openings.empty() && !scene.fluid->closed, "", "no [inlet]",
+       "add [inlet] with pressure, since there is a fluid, or [[opening]]; for a fluid that nothing enters or leaves, "
+       "closed = [...] in [fluid] with the names of its surfaces, [] where the wall encloses it"},
       {!fluid && scene.inlet, "inlet", "stands in a case without fluid", "rename it to [load], or add [fluid]"},
       {!fluid && !scene.load && support_loads_of(scene).empty(), "", "no [load]",
        "add [load] with pressure, since there is no fluid"},
@@ -81,15 +83,34 @@ void check_gravity(const CaseEntry& whole_case, const Case& scene) {
 }
 
 /// Each time of output ends a step, so that there can be no more of them than steps.
+constexpr double most_output_times = 1e6;
+
+/// Named times lie in the run, and no closer together than its steps may be.
+void check_named_times(const CaseEntry& whole_case, const Case& scene) {
+  const auto& times = scene.output.times;
+  if (times.empty()) return;
+  const CaseEntry entry = whole_case.child("output").child("times");
+  if (!scene.time) entry.refuse("belong to a run in time, and this case is static", "leave this key out");
+  const double end = scene.time->end;
+  for (const double time : {times.front(), times.back()})
+    if (!(time > 0 && time <= end))
+      entry.refuse(fmt::format("{} ms does not lie in the run", time),
+                   fmt::format("give times > 0 and <= time.end, {}", end));
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (const double apart = times[i] - times[i - 1]; apart * most_output_times < end)
+      entry.refuse(fmt::format("{:.12g} and {:.12g} are {:.3g} ms apart", times[i - 1], times[i], apart),
+                   fmt::format("leave {:.12g} ms between times", end / most_output_times));
+}
+
 void check_output_times(const CaseEntry& whole_case, const Case& scene) {
-  constexpr double most = 1e6;
+  check_named_times(whole_case, scene);
   if (!scene.time || !scene.output.interval) return;
   const double times = scene.time->end / *scene.output.interval;
-  if (times > most)
+  if (times > most_output_times)
     whole_case.child("output")
         .child("interval")
         .refuse(fmt::format("{} would end {:.3g} steps for the sake of output", *scene.output.interval, times),
-                fmt::format("give at least {:.12g}", scene.time->end / most));
+                fmt::format("give at least {:.12g}", scene.time->end / most_output_times));
 }
 
 /// Elements that are stable by themselves have nothing to stabilise.
@@ -166,6 +187,8 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   read_keys(whole_case, case_keys(), scene);
   check_sections(whole_case, scene);
   check_openings(whole_case, scene);
+  check_closed(whole_case, scene);
+  warn_of_windkessel_units(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
@@ -176,6 +199,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   warn_of_stabilisation(whole_case, scene);
   warn_of_damped_mesh(whole_case, scene);
   scene.warnings = source.warnings;
+  scene.remarks = source.remarks;
   return scene;
 }
 

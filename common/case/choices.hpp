@@ -54,7 +54,7 @@ enum class FibreFrame {
   laplace    ///< of potentials between the wall's surfaces, for a wall of any shape
 };
 
-/// time.scheme (docs/theory.md, section 8).
+/// time.scheme (docs/theory.md, section 8). Checkpoints hold their numbers: append.
 enum class TimeScheme { euler, midpoint, bdf2, generalised_alpha, tr_bdf2 };
 
 /// partitioned.tolerance_of: what the tolerance of the interface is meant for (docs/coupling.md).

@@ -123,6 +123,19 @@ KeyValue<Target> name_from(Place<Target, std::string> place, const std::vector<s
           [place](const Target& target) { return place(target); }, marked(names, place(Target()))};
 }
 
+/// The same where something else chooses unless the case does.
+template <class Target>
+KeyValue<Target> name_from(Place<Target, std::optional<std::string>> place, const std::vector<std::string>& names) {
+  KeyValue<Target> value;
+  value.read = [=](const CaseEntry& entry, Target& target) {
+    require_name(entry, names);
+    place(target) = entry.text();
+  };
+  value.write = [place](const Target& target) { return place(target).value_or("chosen"); };
+  value.standard = one_of(names);
+  return value;
+}
+
 /// A name of the table, kept as what it stands for.
 template <class Target, class Choice>
 KeyValue<Target> name_from(Place<Target, Choice> place, const NameTable<Choice>& table) {
@@ -132,6 +145,19 @@ KeyValue<Target> name_from(Place<Target, Choice> place, const NameTable<Choice>&
           },
           [place, &table](const Target& target) { return table.name_of(place(target)); },
           marked(table.names(), table.name_of(place(Target())))};
+}
+
+/// Likewise of a choice that need not be made.
+template <class Target, class Choice>
+KeyValue<Target> name_from(Place<Target, std::optional<Choice>> place, const NameTable<Choice>& table) {
+  return {[place, &table](const CaseEntry& entry, Target& target) {
+            require_name(entry, table.names());
+            place(target) = table.at(entry.text());
+          },
+          [place, &table](const Target& target) {
+            return place(target) ? std::string(table.name_of(*place(target))) : std::string("chosen");
+          },
+          one_of(table.names())};
 }
 
 /// Coordinates, or a direction that must not be zero.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -42,13 +44,40 @@ std::vector<CaseKey<OutflowLaw>> windkessel_keys() {
   };
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Textbooks' letters for the parts of a Windkessel are nearer to other keys than to those that they mean.
+void refuse_symbols(const CaseEntry& windkessel) {
+  struct Symbol {
+    const char* letters;
+    const char* key;
+  };
+  constexpr Symbol symbols[] = {{"Rp", "proximal"},        {"R1", "proximal"},        {"Rc", "proximal"},
+                                {"Z", "proximal"},         {"Zc", "proximal"},        {"C", "compliance"},
+                                {"Rd", "distal"},          {"R2", "distal"},          {"R", "distal"},
+                                {"Pd", "distal_pressure"}, {"P0", "initial_pressure"}};
+  if (!windkessel.is_section()) return;
+  for (const auto& child : windkessel.children()) {
+    std::string name = child.key().substr(windkessel.key().size() + 1);
+    name.erase(std::remove(name.begin(), name.end(), '_'), name.end());
+    for (const Symbol& symbol : symbols)
+      if (lower_case(name) == lower_case(symbol.letters))
+        child.refuse("unknown key", std::string("did you mean ") + symbol.key +
+                                        "? There are proximal (Rp), compliance (C), distal (Rd), initial_pressure and "
+                                        "distal_pressure");
+  }
+}
+
 KeyValue<OpeningInput> table_of(const TableKind& kind) {
   return {[&kind](const CaseEntry& entry, OpeningInput& input) { read_table(entry, kind, true, input.table); },
           [](const OpeningInput&) { return std::string(); }, "", kind.values.unit};
 }
 
 /// Listed by list_openings(), as they are after reading.
-std::vector<CaseKey<OpeningInput>> keys_of_opening() {
+std::vector<CaseKey<OpeningInput>> keys_of_opening(Geometry geometry = Geometry::three_dimensional) {
   const auto unlisted = [](const OpeningInput&) { return std::string(); };
   return {
       leaf<OpeningInput>("pressure", optional,
@@ -57,7 +86,7 @@ std::vector<CaseKey<OpeningInput>> keys_of_opening() {
                          table_of(pressure_kind())),
       leaf<OpeningInput>("flow_rate", optional,
                          "into the fluid in {unit}, in place of a pressure: a number, a table or a file likewise",
-                         table_of(flow_rate_kind())),
+                         table_of(flow_rate_kind(geometry == Geometry::plane))),
       leaf<OpeningInput>(
           "until", optional, "time in ms at which a constant pressure or flow rate falls to 0",
           {[](const CaseEntry& entry, OpeningInput& input) { read_until(entry, input.table); }, unlisted}),
@@ -100,7 +129,7 @@ void check_sources(const CaseEntry& entry) {
   belongs("distal_pressure", source == "resistance", source == "windkessel" ? "windkessel" : "resistance");
 }
 
-OpeningConditions read_opening(const CaseEntry& entry) {
+OpeningConditions read_opening(const CaseEntry& entry, Geometry geometry) {
   OpeningInput input;
   if (entry.key().find(',') != std::string::npos)
     entry.refuse("has a comma in its name, which openings.csv could not show", "give the surface a name without");
@@ -108,7 +137,8 @@ OpeningConditions read_opening(const CaseEntry& entry) {
     entry.refuse("is no section", "write [[opening]] with surface = \"" + entry.key().substr(8) + "\"");
   if (entry.has("windkessel") && entry.has("distal_pressure"))
     entry.child("distal_pressure").refuse("stands beside windkessel", "put it into the section windkessel");
-  read_keys(entry, keys_of_opening(), input);
+  if (entry.has("windkessel")) refuse_symbols(entry.child("windkessel"));
+  read_keys(entry, keys_of_opening(geometry), input);
   check_sources(entry);
   OpeningConditions& conditions = input.conditions;
   if (entry.has("flow_rate") && entry.has("backflow"))
@@ -182,7 +212,7 @@ CaseKey<Case> opening_key() {
       "free of traction",
       [](const CaseEntry& entry, Case& scene) {
         for (const auto& child : entry.children())
-          scene.openings[child.key().substr(entry.key().size() + 1)] = read_opening(child);
+          scene.openings[child.key().substr(entry.key().size() + 1)] = read_opening(child, scene.geometry);
       },
       list_openings,
       KeyRole::physics,
@@ -206,6 +236,19 @@ void check_openings(const CaseEntry& whole_case, const Case& scene) {
       openings.child(surface).child("period").refuse(
           fmt::format("the table would jump {:.3g} times in {} ms, and end a step each time", jumps, scene.time->end),
           "give a longer period, or a table without jumps whose last value is its first");
+  }
+}
+
+void check_closed(const CaseEntry& whole_case, const Case& scene) {
+  if (!scene.fluid || !scene.fluid->closed) return;
+  const CaseEntry fluid = whole_case.child("fluid"), closed = fluid.child("closed");
+  for (const auto& name : *scene.fluid->closed) {
+    const bool inlet = name == group::inlet && scene.inlet;
+    if (inlet || scene.openings.count(name) > 0)
+      closed.refuse(fmt::format("names \"{}\", which {} opens", name, inlet ? "[inlet]" : "an [[opening]]"),
+                    "keep one of the two");
+    if (name == group::outlet && fluid.has("outlet") && fluid.child("outlet").boolean())
+      closed.refuse("names \"outlet\" beside outlet = true", "keep one of the two");
   }
 }
 

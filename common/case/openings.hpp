@@ -21,19 +21,24 @@ struct OpeningData {
   bool demanded = true;              ///< of the mesh; else it may have no such surface
 };
 
+/// Whether a case says that its fluid has no opening.
+inline bool is_closed(const Case& setup) {
+  return setup.fluid && setup.fluid->closed && !setup.inlet && setup.openings.empty();
+}
+
 /// The open boundaries of a case with fluid, in the order in which scenes and loads hold them: `inlet` of a case with
-/// [inlet], those of [[opening]] by name, and `outlet` where none of them is it. With [[opening]] the mesh need not have
-/// the latter.
+/// [inlet], those of [[opening]] by name, and `outlet` where none of them is it. With [[opening]], and where the case says
+/// that its fluid is closed, the mesh need not have the latter.
 inline std::vector<OpeningData> openings_of(const Case& setup) {
   if (!setup.fluid) return {};
   std::vector<OpeningData> openings;
-  if (setup.inlet || setup.openings.empty()) openings.push_back({group::inlet, setup.inlet});
+  if (setup.inlet || (setup.openings.empty() && !is_closed(setup))) openings.push_back({group::inlet, setup.inlet});
   for (const auto& [surface, conditions] : setup.openings)
     openings.push_back(
         {surface, conditions.pressure, conditions.flow_rate, conditions.outflow_law, conditions.backflow, true});
   if (setup.fluid->outlet && setup.openings.count(group::outlet) == 0) {
     openings.push_back({group::outlet, std::nullopt});
-    openings.back().demanded = setup.openings.empty();
+    openings.back().demanded = setup.openings.empty() && !is_closed(setup);
     openings.back().listed = !setup.openings.empty();
   }
   return openings;

@@ -14,6 +14,7 @@
 #include "materials/material.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
+#include "mesh/group_names.hpp"
 
 namespace fsi {
 
@@ -73,6 +74,25 @@ std::vector<CaseKey<MeshData>> mesh_keys() {
 
 // [fluid].
 
+void read_closed(const CaseEntry& entry, FluidData& fluid) {
+  auto& names = fluid.closed.emplace();
+  for (const CaseEntry& element : entry.elements()) {
+    const std::string name = element.line();
+    if (name.empty()) element.refuse_value("is empty", "give the name of a surface of the fluid");
+    if (group::is_symmetry_plane(name))
+      element.refuse_value("is the name of a plane of symmetry, where the fluid slides", "leave it out");
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      element.refuse_value("is named twice", "name each surface once");
+    names.push_back(name);
+  }
+  // Said of an outlet, it means what fluid.outlet = false means.
+  if (std::find(names.begin(), names.end(), group::outlet) != names.end()) fluid.outlet = false;
+}
+
+std::string text_of_closed(const FluidData& fluid) {
+  return fluid.closed ? fmt::format("{}", fmt::join(*fluid.closed, ", ")) : std::string();
+}
+
 std::vector<CaseKey<FluidData>> fluid_keys() {
   return {
       leaf("density", required, "density in {unit}",
@@ -81,6 +101,11 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
            number(at(&FluidData::viscosity), positive, quantity::viscosity())),
       leaf("outlet", optional, "whether fluid leaves through a surface outlet, free of traction, default {}",
            flag(at(&FluidData::outlet))),
+      leaf<FluidData>(
+          "closed", optional,
+          "names of surfaces that the fluid sticks to although the mesh names them; any other named surface "
+          "of the fluid needs an opening",
+          {read_closed, [](const FluidData& fluid) { return text_of_closed(fluid); }}, KeyRole::running),
       leaf("grad_div", optional, "grad-div stabilisation, default {}", flag(at(&FluidData::grad_div))),
   };
 }
@@ -288,11 +313,13 @@ void check_adaptive(const CaseEntry& entry, const TimeData& time) {
 
 void check_time(const CaseEntry& entry, TimeData& time) {
   const auto require_scheme = [&](const char* key, TimeScheme scheme) {
-    if (entry.has(key) && time.scheme != scheme)
-      entry.child(key).refuse(fmt::format("belongs to the scheme \"{}\", and this run has \"{}\"",
-                                          time_schemes().name_of(scheme), time_schemes().name_of(time.scheme)),
-                              fmt::format("remove it, or set time.scheme = \"{}\"", time_schemes().name_of(scheme)));
+    if (!entry.has(key) || time.scheme == scheme) return;
+    const std::string found =
+        time.scheme ? fmt::format("this run has \"{}\"", time_schemes().name_of(*time.scheme)) : "this case names none";
+    entry.child(key).refuse(fmt::format("belongs to the scheme \"{}\", and {}", time_schemes().name_of(scheme), found),
+                            fmt::format("remove it, or set time.scheme = \"{}\"", time_schemes().name_of(scheme)));
   };
+  if (!time.scheme && entry.has("damping")) time.scheme = TimeScheme::midpoint;  // its shift: nothing is left to choose
   require_scheme("newmark_beta", TimeScheme::euler);
   require_scheme("newmark_gamma", TimeScheme::euler);
   require_scheme("damping", TimeScheme::midpoint);
@@ -312,10 +339,6 @@ void check_time(const CaseEntry& entry, TimeData& time) {
   if (steps > most_steps)
     entry.child("step").refuse(fmt::format("{} would take {:.3g} steps to {}", time.step, steps, time.end),
                                fmt::format("give a step that takes at most {}", most_steps));
-  const double whole_steps = std::round(steps);
-  if (std::abs(steps - whole_steps) > 1e-9)
-    end.refuse(fmt::format("{} is no multiple of the step {}", time.end, time.step),
-               fmt::format("give {:.12g} or {:.12g}", std::floor(steps) * time.step, std::ceil(steps) * time.step));
 }
 
 std::vector<CaseKey<TimeData>> time_keys() {
@@ -338,9 +361,12 @@ std::vector<CaseKey<TimeData>> time_keys() {
       leaf("retries", optional,
            "times that a step which finds no solution is halved before the run gives up, default {}",
            whole(at(&TimeData::retries), 0, 20), KeyRole::running),
-      leaf("end", required, "end of the run in {unit}, a multiple of an equal step",
+      leaf("end", required,
+           "end of the run in {unit}; hit exactly, by shorter last steps where it is no multiple of step",
            number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
-      leaf("scheme", optional, "time scheme: {}", name_from(at(&TimeData::scheme), time_schemes())),
+      leaf("scheme", optional,
+           "time scheme: {}; without it midpoint, or tr-bdf2 where steps are long against the scene's time",
+           name_from(at(&TimeData::scheme), time_schemes())),
       leaf("damping", optional,
            "rate in {unit} of the shift of the midpoint rule towards the step's end; without it found from the scene",
            number(at(&TimeData::damping), Bounds{0, 1e6, true, true}, quantity::rate())),

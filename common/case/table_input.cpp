@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -61,6 +62,41 @@ std::filesystem::path path_of(const CaseEntry& entry) {
   return std::filesystem::path(entry.source().file).parent_path() / name;
 }
 
+/// The units that a header names; without any, ms and that of the kind.
+struct ColumnFactors {
+  double time = 1, value = 1;
+  bool time_named = false, value_named = false;
+};
+
+/// \param refuse  says what is wrong with the header, and what to do
+template <class Refuse>
+ColumnFactors factors_of(std::string_view header, const CaseEntry& entry, const TableKind& kind, Refuse refuse) {
+  const auto comma = header.find_first_of(",;");
+  const std::string_view columns[] = {trimmed(header.substr(0, comma)), trimmed(header.substr(comma + 1))};
+  std::optional<ColumnUnit> units[2];
+  for (int i = 0; i < 2; ++i) {
+    const ColumnKind wanted = i == 0 ? ColumnKind::time : kind.column;
+    try {
+      units[i] = column_unit(columns[i], wanted);
+    } catch (const std::invalid_argument& wrong) {
+      refuse(fmt::format("column {}: {}", i + 1, wrong.what()),
+             fmt::format("give it in {}: {}", i == 0 ? "ms" : kind.values.unit, known_units(wanted)));
+    }
+  }
+  ColumnFactors factors;
+  if (units[0]) factors.time = units[0]->factor;
+  if (units[1]) factors.value = units[1]->factor;
+  factors.time_named = units[0].has_value();
+  factors.value_named = units[1].has_value();
+  std::string said;
+  if (factors.time != 1) said += fmt::format("times in {}, times {:g} in ms", units[0]->name, factors.time);
+  if (factors.value != 1)
+    said += fmt::format("{}{} in {}, times {:.6g} in {}", said.empty() ? "" : "; ", kind.plural, units[1]->name,
+                        factors.value, kind.values.unit);
+  if (!said.empty()) entry.remark("the file has " + said);
+  return factors;
+}
+
 void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input) {
   const auto file = path_of(entry);
   const std::string remedy =
@@ -74,6 +110,8 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
   std::ifstream stream(file);
   if (!stream) entry.refuse(fmt::format("\"{}\" cannot be read", file.string()), "check its permissions");
   auto& points = input.table.points;
+  ColumnFactors factors;
+  bool warned_of_value = false;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     const auto refuse = [&](const std::string& problem, const std::string& what_to_do) {
@@ -84,11 +122,13 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
       if (row)
         refuse("the first line is a row of numbers", "put a header above it, like time_ms," + std::string(kind.key));
       if (line.find_first_of(",;") == std::string::npos) refuse("the first line is no header of two columns", remedy);
+      factors = factors_of(line, entry, kind, refuse);
       continue;
     }
     if (trimmed(line).empty()) continue;
     if (!row) refuse("is no row of two numbers", remedy);
-    points.push_back(*row);
+    points.emplace_back(factors.time * row->first, factors.value * row->second);
+    if (!factors.value_named && !warned_of_value) warned_of_value = entry.warn_of_unit(kind.values, row->second);
     if (points.size() > most_table_rows)
       refuse(fmt::format("a table of more than {} rows", most_table_rows),
              fmt::format("give at most {}", most_table_rows));
@@ -102,13 +142,14 @@ void read_file(const CaseEntry& entry, const TableKind& kind, TableInput& input)
 }  // namespace
 
 const TableKind& pressure_kind() {
-  static const TableKind kind{"pressure", "pressures", quantity::pressure()};
+  static const TableKind kind{"pressure", "pressures", quantity::pressure(), ColumnKind::pressure};
   return kind;
 }
 
-const TableKind& flow_rate_kind() {
-  static const TableKind kind{"flow_rate", "flow rates", quantity::flow_rate()};
-  return kind;
+const TableKind& flow_rate_kind(bool plane) {
+  static const TableKind kind{"flow_rate", "flow rates", quantity::flow_rate(), ColumnKind::flow_rate};
+  static const TableKind of_depth{"flow_rate", "flow rates", quantity::flow_rate(), ColumnKind::flow_rate_of_depth};
+  return plane ? of_depth : kind;
 }
 
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input) {

@@ -7,6 +7,7 @@
 #include "base/quantity.hpp"
 #include "case/case_keys.hpp"
 #include "case/pressure_table.hpp"
+#include "case/table_units.hpp"
 
 namespace fsi {
 
@@ -17,9 +18,11 @@ struct TableKind {
   const char* key;         ///< "pressure"
   const char* plural;      ///< "pressures"
   const Quantity& values;  ///< their unit
+  ColumnKind column;       ///< what units the header of a file may name
 };
 const TableKind& pressure_kind();
-const TableKind& flow_rate_kind();
+/// \param plane  of a scene in which flows are those through 1 mm of thickness
+const TableKind& flow_rate_kind(bool plane = false);
 
 /// A value over time as it stands in a case file.
 struct TableInput {
@@ -29,8 +32,8 @@ struct TableInput {
   std::optional<double> period;
 };
 
-/// Reads a number, a table of [time, value] or { file = "NAME.csv" }, two columns below a header line. \throws
-/// InputError that names the row, or file and line
+/// Reads a number, a table of [time, value] or { file = "NAME.csv" }, two columns below a header line. A unit that the
+/// header names (case/table_units.hpp) is converted, with a remark. \throws InputError that names the row, or file and line
 /// \param with_file  whether a file is allowed
 void read_table(const CaseEntry& entry, const TableKind& kind, bool with_file, TableInput& input);
 void read_until(const CaseEntry& entry, TableInput& input);

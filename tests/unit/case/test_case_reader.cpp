@@ -39,6 +39,14 @@ TEST(CaseReader, AxisymmetricTwinsDifferFromThePapersCasesInDiscretisationAlone)
   }
 }
 
+TEST(CaseReader, ACaseThatNamesNoElementGetsTheMoreAccurateOne) {
+  const auto scene = parse_case(
+      "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\nstep = 1\nend = "
+      "1\n",
+      "case.toml");
+  EXPECT_EQ(scene.element, ElementPair::p2p1);
+}
+
 TEST(CaseReader, ReadsThePapersCases) {
   const fs::path folder = FSI_CASE_FILES;
   const auto neo = read_case(folder / "neo-hookean.toml");

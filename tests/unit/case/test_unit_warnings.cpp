@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 using Lines = std::vector<std::string>;
 
 /// All in the right units, one key a line.
-const std::string good_case = R"([mesh]
+const std::string good_case = R"(element = "p1"
+[mesh]
 level = "coarse"
 [fluid]
 density = 1.06
@@ -54,7 +55,7 @@ TEST(UnitWarnings, NameTheUnitAndTheValueThatWasMeant) {
   auto text = good_case;
   text.replace(text.find("1.06"), 4, "1060");
   EXPECT_EQ(parse_case(text, "case.toml").warnings,
-            Lines{"case.toml:4: fluid.density: 1060 looks like a value in kg/m^3; did you mean 1.06 mg/mm^3?"});
+            Lines{"case.toml:5: fluid.density: 1060 looks like a value in kg/m^3; did you mean 1.06 mg/mm^3?"});
   EXPECT_EQ(warnings_with({"inlet.pressure=1332"}),
             Lines{"--set: inlet.pressure: 1332 looks like a value in Pa; did you mean 1.33 kPa?"});
   EXPECT_EQ(

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "case/case.hpp"
+#include "case/case_entry.hpp"
+
+namespace fsi {
+
+/// Warns of outflow laws that look like values in mmHg s/ml and ml/mmHg, the usual units of the clinic:
+/// - by the pressure that the mean flow into the fluid would raise behind all of them: in the steady state p is
+///   (Q + sum p_d/R) / sum 1/R. It is 7.5 times too high when resistances are in mmHg s/ml;
+/// - by the time constant, distal resistance times compliance, beside the period of the openings, or else the end of the
+///   run. It is a number in seconds, a thousandth of that in ms, when both are in units of the clinic.
+void warn_of_windkessel_units(const CaseEntry& whole_case, const Case& scene);
+
+}  // namespace fsi
