@@ -8,6 +8,7 @@
 #include "case/case.hpp"
 #include "partitioned/divergence.hpp"
 #include "partitioned/interface_space.hpp"
+#include "partitioned/scheme_choice.hpp"
 #include "partitioned/schemes.hpp"
 #include "scene/scene.hpp"
 #include "time/loads.hpp"
@@ -30,6 +31,7 @@ class CouplingStepper : public Stepper {
   ~CouplingStepper() override;
 
   bool reports_coupling() const override { return true; }
+  std::vector<StepperChoice> choices() const override { return {{"partitioned.scheme", choice_.name, choice_.reason}}; }
 
   StepReport advance(State& state) override;
   /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
@@ -76,6 +78,7 @@ class CouplingStepper : public Stepper {
     bool found = false;
     std::vector<double> x;
     Solution fields;
+    double gap = 0;  ///< |r(x)|, mm
   };
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.
@@ -109,14 +112,21 @@ class CouplingStepper : public Stepper {
   /// the last time level. \throws ConvergenceError when that has been tried often enough
   void retreat(const PassFailure& failure, State& state, StepData& data, std::vector<double>& x, const GoodPass& good);
 
+  /// What the accepted pass lacks, relative to what the step changes: with rho the ratio of its residual and that of
+  /// the pass before, rho / (1 - rho) times what the fields have changed since, as NewtonReport::error has it. Of a pass
+  /// without one before, or with a larger residual, the interface's relative residuals, of displacement and pressures.
+  double estimated_error(const State& state, const StepData& data, const GoodPass& good) const;
+
   void accept(const std::vector<double>& x, const Pass& pass);
 
   Scene<n>& scene_;
   const Loads& loads_;
   PartitionedData options_;
   std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for
+  SchemeChoice choice_;
   const CouplingScheme& scheme_;
   InterfaceSpace space_;
+  std::vector<double> fluid_volumes_, wall_volumes_;  ///< of the nodes, mm^3
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<n>> problem_;
   CouplingReport coupling_;

@@ -38,6 +38,10 @@ std::string one_of(const std::vector<std::string>& candidates) {
   return text;
 }
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::string name_remedy(const std::string& name, const std::vector<std::string>& names) {
   if (names.size() < 2) return "give " + one_of(names);
   return "did you mean " + nearest_name(name, names) + "? There are " + one_of(names);

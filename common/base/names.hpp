@@ -14,6 +14,8 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 /// "a, b or c", for messages.
 std::string one_of(const std::vector<std::string>& candidates);
 
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
 /// What to do about a name that is none of `names`: "did you mean b? There are a, b or c".
 std::string name_remedy(const std::string& name, const std::vector<std::string>& names);
 

@@ -96,11 +96,6 @@ double FastSolver<n>::keep_contraction() const {
 }
 
 template <int n>
-int FastSolver<n>::solves_worth_an_update() const {
-  return direct_ ? direct_->solves_worth_an_update() : LinearSolver::solves_worth_an_update();
-}
-
-template <int n>
 LinearStatistics FastSolver<n>::statistics() const {
   LinearStatistics s;
   if (direct_) s = direct_->statistics();

@@ -33,7 +33,6 @@ class FastSolver : public LinearSolver {
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
 
   double keep_contraction() const override;
-  int solves_worth_an_update() const override;
 
   LinearStatistics statistics() const override;
 

@@ -123,6 +123,8 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
     else
       app.add_flag(option.name, *option.flag, option.description);
   }
+  app.add_flag("--check", line.check,
+               "Say what a run would be: media, openings, unknowns, memory, time; writes nothing");
   app.add_flag("--force", line.force, "Replace the results of an earlier run in the result folder");
   app.add_flag("-q,--quiet", line.quiet, "No progress, errors only");
   app.add_flag("-h,--help", help, "Print this help");
@@ -153,7 +155,10 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
     throw InputError("", "--output", "the folder's name is empty", "give -o DIR");
   if (restart->count() > 0 && line.restart.empty())
     throw InputError("", "--restart", "the folder's name is empty", "give --restart DIR");
-  if (line.output.empty() && line.restart.empty())
+  if (line.check && !line.restart.empty())
+    throw InputError("", "--check", "looks at a case from its beginning, not at a run to go on with",
+                     "leave --restart out");
+  if (line.output.empty() && line.restart.empty() && !line.check)
     throw InputError("", "--output", "no result folder given", "add -o DIR");
   if (line.output.empty()) line.output = line.restart;
   line.program = argc > 0 ? argv[0] : program;

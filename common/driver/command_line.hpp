@@ -16,13 +16,15 @@ struct ExtraOption {
   bool* flag = nullptr;
 };
 
-/// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [--force] [-q]`.
+/// What a driver is asked to do: `CASE.toml -o DIR [--restart DIR] [--set key=value]... [--threads N] [--force] [-q]`, or
+/// `CASE.toml --check [--set key=value]... [--threads N]`.
 struct CommandLine {
   std::filesystem::path case_file;
   std::filesystem::path output;        ///< result folder; the restarted one when --restart is given without -o
   std::filesystem::path restart;       ///< result folder to continue; empty: start at rest
   std::vector<std::string> overrides;  ///< `key=value` of each --set, in order
   int threads = 0;                     ///< 0: chosen by the program
+  bool check = false;                  ///< nothing is run or written: says what a run would be
   bool force = false;                  ///< results in `output` may be replaced
   bool quiet = false;
   std::string program;  ///< as it was called

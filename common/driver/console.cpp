@@ -65,6 +65,13 @@ void Console::working(std::int64_t step, double time, const std::string& what) {
   if (style_ == Style::terminal) rewrite(fmt::format("step {}/{}, t = {:g} ms: {}", step, last_step_, time, what));
 }
 
+void Console::progress(const std::string& text) {
+  if (style_ == Style::terminal)
+    rewrite(text);
+  else
+    line(text);
+}
+
 void Console::step_done(const StepRecord& record) {
   if (style_ == Style::quiet) return;
   ++steps_done_;
@@ -72,10 +79,7 @@ void Console::step_done(const StepRecord& record) {
   const double seconds_left = seconds_done_ / steps_done_ * static_cast<double>(last_step_ - record.step);
   const auto text = fmt::format("step {}/{}, t = {:g} ms: {}, {:.3g} s, {} left", record.step, last_step_, record.time,
                                 iterations_text(record), record.wall_seconds, readable_duration(seconds_left));
-  if (style_ == Style::terminal)
-    rewrite(text);
-  else
-    line(text);
+  progress(text);
 }
 
 void Console::rewrite(const std::string& text) {

@@ -29,12 +29,18 @@ class Console {
   /// errno of the write that ended the output; 0: none failed.
   int error() const { return error_; }
 
+  bool is_quiet() const { return style_ == Style::quiet; }
+  /// Whether the cursor may stand behind a line that is rewritten.
+  bool rewrites() const { return style_ == Style::terminal; }
+
   /// Another number of the run's last step.
   void expect(std::int64_t last_step) { last_step_ = last_step; }
   /// A line of its own, e.g. the scene's size; not in quiet mode.
   void line(const std::string& text);
   /// What goes on inside a step, e.g. (3, 0.375, "newton 2, residual 1e-5"). Shown on a terminal only.
   void working(std::int64_t step, double time, const std::string& what);
+  /// How far something has come that is done before the steps.
+  void progress(const std::string& text);
   /// A finished step: time, iterations, estimated time left.
   void step_done(const StepRecord& record);
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +18,8 @@
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
+#include "base/stop_request.hpp"
+#include "base/stopwatch.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
 #include "case/case_hash.hpp"
@@ -26,12 +28,14 @@
 #include "diagnostics/energy_balance.hpp"
 #include "diagnostics/failure_hint.hpp"
 #include "diagnostics/ringing_monitor.hpp"
+#include "driver/check.hpp"
 #include "driver/checkpoint_arrays.hpp"
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
 #include "driver/field_output.hpp"
 #include "driver/interruption.hpp"
 #include "driver/load_scene.hpp"
+#include "driver/loading_report.hpp"
 #include "driver/march.hpp"
 #include "driver/observables.hpp"
 #include "driver/opening_observer.hpp"
@@ -39,7 +43,9 @@
 #include "driver/process_summary.hpp"
 #include "driver/process_threads.hpp"
 #include "driver/program.hpp"
+#include "driver/ringing_remedy.hpp"
 #include "driver/state_checkpoint.hpp"
+#include "driver/step_beyond.hpp"
 #include "io/earlier_fields.hpp"
 #include "io/first_process.hpp"
 #include "io/folder_lock.hpp"
@@ -50,18 +56,15 @@
 #include "parallel/communicator.hpp"
 #include "petsc_solver/general_solvers.hpp"
 #include "petsc_solver/petsc_options.hpp"
+#include "scene/time_scheme.hpp"
+#include "time/balance.hpp"
 
 namespace fsi {
 
 namespace {
 
+constexpr const char* scheme_name = "time_scheme";           // the run's, as the number of its TimeScheme
 constexpr const char* field_entries_name = "field_entries";  // written up to the last level observed
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 template <int n>
 nlohmann::json scene_json(const std::string& program, const Case& setup, const MeshFacts& mesh, const Scene<n>& scene) {
@@ -124,15 +127,6 @@ std::string write_error_of(Action action) {
   return {};
 }
 
-/// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
-void require_resolvable(const Case& setup, double scene_time) {
-  constexpr double smallest = 1e-13;  // of the time in which the scene swings
-  if (!setup.time || setup.time->adaptive || setup.time->step >= smallest * scene_time) return;
-  throw InputError(setup.path.string(), "time.step",
-                   fmt::format("{:g} ms is too short for the scene's time of {:.3g} ms", setup.time->step, scene_time),
-                   fmt::format("give at least {:.3g} ms", smallest * scene_time));
-}
-
 /// One run: everything from the scene at rest, or a checkpoint, to the last step.
 template <int n>
 class Run {
@@ -145,11 +139,10 @@ class Run {
         line_(line),
         lock_(lock),
         setup_(setup),
-        loaded_(load_scene<n>(setup,
-                              [&](std::size_t cells) {
-                                threads_ = set_as_chosen(
-                                    threads_of_process(line.threads, cells, watch, Communicator::world()));
-                              })),
+        loading_(program, line.quiet),
+        loaded_(load_scene<n>(setup, loading_.follower([&](std::size_t cells) {
+          threads_ = set_as_chosen(threads_of_process(line.threads, cells, watch, Communicator::world()));
+        }))),
         scene_(loaded_.scene.get()),
         processes_(shared_by_all(*scene_)),
         first_(processes_),
@@ -163,8 +156,9 @@ class Run {
         openings_(setup, *scene_) {
     set_memory_notices([this](const std::string& said) { say(said); });
     if (scene_->is_static()) return;
+    scheme_ = time_scheme_of(setup_, *scene_);
     ringing_.emplace(scene_time(setup, *scene_));
-    require_resolvable(setup, scene_time(setup, *scene_));
+    require_resolvable(setup, *scene_);
   }
   ~Run() { set_memory_notices({}); }
   Run(const Run&) = delete;
@@ -198,7 +192,10 @@ class Run {
       write_checkpoint(prestress_file(line_.output), *loaded_.prestress, processes_, orders_.sharing());
     FieldOutput<n> fields(setup_, *scene_, loaded_.derived, loaded_.grids, std::move(loaded_.grid_shares),
                           loads_.axis(), line_.output, line_.restart, restarted ? observed_until() : 0);
+    loading_.end();
     Console console(loads_.steps(), Console::style_for(line_.quiet || !first_.is_here()));
+
+    answer_signals_within({}, console);
 
     if (restarted) first_.now([&] { require_no_run_in_source(line_); });  // while it was read
     summary_ = scene_json(program_, setup_, loaded_.mesh, *scene_);
@@ -215,10 +212,13 @@ class Run {
       field_entries_ = 0;
     // A new folder can be gone on from as soon as it holds all that the earlier one has.
     if (restarted && setup_.output.checkpoint_every > 0 && !in_place(line_)) save();
-    if (restarted && lagging() && state_.step == loads_.steps()) observe(state_, folder, fields);
     try {
       about_processes_.steps_begin();
       while (state_.step < loads_.steps() && !is_stopped()) step(folder, fields, console, log);
+      if (state_.step == loads_.steps()) end(folder, fields, console, log);
+    } catch (const Stopped&) {
+      loads_.axis().drop_insertions_after(state_.step);
+      gave_up_step_ = is_stopped();
     } catch (const ConvergenceError& failure) {
       const std::string hint = failure_hint(setup_, *scene_, loads_, state_);
       std::string said = hint.empty() ? failure.what() : fmt::format("{} [{}]", failure.what(), hint);
@@ -248,14 +248,10 @@ class Run {
     }
     folder.close();
     if (state_.step < loads_.steps()) return interrupted(signal_, log);
-    if (const std::string open = stepper_->unchecked(); !open.empty()) {
-      summary_["unchecked"] = open;
-      log.warning(open);
-      warn(program_, open);
-    }
+    sum_up_steps(log);
     log.info("done");
     log.close();
-    write("done");  // last: whoever reads it finds everything on the disk
+    write_status("done");  // last: whoever reads it finds everything on the disk
     return exit_done;
   }
 
@@ -273,15 +269,19 @@ class Run {
 
   /// Whether a signal has come to one of the processes: they stop after the same step.
   bool is_stopped() {
-    signal_ = static_cast<int>(processes_.largest(noted_signal()));
+    signal_ = static_cast<int>(processes_.largest(look_for_stop()));
     return signal_ != 0;
   }
 
   /// Leaves a folder that a later run goes on from.
   int interrupted(int signal, RunLog& log) {
     std::string said = "before the end of the first step; nothing is lost by starting again";
+    if (gave_up_step_) log.info(fmt::format("step {} is given up", state_.step + 1));
     if (state_.step > 0) {
-      save();
+      if (!gave_up_step_)
+        save();
+      else if (finished_)
+        save(*finished_);
       said = fmt::format("after step {} of {}, whose state is saved; continue by: {}", state_.step, loads_.steps(),
                          restart_command(line_));
     }
@@ -295,12 +295,14 @@ class Run {
     const auto start = Clock::now();
     console.expect(loads_.steps());
     console.working(state_.step + 1, loads_.time_of(state_.step + 1), "solving");
+    keep_finished();
     const StepReport report = [&] {
       const Activity activity("solving a step");
       return march_.step(state_);
     }();
     const Activity activity("writing results");
-    watch_ringing(console, log);
+    note_length(state_.times[0] - state_.times[1]);
+    watch_ringing(report, console, log);
     first_.later([&] { lock_->require_held(); });
     StepRecord record;
     record.step = state_.step;
@@ -323,9 +325,9 @@ class Run {
       folder.write_iterations(record);
       if (report.coupling) folder.write_coupling(record, *report.coupling);
       if (loaded_.derived.forces) write_forces(report.balances.back(), folder);
-      if (lagging() && state_.step > 1) observe(level_before(), folder, fields);
+      if (lagging() && state_.step > 1) observe(level_before(state_), folder, fields);
       if (lagging()) vouch(folder);
-      if (!lagging() || state_.step == loads_.steps()) observe(state_, folder, fields);
+      if (!lagging()) observe(state_, folder, fields);
       if (!lagging()) vouch(folder);
       first_.agree();  // the tables hold what the checkpoint says
       const int every = setup_.output.checkpoint_every;
@@ -340,6 +342,83 @@ class Run {
     console.step_done(record);
     step_seconds_ += seconds_since(start);
     watch_console(console, log);
+    const double waited = longest_time_between_looks();
+    answer_signals_within(std::max(waited, waited_), console);
+    waited_ = waited;
+  }
+
+  /// What a signal is answered from now on: when the run will look for it, as far as the last two steps tell.
+  void answer_signals_within(std::optional<double> seconds, const Console& console) {
+    if (!line_.quiet) answer_signals(program_, seconds, console.rewrites());
+  }
+
+  /// Before a step that may have to be given up. What it leaves behind would not go on to the same bits, so that the
+  /// checkpoint is of what there is now; where the folder has it, nothing needs to be kept.
+  void keep_finished() {
+    finished_.reset();
+    if (state_.step > 0 && saved_ != state_.step) finished_ = checkpoint_of_now();
+  }
+
+  /// What is left to do after the last step, whose state is saved.
+  void end(ResultFolder& folder, FieldOutput<n>& fields, Console& console, RunLog& log) {
+    if (const std::string open = stepper_->unchecked(); !open.empty()) {
+      summary_["unchecked"] = open;
+      log.warning(open);
+      warn(program_, open);
+    }
+    take_stock();
+    if (!lagging()) return;
+    const Activity activity("settling the pressures of the last level");
+    if (pressures_settled(state_) || !shows_pressures())
+      observe(state_, folder, fields);
+    else if (const auto last = settled_last_level(console, log))
+      observe(*last, folder, fields);
+    first_.agree();
+  }
+
+  /// The last level with the pressures that it has in a longer run, by a step behind the end of this one, which counts
+  /// apart. Empty, and said, where there is none: then tables and fields end with the level before.
+  std::optional<State> settled_last_level(Console& console, RunLog& log) {
+    const auto start = Clock::now();
+    auto& account = summary_["step_behind_the_end"];
+    const auto leave_out = [&](const std::string& why) {
+      account["failure"] = why;
+      const auto said = fmt::format(
+          "tables and fields lack the last level, t = {:g} ms: its pressures are interpolated up to a step behind the "
+          "end of the run, {}",
+          state_.time, why);
+      log.warning(said);
+      warn(program_, said);
+      return std::nullopt;
+    };
+    if (is_stopped()) return leave_out("which was interrupted");
+    console.working(state_.step, state_.time, "settling the pressures of the last level");
+    log.info(fmt::format("a step behind the end settles the pressures of t = {:g} ms, and is not kept", state_.time));
+    stepper_->keep_balances(false);
+    try {
+      const StepBeyond beyond = step_beyond(setup_, state_, loads_, march_);
+      account = {{"outer_iterations", beyond.report.outer_iterations},
+                 {"newton_iterations", beyond.report.newton_iterations},
+                 {"linear_iterations", beyond.report.linear_iterations},
+                 {"wall_s", seconds_since(start)}};
+      return level_before(beyond.state);
+    } catch (const Stopped&) {
+      return leave_out("which was interrupted");
+    } catch (const ConvergenceError& failure) {
+      account["wall_s"] = seconds_since(start);
+      return leave_out(fmt::format("which found no solution ({})", failure.what()));
+    }
+  }
+
+  /// Whether tables or fields show pressures, of the fluid or of the wall.
+  bool shows_pressures() const {
+    const auto& requested = loaded_.points.requested;
+    return scene_->fluid || !requested.points.empty() || !requested.lines.empty() || wants_fields();
+  }
+
+  void note_length(double step) {
+    shortest_step_ = longest_step_ == 0 ? step : std::min(shortest_step_, step);
+    longest_step_ = std::max(longest_step_, step);
   }
 
   /// Says once that progress cannot be shown any more. A reader who went away has seen what he wanted.
@@ -359,34 +438,24 @@ class Run {
   }
 
   /// Names a pressure that alternates from step to step, once, and keeps the largest of it.
-  void watch_ringing(Console& console, RunLog& log) {
+  void watch_ringing(const StepReport& report, Console& console, RunLog& log) {
     if (scene_->is_static() || loaded_.points.centre_line.empty()) return;
     // On the centre line: at the rim of the inlet, where the pressure is singular, nodes always tremble.
     const auto pressures = observables_.centre_line_pressure(state_.last_balance().fluid);
+    for (const double p : pressures) largest_pressure_ = std::max(largest_pressure_, std::abs(p));
     const auto amplitude = ringing_->look(state_.has_balances() ? state_.balance_times[0] : state_.time, pressures);
     if (loads_.axis().jumps_at(state_.time)) ringing_->restart();
     if (!amplitude || *amplitude <= ringing_amplitude_) return;
     const bool first = ringing_amplitude_ == 0;
     ringing_amplitude_ = *amplitude;
-    const std::string said = fmt::format(
-        "the pressure alternates from step to step, by {:.3g} Pa at t = {:g} ms: the time scheme does not damp what "
-        "its "
-        "steps cannot resolve; {}",
-        1e3 * *amplitude, state_.time, remedy_of_ringing());
+    const std::string said =
+        said_of({*amplitude, state_.time, largest_pressure_, std::max(total_.solver_error, report.solver_error),
+                 report.coupling.has_value(), scheme_},
+                setup_);
     summary_["ringing"] = {{"amplitude_Pa", 1e3 * *amplitude}, {"time_ms", state_.time}, {"said", said}};
     if (!first) return;
     console.line(said);
     log.warning(said);
-  }
-  std::string remedy_of_ringing() const {
-    switch (setup_.time->scheme) {
-      case TimeScheme::midpoint:
-        return "give a larger time.damping";
-      case TimeScheme::generalised_alpha:
-        return "give a smaller time.spectral_radius";
-      default:
-        return "take time.scheme = \"midpoint\"";
-    }
   }
 
   /// Whether a level is looked at one step later, when its pressures are known.
@@ -424,11 +493,11 @@ class Run {
     digests_ = folder.digests();
   }
   /// The last level but one as a state, for those who look at it.
-  const State& level_before() {
-    shown_.step = state_.step - 1;
-    shown_.time = state_.times[1];
-    shown_.now = state_.before[1];
-    shown_.wall_velocity = state_.wall_velocity_before;
+  const State& level_before(const State& state) {
+    shown_.step = state.step - 1;
+    shown_.time = state.times[1];
+    shown_.now = state.before[1];
+    shown_.wall_velocity = state.wall_velocity_before;
     return shown_;
   }
 
@@ -443,14 +512,19 @@ class Run {
     console.line(text);
     log.info(text);
     log.info(fmt::format("threads: {}, {}", threads_.count, threads_.reason));
-    if (const std::string about = scene_->integrator->about(); !about.empty()) log.info(about);
+    announce_steps(log);
     const bool sub_problems = program_ == "fsi-partitioned" && scene_->coupled();
     if (const std::string other =
             other_solver_on_processes(sub_problems ? setup_.partitioned.linear_solver : setup_.monolithic.linear_solver,
                                       sub_problems ? setup_.partitioned.fast : setup_.monolithic.fast, n, processes_);
         !other.empty())
       log.info(other);
+    for (const auto& choice : stepper_->choices()) {
+      log.info(fmt::format("{} = {}: {}", choice.key, choice.value, choice.reason));
+      summary_["choices"][choice.key] = {{"value", choice.value}, {"reason", choice.reason}};
+    }
     for (const auto& warning : setup_.warnings) log.warning(warning);
+    loading_.write_to(log);
     for (const auto& notice : scene_->notices) {
       log.warning(notice);
       warn(program_, notice);
@@ -472,7 +546,29 @@ class Run {
     }
   }
 
-  void save() {
+  /// The time scheme, and steps at the end that are shorter.
+  void announce_steps(RunLog& log) {
+    if (scene_->is_static()) return;
+    if (const std::string why = about_time_scheme(setup_, *scene_, scheme_); !why.empty()) log.info(why);
+    const bool adaptive = setup_.time->adaptive;
+    const double step = setup_.time->step, longest = adaptive ? std::numeric_limits<double>::infinity() : step;
+    if (const std::string about = scene_->integrator->about(step, longest); !about.empty()) log.info(about);
+    if (const double last = loads_.axis().shorter_last_steps(); last > 0)
+      log.info(fmt::format("the last steps have {:.6g} ms in place of {:g} ms: the run ends at {:.12g} ms", last, step,
+                           setup_.time->end));
+    if (const std::string said = lost_order(setup_, *scene_, scheme_); !said.empty()) {
+      log.warning(said);
+      warn(program_, said);
+    }
+  }
+  /// What the scheme made of steps of different length.
+  void sum_up_steps(RunLog& log) {
+    if (scene_->is_static() || shortest_step_ >= longest_step_ * (1 - 1e-9)) return;
+    if (const std::string about = scene_->integrator->about(shortest_step_, longest_step_); !about.empty())
+      log.info(fmt::format("steps of {:.4g} to {:.4g} ms: {}", shortest_step_, longest_step_, about));
+  }
+
+  Checkpoint checkpoint_of_now() {
     Checkpoint checkpoint;
     checkpoint.program = program_;
     checkpoint.case_hash = hash_of_case(setup_);
@@ -484,12 +580,33 @@ class Run {
       for (const auto& [name, numbers] : loaded_.derived.statistics->memory())
         checkpoint.arrays[statistics_prefix + name] = numbers;
     store(digests_, checkpoint);
+    if (!scene_->is_static()) checkpoint.integers[scheme_name] = static_cast<std::int64_t>(scheme_);
     if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
     require_kinds(checkpoint);
+    return checkpoint;
+  }
+
+  void save() {
+    save(checkpoint_of_now());
+    saved_ = state_.step;
+  }
+  void save(const Checkpoint& checkpoint) {
     do_together(processes_, [&] {
       for (const auto& [name, numbers] : checkpoint.arrays) require_finite(numbers, "the checkpoint's " + name);
     });
     write_checkpoint(checkpoint_file(line_.output), checkpoint, processes_, orders_.sharing());
+  }
+
+  /// A scheme that was chosen for the steps of the run so far stays, since the state is its own.
+  void keep_scheme(const Checkpoint& checkpoint) {
+    if (scene_->is_static() || setup_.time->scheme) return;
+    const auto found = checkpoint.integers.find(scheme_name);
+    if (found == checkpoint.integers.end() || found->second == static_cast<std::int64_t>(scheme_)) return;
+    for (const TimeScheme chosen : {TimeScheme::midpoint, TimeScheme::tr_bdf2})
+      if (found->second == static_cast<std::int64_t>(chosen)) scheme_ = chosen;
+    scene_->integrator = make_time_scheme(setup_, *scene_, scheme_);
+    state_ = scene_->at_rest();
+    march_.keep_scheme(scheme_);
   }
 
   /// Takes over what the run in line_.restart has left, if it can be believed: its checkpoint, and the tables, which are
@@ -499,6 +616,7 @@ class Run {
     const Checkpoint checkpoint = read_checkpoint(file, processes_, orders_.sharing());
     require_same_run(file, checkpoint, program_, hash_of_case(setup_), loaded_.mesh.hash,
                      difference_of_cases(checkpoint.case_text, readable_dump(setup_)));
+    keep_scheme(checkpoint);
     Memory memory;
     do_together(processes_, [&] { memory = restore(file, checkpoint, n * scene_->interface.size(), state_); });
     require_not_beyond(file, state_, setup_.time ? setup_.time->end : 1);
@@ -510,8 +628,8 @@ class Run {
                             stored_digests(checkpoint)};
     EarlierTables earlier(line_.restart, tables, past);
     StoredSteps steps = stored_steps(file, checkpoint, state_, earlier.times());
-    if (past.levels > 0) observables_.require_same(lagging() ? level_before() : state_, earlier);
-    if (past.levels > 0) openings_.require_same(lagging() ? level_before() : state_, earlier);
+    if (past.levels > 0) observables_.require_same(lagging() ? level_before(state_) : state_, earlier);
+    if (past.levels > 0) openings_.require_same(lagging() ? level_before(state_) : state_, earlier);
     recall_fields(file, checkpoint);
 
     const Stretch before = steps.stretches.back();
@@ -525,6 +643,7 @@ class Run {
     if (memory.step_changed) step_change_ = text_of_change(before);
     stepper_->recall(memory);
     complete_ = first_step_ = state_.step;
+    if (in_place(line_)) saved_ = state_.step;
     return earlier;
   }
 
@@ -580,7 +699,15 @@ class Run {
   }
 
   void write(const std::string& status) {
+    take_stock();
+    write_status(status);
+  }
+  void write_status(const std::string& status) {
     summary_["status"] = status;
+    first_.now([&] { write_summary(line_.output, summary_); });
+  }
+  /// What the run has taken up to now, into the summary.
+  void take_stock() {
     summary_["totals"] = {{"steps", state_.step},
                           {"outer_iterations", total_.outer_iterations},
                           {"newton_iterations", total_.newton_iterations},
@@ -594,7 +721,6 @@ class Run {
     summary_.update(profile_json(scene_->profile));
     if (!processes_.is_alone())
       summary_["per_process"] = about_processes_.json(state_.step - first_step_, step_seconds_);
-    first_.now([&] { write_summary(line_.output, summary_); });
   }
 
   Clock::time_point start_ = Clock::now();
@@ -603,6 +729,7 @@ class Run {
   const std::optional<FolderLock>& lock_;
   const Case& setup_;
   ThreadChoice threads_;
+  LoadingReport loading_;  ///< what was said when there was no log
   LoadedScene<n> loaded_;
   Scene<n>* scene_;
   const Communicator& processes_;
@@ -615,11 +742,18 @@ class Run {
   RunLog* log_ = nullptr;  ///< once there is one
   bool console_failed_ = false;
   std::optional<RingingMonitor> ringing_;
-  double ringing_amplitude_ = 0;  ///< kPa, the largest so far
-  int complete_ = 0;              ///< last step whose rows are all written
-  int first_step_ = 0;            ///< of this program: the one before
-  double step_seconds_ = 0;       ///< of all steps of this program, their output included
-  int signal_ = 0;                ///< that has come to one of the processes
+  TimeScheme scheme_ = TimeScheme::midpoint;
+  double shortest_step_ = 0, longest_step_ = 0;  ///< ms, of this run so far
+  double ringing_amplitude_ = 0;                 ///< kPa, the largest so far
+  double largest_pressure_ = 0;                  ///< kPa, on the centre line so far
+  int complete_ = 0;                             ///< last step whose rows are all written
+  int first_step_ = 0;                           ///< of this program: the one before
+  double step_seconds_ = 0;                      ///< of all steps of this program, their output included
+  int signal_ = 0;                               ///< that has come to one of the processes
+  bool gave_up_step_ = false;                    ///< in the middle, at a signal
+  double waited_ = 0;                            ///< s, longest time of the last step in which no signal was looked for
+  int saved_ = -1;                               ///< the step whose checkpoint the folder has
+  std::optional<Checkpoint> finished_;           ///< of the last finished step, where that is not written
   State state_;
   State shown_;  ///< a finished level, for output
   TableDigests digests_;
@@ -669,6 +803,11 @@ int run_driver(const std::string& program, const std::string& description, int a
     const Case setup = read_case(line->case_file, line->overrides);
     set_petsc_options(setup.petsc.options, setup.path.string());
     for (const auto& warning : setup.warnings) warn(program, warning);
+    if (line->check) {
+      const Activity activity("looking at what a run would be");
+      return components_of(setup) == 2 ? check_case<2>(program, *line, setup, make_stepper, watch)
+                                       : check_case<3>(program, *line, setup, make_stepper, watch);
+    }
     if (!processes.is_alone()) require_no_other_task(other);
     if (other.run)
       if (const auto code = other.run(*line, setup)) return *code;

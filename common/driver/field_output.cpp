@@ -10,6 +10,7 @@
 #include "derived/stress_invariants.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/nodal_layout.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
 
@@ -181,6 +182,18 @@ constexpr bool all_asked_for() {
 }
 static_assert(all_asked_for<3>(), "case/choices.hpp owns these names");
 
+/// Planned steps that end at these times, ascending.
+std::vector<std::int64_t> steps_at(const std::vector<double>& times, const TimeAxis& axis) {
+  std::vector<std::int64_t> steps;
+  for (const double time : times) {
+    const double early = time * (1 - time_rounding);
+    const auto step = first_that(
+        axis.planned_steps(), [&](std::int64_t i) { return axis.planned_time_of(static_cast<int>(i) + 1) >= early; });
+    if (step < axis.planned_steps()) steps.push_back(step + 1);
+  }
+  return steps;
+}
+
 }  // namespace
 
 template <int n>
@@ -216,8 +229,10 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                  return FieldStep{entry, times.at(static_cast<std::size_t>(entry))};
                }};
   else
-    planned = planned_field_steps(axis.planned_steps(), setup.output.every,
-                                  [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); });
+    planned = planned_field_steps(
+        axis.planned_steps(), setup.output.every,
+        [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); },
+        steps_at(setup.output.times, axis));
   if (restarted_from.empty())
     writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, scene.processes());
   else

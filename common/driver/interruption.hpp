@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace fsi {
@@ -16,9 +17,15 @@ void end_at_signals(const std::string& program, const std::string& said);
 /// has said why.
 void expect_launcher();
 
-/// From now on the first of them is only noted, so that a run can end after the step in progress. A second one ends the
-/// program at once, as if nothing watched. To the end of the program: a run that is done says so.
+/// From now on the first of them is only noted (base/stop_request.hpp), so that a run can end in order. A second one ends
+/// the program at once, as if nothing watched. To the end of the program: a run that is done says so.
 void note_signals();
+
+/// The first one that is noted is answered at once by a line on stderr: that the program ends within about so many seconds,
+/// and what a second one does. To be called again as the estimate changes; without it nothing is said.
+/// \param seconds   empty: nobody knows yet
+/// \param new_line  a line on the terminal is open
+void answer_signals(const std::string& program, std::optional<double> seconds, bool new_line);
 
 /// The signal that has been noted, 0: none.
 int noted_signal();

@@ -32,6 +32,7 @@
 #include "mesh/renumber.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/build_scene.hpp"
+#include "scene/closed_surfaces.hpp"
 #include "scene/required_openings.hpp"
 #include "scene/support_needs.hpp"
 #include "wall/wall_problem.hpp"
@@ -51,10 +52,6 @@ std::string mesh_name(const Case& setup) {
 /// The file that a message about the mesh names: its own, or the case that it is made for.
 std::string mesh_source(const Case& setup) {
   return setup.mesh.file.empty() ? setup.path.string() : setup.mesh.file.string();
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 template <class Element>
@@ -118,6 +115,9 @@ MeshOf<Element> read_or_make(const Case& setup, const std::vector<std::string>& 
     if (!contains(available, layer))
       throw InputError(setup.path.string(), "structure.layers." + layer,
                        "the mesh " + mesh_name(setup) + " has no such volume", "its volumes are " + one_of(available));
+  if (!layers.empty())
+    for (const auto& volume : available)
+      if (volume != group::fluid && !contains(layers, volume)) needs.left_out.push_back(volume);
   auto wanted = layers;
   // Under a wall alone the fluid volume, where there is one, shows the wall's inner face.
   const bool fluid_shows_inner_face = !setup.fluid && (setup.load || setup.prestress) && contains(available, "fluid");
@@ -139,20 +139,28 @@ std::vector<std::string> surfaces_of(const Mesh& mesh) {
 
 /// The mesh of a case, checked against what the scene needs and renumbered (reverse Cuthill-McKee). Volumes that the
 /// scene does not need are left out, save `fluid` under a wall alone: its interface is where the pressure acts.
+/// \param remarks  lines for the log are added to it \param notices  for the user
 template <class Element>
-MeshOf<Element> load_mesh(const Case& setup) {
+MeshOf<Element> load_mesh(const Case& setup, std::vector<std::string>& remarks, std::vector<std::string>& notices) {
   SceneMeshNeeds needs;
   needs.fluid = setup.fluid.has_value();
-  if (setup.openings.empty())
+  const bool listed = !setup.openings.empty() || is_closed(setup);
+  if (!listed)
     for (const auto& opening : openings_of(setup))
       (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
   needs.geometry = triangle_geometry<Element>;
   if (setup.structure)
     for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
   const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
-  if (!setup.openings.empty()) needs.openings = required_openings(setup, surfaces_of(mesh), mesh_name(setup));
+  if (listed) needs.openings = required_openings(setup, surfaces_of(mesh), mesh_name(setup));
   need_supports(setup, mesh, mesh_name(setup), needs);
   check_scene_mesh(mesh, needs, mesh_source(setup));
+  for (auto& line : open_and_closed_surfaces(setup, mesh, needs, mesh_name(setup))) remarks.push_back(std::move(line));
+  if (!needs.left_out.empty())
+    notices.push_back(
+        fmt::format("{}: {}: left out, since no section of [structure.layers] has {}", mesh_source(setup),
+                    fmt::join(needs.left_out, ", "),
+                    needs.left_out.size() == 1 ? "the name of this volume" : "the names of these volumes"));
   // Made meshes come in a good order already.
   auto ordered = renumbered(mesh, reverse_cuthill_mckee(mesh));
   return bandwidth(ordered) < bandwidth(mesh) ? ordered : mesh;
@@ -220,22 +228,49 @@ double widest_opening(const Case& setup, const MeshOf<Element>& mesh) {
   return widest;
 }
 
+/// How large the vessel is that a case is about.
 template <class Element>
-LoadedScene<Element::components> load(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
-  const auto mesh = load_mesh<Element>(setup);
+VesselSize size_of_mesh(const Case& setup, const MeshOf<Element>& mesh) {
+  VesselSize size;
+  size.opening = widest_opening<Element>(setup, mesh);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+      low = i == 0 ? mesh.nodes[i][k] : std::min(low, mesh.nodes[i][k]);
+      high = i == 0 ? mesh.nodes[i][k] : std::max(high, mesh.nodes[i][k]);
+    }
+    size.extent = std::max(size.extent, high - low);
+  }
+  return size;
+}
+
+template <class Element>
+LoadedScene<Element::components> load(const Case& setup, const LoadingScene& loading) {
+  std::vector<std::string> remarks = setup.remarks, notices;
+  const auto mesh = load_mesh<Element>(setup, remarks, notices);
   const Communicator& processes = Communicator::world();
   require_alike(setup, mesh, processes);
-  if (mesh_known) mesh_known(mesh.cells.size());
+  if (loading.mesh_known) loading.mesh_known(mesh.cells.size());
+  if (const auto slip = unit_slip_of_mesh(setup, size_of_mesh<Element>(setup, mesh)); slip && loading.mesh_strange)
+    loading.mesh_strange(mesh_source(setup) + ": " + *slip);
   LoadedScene<Element::components> loaded;
-  loaded.mesh = {mesh_name(setup), hash_of_mesh(mesh), mesh.nodes.size(), mesh.cells.size(),
-                 Element::dim == 3 ? "tetrahedra" : "triangles"};
+  loaded.mesh = {mesh_name(setup),
+                 hash_of_mesh(mesh),
+                 mesh.nodes.size(),
+                 mesh.cells.size(),
+                 Element::dim == 3 ? "tetrahedra" : "triangles",
+                 surfaces_of(mesh)};
   // Processes find on the whole mesh what each then keeps of its share: that is all that is left after this routine.
   MeshShare share;
   WholeParts<Element> whole;
   if (!processes.is_alone()) share = share_mesh(mesh, processes);
   loaded.scene =
       processes.is_alone() ? build_scene<Element>(setup, mesh) : build_scene<Element>(setup, mesh, &share, &whole);
-  if (setup.prestress) loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene);
+  auto& said = *loaded.scene;
+  said.remarks.insert(said.remarks.begin(), remarks.begin(), remarks.end());
+  said.notices.insert(said.notices.begin(), notices.begin(), notices.end());
+  if (setup.prestress && (loading.find_prestress || !setup.prestress->file.empty()))
+    loaded.prestress = apply_prestress(setup, loaded.mesh.hash, *loaded.scene, loading.prestress_goes_on);
   loaded.derived = make_derived_quantities<Element>(setup, mesh, *loaded.scene, whole);
   const auto& scene = *loaded.scene;
   VesselParts<Element> here;
@@ -246,8 +281,6 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
   if (whole.wall) parts.wall = whole.wall.get();
   loaded.points = observation_points<Element>(setup, mesh, parts, mesh_source(setup));
   loaded.points.requested = requested_samples<Element>(setup, mesh, parts, loaded.points);
-  if (const auto slip = unit_slip_of_mesh(setup, widest_opening<Element>(setup, mesh)))
-    loaded.points.warnings.push_back(mesh_source(setup) + ": " + *slip);
   if (!processes.is_alone()) restrict_samples(whole.fluid_here.get(), whole.wall_here.get(), here.fluid, loaded.points);
   add_grid("fluid", setup, here.fluid, whole.fluid.get(), loaded);
   add_grid("wall", setup, here.wall, whole.wall.get(), loaded);
@@ -257,18 +290,17 @@ LoadedScene<Element::components> load(const Case& setup, const std::function<voi
 }  // namespace
 
 template <>
-LoadedScene<3> load_scene(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
-  return setup.element == ElementPair::p1 ? load<P1Tetrahedron>(setup, mesh_known)
-                                          : load<P2P1Tetrahedron>(setup, mesh_known);
+LoadedScene<3> load_scene(const Case& setup, const LoadingScene& loading) {
+  return setup.element == ElementPair::p1 ? load<P1Tetrahedron>(setup, loading) : load<P2P1Tetrahedron>(setup, loading);
 }
 
 template <>
-LoadedScene<2> load_scene(const Case& setup, const std::function<void(std::size_t)>& mesh_known) {
+LoadedScene<2> load_scene(const Case& setup, const LoadingScene& loading) {
   if (setup.geometry == Geometry::axisymmetric)
-    return setup.element == ElementPair::p1 ? load<P1AxisymmetricTriangle>(setup, mesh_known)
-                                            : load<P2P1AxisymmetricTriangle>(setup, mesh_known);
-  return setup.element == ElementPair::p1 ? load<P1PlaneTriangle>(setup, mesh_known)
-                                          : load<P2P1PlaneTriangle>(setup, mesh_known);
+    return setup.element == ElementPair::p1 ? load<P1AxisymmetricTriangle>(setup, loading)
+                                            : load<P2P1AxisymmetricTriangle>(setup, loading);
+  return setup.element == ElementPair::p1 ? load<P1PlaneTriangle>(setup, loading)
+                                          : load<P2P1PlaneTriangle>(setup, loading);
 }
 
 }  // namespace fsi

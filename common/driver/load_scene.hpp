@@ -21,7 +21,8 @@ struct MeshFacts {
   std::string name;  ///< its file, or "level coarse"
   std::string hash;  ///< tells whether a checkpoint belongs to it
   std::size_t nodes = 0, cells = 0;
-  const char* cell = "";  ///< "tetrahedra", "triangles"
+  const char* cell = "";              ///< "tetrahedra", "triangles"
+  std::vector<std::string> surfaces;  ///< names of its groups of facets that are not empty
 };
 
 /// A case on its mesh. Only what stands here knows the element; it is chosen once, by the case.
@@ -36,13 +37,20 @@ struct LoadedScene {
   std::optional<Checkpoint> prestress;  ///< what a run keeps of its wall's, where it has one
 };
 
+/// Who follows while a scene is loaded, and what is left out. What is empty tells nobody.
+struct LoadingScene {
+  std::function<void(std::size_t cells)> mesh_known;             ///< before the scene is built
+  std::function<void(const std::string& warning)> mesh_strange;  ///< before anything is computed on it
+  std::function<void(const std::string& text)> prestress_goes_on;
+  bool find_prestress = true;  ///< false: where it would have to be found, the wall stays without
+};
+
 /// Reads or makes the mesh of a case, checks it and builds the scene on it. Of several processes each has its share of the
 /// scene; the whole mesh is there no longer.
 /// \tparam n          2 for plane and axisymmetric scenes, 3 otherwise: components_of(setup)
-/// \param mesh_known  called with the number of cells before the scene is built
 /// \throws InputError
 template <int n>
-LoadedScene<n> load_scene(const Case& setup, const std::function<void(std::size_t cells)>& mesh_known = {});
+LoadedScene<n> load_scene(const Case& setup, const LoadingScene& loading = {});
 
 /// Components of the vectors of a case.
 inline int components_of(const Case& setup) {

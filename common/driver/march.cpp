@@ -19,12 +19,12 @@ constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
 /// docs/theory.md, section 8, has the constants.
-ErrorTerms error_terms(const TimeData& time, double damping) {
-  switch (time.scheme) {
+ErrorTerms error_terms(const TimeData& time, TimeScheme scheme, double damping) {
+  switch (scheme) {
     case TimeScheme::euler:
       return {1, 0.5, 0};
     case TimeScheme::midpoint:
-      return {2, 1.0 / 12, time.damping.value_or(damping)};
+      return {2, 1.0 / 12, time.damping.value_or(damping), largest_midpoint_theta(time) - 0.5};
     case TimeScheme::bdf2:
       return {2, 1.0 / 3, 0};
     case TimeScheme::generalised_alpha: {
@@ -45,16 +45,35 @@ double scene_time(const Case& setup, const Scene<n>& scene) {
   return rate > 0 ? midpoint_share / rate : setup.time.value().end;
 }
 
+// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
+template <int n>
+void require_resolvable(const Case& setup, const Scene<n>& scene) {
+  constexpr double smallest = 1e-13;  // of the time in which the scene swings
+  if (!setup.time || setup.time->adaptive) return;
+  const double swing = scene_time(setup, scene);
+  if (setup.time->step >= smallest * swing) return;
+  throw InputError(setup.path.string(), "time.step",
+                   fmt::format("{:g} ms is too short for the scene's time of {:.3g} ms", setup.time->step, swing),
+                   fmt::format("give at least {:.3g} ms", smallest * swing));
+}
+
 template <int n>
 March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
                 std::function<void(const std::string&)> say)
-    : setup_(setup), stepper_(stepper), loads_(loads), say_(std::move(say)) {
+    : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)) {
   if (!loads.axis().is_adaptive()) return;
-  const TimeData& time = *setup.time;
-  const double swing = scene_time(setup, scene);
+  keep_scheme(time_scheme_of(setup, scene));
+  stepper_.judge_by(this);
+}
+
+template <int n>
+void March<n>::keep_scheme(TimeScheme scheme) {
+  if (!loads_.axis().is_adaptive()) return;
+  const TimeData& time = *setup_.time;
+  const double swing = scene_time(setup_, scene_);
   StepLimits limits;
   limits.largest = time.largest_step.value_or(largest_share * swing);
-  const ErrorTerms terms = error_terms(time, midpoint_damping(setup, scene));
+  const ErrorTerms terms = error_terms(time, scheme, midpoint_damping(setup_, scene_));
   const double first = first_share * swing * std::pow(time.tolerance / its_tolerance, 1.0 / terms.order);
   limits.first = time.first_step.value_or(std::min(first, limits.largest));
   limits.smallest = time.smallest_step.value_or(limits.first);
@@ -62,8 +81,7 @@ March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Load
   limits.largest = std::max(limits.largest, limits.first);
   controller_.emplace(limits, terms.order);
   const auto volumes = [](const auto& medium) { return medium ? medium->space().volumes() : std::vector<double>(); };
-  estimate_.emplace(volumes(scene.fluid), volumes(scene.wall), terms, swing);
-  stepper_.judge_by(this);
+  estimate_.emplace(volumes(scene_.fluid), volumes(scene_.wall), terms, swing);
 }
 
 template <int n>
@@ -157,8 +175,9 @@ void March<n>::recall(const std::map<std::string, std::vector<double>>& memory) 
   if (const auto found = memory.find("estimate"); found != memory.end()) estimate_->recall(found->second);
 }
 
-#define FSI_INSTANTIATE(n)                                     \
-  template double scene_time<n>(const Case&, const Scene<n>&); \
+#define FSI_INSTANTIATE(n)                                           \
+  template double scene_time<n>(const Case&, const Scene<n>&);       \
+  template void require_resolvable<n>(const Case&, const Scene<n>&); \
   template class March<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE

@@ -21,6 +21,10 @@ namespace fsi {
 template <int n>
 double scene_time(const Case& setup, const Scene<n>& scene);
 
+/// \throws InputError for steps so short that rounding is all that a run would see of them
+template <int n>
+void require_resolvable(const Case& setup, const Scene<n>& scene);
+
 /// Attempts at steps since the start of the program.
 struct Attempts {
   int rejected = 0;  ///< solved, but with too large an error
@@ -48,6 +52,8 @@ class March : private StepJudge {
   /// Of the last step; nothing where steps are not adaptive.
   const std::optional<StepErrors>& errors() const { return errors_; }
 
+  /// The run goes on with the scheme that it began with, where the case would now be given another.
+  void keep_scheme(TimeScheme scheme);
   /// What adaptive steps know of those before, for a restart.
   std::map<std::string, std::vector<double>> memory() const;
   void recall(const std::map<std::string, std::vector<double>>& memory);
@@ -58,6 +64,7 @@ class March : private StepJudge {
   bool shrink(int step, int failures);
 
   const Case& setup_;
+  const Scene<n>& scene_;
   Stepper& stepper_;
   Loads& loads_;
   std::function<void(const std::string&)> say_;

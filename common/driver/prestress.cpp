@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -77,10 +78,21 @@ Checkpoint earlier_prestress(const Case& setup, const std::string& text, const s
   return earlier;
 }
 
+/// "prestress: 100 % of 10.7 kPa, iteration 3, residual 1.2e-05 of the first, 12 s"
+PrestressObserver lines_for(const std::function<void(const std::string&)>& goes_on, double pressure) {
+  if (!goes_on) return {};
+  return [goes_on, pressure, start = std::chrono::steady_clock::now()](const PrestressProgress& now) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    goes_on(fmt::format("prestress: {:.4g} % of {:g} kPa, iteration {}, residual {:.1e} of the first, {:.3g} s",
+                        100 * now.load, pressure, now.iteration, now.residual, seconds));
+  };
+}
+
 }  // namespace
 
 template <int n>
-Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scene<n>& scene) {
+Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scene<n>& scene,
+                           const std::function<void(const std::string&)>& goes_on) {
   const PrestressData& data = setup.prestress.value();
   const auto loads = support_loads_at_rest(setup);
   const std::string text = wall_text(setup, scene);
@@ -92,7 +104,8 @@ Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scen
   } else {
     const auto phase = scene.profile.phase("prestress");
     const WallPrestress found =
-        find_prestress<n>(scene, data.pressure, loads, general_solver_factory<n>("fast", FastOptions()));
+        find_prestress<n>(scene, data.pressure, loads, general_solver_factory<n>("fast", FastOptions()),
+                          lines_for(goes_on, data.pressure));
     scene.profile.count("newton iterations of the prestress", found.newton_iterations);
     kept.program = kind;
     kept.case_hash = hash_of(text);
@@ -109,7 +122,9 @@ std::filesystem::path prestress_file(const std::filesystem::path& folder) {
   return folder / "prestress.h5";
 }
 
-#define FSI_INSTANTIATE(n) template Checkpoint apply_prestress<n>(const Case&, const std::string&, Scene<n>&);
+#define FSI_INSTANTIATE(n)                                                           \
+  template Checkpoint apply_prestress<n>(const Case&, const std::string&, Scene<n>&, \
+                                         const std::function<void(const std::string&)>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

@@ -159,8 +159,7 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
       size_of(stem + ".a");
       size_of(stem + ".b");
     }
-    for (const char* count : {".repeated_solves", ".fewest_solves", ".contraction_unseen", ".alternating_steps",
-                              ".steps_apart", ".before.age"})
+    for (const char* count : {".alternating_steps", ".steps_apart", ".before.age"})
       if (ends_with(name, count)) whole(file, name, number, 0, most_steps);
     if (!ends_with(name, ".step")) continue;
     for (const char* part : {".mesh", ".flow", ".wall", ".mesh_reference", ".flow_reference"}) size_of(stem + part);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace fsi {
 
@@ -19,7 +20,9 @@ struct FieldPlan {
 
 /// Steps 0, every, 2 every, ... and the last one; nothing when every is 0.
 /// \param time_of  of a step, ms; called as long as the plan is used
-FieldPlan planned_field_steps(std::int64_t last_step, std::int64_t every, std::function<double(std::int64_t)> time_of);
+/// \param besides  further steps, ascending
+FieldPlan planned_field_steps(std::int64_t last_step, std::int64_t every, std::function<double(std::int64_t)> time_of,
+                              const std::vector<std::int64_t>& besides = {});
 
 /// The first of the numbers 0, ..., count - 1 for which `holds`, which from there on holds for all; count if none.
 template <class Condition>

@@ -46,7 +46,7 @@ class Exchange {
   /// Fills incoming_ with what the neighbours send.
   void communicate(const double* values, int entries, Way way) const;
 
-  const Communicator* processes_ = nullptr;
+  [[maybe_unused]] const Communicator* processes_ = nullptr;  ///< not asked without MPI
   std::vector<Neighbour> neighbours_;
   mutable std::vector<std::vector<double>> outgoing_, incoming_;  ///< buffers, per neighbour
 };

@@ -21,7 +21,6 @@ class PetscDirectSolver : public LinearSolver {
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;
   double keep_contraction() const override { return 0.4; }
-  int solves_worth_an_update() const override { return 40; }
 
  private:
   PetscGatheredMatrix gather() const;

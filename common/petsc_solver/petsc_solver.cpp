@@ -249,11 +249,6 @@ double PetscSolver<n>::keep_contraction() const {
 }
 
 template <int n>
-int PetscSolver<n>::solves_worth_an_update() const {
-  return direct_ ? direct_->solves_worth_an_update() : LinearSolver::solves_worth_an_update();
-}
-
-template <int n>
 LinearStatistics PetscSolver<n>::statistics() const {
   LinearStatistics s;
   if (direct_) s = direct_->statistics();

@@ -25,7 +25,6 @@ class PetscSolver : public LinearSolver {
   void update() override;
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   double keep_contraction() const override;
-  int solves_worth_an_update() const override;
   LinearStatistics statistics() const override;
 
   /// The iteration failed on the last Jacobian, which is factorised.

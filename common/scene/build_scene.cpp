@@ -242,10 +242,9 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (!setup.supports.empty()) require_common_frames(setup, *scene);
 
   if (setup.time) {
-    scene->integrator = make_time_scheme(setup, *scene);
-    const bool first_order =
-        setup.time->scheme == TimeScheme::euler && setup.monolithic.newton.mode != NewtonMode::linearised;
-    scene->predictor = setup.time->predictor.value_or(first_order ? 1 : 2);
+    const TimeScheme scheme = time_scheme_of(setup, *scene);
+    scene->integrator = make_time_scheme(setup, *scene, scheme);
+    scene->predictor = setup.time->predictor.value_or(scheme == TimeScheme::euler ? 1 : 2);
   }
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   if (!setup.supports.empty()) require_no_rigid_motion(setup, *scene);

@@ -24,6 +24,10 @@ std::vector<std::string> required_openings(const Case& setup, const std::vector<
     names.push_back(opening.surface);
     determined = determined || !opening.flow_rate;
   }
+  if (!determined && names.empty() && is_closed(setup))
+    throw InputError(setup.path.string(), "fluid.closed",
+                     "a closed fluid between rigid walls: nothing can move it, and its pressure has no level",
+                     "add [structure], or an [[opening]] with a pressure");
   if (!determined)
     throw InputError(setup.path.string(), "opening",
                      "the flow is given at every opening of a fluid between rigid walls, which leaves its pressure "

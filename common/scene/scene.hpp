@@ -197,13 +197,14 @@ class Scene {
     for (std::size_t i = 0; i < open.size(); ++i)
       if (open[i].given_flow()) visit(open[i], i);
   }
-  /// Whether the flow is given wherever fluid may pass, so that nothing but a moving wall determines its pressure.
+  /// Whether the flow is given wherever fluid may pass, if it may at all: then nothing but a moving wall determines its
+  /// pressure.
   bool has_flow_only() const {
     if (!fluid) return false;
     std::size_t open = 0, given = inflows.size();
     for (const auto& boundary : fluid->open_boundaries()) open += !boundary.empty();
     for_each_given_flow([&](const OpenBoundary<n>&, std::size_t) { ++given; });
-    return given > 0 && open == given;
+    return open == given;
   }
 
   /// Writes the velocities of the openings whose flow is given to state.now: so that the stage ends with that flow.

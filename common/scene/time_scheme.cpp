@@ -1,5 +1,7 @@
 #include "scene/time_scheme.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +21,8 @@
 namespace fsi {
 
 namespace {
+
+constexpr double rounding = 1e-9;  // that the product of a step and a rate may have
 
 /// Largest distance of nodes from an axis, mm: the same for a tube and a sector of it.
 double largest_radius(const PartNodes& part, const Point& origin, const Point& axis) {
@@ -86,14 +90,63 @@ double midpoint_damping(const Case& setup, const Scene<n>& scene) {
   return std::max(decay, midpoint_share / shortest_pulse(setup));
 }
 
+double largest_midpoint_theta(const TimeData& time) {
+  return time.damping ? 1 : midpoint_bound;
+}
+
 template <int n>
-std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene) {
+TimeScheme time_scheme_of(const Case& setup, const Scene<n>& scene) {
   const TimeData& time = setup.time.value();
-  switch (time.scheme) {
+  if (time.scheme) return *time.scheme;
+  const double rate = midpoint_damping(setup, scene);
+  const bool is_long = time.adaptive ? time.largest_step && rate * *time.largest_step > midpoint_share * (1 + rounding)
+                                     : rate * time.step > (midpoint_bound - 0.5) * (1 + rounding);
+  return is_long ? TimeScheme::tr_bdf2 : TimeScheme::midpoint;
+}
+
+template <int n>
+std::string about_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
+  const TimeData& time = setup.time.value();
+  if (time.scheme) return {};
+  const std::string name = "time scheme: " + time_schemes().name_of(scheme);
+  if (scheme != time_scheme_of(setup, scene)) return name + ", that of the run so far";
+  if (scheme == TimeScheme::midpoint) return name + ", chosen for the length of the steps";
+  const double scene_time = midpoint_share / midpoint_damping(setup, scene);
+  const double most = time.adaptive ? scene_time : (midpoint_bound - 0.5) / midpoint_share * scene_time;
+  return fmt::format(
+      "{}, chosen because {} of {:g} ms are long against the scene's time of {:.3g} ms: two solves a step, of second "
+      "order "
+      "there, too; midpoint, with one, is chosen up to {:.3g} ms",
+      name, time.adaptive ? "largest steps" : "steps", time.adaptive ? *time.largest_step : time.step, scene_time,
+      most);
+}
+
+template <int n>
+std::string lost_order(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
+  const TimeData& time = setup.time.value();
+  if (scheme != TimeScheme::midpoint || time.adaptive) return {};
+  const double rate = time.damping ? *time.damping : midpoint_damping(setup, scene);
+  const double most = (midpoint_bound - 0.5) / rate;
+  if (!(time.step > most * (1 + rounding))) return {};
+  const std::string remedy = time.damping  ? "a smaller time.damping, or leave time.scheme and time.damping out"
+                             : time.scheme ? "or leave time.scheme out"
+                                           : "or begin a new run";
+  return fmt::format(
+      "time.step: with {:g} ms the midpoint rule has theta = {:.3g} and an error that falls like the step, not like "
+      "its "
+      "square; give steps of at most {:.3g} ms, {}",
+      time.step, std::min(largest_midpoint_theta(time), 0.5 + rate * time.step), most, remedy);
+}
+
+template <int n>
+std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
+  const TimeData& time = setup.time.value();
+  switch (scheme) {
     case TimeScheme::euler:
       return std::make_unique<EulerNewmark<n>>(NewmarkParameters{time.newmark_beta, time.newmark_gamma});
     case TimeScheme::midpoint:
-      return std::make_unique<ShiftedMidpoint<n>>(time.damping ? *time.damping : midpoint_damping(setup, scene));
+      return std::make_unique<ShiftedMidpoint<n>>(time.damping ? *time.damping : midpoint_damping(setup, scene),
+                                                  largest_midpoint_theta(time));
     case TimeScheme::bdf2:
       return std::make_unique<Bdf2<n>>();
     case TimeScheme::generalised_alpha:
@@ -104,9 +157,12 @@ std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const 
   throw std::logic_error("a time scheme without an integrator");
 }
 
-#define FSI_INSTANTIATE(n)                                           \
-  template double midpoint_damping<n>(const Case&, const Scene<n>&); \
-  template std::unique_ptr<const TimeIntegrator> make_time_scheme<n>(const Case&, const Scene<n>&);
+#define FSI_INSTANTIATE(n)                                                             \
+  template double midpoint_damping<n>(const Case&, const Scene<n>&);                   \
+  template TimeScheme time_scheme_of<n>(const Case&, const Scene<n>&);                 \
+  template std::string about_time_scheme<n>(const Case&, const Scene<n>&, TimeScheme); \
+  template std::string lost_order<n>(const Case&, const Scene<n>&, TimeScheme);        \
+  template std::unique_ptr<const TimeIntegrator> make_time_scheme<n>(const Case&, const Scene<n>&, TimeScheme);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "case/case.hpp"
 #include "scene/scene.hpp"
@@ -21,8 +22,32 @@ inline constexpr double midpoint_share = 0.25;
 template <int n>
 double midpoint_damping(const Case& setup, const Scene<n>& scene);
 
-/// The scheme that a case in time asks for.
+/// Largest theta of a midpoint rule whose shift is found from the scene: beyond it the shift would no longer keep the order.
+inline constexpr double midpoint_bound = 0.5625;
+
+/// The bound of theta in a run: midpoint_bound, or 1 where the case gives time.damping.
+double largest_midpoint_theta(const TimeData& time);
+
+/// The scheme of a case in time: as named, else
+///   midpoint  for equal steps with 1/2 + midpoint_damping dt <= midpoint_bound, and for adaptive ones unless
+///             time.largest_step allows more than the scene's time (midpoint_share / midpoint_damping),
+///   tr-bdf2   for longer ones, which do not resolve the wall's own motion: of second order there, too (docs/theory.md,
+///             section 8.5).
 template <int n>
-std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene);
+TimeScheme time_scheme_of(const Case& setup, const Scene<n>& scene);
+
+/// Why the run has its scheme, for the log; empty when the case names it. A run that goes on keeps its scheme, whatever its
+/// steps are now.
+template <int n>
+std::string about_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme);
+
+/// Where the run's midpoint rule is not of second order with its equal steps: why, and what to do. Else empty. Of adaptive
+/// steps an estimate holds the error, the shift's part included.
+template <int n>
+std::string lost_order(const Case& setup, const Scene<n>& scene, TimeScheme scheme);
+
+/// The integrator of a scheme in a case in time.
+template <int n>
+std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme);
 
 }  // namespace fsi

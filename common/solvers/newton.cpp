@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace fsi {
 
@@ -13,7 +11,6 @@ constexpr double rounding_increment = 1e-14;  // relative to the iterate
 constexpr double kept_forcing = 0.5;          // linear tolerance over the contraction that a kept Jacobian showed
 constexpr double smallest_forcing = 1e-6;     // more digits of one increment never pay
 constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
-constexpr double slow_contraction = 0.5;      // of increments, with a kept Jacobian: beyond it a new one is made
 
 const char* const failure_at_start = "the start holds an inverted element or a value that is not finite";
 const char* const failure_at_limit = "the iteration limit was reached";
@@ -47,67 +44,12 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
   return std::max(eta, smallest_forcing);
 }
 
-/// Estimated error of the iterate relative to what the solution changes: the increments to come, if each is
-/// `contraction` of the one before ([Deuflhard2011], section 2.1).
-double estimated_error(const NewtonProblem& problem, double contraction) {
-  if (contraction >= 1) return std::numeric_limits<double>::infinity();
-  return problem.relative_increment() * contraction / (1 - contraction);
-}
-
-/// Mode `linearised`. The residual after the last increment is not evaluated: the contraction of the increments tells
-/// the error, and that of earlier calls the error of a first one. Residuals would not do: what they lack in the volume's
-/// balance weighs little there, but the pressures of the next step feel it over the step's square.
-/// \returns empty when the residual does not fall, the iterate then being the last good one
-std::optional<NewtonReport> linearised_newton(NewtonProblem& problem, const NewtonOptions& options) {
-  NewtonReport report;
-  double residual = problem.evaluate();
-  report.first_residual = residual;
-  if (!std::isfinite(residual)) {
-    report.failure = failure_at_start;
-    return report;
-  }
-  bool renew = options.renew || !problem.linearised();
-  double contraction = renew ? 0 : options.contraction, last = 0;
-  while (report.count() < options.max_iterations) {
-    NewtonIteration iteration;
-    iteration.linearised = renew;
-    if (renew) problem.linearise();
-    const double forcing = options.linear_tolerance > 0 ? options.linear_tolerance
-                           : contraction > 0
-                               ? std::clamp(kept_forcing * contraction, smallest_forcing, options.largest_forcing)
-                               : options.largest_forcing;
-    const double increment = problem.solve(forcing);
-    if (!std::isfinite(increment)) return std::nullopt;
-    iteration.linear_iterations = problem.linear_iterations();
-    problem.move(1);
-    iteration.increment = increment;
-    if (last > 0) report.contraction = contraction = increment / last;
-    report.iterations.push_back(iteration);
-    report.error = estimated_error(problem, contraction > 0 ? contraction : 1);
-    const bool rounded = problem.negligible(increment, rounding_increment);
-    const bool accurate = report.error <= options.tolerance || rounded;
-    const auto converged = [&](bool to_rounding) {
-      if (to_rounding) report.error = 0;
-      report.converged = true;
-      return report;
-    };
-    if (accurate && options.residual_tolerance == 0) return converged(rounded);
-    const double new_residual = problem.evaluate();
-    report.iterations.back().residual = new_residual;
-    const bool falls = std::isfinite(new_residual) && new_residual <= residual;
-    if (!falls && !(new_residual <= rounding_margin * problem.rounding())) {
-      problem.move(-1);
-      return std::nullopt;
-    }
-    if (!falls) return converged(true);
-    if (accurate && new_residual <= options.residual_tolerance * report.first_residual) return converged(rounded);
-    renew = last > 0 && contraction > slow_contraction;
-    if (renew) contraction = 0;
-    last = renew ? 0 : increment;
-    residual = new_residual;
-  }
-  report.failure = failure_at_limit;
-  return report;
+/// What an increment left of the residual tells what is left of the error: the increments to come, if each is `left` of
+/// the one before ([Deuflhard2011], section 2.1). The ratio of increments would tell it of the increment before, and of
+/// a new Jacobian nothing: its next increment is shorter by far.
+double estimated_error(const NewtonProblem& problem, double left) {
+  if (!(left < 1)) return 0;  // it no longer falls: rounding
+  return problem.relative_increment() * left / (1 - left);
 }
 
 }  // namespace
@@ -125,15 +67,11 @@ int NewtonReport::linearisations() const {
 }
 
 const NameTable<NewtonMode>& newton_modes() {
-  static const NameTable<NewtonMode> table{
-      "monolithic.mode",
-      {{"kept", NewtonMode::kept}, {"full", NewtonMode::full}, {"linearised", NewtonMode::linearised}}};
+  static const NameTable<NewtonMode> table{"monolithic.mode", {{"kept", NewtonMode::kept}, {"full", NewtonMode::full}}};
   return table;
 }
 
 NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
-  if (options.mode == NewtonMode::linearised)
-    if (const auto solved = linearised_newton(problem, options)) return *solved;
   NewtonReport report;
   double residual = problem.evaluate();
   report.first_residual = residual;
@@ -178,23 +116,17 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     iteration.increment = iteration.step * increment;
     iteration.residual = new_residual;
     report.iterations.push_back(iteration);
+    if (options.observe_iteration) options.observe_iteration(report);
     if (reference == 0) reference = increment;
 
-    const auto error_now = [&] {
-      const int last = report.count() - 1;
-      const double before = last > 0 ? report.iterations[last - 1].increment : 0;
-      const double contraction = before > 0 ? iteration.increment / before : new_residual / residual;
-      return estimated_error(problem, contraction);
-    };
-    const bool accurate = options.mode == NewtonMode::linearised ? error_now() <= options.tolerance
-                                                                 : iteration.increment <= options.tolerance * reference;
+    const bool accurate = iteration.increment <= options.tolerance * reference;
     const bool small = iteration.step == 1 && (accurate || problem.negligible(increment, rounding_increment) ||
                                                (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {
-      const double error = error_now();
-      report.error = std::isfinite(error) ? error : 0;  // it no longer falls: rounding
+      const double error = estimated_error(problem, new_residual / residual);
+      report.error = std::isfinite(error) ? error : 0;  // infinite: nobody knows what the solution changes
       report.converged = true;
       return report;
     }

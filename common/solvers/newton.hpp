@@ -41,23 +41,21 @@ class NewtonProblem {
   virtual double rounding() { return 0; }
 };
 
+struct NewtonReport;
+
 /// When Newton's method makes a Jacobian, and when it stops.
 enum class NewtonMode {
-  kept,       ///< a Jacobian, of earlier calls too, serves while the residual keeps falling (chord iterations)
-  full,       ///< a new Jacobian each iteration
-  linearised  ///< a Jacobian serves until it is told to be renewed; stops at the estimated error of the iterate
+  kept,  ///< a Jacobian, of earlier calls too, serves while the residual keeps falling (chord iterations)
+  full   ///< a new Jacobian each iteration
 };
 
 struct NewtonOptions {
   NewtonMode mode = NewtonMode::kept;
-  /// kept, full: converged when the increment's norm is below this times `reference`. linearised: when the estimated
-  /// error is below this times what the solution changes.
+  /// Converged when the increment's norm is below this times `reference`.
   double tolerance = 1e-8;
   double reference = 0;           ///< 0: the norm of the first increment ([Langer2018], algorithm 1)
   double residual_tolerance = 0;  ///< further demand on the residual relative to the first one; 0: none
   int max_iterations = 30;
-  bool renew = false;            ///< linearised: begin with a new Jacobian, also where an earlier one is kept
-  double contraction = 0;        ///< linearised: of increments in an earlier call with the Jacobian; 0: unknown
   double keep_contraction = 0;   ///< a kept Jacobian is renewed when an iteration contracts the residual less (0: as
                                  ///< the problem advises),
   int keep_iterations = 12;      ///< or after so many iterations of one call
@@ -67,6 +65,8 @@ struct NewtonOptions {
   bool stop_at_rounding = true;  ///< a residual that is all rounding ends the iteration, whatever the increment
   /// Sees each new linear system before it is solved: the number of the iteration, from 1. None: nobody looks.
   std::function<void(int iteration)> observe_system;
+  /// Sees how far it has come after each iteration. None: nobody looks.
+  std::function<void(const NewtonReport& so_far)> observe_iteration;
 };
 
 const NameTable<NewtonMode>& newton_modes();
@@ -74,7 +74,7 @@ const NameTable<NewtonMode>& newton_modes();
 /// One row of the convergence history.
 struct NewtonIteration {
   double increment = 0;     ///< norm of the increment, as taken
-  double residual = 0;      ///< norm of the residual after it; 0: not evaluated
+  double residual = 0;      ///< norm of the residual after it
   double step = 1;          ///< length of the step: 1 unless backtracking cut it
   bool linearised = false;  ///< a new Jacobian was made for it
   int linear_iterations = 0;
@@ -83,8 +83,10 @@ struct NewtonIteration {
 struct NewtonReport {
   bool converged = false;
   double first_residual = 0;
-  double error = 0;        ///< estimated, of the last iterate relative to what the solution changes
-  double contraction = 0;  ///< linearised: of the last two increments; 0: there was one
+  /// Estimated error of the last iterate, of this call alone, relative to what the solution changes: with delta its
+  /// last increment and rho the part of the residual that this left, rho / (1 - rho) times
+  /// NewtonProblem::relative_increment() (docs/theory.md, section 9.3). 0: all that is left is rounding.
+  double error = 0;
   std::vector<NewtonIteration> iterations;
   std::string failure;  ///< why it stopped, when it did not converge
 

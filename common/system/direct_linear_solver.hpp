@@ -41,7 +41,6 @@ class DirectLinearSolver : public LinearSolver {
   LinearReport solve(const std::vector<double>& b, double, std::vector<double>& x) override;
 
   double keep_contraction() const override { return 0.4; }
-  int solves_worth_an_update() const override { return 40; }
 
   LinearStatistics statistics() const override;
 

@@ -84,8 +84,6 @@ class LinearSolver {
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
   /// matter of what update() costs beside solve(). By measurement (docs/performance.md, docs/solvers.md).
   virtual double keep_contraction() const { return 0.15; }
-  /// How many solves, each with a residual, cost as much as an update() with its assembly.
-  virtual int solves_worth_an_update() const { return 8; }
 };
 
 /// Makes the solver of one System.

@@ -43,9 +43,6 @@ class LowRankLinearSolver : public LinearSolver {
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;
   double keep_contraction() const override { return solver_->keep_contraction(); }
-  int solves_worth_an_update() const override {
-    return solver_->solves_worth_an_update() + static_cast<int>(terms_.size());
-  }
 
  private:
   /// A term in the unknowns of the numbering.

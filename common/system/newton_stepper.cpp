@@ -6,24 +6,18 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "system/level_check.hpp"
 #include "time/predictor.hpp"
 
 namespace fsi {
 
-namespace {
-
-constexpr int longest_unseen = 4;  // stages for which the contraction of an earlier one is believed
-
-}  // namespace
-
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent) {
   int k = 0;
   for (const auto& it : report.iterations)
-    lines.push_back(fmt::format(
-        "{}newton {:2d}  increment {:.3e}{}{}{}{}", indent, ++k, it.increment,
-        it.residual > 0 || &it != &report.iterations.back() ? fmt::format("  residual {:.3e}", it.residual) : "",
-        it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
-        it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
+    lines.push_back(
+        fmt::format("{}newton {:2d}  increment {:.3e}  residual {:.3e}{}{}{}", indent, ++k, it.increment, it.residual,
+                    it.linear_iterations > 0 ? fmt::format("  linear {}", it.linear_iterations) : "",
+                    it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
 }
 
 void remember(const std::string& name, const LinearisationPoint& point, Memory& memory) {
@@ -86,7 +80,10 @@ StepReport NewtonStepper<n>::advance(State& state) {
     scene_.set_windkessels(state.now, data.rates);
     if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
-    scene_.integrator->accept(state, data);
+    if (data.rates.last_stage)
+      accept_level(scene_, data, state);
+    else
+      scene_.integrator->accept(state, data);
   }
   return report_;
 }
@@ -108,12 +105,6 @@ void NewtonStepper<n>::advance_stage(State& state, const StepData& data) {
 template <int n>
 Memory NewtonStepper<n>::memory() const {
   Memory memory;
-  if (options_.mode == NewtonMode::linearised) {
-    memory.numbers["repeated_solves"] = repeated_solves_;
-    memory.numbers["fewest_solves"] = fewest_solves_;
-    memory.numbers["contraction"] = contraction_;
-    memory.numbers["contraction_unseen"] = unseen_;
-  }
   if (options_.mode != NewtonMode::full && system_.linearised())
     remember("kept", system_.linearisation_point(), memory);
   return memory;
@@ -121,14 +112,6 @@ Memory NewtonStepper<n>::memory() const {
 
 template <int n>
 void NewtonStepper<n>::recall(const Memory& memory) {
-  const auto number = [&](const char* name) {
-    const auto found = memory.numbers.find(name);
-    return found == memory.numbers.end() ? 0.0 : found->second;
-  };
-  repeated_solves_ = static_cast<int>(number("repeated_solves"));
-  fewest_solves_ = static_cast<int>(number("fewest_solves"));
-  contraction_ = number("contraction");
-  unseen_ = static_cast<int>(number("contraction_unseen"));
   LinearisationPoint point;
   if (fsi::recall("kept", memory, point)) system_.linearise_at(point);
 }
@@ -154,35 +137,14 @@ NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int pre
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
   system_.work_on(state, data);
-  NewtonOptions options = options_;
-  if (options_.mode == NewtonMode::linearised) {
-    options.renew = repeated_solves_ >= system_.solver().solves_worth_an_update();
-    options.contraction = unseen_ < longest_unseen ? contraction_ : 0;
-  }
-  NewtonReport solved = newton(system_, options);
+  NewtonReport solved = newton(system_, options_);
   scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
   report_.newton_iterations += solved.count();
   report_.linear_iterations += solved.linear_iterations();
   report_.history.push_back(fmt::format("first residual {:.3e}", solved.first_residual));
   append_history(solved, report_.history);
-  if (solved.converged) learn(solved);
+  if (solved.converged) report_.solver_error = std::max(report_.solver_error, solved.error);
   return solved;
-}
-
-template <int n>
-void NewtonStepper<n>::learn(const NewtonReport& solved) {
-  report_.solver_error = std::max(report_.solver_error, solved.error);
-  if (options_.mode != NewtonMode::linearised) return;
-  report_.history.push_back(fmt::format("estimated error {:.1e} of the step's change", solved.error));
-  scene_.profile.count(solved.count() == 1 ? "steps solved by one linear solve" : "steps of several linear solves");
-  unseen_ = solved.contraction > 0 ? 0 : unseen_ + 1;
-  if (solved.contraction > 0) contraction_ = solved.contraction;
-  if (solved.linearisations() > 0) {
-    repeated_solves_ = fewest_solves_ = 0;
-    return;
-  }
-  fewest_solves_ = fewest_solves_ == 0 ? solved.count() : std::min(fewest_solves_, solved.count());
-  repeated_solves_ += solved.count() - fewest_solves_;
 }
 
 #define FSI_INSTANTIATE(n) template class NewtonStepper<n>;

@@ -44,18 +44,10 @@ class NewtonStepper : public Stepper {
   /// \param predictor  order of the extrapolated start
   NewtonReport solve(State& state, const StepData& data, int predictor);
 
-  /// Counts what a step by Newton's method took, and what the next begins with.
-  void learn(const NewtonReport& solved);
-
   Scene<n>& scene_;
   const Loads& loads_;
   NewtonOptions options_;
   System<n> system_;
-  // Mode linearised:
-  int repeated_solves_ = 0;  ///< since the Jacobian was made, beyond the fewest that a stage has taken with it
-  int fewest_solves_ = 0;    ///< of a stage with the Jacobian; 0: none yet
-  double contraction_ = 0;   ///< of increments with the Jacobian, last seen
-  int unseen_ = 0;           ///< stages since
 };
 
 }  // namespace fsi

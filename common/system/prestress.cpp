@@ -17,13 +17,17 @@ namespace {
 constexpr double smallest_increment = 1.0 / 256;  // of the load
 
 /// Leaves a rest below a millionth of a millimetre at any load: the increment that follows is below rounding.
-NewtonOptions tight_newton() {
+NewtonOptions tight_newton(double load, const PrestressObserver& observe) {
   NewtonOptions options;
   options.mode = NewtonMode::full;
   options.tolerance = 1e-10;
   options.residual_tolerance = 1e-10;
   options.linear_tolerance = 1e-8;
   options.max_iterations = 25;
+  if (observe)
+    options.observe_iteration = [load, &observe](const NewtonReport& so_far) {
+      observe({load, so_far.count(), so_far.iterations.back().residual / so_far.first_residual});
+    };
   return options;
 }
 
@@ -44,7 +48,7 @@ class Search {
 
 template <int n>
 WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector<double>& support_loads,
-                             const LinearSolverFactory<n>& make_solver) {
+                             const LinearSolverFactory<n>& make_solver, const PrestressObserver& observe) {
   using Mixed = MixedLayout<n>;
   WallPrestress found;
   State state = scene.at_rest();
@@ -60,7 +64,7 @@ WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector
       for (double& load : data.support_loads) load *= next;
       const auto before = state.now.wall;
       system.work_on(state, data);
-      const NewtonReport report = newton(system, tight_newton());
+      const NewtonReport report = newton(system, tight_newton(next, observe));
       found.newton_iterations += report.count();
       if (report.converged) {
         reached = next;
@@ -94,9 +98,9 @@ void start_from(const WallPrestress& prestress, double pressure, const std::vect
   scene.initial_load = typename Scene<n>::InitialLoad{pressure, support_loads, prestress.wall};
 }
 
-#define FSI_INSTANTIATE(n)                                                                \
-  template WallPrestress find_prestress<n>(Scene<n>&, double, const std::vector<double>&, \
-                                           const LinearSolverFactory<n>&);                \
+#define FSI_INSTANTIATE(n)                                                                           \
+  template WallPrestress find_prestress<n>(Scene<n>&, double, const std::vector<double>&,            \
+                                           const LinearSolverFactory<n>&, const PrestressObserver&); \
   template void start_from<n>(const WallPrestress&, double, const std::vector<double>&, Scene<n>&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -14,15 +15,24 @@ struct WallPrestress {
   int newton_iterations = 0;         ///< that it took to find them; 0: they were known
 };
 
+/// How far the search for it has come: an iteration of Newton's method.
+struct PrestressProgress {
+  double load = 0;      ///< share of the load that is tried, 0 to 1
+  int iteration = 0;    ///< at this share, from 1
+  double residual = 0;  ///< over that at the start of this share
+};
+using PrestressObserver = std::function<void(const PrestressProgress&)>;
+
 /// Finds the shape that the scene's wall has without load, given that under the load it has the one of its mesh. The wall
 /// is as before afterwards.
 /// \param pressure       kPa, on the wall's pressurised facets
 /// \param support_loads  kPa, in the order of the wall's supports
 /// \param make_solver    of the linearised equations; none: the direct one
+/// \param observe        sees each iteration; none: nobody looks
 /// \throws ConvergenceError where none is found, as for walls that no unloaded shape can make bear the load
 template <int n>
 WallPrestress find_prestress(Scene<n>& scene, double pressure, const std::vector<double>& support_loads,
-                             const LinearSolverFactory<n>& make_solver = {});
+                             const LinearSolverFactory<n>& make_solver = {}, const PrestressObserver& observe = {});
 
 /// Puts the wall under this prestress, and the scene at rest under the load that belongs to it: the fluid under the same
 /// pressure everywhere.

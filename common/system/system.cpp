@@ -10,15 +10,11 @@
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "fem/function_space.hpp"
+#include "parallel/stop_together.hpp"
 #include "system/direct_linear_solver.hpp"
+#include "system/step_change.hpp"
 
 namespace fsi {
-
-namespace {
-
-constexpr double smallest_change = 0.01;  // of a field: changes below count as large as this
-
-}  // namespace
 
 template <int n>
 System<n>::System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver,
@@ -105,6 +101,7 @@ double System<n>::evaluate() {
 
 template <int n>
 void System<n>::linearise() {
+  stop_together(processes());
   {
     const auto phase = scene_.profile.phase("assembly: " + name_ + " jacobian");
     assemble(true);
@@ -146,6 +143,7 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
 
 template <int n>
 double System<n>::solve(double tolerance) {
+  stop_together(processes());
   const auto phase = scene_.profile.phase("solve: " + name_);
   for (std::size_t i = 0; i < given_flows_.count(); ++i) opening_terms_[term_of(i)].gap = given_flows_.gap(i);
   linear_report_ = solver_->solve(residual_, tolerance, increment_);
@@ -234,38 +232,14 @@ bool System<n>::negligible(double, double share) const {
 
 template <int n>
 double System<n>::relative_increment() const {
-  // Where values alternate from step to step, two steps show what changes beside that.
-  const bool two = data_->rates.stage == 0 && state_->balances_since_jump > 1;
-  const Solution& before = two                      ? state_->balances[1]
-                           : data_->rates.stage > 0 ? state_->stage_balance
-                                                    : state_->last_balance();
-  std::vector<double> sums;  // of each field of vectors and of scalars: squares of increment, change and size
-  const auto measure = [&](const UnknownMap& map, const std::vector<double>& volumes, const std::vector<double>& now,
-                           const std::vector<double>& old) {
-    for (const bool scalar : {false, true}) {
-      double increment = 0, change = 0, size = 0;
-      for (std::size_t i = 0; i < map.size(); ++i) {
-        if ((i % Mixed::entries == n) != scalar) continue;
-        const double volume = volumes[i / Mixed::entries];
-        const double moved = map[i].index < 0 ? 0 : map[i].factor * increment_[map[i].index];
-        increment += volume * moved * moved;
-        change += volume * (now[i] - old[i]) * (now[i] - old[i]);
-        size += volume * now[i] * now[i];
-      }
-      sums.insert(sums.end(), {increment, change, size});
-    }
+  const auto moved = [&](const UnknownMap& map) {
+    std::vector<double> field(map.size());
+    for (std::size_t i = 0; i < map.size(); ++i)
+      if (map[i].index >= 0) field[i] = map[i].factor * increment_[map[i].index];
+    return field;
   };
-  measure(numbering_.fluid, fluid_volumes_, state_->now.fluid, before.fluid);
-  measure(numbering_.wall, wall_volumes_, state_->now.wall, before.wall);
-  processes().sum(sums);
-  double largest = 0;
-  for (std::size_t i = 0; i < sums.size(); i += 3) {
-    const double increment = sums[i], change = sums[i + 1], size = sums[i + 2];
-    const double steps = two ? 4 : 1;  // squared
-    const double worth = std::max(std::min(change / steps, size), smallest_change * smallest_change * size);
-    if (increment > 0) largest = std::max(largest, increment / worth);
-  }
-  return std::sqrt(largest);
+  const std::vector<double> fluid = moved(numbering_.fluid), wall = moved(numbering_.wall);
+  return relative_to_step<n>(*state_, *data_, {fluid_volumes_, fluid}, {wall_volumes_, wall}, processes());
 }
 
 template <int n>

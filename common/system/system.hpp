@@ -36,7 +36,8 @@ enum class SystemNorm {
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
 /// solve, as Newton's method asks for them. Works on a State that it does not own. Where the scene is shared out, each
-/// process has the equations of its nodes, all ask together, and all get the same norms.
+/// process has the equations of its nodes, all ask together, and all get the same norms. linearise() and solve() throw
+/// Stopped where the program was asked to end.
 template <int n>
 class System : public NewtonProblem {
  public:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/nodal_layout.hpp"
+#include "time/time_rounding.hpp"
 
 namespace fsi {
 
@@ -57,6 +58,10 @@ void set_pressures(Solution& to, const Solution& q0, const Solution& q1, double 
 }
 
 }  // namespace
+
+bool pressures_settled(const State& state) {
+  return state.since_jump == 0 || state.balance_times[0] >= state.time * (1 - time_rounding);
+}
 
 References combine(double a, const References& x, double b, const References& y) {
   References z;

@@ -55,6 +55,10 @@ class BalanceScheme : public TimeIntegrator {
   static void push(State& state, Solution balance, double time);
 };
 
+/// Of schemes whose pressures lag (TimeIntegrator::pressures_lag), after a step: whether those of the last level stay as
+/// they are, because its balance lies there, or because the load jumps there. Else the next step settles them.
+bool pressures_settled(const State& state);
+
 /// a x + b y of two reference sets.
 References combine(double a, const References& x, double b, const References& y);
 

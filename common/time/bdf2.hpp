@@ -12,6 +12,7 @@ template <int n>
 class Bdf2 : public BalanceScheme<n> {
  public:
   int stages(const State& state) const override { return state.since_jump == 0 ? 2 : 1; }
+  double period(double step) const override { return 2 * step / 3; }
 
  private:
   StepRates rates_of(const State& state, double step, int stage) const override;

@@ -106,7 +106,8 @@ StepErrors ErrorEstimate<n>::of(const State& state, const StepData& data) {
                             return third[0] * y[i] + third[1] * y0[i] + third[2] * y1[i] + third[3] * y2[i];
                           });
     // Of what swings, the two derivatives are out of phase.
-    return dt * dt * dt * std::hypot(terms_.constant * change, terms_.shift * curvature);
+    const double shift = std::min(terms_.shift, terms_.largest_shift / dt);
+    return dt * dt * dt * std::hypot(terms_.constant * change, shift * curvature);
   };
   const double swings = scene_time_ / dt;
   if (has_wall)

@@ -14,7 +14,8 @@ namespace fsi {
 struct ErrorTerms {
   int order = 2;
   double constant = 1.0 / 12;
-  double shift = 0;  ///< 1/ms, of the shifted midpoint rule
+  double shift = 0;            ///< 1/ms, of the shifted midpoint rule
+  double largest_shift = 0.5;  ///< that shift dt may be
 };
 
 /// Errors of a step relative to the solution.

@@ -20,6 +20,7 @@ class GeneralisedAlpha : public BalanceScheme<n> {
   /// \param spectral_radius  rho at infinite frequency, 0 to 1; at most 0.5 is advised
   explicit GeneralisedAlpha(double spectral_radius);
 
+  double period(double step) const override { return a_f_ * (0.5 + shift_) / (a_f_ + shift_) * step; }
   bool pressures_lag() const override { return true; }
   void prepare(State& state) const override;
 

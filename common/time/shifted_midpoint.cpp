@@ -7,8 +7,11 @@
 namespace fsi {
 
 template <int n>
-std::string ShiftedMidpoint<n>::about() const {
-  return fmt::format("midpoint rule, shifted by {:.4g}/ms times the step", damping_);
+std::string ShiftedMidpoint<n>::about(double shortest, double longest) const {
+  const double from = theta_of(shortest), to = theta_of(longest);
+  return fmt::format("midpoint rule, theta = {}: 1/2 + {:.4g}/ms times the step, at most {:g}",
+                     to - from < 5e-5 ? fmt::format("{:.4f}", to) : fmt::format("{:.4f} to {:.4f}", from, to), damping_,
+                     largest_theta_);
 }
 
 template <int n>
@@ -25,7 +28,7 @@ StepRates ShiftedMidpoint<n>::rates_of(const State& state, double step, int) con
 
 template <int n>
 double ShiftedMidpoint<n>::theta_of(double step) const {
-  return std::min(1.0, 0.5 + damping_ * step);
+  return std::min(largest_theta_, 0.5 + damping_ * step);
 }
 
 template <int n>

@@ -30,7 +30,7 @@ struct StepReport {
   int outer_iterations = 1;          ///< coupling iterations; 1 in a monolithic step
   int newton_iterations = 0;         ///< all of the step
   int linear_iterations = 0;         ///< Krylov iterations; 0 with direct solvers
-  double solver_error = 0;           ///< estimated, of the solution relative to what the step changed (Newton's method)
+  double solver_error = 0;           ///< estimated, what solving this step left (docs/accuracy.md, "The solver")
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
   std::vector<Balance> balances;  ///< what was solved, where Stepper::keep_balances() asked for it
@@ -42,6 +42,13 @@ class StepJudge {
  public:
   virtual ~StepJudge() = default;
   virtual bool accepts(const State& state, const StepData& data) = 0;
+};
+
+/// A setting of a stepper that depends on the scene where the case does not name it, and what was decided.
+struct StepperChoice {
+  std::string key;     ///< of the case
+  std::string value;   ///< that holds
+  std::string reason;  ///< a clause
 };
 
 /// What a stepper keeps between steps besides the state, by name: numbers that a restart needs to go on bit for bit.
@@ -73,6 +80,8 @@ class Stepper {
   virtual std::string unchecked() const { return {}; }
   /// Of the last step, also of one that failed.
   const StepReport& report() const { return report_; }
+  /// For log and summary.
+  virtual std::vector<StepperChoice> choices() const { return {}; }
   virtual Memory memory() const = 0;
   virtual void recall(const Memory& memory) = 0;
 

@@ -28,6 +28,9 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
   if (time_ != nullptr)
     for (double time : output_times(setup))
       if (time > 0 && time < time_->end) stops_.push_back(time);
+  if (time_ != nullptr)
+    for (double time : setup.output.times)
+      if (time <= time_->end) stops_.push_back(time);  // at the end, too: a restart goes on from it
   std::sort(stops_.begin(), stops_.end());
   const double same = time_rounding * (time_ != nullptr ? time_->end : 1);
   stops_.erase(std::unique(stops_.begin(), stops_.end(), [&](double a, double b) { return b - a <= same; }),
@@ -36,6 +39,7 @@ TimeAxis::TimeAxis(const Case& setup) : time_(setup.time ? &*setup.time : nullpt
   stretches_ = {
       {0, 0,
        time_ != nullptr ? time_->step : static_cast<double>(setup.static_load.value_or(StaticData{}).load_steps)}};
+  share_rest();
 }
 
 double TimeAxis::length_in(const Stretch& stretch) const {
@@ -61,7 +65,11 @@ void TimeAxis::for_each_piece(const Stretch& stretch, Visit visit) const {
     if (!visit(Piece{start, *stop, count, whole ? asked : (*stop - start) / count})) return;
     start = *stop;
   }
-  const int count = static_cast<int>(std::ceil((time_->end - start) / asked - time_rounding));
+  const double steps = (time_->end - start) / asked;
+  int count = static_cast<int>(std::ceil(steps - time_rounding));
+  constexpr double shortest = 0.5;  // of a last step, in steps
+  const bool sliver = steps - (count - 1) < shortest - time_rounding;
+  if (sliver && count > 1 && stretch.asked > 0) --count;  // the last one is longer, for share_rest()
   visit(Piece{start, time_->end, std::max(0, count), asked});
 }
 
@@ -198,6 +206,29 @@ double TimeAxis::length_of(int step) const {
   return std::abs(length - asked) <= time_rounding * asked ? asked : length;
 }
 
+double TimeAxis::start_of_last_planned() const {
+  const int before = planned_steps() - 1;
+  return before <= stretches_.back().after ? stretches_.back().start : planned_time_of(before);
+}
+
+void TimeAxis::share_rest() {
+  const double asked = stretches_.back().asked;
+  if (time_ == nullptr || asked <= 0 || planned_steps() <= stretches_.back().after) return;
+  const double start = start_of_last_planned();
+  if (time_->end - start <= asked * (1 + time_rounding)) return;
+  if (!insertions_.empty() && insertions_.back().end > start + time_rounding * asked) return;  // halved already
+  const double half = 0.5 * (time_->end - start);
+  insertions_.push_back({steps(), std::strtod(fmt::format("{:.12g}", start + half).c_str(), nullptr), half});
+}
+
+double TimeAxis::shorter_last_steps() const {
+  const double asked = stretches_.back().asked;
+  if (time_ == nullptr || asked <= 0 || planned_steps() <= stretches_.back().after) return 0;
+  const double rest = time_->end - start_of_last_planned();
+  if (rest > asked * (1 + time_rounding)) return 0.5 * rest;
+  return rest < asked * (1 - time_rounding) ? rest : 0;
+}
+
 double TimeAxis::next_stop(double time) const {
   const auto next = std::upper_bound(stops_.begin(), stops_.end(), time + time_rounding * time_->end);
   return next == stops_.end() ? time_->end : *next;
@@ -231,7 +262,24 @@ void TimeAxis::drop_insertions_after(int last) {
   while (!insertions_.empty() && insertions_.back().step > last) insertions_.pop_back();
 }
 
+void TimeAxis::drop_later_insertions(int last) {
+  if (insertion(last) == nullptr) {
+    drop_insertions_after(last);
+    return;
+  }
+  const int planned = last - inserted_before(last + 1) + 1;  // the one in progress
+  const double end = planned < planned_steps() ? planned_time_of(planned) : time_->end;
+  while (!insertions_.empty() && insertions_.back().step > last && insertions_.back().end >= end)
+    insertions_.pop_back();
+}
+
 bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted) {
+  const bool changed = go_on_as_planned(std::move(past), last, time, std::move(inserted));
+  share_rest();
+  return changed;
+}
+
+bool TimeAxis::go_on_as_planned(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted) {
   const double asked = stretches_.back().asked;
   set_stretches(std::move(past));
   insertions_ = std::move(inserted);
@@ -256,6 +304,8 @@ bool TimeAxis::go_on(std::vector<Stretch> past, int last, double time, std::vect
     set_stretches({{0, time, asked}});
     return true;
   }
+  if (time_ != nullptr && stretches_.back().asked > 0)
+    drop_later_insertions(last);  // an earlier end's shorter last steps
   // A run that ended between two steps of its stretch, its last one cut short, goes on from that end.
   const bool between = time_ != nullptr && std::abs(time_of(last) - time) > time_rounding * asked;
   if (changed || between) {

@@ -21,8 +21,10 @@ struct Insertion {
   double end = 0, length = 0;  ///< ms
 };
 
-/// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval: up to
-/// there a stretch has equal steps, none longer than asked. A run that goes on from a checkpoint may have another step
+/// Where the steps of a run begin and end. Steps end where a load jumps, and at the times of output.interval and
+/// output.times: up to there a stretch has equal steps, none longer than asked. An end of the run that steps as long as
+/// asked would miss is hit by a shorter last one, or by two that share what is left where that one would be less than half
+/// as long: the last planned step is then longer than asked, and an inserted one is its first half. A run that goes on from a checkpoint may have another step
 /// from there on; what lies before keeps its times. Adaptive steps are inserted one by one, before a plan that only
 /// estimates how many are left. Times are ms, in statics fractions of the load.
 class TimeAxis {
@@ -45,6 +47,8 @@ class TimeAxis {
   double planned_time_of(int step) const;
 
   bool is_adaptive() const { return time_ != nullptr && time_->adaptive; }
+  /// Length of the shorter last steps of a run of equal ones, ms; 0: the end is met by steps as long as the others.
+  double shorter_last_steps() const;
   /// The latest time, ms, up to which a step that begins at `time` may go.
   double next_stop(double time) const;
   /// Adaptive steps: `step`, which begins at `time`, is the first of equal ones to the next stop, none longer than
@@ -63,11 +67,11 @@ class TimeAxis {
   bool is_static() const { return time_ == nullptr; }
 
   /// Goes on from step `last`, which ended at `time`, in a run with these stretches. Returns whether the case asks for
-  /// another step than the last of them; from there on it holds. The end is hit: a last step may be shorter.
+  /// another step than the last of them; from there on it holds.
   bool go_on(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted = {});
 
  private:
-  /// Equal steps up to a jump, or the end of the run; the last of them may be shorter at the end.
+  /// Equal steps up to a stop, or the end of the run; the last of them may be longer, or a single one shorter, at the end.
   struct Piece {
     double start, end;
     int steps;
@@ -94,6 +98,12 @@ class TimeAxis {
   int planned(std::size_t stretch) const;  ///< steps from its start to the end of the run
   int estimated(const Stretch& stretch) const;
   double length_in(const Stretch& stretch) const;
+  double start_of_last_planned() const;
+  /// Halves the last planned step where it is longer than asked.
+  void share_rest();
+  /// Of the steps inserted behind `last`, keeps the parts of the planned step that is in progress alone.
+  void drop_later_insertions(int last);
+  bool go_on_as_planned(std::vector<Stretch> past, int last, double time, std::vector<Insertion> inserted);
   int inserted_before(int step) const;
   const Insertion* insertion(int step) const;
 

@@ -23,8 +23,11 @@ class TimeIntegrator {
   virtual bool is_static() const { return false; }
   /// How the wall's velocity follows from its accelerations, of schemes of Newmark's family.
   virtual NewmarkParameters newmark() const { return {}; }
-  /// What a user should know of it, for the log; empty: nothing.
-  virtual std::string about() const { return {}; }
+  /// What a user should know of it with steps of these lengths (ms), for the log; empty: nothing.
+  virtual std::string about(double /*shortest*/, double /*longest*/) const { return {}; }
+  /// Period of u = (d - r) / period (InterfaceKinematics) in each stage of equal steps of this length, ms: how long the step
+  /// is to those who solve it.
+  virtual double period(double step) const { return step; }
   /// Gives a state at rest, or with initial values, the history that the scheme keeps.
   virtual void prepare(State&) const {}
   /// Stages of the state's next step.

@@ -44,6 +44,11 @@ StepRates TrBdf2<n>::first_rates(const BalanceScheme<n>& scheme, const State& st
 }
 
 template <int n>
+double TrBdf2<n>::period(double step) const {
+  return 0.5 * g * step;
+}
+
+template <int n>
 StepRates TrBdf2<n>::rates_of(const State& state, double step, int stage) const {
   if (stage == 1 || state.since_jump == 0) return first_rates(*this, state, step, stage);
   const double k = 2 / (g * step);

@@ -16,6 +16,7 @@ template <int n>
 class TrBdf2 : public BalanceScheme<n> {
  public:
   int stages(const State&) const override { return 2; }
+  double period(double step) const override;
   void prepare(State& state) const override;
   std::optional<Balance> balance_again(const State& state) const override;
 

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "beltrami_flow.hpp"
 #include "fem/elements.hpp"
@@ -182,6 +184,57 @@ TEST_P(SecondOrder, CoupledMotionInEveryField) {
   }
   for (int field = 0; field < 6; ++field)
     EXPECT_NEAR(orders_of(names[field], results[field], first_step).back(), 2, 0.1) << names[field];
+}
+
+/// A slow pulse through a short tube: the wall follows in 1 ms, the flow in 20, the pressure takes 200. Steps of 2.5 ms and
+/// more do not resolve the wall's own motion.
+Case slow_pulse() {
+  Case setup = coupled_case("mooney-rivlin");
+  setup.fluid->viscosity = 0.02;
+  setup.structure->bulk_modulus = 1e4;
+  setup.structure->layer_pressure = LayerPressure::separate;
+  setup.inlet = PressureTable{};
+  for (int i = 0; i <= 1000; ++i)
+    setup.inlet->points.push_back({0.2 * i, 0.02 * std::pow(std::sin(std::acos(0.0) * 0.002 * i), 4)});
+  setup.time->scheme.reset();
+  return setup;
+}
+
+/// The least order, of the last halving, of displacement and velocity at 60 ms.
+double order_of_long_steps(const std::string& title, Case setup) {
+  ArteryShape shape;
+  shape.length = 3;
+  ArteryCells cells;
+  cells.lumen = 2;
+  cells.media = cells.adventitia = 1;
+  cells.axial = 4;
+  const auto mesh = with_mid_edge_nodes(generate_artery_section(shape, cells));
+  const double first_step = 20;
+  setup.time->end = 60;
+  std::vector<std::vector<double>> walls, flows;
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    setup.time->step = first_step / (1 << halvings);
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, mesh);
+    const Loads loads(setup);
+    NewtonOptions options;
+    options.tolerance = 1e-10;
+    NewtonStepper<2> stepper(*scene, loads, options, number_scene(*scene));
+    State state = scene->at_rest();
+    for (int step = 0; step < loads.steps(); ++step) stepper.advance(state);
+    walls.push_back(only(state.now.wall, 3, 0, 2));
+    flows.push_back(only(state.now.fluid, 3, 0, 2));
+  }
+  return std::min(orders_of(title + ": displacement of the wall", walls, first_step).back(),
+                  orders_of(title + ": velocity of the blood", flows, first_step).back());
+}
+
+// The scheme that a case has which names none, and a midpoint rule whose shift grows with the step until theta is 1.
+TEST(TimeConvergence, StepsLongAgainstTheWallsTimeAreOfSecondOrder) {
+  Case setup = slow_pulse();
+  EXPECT_NEAR(order_of_long_steps("chosen scheme", setup), 2, 0.2);
+  setup.time->scheme = TimeScheme::midpoint;
+  setup.time->damping = 0.2;  // 1/ms, what the scene would give
+  EXPECT_LT(order_of_long_steps("unbounded shift", setup), 1.4);
 }
 
 }  // namespace

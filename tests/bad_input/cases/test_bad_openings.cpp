@@ -143,6 +143,13 @@ TEST_F(Openings, AreRefusedWithOneMessage) {
        "case.toml:12: opening.left.profile: \"plugg\" is unknown; did you mean "
        "plug? There are plug, parabolic or womersley"},
   };
+  for (const std::string symbol : {"Rp", "R1", "r_p"})
+    EXPECT_EQ(complaint(opening("windkessel = { " + symbol + " = 1, C = 1, Rd = 1 }")),
+              "case.toml:11: opening.left.windkessel." + symbol +
+                  ": unknown key; did you mean proximal? There are proximal (Rp), compliance (C), distal (Rd), "
+                  "initial_pressure and distal_pressure");
+  EXPECT_NE(complaint(opening("windkessel = { proximal = 1, C = 1, Rd = 1 }")).find("did you mean compliance?"),
+            std::string::npos);
   for (const auto& [keys, message] : mistakes) EXPECT_EQ(complaint(opening(keys)), message);
   const std::string missing = complaint(opening("pressure = { file = \"none.csv\" }"));
   EXPECT_NE(missing.find("none.csv: no such file; give a CSV file with a header"), std::string::npos) << missing;
@@ -155,7 +162,52 @@ TEST_F(Openings, AreRefusedWithOneMessage) {
   EXPECT_EQ(complaint("[[opening]]\nsurface = \"a,b\"\n"),
             "case.toml:9: opening.a,b: has a comma in its name, which openings.csv could not show; give the surface a "
             "name without");
-  EXPECT_EQ(complaint(""), "case.toml: no [inlet]; add [inlet] with pressure, since there is a fluid, or [[opening]]");
+  EXPECT_EQ(complaint(""),
+            "case.toml: no [inlet]; add [inlet] with pressure, since there is a fluid, or [[opening]]; for a fluid "
+            "that nothing enters or leaves, "
+            "closed = [...] in [fluid] with the names of its surfaces, [] where the wall encloses it");
+}
+
+TEST_F(Openings, HeadersWithUnitsOfSomethingElseAreRefused) {
+  const auto said = [&](const std::string& header, const std::string& keys = "flow_rate = { file = \"a.csv\" }") {
+    write_text(folder_ / "a.csv", header + "\n0,1\n1,2\n");
+    return complaint(opening(keys));
+  };
+  EXPECT_EQ(said("time_ms,flow_mmHg"),
+            "a.csv:1: opening.left.flow_rate.file: column 2: mmHg is a unit of pressure, not of flow rate; give it in "
+            "mm^3/ms: mm3/ms, ml/s, L/min, ml/min, cm3/s, mm3/s, m3/s, L/s, cc/s or ul/s");
+  EXPECT_EQ(
+      said("time_kPa,flow"),
+      "a.csv:1: opening.left.flow_rate.file: column 1: kPa is a unit of pressure, not of time; give it in ms: ms, "
+      "s, us, min, msec or sec");
+  for (const std::string header : {"t,velocity_m_per_s", "t,flow [m/s]", "t,v_cm/s"})
+    EXPECT_NE(said(header).find("is a unit of velocity, not of flow rate"), std::string::npos) << said(header);
+  for (const std::string header : {"t,flow_gallons_per_min", "t,flow [gpm]", "t,Q (barrels/d)"})
+    EXPECT_NE(said(header).find(": column 2: "), std::string::npos) << said(header);
+  EXPECT_NE(said("t,flow [gpm]").find("gpm is no known unit of flow rate"), std::string::npos);
+  EXPECT_NE(said("t,p_mPa", "pressure = { file = \"a.csv\" }").find("mPa is no known unit"), std::string::npos);
+  EXPECT_NE(said("t,flow_mm2_per_ms").find("is a unit of the flow in a plane scene"), std::string::npos);
+}
+
+TEST_F(Openings, ClosedSurfacesAreNoOpenings) {
+  const auto said = [&](const std::string& closed, const std::string& openings) {
+    const std::string place = folder_.string() + "/", text = case_with(openings);
+    const auto at = text.find("viscosity");
+    std::string message = message_of<InputError>(
+        [&] { parse_case(text.substr(0, at) + closed + "\n" + text.substr(at), folder_ / "case.toml", {}); });
+    return message.erase(0, message.find(place) == 0 ? place.size() : 0);
+  };
+  EXPECT_EQ(said("closed = [\"left\"]", opening("pressure = 1")),
+            "case.toml:5: fluid.closed: names \"left\", which an [[opening]] opens; keep one of the two");
+  EXPECT_EQ(said("closed = [\"inlet\"]", "[inlet]\npressure = 1\n"),
+            "case.toml:5: fluid.closed: names \"inlet\", which [inlet] opens; keep one of the two");
+  EXPECT_EQ(said("outlet = true\nclosed = [\"outlet\"]", opening("pressure = 1")),
+            "case.toml:6: fluid.closed: names \"outlet\" beside outlet = true; keep one of the two");
+  EXPECT_EQ(said("closed = [\"a\", \"a\"]", opening("pressure = 1")),
+            "case.toml:5: fluid.closed[1]: \"a\" is named twice; name each surface once");
+  EXPECT_EQ(said("closed = [\"symmetry_x\"]", opening("pressure = 1")),
+            "case.toml:5: fluid.closed[0]: \"symmetry_x\" is the name of a plane of symmetry, where the fluid slides; "
+            "leave it out");
 }
 
 }  // namespace

@@ -31,8 +31,18 @@ TEST(BadScene, OutletHasAnotherName) {
   file.names[1].name = "outflow";
   EXPECT_EQ(
       verdict(file.text_22()),
-      "tube.msh: outlet: the physical surface is missing or empty; name the faces of the fluid in gmsh, e.g. Physical "
-      "Surface(\"outlet\") = {1};");
+      "tube.msh: outlet: the physical surface is missing or empty; if outflow is meant, rename it, or add [[opening]] "
+      "with surface = \"outflow\", or name the faces of the fluid in gmsh, e.g. Physical Surface(\"outlet\") = {1};");
+}
+
+TEST(BadScene, WallEndsHaveAnotherName) {
+  auto file = tiny_tube();
+  file.names[2].name = "ends";
+  EXPECT_EQ(
+      verdict(file.text_22()),
+      "tube.msh: wall_ends: the physical surface is missing or empty; if ends is meant, rename it, or add [[support]] "
+      "with surface = \"ends\" and fixed = [\"x\", \"y\", \"z\"], or name the faces of the wall in gmsh, e.g. "
+      "Physical Surface(\"wall_ends\") = {1};");
 }
 
 TEST(BadScene, WallEndsMissing) {
@@ -208,6 +218,27 @@ TEST(BadScene, RimNotClamped) {
       "tube.msh: wall_ends: the rim of the interface is not clamped: 4 of its nodes are not in this group, the first "
       "at (1, 1, 2); put both end faces of all wall layers into it, or planes of symmetry into symmetry_x, symmetry_y, "
       "symmetry_z, or symmetry_1 and so on");
+}
+
+/// A volume of the wall that the case does not name is no part of what is read: the rim ends where it begins.
+TEST(BadScene, RimEndsAtAVolumeThatIsLeftOut) {
+  auto file = tiny_tube();
+  file.names.push_back({3, 78, "plaque"});
+  const auto wall = file.of_group(media_tag);
+  const auto at_end = [&](std::size_t element) {
+    const auto& nodes = file.elements[element].nodes;
+    return std::all_of(nodes.begin(), nodes.end(), [&](auto tag) { return file.nodes[tag - 1].x[2] >= 1; });
+  };
+  for (const auto element : wall)
+    if (at_end(element)) file.elements[element].physical = {78};
+  auto needs = tube_needs();
+  needs.left_out = {"plaque"};
+  const auto message = verdict(file.text_41(), needs);
+  EXPECT_NE(message.find("wall_ends: the rim of the interface is not clamped"), std::string::npos) << message;
+  EXPECT_NE(
+      message.find("give plaque of the mesh, which the case leaves out, a section [structure.layers.plaque], or "),
+      std::string::npos)
+      << message;
 }
 
 TEST(BadScene, FluidInTwoPieces) {

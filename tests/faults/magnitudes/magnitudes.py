@@ -224,7 +224,7 @@ def methods(full):
         for element in ("p1", "p2p1"):
             yield program, (), dict(element=element, geometry="3d")
             yield program, (), dict(element=element, geometry="3d", material="artery")
-    for mode in ("kept", "full", "linearised"):
+    for mode in ("kept", "full"):
         yield MONOLITHIC, (f"monolithic.mode={mode}",), {}
     for scheme in SCHEMES:
         for solver in ("fast", "direct"):

@@ -122,6 +122,21 @@ class Signals:
                 raise SystemExit(f"the run does not begin: {process.communicate()}")
             time.sleep(0.002)
 
+    def answered(self, program):
+        """A run that shows its progress says at once that it ends, then how it ended."""
+        for number, code_of in SIGNALS.items():
+            folder = self.fresh()
+            process = self.start(*[word for word in self.command(program, folder, steps=LONG) if word != "-q"])
+            self.wait_for_step(process, folder)
+            process.send_signal(number)
+            code, errors = self.end(process)
+            lines = errors.splitlines()
+            good = code == code_of and len(lines) == 2 and summary(folder)["status"] == "interrupted"
+            good &= lines[0].startswith(f"{program}: ends ") and lines[0].endswith("; once more ends now")
+            good &= lines[-1].startswith(f"{program}: interrupted after step ")
+            what = f"{program}, {number.name} with progress: exit {code}, {errors!r}"
+            self.harness.count("interrupted" if good else "no answer", what)
+
     def second_signal(self, program, pairs):
         """Both come while the process is stopped, so that no step ends between them. The next run says a word."""
         for first, second in pairs:
@@ -237,6 +252,7 @@ def main():
         for program in DRIVERS:
             signals.at_moments(program, [0, 0] + [signals.random.random() for _ in range(15)], numbers)
             signals.at_moments(program, [0.2 * signals.random.random() for _ in range(10)], numbers)
+            signals.answered(program)
             signals.second_signal(program, [(a, b) for a in numbers for b in numbers if a != b])
             signals.ignored(program)
             signals.at_the_end(program, 12)
@@ -246,6 +262,7 @@ def main():
     else:
         signals.at_moments(MONOLITHIC, (0.05, 0.5, 0.9), numbers)
         signals.at_moments(DRIVERS[1], (0.6,), numbers[2:])
+        signals.answered(MONOLITHIC)
         signals.second_signal(MONOLITHIC, [(signal.SIGTERM, signal.SIGHUP)])
         signals.ignored(MONOLITHIC)
         signals.at_the_end(MONOLITHIC, 3)

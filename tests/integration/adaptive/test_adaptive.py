@@ -142,6 +142,14 @@ class Ringing(FolderTest):
         self.assertGreater(ringing["amplitude_Pa"], 1)
         self.assertIn("the pressure alternates from step to step", (folder / "run.log").read_text())
 
+    def test_of_a_loose_solver_is_ended_by_the_tolerance_that_is_named(self):
+        def ringing(name, tolerance):
+            settings = ("time.step=0.03125", "time.end=1", f"monolithic.newton_tolerance={tolerance}")
+            return summary(run(MONOLITHIC, AXISYMMETRIC, self.base / name, *self.settings, *settings)).get("ringing")
+
+        self.assertIn("; give monolithic.newton_tolerance = 3e-03, and if", ringing("loose", 0.3)["said"])
+        self.assertIsNone(ringing("tighter", 3e-3))
+
     def test_is_not_seen_where_there_is_none(self):
         folder = run(MONOLITHIC, AXISYMMETRIC, self.base / "sound", *self.settings)
         self.assertNotIn("ringing", summary(folder))

@@ -48,6 +48,16 @@ class AccuracyOfRuns(FolderCase):
         self.assertEqual(worst[-6:], ["1.5", "3", "4.5", "6", "3.75", "6"])
         self.assertNotIn("Time steps differ", out)
 
+    def test_a_finished_run_of_a_vessel_that_branches_is_not_called_unfinished(self):
+        tube, fork = self.run_of("tube"), self.run_of("fork")
+        for missing in ("centerline_pressure.csv", "wall_displacement.csv"):
+            (fork / missing).unlink()
+            for runs in ((tube, fork), (fork, tube)):
+                self.assert_refused("is missing, though the run is finished: only straight tubes", *runs)
+                code, _, err = self.call("accuracy", *runs, "-o", self.out)
+                self.assertIn("fsi-compare pressure or fsi-compare report", err)
+                self.assertNotIn("give the result folder of a finished run", err)
+
     def test_a_kept_reference_and_another_step(self):
         kept = self.base / "kept"
         kept.mkdir()

@@ -1,5 +1,6 @@
 """Tables of samples, and runs of vessels without a centre line."""
 
+import json
 import unittest
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,10 @@ LINE = """time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa,velocity_x_mm_per_ms
 1,centerline,1,0,0,1,7,8
 """
 FLOW = "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms\n0.5,1,2\n1,3,4\n"
+FLOW_AND_PRESSURE = (
+    "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa\n"
+    "0.5,1,2,30,10\n1,3,4,50,20\n"
+)
 NO_REQUEST: Any = None  # of a study: what was read does not ask
 
 
@@ -122,6 +127,53 @@ class Samples(FolderCase):
         rows = {row["column"]: row for row in self.csv("sample_differences.csv")}
         self.assertEqual(float(rows["outlet_flow_mm3_per_ms"]["largest_difference"]), 0.5)
         self.assertEqual(float(rows["inlet_flow_mm3_per_ms"]["largest_difference"]), 0)
+
+    def report_and_pressure(self, one, other, *options):
+        """What both commands write of two runs: {table: rows}, and the report's text."""
+        for command in ("pressure", "report"):
+            given = options if command == "pressure" else ()
+            code, _, err = self.call(command, one, other, "-o", self.base / command, "--labels", "A,B", *given, "-q")
+            self.assertEqual((code, err), (0, ""))
+        return (self.base / "report" / "report.md").read_text()
+
+    def test_reports_of_branching_vessels_have_the_same_differences(self):
+        one = self.finished("one", flow=FLOW_AND_PRESSURE, lines=LINE.replace("centerline", "b"))
+        other = self.finished(
+            "other", flow=FLOW_AND_PRESSURE.replace("3,4,", "3,4.5,"), lines=LINE.replace("centerline", "b")
+        )
+        text = self.report_and_pressure(one, other)
+        tables = [(self.base / command / "sample_differences.csv").read_text() for command in ("pressure", "report")]
+        self.assertEqual(*tables)
+        self.assertEqual(tables[0].count("\n"), 1 + 4 + 2 * 2)  # columns of the flow, and of each line
+        self.assertIn("| B | flow.csv |  | outlet\\_flow\\_mm3\\_per\\_ms | 5.000e-01 | 4.000e+00 | 2 |", text)
+        self.assertFalse((self.base / "report" / "differences.csv").exists(), "a table without rows")
+
+    def test_reports_of_bent_tubes_have_the_same_differences(self):
+        """Along the centre line that was found; the other tables beside it."""
+        one = self.finished("one", flow=FLOW_AND_PRESSURE, lines=LINE)
+        other = self.finished(
+            "other", flow=FLOW_AND_PRESSURE, lines=LINE.replace(",5,6", ",5.5,6").replace(",7,8", ",7.25,8")
+        )
+        text = self.report_and_pressure(one, other, "--times", "0.5,1")
+        printed = json.loads((self.base / "pressure" / "pressure_waves.json").read_text())
+        (largest,) = (run["largest_difference"] for run in printed["runs"][1:])
+        self.out = self.base / "report"
+        (row,) = self.csv("differences.csv")
+        self.assertEqual((row["run"], row["quantity"], int(row["levels"])), ("B", "pressure", largest["common_levels"]))
+        self.assertEqual(float(row["max_relative"]), largest["max_relative"])
+        self.assertEqual(float(row["l2_relative"]), largest["l2_relative"])
+        self.assertAlmostEqual(largest["max_relative"], 0.5 / 7, places=15)
+        rows = {(row["sample"], row["column"]): row for row in self.csv("sample_differences.csv")}
+        self.assertEqual(float(rows["centerline", "pressure_Pa"]["largest_difference"]), 0.5)
+        self.assertIn("| B | pressure | 7.14e-02 |", text)
+
+    def test_a_missing_last_level_leaves_the_common_ones(self):
+        """A run whose last level could not be had is compared up to the one before."""
+        whole = self.finished("whole", flow=FLOW_AND_PRESSURE)
+        short = self.finished("short", flow=FLOW_AND_PRESSURE.replace("1,3,4,50,20\n", ""))
+        self.report_and_pressure(whole, short)
+        self.out = self.base / "report"
+        self.assertEqual({row["times"] for row in self.csv("sample_differences.csv")}, {"1"})
 
     def test_nothing_in_common(self):
         code, _, err = self.call(

@@ -57,10 +57,10 @@ class Console(FolderTest):
             for k, line in enumerate(steps, start=1):
                 self.assertRegex(line, rf"^step {k}/{STEPS}, t = {0.125 * k:g} ms: .*\d+ Newton iterations, .* left$")
 
-    def test_terminal_progress_rewrites_its_line(self):
+    def on_terminal(self, *command, **how):
+        """What a run that ends well shows on a terminal."""
         terminal, end = pty.openpty()
-        command = driver_command(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "terminal", settings=self.settings)
-        with subprocess.Popen(command, stdout=end) as process:
+        with subprocess.Popen(driver_command(*command, **how), stdout=end) as process:
             os.close(end)
             text, piece = b"", b"-"
             while piece:
@@ -71,7 +71,19 @@ class Console(FolderTest):
                 text += piece
         os.close(terminal)
         self.assertEqual(process.returncode, 0)
-        text = text.decode()
+        return text.decode()
+
+    def test_progress_of_a_prestress_rewrites_a_line_of_its_own(self):
+        case = self.base / "prestress.toml"
+        pulse = NEO_HOOKEAN.read_text()
+        case.write_text(pulse.replace("[inlet]", "[prestress]\npressure = 0.1\n[inlet]"))
+        text = self.on_terminal(MONOLITHIC, case, folder=self.base / "prestress", settings=self.settings)
+        before, after = text.split("\r\n", 1)
+        self.assertGreater(before.count("\r\033[Kprestress: 100 % of 0.1 kPa, iteration "), 1)
+        self.assertTrue(after.startswith(f"{self.name(MONOLITHIC)} {VERSION}: "), text)
+
+    def test_terminal_progress_rewrites_its_line(self):
+        text = self.on_terminal(MONOLITHIC, NEO_HOOKEAN, folder=self.base / "terminal", settings=self.settings)
         self.assertEqual(text.count(f"\r\033[Kstep {STEPS}/{STEPS}"), 2)  # at work, and done
         self.assertEqual(text.count("\n"), 2)  # the first line's and the last
         self.assertTrue(text.endswith("\n"))

@@ -1,6 +1,8 @@
 """The coupling schemes of the partitioned driver: one solution, few passes, restarts, reports, failures."""
 
 import csv
+import re
+import shutil
 import unittest
 
 from programs import (
@@ -288,6 +290,83 @@ class Failures(FolderTest):
         self.assertIn("partitioned.max_iterations", message)
 
 
+class SchemeByTheScene(FolderTest):
+    """Where the case names no scheme, the one that takes fewer passes there is chosen, and the log says why."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.case = GALLERY / "aneurysm" / "aneurysm.toml"  # names none; its wall answers within 0.14 ms
+        assert "scheme" not in cls.case.read_text()
+        mesh = cls.base / "aneurysm.msh"
+        execute(MESH, "geo", cls.case.with_suffix(".geo"), "--order", "2", "--set", "size=0.8", "-o", mesh)
+        cls.settings = (f"mesh.file={mesh}", "output.every=0")
+
+    def chosen(self, name, case, *settings):
+        """The scheme and the reason of a run that warns of nothing."""
+        process = attempt(PARTITIONED, case, "-q", folder=self.base / name, settings=settings)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        choice = summary(self.base / name)["choices"]["partitioned.scheme"]
+        log = (self.base / name / "run.log").read_text()
+        self.assertIn(f"partitioned.scheme = {choice['value']}: {choice['reason']}", log)
+        return choice["value"], choice["reason"]
+
+    def test_short_and_long_steps(self):
+        name, reason = self.chosen("short", self.case, *self.settings, "time.step=0.125", "time.end=0.25")
+        self.assertEqual(name, "robin-neumann-iqn")
+        self.assertIn("a step of 0.125 ms is, as its time scheme solves it, 0.", reason)
+        long = (*self.settings, "time.step=2", "time.end=8")
+        name, reason = self.chosen("long", self.case, *long)
+        self.assertEqual(name, "iqn-ils")
+        self.assertIn("a step of 2 ms is, as its time scheme solves it, 4.3 times as long", reason)
+        passes = table(self.base / "long", "iterations.csv")[:, 2]
+        named = run(PARTITIONED, self.case, self.base / "robin", *long, *scheme("robin-neumann-iqn"))
+        others = table(named, "iterations.csv")[:, 2]
+        print(f"passes in long steps: chosen {passes.tolist()}, robin-neumann-iqn {others.tolist()}")
+        self.assertLess(passes.sum(), others.sum())
+
+    def test_what_the_case_names_is_kept(self):
+        settings = (*self.settings, "time.end=0.25", *scheme("iqn-imvj"))
+        self.assertEqual(self.chosen("named", self.case, *settings), ("iqn-imvj", "named by the case"))
+
+    def test_adaptive_steps_go_by_the_longest(self):
+        adaptive = (*self.settings, "time.step=adaptive", "time.end=1")
+        self.assertEqual(self.chosen("adaptive", self.case, *adaptive)[0], "robin-neumann-iqn")
+        name, reason = self.chosen(
+            "longest", self.case, *self.settings, "time.step=adaptive", "time.end=4", "time.largest_step=4"
+        )
+        self.assertEqual(name, "iqn-ils")
+        self.assertIn("the longest step of 4 ms", reason)
+
+    def test_a_wall_in_the_fluid(self):
+        flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
+        case = self.base / "flag.toml"
+        case.write_text(re.sub('scheme = "iqn-ils".*\n', "", flag.read_text()))
+        self.assertNotIn("iqn-ils", case.read_text())
+        for table_of_flow in flag.parent.glob("*.csv"):
+            shutil.copy(table_of_flow, self.base)
+        name, reason = self.chosen("flag", case, f"mesh.file={flag_mesh(self.base)}", "time.end=2")
+        self.assertEqual(name, "iqn-ils")
+        self.assertIn("stands in the fluid", reason)
+
+    def test_goes_on_bit_for_bit(self):
+        settings = (*self.settings, "time.step=0.5")
+        whole = run(PARTITIONED, self.case, self.base / "whole", *settings, "time.end=3")
+        folder = run(PARTITIONED, self.case, self.base / "cut", *settings, "time.end=1.5")
+        restart(PARTITIONED, self.case, folder, *settings, "time.end=3")
+        self.assertSameTables(folder, whole)
+
+
+def flag_mesh(folder):
+    """A coarse one of Turek's and Hron's channel."""
+    mesh = folder / "flag.msh"
+    sizes = [word for size in ("far=80", "near=25", "flag=20", "tip=20", "wake=60") for word in ("--set", size)]
+    made = execute(MESH, "geo", GALLERY / "turek-hron-cfd1" / "channel.geo", "--order", "2", *sizes, "-o", mesh)
+    if made.returncode != 0:
+        raise AssertionError(made.stderr)
+    return mesh
+
+
 class SchemesThatDoNotSuit(FolderTest):
     """Robin-Neumann's impedance is that of a tube around the fluid, within steps that its wall does not outrun."""
 
@@ -298,11 +377,7 @@ class SchemesThatDoNotSuit(FolderTest):
 
     def test_robin_neumann_warns_and_names_another_scheme(self):
         flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
-        mesh = self.base / "flag.msh"
-        sizes = [word for size in ("far=80", "near=25", "flag=20", "tip=20", "wake=60") for word in ("--set", size)]
-        made = execute(MESH, "geo", GALLERY / "turek-hron-cfd1" / "channel.geo", "--order", "2", *sizes, "-o", mesh)
-        self.assertEqual(made.returncode, 0, made.stderr)
-        settings = (f"mesh.file={mesh}", "time.end=2")
+        settings = (f"mesh.file={flag_mesh(self.base)}", "time.end=2")
         said = self.warnings("robin", flag, *settings, *scheme("robin-neumann-iqn"))
         for part in (f"{flag}: partitioned.scheme", '"robin-neumann-iqn"', "stands in the fluid", 'name "iqn-ils"'):
             self.assertIn(part, said)
@@ -314,7 +389,7 @@ class SchemesThatDoNotSuit(FolderTest):
         self.assertEqual(self.warnings("tube", AXISYMMETRIC, "mesh.level=coarse", "time.end=0.125"), "")
 
     def test_long_steps_want_another_scheme(self):
-        settings = ("mesh.level=coarse", "time.step=4", "time.end=4")
+        settings = ("mesh.level=coarse", "time.step=4", "time.end=4", "time.scheme=euler")
         said = self.warnings("long", AXISYMMETRIC, *settings)
         for part in (f"{AXISYMMETRIC}: partitioned.scheme", "a step of 4 ms", '"robin-neumann-iqn"', '"iqn-ils"'):
             self.assertIn(part, said)

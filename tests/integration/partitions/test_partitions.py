@@ -199,6 +199,7 @@ class Cuts(FolderTest):
 
 
 SLIDING = """title = "a vessel whose ends slide"
+element = "p1"
 stabilisation = "projected"
 [mesh]
 file = "tube.msh"

@@ -108,7 +108,6 @@ class Endings(ProcessTest):
         self.assertEqual([file.name for file in folder.iterdir()], ["letter.txt"])
 
     def test_what_one_finds_wrong_ends_all(self):
-        begin = time.monotonic()
         other = self.base / "missing.toml"
         command = self.command(self.base / "one")
         finished = execute(
@@ -116,7 +115,6 @@ class Endings(ProcessTest):
                 1, *command, ":", "-n", 1, *[other if str(word) == str(NEO_HOOKEAN) else word for word in command]
             )
         )
-        self.assertLess(time.monotonic() - begin, 10)
         self.assertEqual(finished.returncode, 1)
         self.assertEqual(len(errors_of(finished.stderr)), 1, finished.stderr)
         self.assertIn("error (process 2 of 2): ", finished.stderr)
@@ -175,12 +173,11 @@ class Endings(ProcessTest):
                 self.wait_for_checkpoint(process, folder)
                 started = children(process.pid)
                 os.kill(started[victim], signal.SIGKILL)
-                begin = time.monotonic()
                 errors = process.communicate(timeout=SECONDS)[1]
-                self.assertLess(time.monotonic() - begin, 10)
                 self.assertNotEqual(process.returncode, 0)
                 self.assertIn("signal 9", errors)
-                while any(is_running(pid) for pid in started) and time.monotonic() < begin + 10:
+                latest = time.monotonic() + SECONDS
+                while any(is_running(pid) for pid in started) and time.monotonic() < latest:
                     time.sleep(0.05)
                 self.assertFalse([pid for pid in started if is_running(pid)])
                 done = int(arrays(folder / "checkpoint.h5")["step"][0])

@@ -33,6 +33,18 @@ def scene(folder, element, geometry):
     return f"element={element}", f"geometry={geometry}", f"mesh.file={file}"
 
 
+def scaled(mesh, file, factor):
+    """A gmsh file with its nodes nearer to the origin: coordinates are the lines of three numbers among its nodes."""
+    lines = mesh.read_text().split("\n")
+    begin, end = lines.index("$Nodes"), lines.index("$EndNodes")
+    for i in range(begin, end):
+        words = lines[i].split()
+        if len(words) == 3:
+            lines[i] = " ".join(repr(factor * float(word)) for word in words)
+    file.write_text("\n".join(lines))
+    return file
+
+
 HEIGHTS = (0.0, 0.5, 1.0, 1.25, 1.4)  # mm, where rows of cells meet
 ROWS = ("fluid", "fluid", "media", "adventitia")
 LENGTH, COLUMNS, BULGE = 3.0, 6, 0.1  # mm, cells, part of the height

@@ -1,6 +1,10 @@
 """Supports and prestress of the wall as users ask for them: both drivers, at rest and moving, restarted and refused."""
 
+import re
+import signal
+import subprocess
 import unittest
+from pathlib import Path
 
 import numpy as np
 from programs import (
@@ -13,14 +17,16 @@ from programs import (
     attempt,
     difference,
     differing_arrays,
+    driver_command,
     execute,
+    make_mesh,
     pressure,
     restart,
     run,
     table,
     wall,
 )
-from scenes import scene
+from scenes import scaled, scene
 
 CASE = """title = "a vessel in tissue"
 stabilisation = "projected"
@@ -107,6 +113,71 @@ class Supports(FolderTest):
                     self.assertLess(moved, 1e-9)
                     self.assertLess(off, 1e-5)
                     self.assertTrue((folder / "prestress.h5").exists())
+
+    def test_prestress_tells_how_far_it_is(self):
+        settings = (*scene(self.base, "p2p1", "axisymmetric"), "time.end=0.125")
+        case = self.case("progress", more=PRESTRESS)
+        line = r"prestress: 100 % of 0.2 kPa, iteration (\d+), residual (\S+) of the first, \S+ s"
+        for program in DRIVERS:
+            with self.subTest(program=program):
+                folder = self.base / "progress"
+                process = attempt(program, case, "--force", folder=folder, settings=settings)
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                said = [text for text in process.stdout.splitlines() if text.startswith("prestress")]
+                found = [re.fullmatch(line, text).groups() for text in said]
+                self.assertEqual([int(number) for number, _ in found], list(range(1, len(found) + 1)))
+                self.assertGreater(len(found), 1)
+                self.assertLess(float(found[-1][1]), 1e-9)
+                log = (folder / "run.log").read_text()
+                for text in said:
+                    self.assertIn(text, log)
+                quiet = attempt(program, case, "--force", "-q", folder=folder, settings=settings)
+                self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""))
+
+    def test_a_mesh_in_metres_is_noticed_before_the_prestress_is_sought(self):
+        """Of a wall alone, too, and however short the run is."""
+        *settings, mesh = scene(self.base, "p2p1", "axisymmetric")
+        metres = scaled(Path(mesh.removeprefix("mesh.file=")), self.base / "metres.msh", 1e-3)
+        alone = CASE.format(inlet=0.2, more=PRESTRESS, end=1, scheme="midpoint").replace("[inlet]", "[load]")
+        alone = re.sub(r"\[fluid\](.*\n)*?(?=\[structure\])", "", alone)
+        wall_case = self.base / "wall in metres.toml"
+        wall_case.write_text(alone)
+        for case in (self.case("metres", more=PRESTRESS, end=1000), self.case("soon", more=PRESTRESS), wall_case):
+            command = driver_command(
+                MONOLITHIC,
+                case,
+                "--force",
+                folder=self.base / "metres",
+                settings=(*settings, f"mesh.file={metres}", "time.step=0.125", "time.end=0.125"),
+            )
+            said = subprocess.run(
+                command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
+            ).stdout
+            self.assertIn("the mesh seems to be in m; lengths are in mm", said)
+            self.assertLess(said.index("seems to be in m;"), said.index("prestress: "), said)
+
+    def test_a_signal_ends_the_search_for_prestress_at_once(self):
+        """Nothing is left of it."""
+        size = ("--lumen-cells", 4, "--media-cells", 2, "--adventitia-cells", 2, "--axial-cells", 12, "--around", 24)
+        mesh = make_mesh(self.base / "long.msh", "--length", 6, *size, "--order", 2)
+        case = self.case("long", more=PRESTRESS)
+        folder = self.base / "never"
+        for number, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+            command = driver_command(
+                MONOLITHIC,
+                case,
+                folder=folder,
+                settings=(f"mesh.file={mesh}", "element=p2p1", "prestress.pressure=0.3"),
+            )
+            with self.subTest(signal=number), subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            ) as process:
+                self.assertIn("prestress: ", process.stdout.readline())  # its first iteration
+                process.send_signal(number)
+                _, errors = process.communicate(timeout=100)
+                self.assertEqual(process.returncode, code, errors)
+                self.assertIn("interrupted before the first step", errors)
+                self.assertFalse(folder.exists())
 
     def test_wall_alone_under_prestress_is_at_rest(self):
         text = CASE.format(inlet=0.1, more="[prestress]\npressure = 0.1\n" + TISSUE, end=0.25, scheme="euler")

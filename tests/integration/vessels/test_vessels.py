@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from programs import DRIVERS, MONOLITHIC, FolderTest, attempt, execute, make_mesh, restart, run, table
+from scenes import scaled
 
 HERE = Path(__file__).parent
 BENT, BIFURCATION = HERE / "bent.toml", HERE / "bifurcation.toml"
@@ -212,29 +213,17 @@ class Bifurcation(FolderTest):
 
     def test_a_mesh_in_metres_is_noticed(self):
         mesh = self.base / "metres.msh"
-        lines = (self.base / "bifurcation.msh").read_text().split("\n")
         process = attempt(
             MONOLITHIC,
             RIGID,
             "-q",
             folder=self.base / "metres",
-            settings=(f"mesh.file={scaled(lines, mesh, 1e-3)}", *BLOOD),
+            settings=(f"mesh.file={scaled(self.base / 'bifurcation.msh', mesh, 1e-3)}", *BLOOD),
         )
         self.assertIn("0.00195 mm across: the mesh seems to be in m; lengths are in mm", process.stderr)
 
 
 BLOOD = ("fluid.viscosity=3.5e-3", "time.step=0.1", "time.end=10", "inlet.pressure=1e-6")
-
-
-def scaled(lines, file, factor):
-    """The mesh with its nodes nearer to the origin: coordinates are the lines of three numbers among its nodes."""
-    begin, end = lines.index("$Nodes"), lines.index("$EndNodes")
-    for i in range(begin, end):
-        words = lines[i].split()
-        if len(words) == 3:
-            lines[i] = " ".join(repr(factor * float(word)) for word in words)
-    file.write_text("\n".join(lines))
-    return file
 
 
 class RigidPipe(FolderTest):

@@ -5,6 +5,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "base/removed_on_signal.hpp"
 #include "support/temporary_folder.hpp"
@@ -84,6 +88,47 @@ TEST(Interruption, WaitsForWhatIsBeingMade) {
               return 1;
             }),
             129);
+}
+
+class SignalAnswer : public FolderTest {
+ protected:
+  /// What a forked process has written to stderr that does this.
+  template <class Body>
+  std::string said_by(Body body) {
+    const auto file = folder_ / "stderr";
+    end_of([&] {
+      if (std::freopen(file.c_str(), "w", stderr) == nullptr) return 1;
+      body();
+      return 0;
+    });
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+};
+
+TEST_F(SignalAnswer, ComesAtOnceWithTheLastEstimate) {
+  const std::string rest = ", giving up the step in progress; once more ends now\n";
+  EXPECT_EQ(said_by([] {
+              note_signals();
+              answer_signals("fsi-x", {}, false);
+              std::raise(SIGINT);
+            }),
+            "fsi-x: ends after the solve in progress" + rest);
+  EXPECT_EQ(said_by([] {
+              note_signals();
+              answer_signals("fsi-x", {}, true);
+              for (const double seconds : {1.0, 75.0}) answer_signals("fsi-x", seconds, true);
+              std::raise(SIGTERM);
+            }),
+            "\nfsi-x: ends within about 1 min 15 s" + rest);
+}
+
+TEST_F(SignalAnswer, IsNotGivenUnasked) {
+  EXPECT_EQ(said_by([] {
+              note_signals();
+              std::raise(SIGHUP);
+            }),
+            "");
 }
 
 class RemovedPaths : public FolderTest {};

@@ -62,7 +62,7 @@ Memory some_memory() {
   memory.arrays["kept.wall"] = std::vector<double>(12, 1);
   for (const char* part : {"step", "period", "flow_factor", "acceleration_factor", "wall_pressure"})
     memory.numbers[std::string("kept.") + part] = 0.5;
-  memory.numbers["contraction_unseen"] = 2;
+  memory.numbers["alternating_steps"] = 2;
   for (const char* load : {"load0", "load1", "load2"}) memory.arrays[load] = std::vector<double>(interface_values, 3);
   memory.arrays["iqn_ils.v"] = memory.arrays["iqn_ils.w"] = std::vector<double>(2 * interface_values, 4);
   memory.arrays["iqn_ils.age"] = {0, 1};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 
 #include "solvers/newton.hpp"
 
@@ -263,71 +264,33 @@ TEST(Newton, ReferenceReplacesTheFirstIncrement) {
   EXPECT_EQ(newton(problem, options).count(), 1);
 }
 
-NewtonOptions linearised(double tolerance) {
-  NewtonOptions options;
-  options.mode = NewtonMode::linearised;
-  options.tolerance = tolerance;
-  return options;
+/// |x - sqrt(2)| relative to the change from `before`.
+double error_of(const Scalar& problem) {
+  return std::abs(problem.x - std::sqrt(2.0)) / std::abs(problem.x - problem.before);
 }
 
-// x^2 = 2 from 1.4, the last solution being 1. The second increment is 0.0051 of the first; a chord's errors fall by
-// 1 - sqrt(2) / 1.4 = 0.010 each.
-TEST(Newton, LinearisedEstimatesItsErrorByTheContractionOfIncrements) {
-  auto problem = square_root_of_two(1.4);
+// x^2 = 2, the last solution being 1. A chord's errors fall by 1 - sqrt(2) / 1.4 = 0.010 each from 1.4; those of
+// Newton's method from 2 are 0.586, 0.0858, 0.00245 and 2.1e-6, so that the ratio of its last two increments, 0.03, would
+// tell an error 35 times as large.
+TEST(Newton, EstimatesTheErrorThatItsLastIncrementLeft) {
+  for (const auto& [mode, start, count] :
+       {std::tuple{NewtonMode::kept, 1.4, 2}, std::tuple{NewtonMode::full, 2.0, 3}}) {
+    auto problem = square_root_of_two(start);
+    problem.before = 1;
+    NewtonOptions options;
+    options.mode = mode;
+    options.tolerance = 0.1;
+    const auto report = newton(problem, options);
+    ASSERT_TRUE(report.converged);
+    ASSERT_EQ(report.count(), count);
+    EXPECT_NEAR(report.error / error_of(problem), 1, 0.1);
+  }
+}
+
+TEST(Newton, EstimatesNoErrorWhereOnlyRoundingIsLeft) {
+  auto problem = square_root_of_two();
   problem.before = 1;
-  const auto report = newton(problem, linearised(1e-3));
-  ASSERT_TRUE(report.converged);
-  EXPECT_EQ(report.count(), 2) << "one increment alone tells no contraction";
-  EXPECT_NEAR(report.contraction, 0.0051, 1e-4);
-  const double error = std::abs(problem.x - std::sqrt(2.0)) / (std::sqrt(2.0) - 1);
-  EXPECT_GT(report.error, 0.4 * error);
-  EXPECT_LT(report.error, error);
-  EXPECT_EQ(problem.evaluations, 2) << "the residual after the last increment is nobody's business";
-}
-
-TEST(Newton, LinearisedTakesOneSolveWhereAnEarlierContractionMakesItAccurate) {
-  auto options = linearised(1e-3);
-  auto problem = square_root_of_two(1.4);
-  problem.before = 1;
-  options.contraction = newton(problem, options).contraction;
-  problem.x = 1.43;
-  const auto report = newton(problem, options);
-  ASSERT_TRUE(report.converged);
-  EXPECT_EQ(report.count(), 1);
-  EXPECT_LE(std::abs(problem.x - std::sqrt(2.0)), 1e-3 * (std::sqrt(2.0) - 1));
-
-  problem.x = 2.4;  // a step too large: the first increment is too long for the contraction to make it good
-  const auto large = newton(problem, options);
-  ASSERT_TRUE(large.converged);
-  EXPECT_GT(large.count(), 2);
-  EXPECT_LE(std::abs(problem.x - std::sqrt(2.0)), 1e-3 * (std::sqrt(2.0) - 1));
-}
-
-TEST(Newton, LinearisedFallsBackToStepsCutShort) {
-  Scalar problem([](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); }, 3);
-  const auto report = newton(problem, linearised(1e-6));
-  ASSERT_TRUE(report.converged) << report.failure;
-  EXPECT_NEAR(problem.x, 0, 1e-5);
-  EXPECT_LT(report.iterations.front().step, 1);
-}
-
-TEST(Newton, LinearisedBeginsWithANewJacobianWhereItIsTold) {
-  auto options = linearised(1e-3);
-  auto problem = square_root_of_two(1.4);
-  EXPECT_TRUE(newton(problem, options).iterations.front().linearised) << "there was none";
-  problem.x = 1.41;
-  EXPECT_FALSE(newton(problem, options).iterations.front().linearised);
-  problem.x = 1.41;
-  options.renew = true;
-  EXPECT_TRUE(newton(problem, options).iterations.front().linearised);
-}
-
-TEST(Newton, LinearisedAsksNoMoreThanTheIterateIsWorth) {
-  auto problem = square_root_of_two(1.4142);
-  problem.before = 1.4142135;  // next to nothing changes
-  const auto report = newton(problem, linearised(1e-3));
-  EXPECT_TRUE(report.converged);
-  EXPECT_LE(report.count(), 2);
+  EXPECT_LT(newton(problem, full_newton()).error, 1e-14);
 }
 
 }  // namespace

@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
@@ -108,108 +105,6 @@ TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
     EXPECT_EQ(state.now.wall, copy.now.wall);
     EXPECT_EQ(state.now.fluid, copy.now.fluid);
     EXPECT_EQ(state.now.mesh, copy.now.mesh);
-  }
-}
-
-// What hardly more than one solve a step leaves falls at second order with the step, and is far below the error of the
-// step itself.
-TEST(NewtonStepper, LinearisedStepsKeepTheOrderInTime) {
-  const auto mesh = fluid_and_wall_box(2);
-  const double end = 0.25;
-  const auto march = [&](int steps, NewtonMode mode, double tolerance, int* solves = nullptr) {
-    auto setup = coupled_case("neo-hookean", end / steps);
-    setup.time->scheme = TimeScheme::midpoint;
-    setup.time->end = end;
-    setup.time->damping = 1;  // 1/ms
-    setup.time->predictor = 2;
-    setup.inlet = PressureTable{{{0, 0}, {end, 0.05}}};
-    const auto scene = build_scene<P1Tetrahedron>(setup, mesh);
-    const Loads loads(setup);
-    NewtonOptions newton;
-    newton.mode = mode;
-    newton.tolerance = tolerance;
-    NewtonStepper<3> stepper(*scene, loads, newton, number_scene(*scene));
-    State state = scene->at_rest();
-    double error = 0;
-    for (int n = 0; n < steps; ++n) {
-      const StepReport report = stepper.advance(state);
-      if (solves) *solves += report.newton_iterations;
-      error = std::max(error, report.solver_error);
-    }
-    if (mode == NewtonMode::linearised) {
-      EXPECT_LE(error, tolerance);
-    }
-    std::vector<double> displacement = state.now.wall;
-    for (int node = 0; node < scene->wall->node_count(); ++node) displacement[MixedLayout<3>::scalar(node)] = 0;
-    return displacement;
-  };
-  const std::vector<double> exact = march(64, NewtonMode::full, 1e-10);
-  double before = 0;
-  for (const int steps : {8, 16, 32}) {
-    int solves = 0;
-    const auto tight = march(steps, NewtonMode::full, 1e-10);
-    const auto linearised = march(steps, NewtonMode::linearised, 1e-3, &solves);
-    const double of_solver = norm(difference(linearised, tight));
-    EXPECT_LT(of_solver, 0.1 * norm(difference(tight, exact))) << steps;
-    EXPECT_GT(of_solver, 1e-12 * norm(tight)) << "solved to the end";
-    EXPECT_LE(solves, 1.4 * steps) << steps;
-    if (before > 0) {
-      EXPECT_GT(std::log2(before / of_solver), 1.8) << steps;
-    }
-    before = of_solver;
-  }
-}
-
-// A pressure a hundred times the artery's: one solve is not enough, the step goes on and says so.
-TEST(NewtonStepper, ALinearisedStepThatIsTooLargeTakesMoreSolves) {
-  const auto mesh = fluid_and_wall_box(2);
-  const auto most_solves = [&](double pressure) {
-    auto setup = coupled_case("neo-hookean");
-    setup.time->scheme = TimeScheme::midpoint;
-    setup.inlet = PressureTable{{{0, pressure}}};
-    const auto scene = build_scene<P1Tetrahedron>(setup, mesh);
-    const Loads loads(setup);
-    NewtonOptions newton;
-    newton.mode = NewtonMode::linearised;
-    newton.tolerance = 1e-3;
-    NewtonStepper<3> stepper(*scene, loads, newton, number_scene(*scene));
-    State state = scene->at_rest();
-    int most = 0;
-    for (int n = 0; n < 4; ++n) {
-      const StepReport report = stepper.advance(state);
-      EXPECT_LE(report.solver_error, newton.tolerance);
-      most = std::max(most, report.newton_iterations);
-    }
-    const auto& counters = scene->profile.counters();
-    int stages = 0;
-    for (const char* name : {"steps solved by one linear solve", "steps of several linear solves"})
-      if (counters.count(name)) stages += static_cast<int>(counters.at(name));
-    EXPECT_EQ(stages, 4);
-    return most;
-  };
-  EXPECT_LE(most_solves(1e-3), 2);
-  EXPECT_GT(most_solves(20), 2);
-}
-
-TEST(NewtonStepper, LinearisedStepsGoOnBitForBit) {
-  auto setup = coupled_case("neo-hookean");
-  setup.time->scheme = TimeScheme::midpoint;
-  const auto mesh = fluid_and_wall_box(2);
-  const auto scene = build_scene<P1Tetrahedron>(setup, mesh), fresh = build_scene<P1Tetrahedron>(setup, mesh);
-  const Loads loads(setup);
-  NewtonOptions newton;
-  newton.mode = NewtonMode::linearised;
-  newton.tolerance = 1e-3;
-  NewtonStepper<3> stepper(*scene, loads, newton, number_scene(*scene));
-  State state = scene->at_rest();
-  for (int n = 0; n < 5; ++n) stepper.advance(state);
-  NewtonStepper<3> restarted(*fresh, loads, newton, number_scene(*fresh));
-  restarted.recall(stepper.memory());
-  State copy = state;
-  for (int n = 0; n < 6; ++n) {
-    EXPECT_EQ(stepper.advance(state).newton_iterations, restarted.advance(copy).newton_iterations);
-    EXPECT_EQ(state.now.wall, copy.now.wall);
-    EXPECT_EQ(state.now.fluid, copy.now.fluid);
   }
 }
 

@@ -279,6 +279,42 @@ TEST(Pressures, AreBroughtToTheLevelsFromBalances) {
   }
 }
 
+// They stay as they are exactly where the next step does not change them: where the load jumps, or a balance lies at the
+// level (theta = 1).
+TEST(Pressures, AreSettledWhereTheNextStepLeavesThem) {
+  const PressureTable load{{{0, 1}, {1, 1}, {1, 0}}};
+  const ShiftedMidpoint<1> inside(0.3), at_end(5);
+  const GeneralisedAlpha<1> alpha(0.5);
+  for (const TimeIntegrator* scheme :
+       {static_cast<const TimeIntegrator*>(&inside), static_cast<const TimeIntegrator*>(&at_end),
+        static_cast<const TimeIntegrator*>(&alpha)}) {
+    ASSERT_TRUE(scheme->pressures_lag());
+    State state = started(*scheme, {{0}, {0, 0}, {0, 0}}, 1);
+    const auto set = [](State& at, const StepData& data) {
+      at.now.fluid[1] = data.rates.time * data.rates.time;
+      at.now.wall[1] = -at.now.fluid[1];
+    };
+    bool settled = true;
+    double fluid = 0, wall = 0;
+    int changed = 0;
+    for (double until : {0.2, 0.5, 0.8, 1.0, 1.3, 1.5, 1.9}) {
+      const bool first = state.step == 0;
+      march_step(*scheme, state, until, load, set);
+      if (!first && settled) {
+        EXPECT_EQ(state.before[1].fluid[1], fluid) << until;
+        EXPECT_EQ(state.before[1].wall[1], wall) << until;
+      } else if (!first) {
+        changed += state.before[1].fluid[1] != fluid && state.before[1].wall[1] != wall;
+      }
+      settled = pressures_settled(state);
+      fluid = state.before[0].fluid[1];
+      wall = state.before[0].wall[1];
+      EXPECT_EQ(settled, scheme == &at_end || until == 1.0) << until;
+    }
+    EXPECT_EQ(changed, scheme == &at_end ? 0 : 5);
+  }
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -106,6 +106,20 @@ TEST_P(SecondOrder, FromRestAndThroughAJumpOfTheLoadWithEqualAndUnequalSteps) {
   }
 }
 
+TEST_P(SecondOrder, HasThePeriodThatItNamesInEachStageOfEqualSteps) {
+  const TimeIntegrator& scheme = *GetParam().scheme;
+  LinearMotion motion;
+  motion.load.points = {{0, first_load}};
+  constexpr double step = 0.125;
+  State state = started(scheme, {{0}, {0, 0}, {0, 0}}, 1);
+  for (int i = 1; i <= 4; ++i) march_step(scheme, state, i * step, motion.load, motion);
+  const auto look_and_solve = [&](State& now, const StepData& data) {
+    EXPECT_NEAR(data.rates.interface.period, scheme.period(step), 1e-14);
+    motion(now, data);
+  };
+  march_step(scheme, state, 5 * step, motion.load, look_and_solve);
+}
+
 }  // namespace
 
 }  // namespace fsi::test

@@ -90,6 +90,110 @@ TEST(TimeAxis, GoesOnFromAnEndThatCutAStepShort) {
   EXPECT_EQ(axis.time_of(5), 1.15);
 }
 
+void expect_times(const TimeAxis& axis, const std::vector<double>& times) {
+  EXPECT_EQ(axis.steps() + 1, static_cast<int>(times.size()));
+  for (std::size_t step = 0; step < times.size(); ++step) EXPECT_EQ(axis.time_of(step), times[step]) << step;
+  for (std::size_t step = 1; step < times.size(); ++step)
+    EXPECT_NEAR(axis.length_of(step), times[step] - times[step - 1], 1e-12) << step;
+}
+
+// None of them a sliver: 100.01 ms in steps of 1 ms end with two of 0.505 ms.
+TEST(TimeAxis, AnEndBetweenStepsIsHitByShorterOnes) {
+  const Case near = in_time(0.25, 0.85), far = in_time(0.25, 0.9), sliver = in_time(1, 100.01),
+             single = in_time(0.5, 0.7), whole = in_time(0.1, 0.7);
+  expect_times(TimeAxis(near), {0, 0.25, 0.5, 0.675, 0.85});
+  EXPECT_DOUBLE_EQ(TimeAxis(near).shorter_last_steps(), 0.175);
+  expect_times(TimeAxis(far), {0, 0.25, 0.5, 0.75, 0.9});
+  EXPECT_DOUBLE_EQ(TimeAxis(far).shorter_last_steps(), 0.15);
+  const TimeAxis axis(sliver);
+  EXPECT_EQ(axis.steps(), 101);
+  EXPECT_EQ(axis.time_of(99), 99);
+  EXPECT_EQ(axis.time_of(100), 99.505);
+  EXPECT_EQ(axis.time_of(101), 100.01);
+  EXPECT_NEAR(axis.shorter_last_steps(), 0.505, 1e-12);
+  expect_times(TimeAxis(single), {0, 0.35, 0.7});
+  EXPECT_EQ(TimeAxis(whole).shorter_last_steps(), 0);
+}
+
+TEST(TimeAxis, ShorterLastStepsComeAfterTheLastJump) {
+  Case setup = in_time(0.25, 1.4);
+  setup.inlet = PressureTable{{{0, 1}, {0.3, 1}, {0.3, 0}}};
+  const TimeAxis axis(setup);
+  expect_times(axis, {0, 0.15, 0.3, 0.55, 0.8, 1.05, 1.225, 1.4});
+  EXPECT_TRUE(axis.jumps_at(0.3));
+  setup.inlet = PressureTable{{{0, 1}, {1.2, 1}, {1.2, 0}}};
+  expect_times(TimeAxis(setup), {0, 0.24, 0.48, 0.72, 0.96, 1.2, 1.4});
+  EXPECT_DOUBLE_EQ(TimeAxis(setup).shorter_last_steps(), 0.2);
+}
+
+TEST(TimeAxis, GoesOnFromAnEndBetweenSteps) {
+  const Case before = in_time(0.25, 0.85), longer = in_time(0.25, 1.35);
+  const TimeAxis cut(before);
+  TimeAxis axis(longer);
+  EXPECT_FALSE(axis.go_on(cut.stretches(), 4, 0.85, cut.insertions()));
+  expect_times(axis, {0, 0.25, 0.5, 0.675, 0.85, 1.1, 1.35});
+  TimeAxis again(before);
+  EXPECT_FALSE(again.go_on(cut.stretches(), 4, 0.85, cut.insertions()));
+  expect_times(again, {0, 0.25, 0.5, 0.675, 0.85});
+}
+
+// Stopped before its end, and between the two steps that share what is left.
+TEST(TimeAxis, GoesOnBeforeItsShorterLastSteps) {
+  const Case setup = in_time(0.25, 0.85), longer = in_time(0.25, 1.1), whole = in_time(0.25, 1);
+  const TimeAxis first(setup);
+  for (const int last : {1, 2, 3}) {
+    TimeAxis same(setup), later(longer), off(whole);
+    EXPECT_FALSE(same.go_on(first.stretches(), last, first.time_of(last), first.insertions()));
+    expect_times(same, {0, 0.25, 0.5, 0.675, 0.85});
+    EXPECT_FALSE(later.go_on(first.stretches(), last, first.time_of(last), first.insertions()));
+    EXPECT_FALSE(off.go_on(first.stretches(), last, first.time_of(last), first.insertions()));
+    if (last < 3) {
+      expect_times(later, {0, 0.25, 0.5, 0.75, 0.925, 1.1});
+      expect_times(off, {0, 0.25, 0.5, 0.75, 1});
+    } else {  // back to the grid
+      expect_times(later, {0, 0.25, 0.5, 0.675, 0.75, 0.925, 1.1});
+      expect_times(off, {0, 0.25, 0.5, 0.675, 0.75, 1});
+    }
+  }
+}
+
+TEST(TimeAxis, HalvesOneOfItsShorterLastSteps) {
+  const Case setup = in_time(0.25, 0.85);
+  TimeAxis axis(setup);
+  axis.halve(3);
+  expect_times(axis, {0, 0.25, 0.5, 0.5875, 0.675, 0.85});
+  TimeAxis restarted(setup);  // between the halves
+  EXPECT_FALSE(restarted.go_on(axis.stretches(), 3, 0.5875, axis.insertions()));
+  expect_times(restarted, {0, 0.25, 0.5, 0.5875, 0.675, 0.85});
+  TimeAxis early(setup);
+  early.halve(1);
+  expect_times(early, {0, 0.125, 0.25, 0.5, 0.675, 0.85});
+  TimeAxis gone_on(setup);
+  EXPECT_FALSE(gone_on.go_on(early.stretches(), 1, 0.125, early.insertions()));
+  expect_times(gone_on, {0, 0.125, 0.25, 0.5, 0.675, 0.85});
+  early.drop_insertions_after(0);
+  EXPECT_EQ(early.steps(), 3);
+}
+
+TEST(TimeAxis, StepsEndAtNamedTimes) {
+  Case setup = in_time(0.25, 1.5);
+  setup.output.times = {0.3, 1.0, 1.5};
+  expect_times(TimeAxis(setup), {0, 0.15, 0.3, 0.533333333333, 0.766666666667, 1, 1.25, 1.5});
+  EXPECT_TRUE(output_times(setup).empty());  // entries are counted in steps, those of these times besides
+  setup.output.interval = 0.5;
+  EXPECT_EQ(output_times(setup), (std::vector<double>{0, 0.3, 0.5, 1, 1.5}));
+  setup.time->adaptive = true;
+  setup.output.interval.reset();
+  setup.output.times = {0.3};
+  setup.output.every = 0;
+  setup.time->step = 0;
+  TimeAxis axis(setup);
+  EXPECT_EQ(axis.choose(1, 0, 0.2), 0.15);
+  EXPECT_EQ(axis.choose(2, 0.15, 0.2), 0.15);
+  EXPECT_EQ(axis.time_of(2), 0.3);
+  EXPECT_FALSE(axis.jumps_at(0.3));
+}
+
 TEST(TimeAxis, SplitsTheRestOfAStaticLoadInEqualSteps) {
   const Case before = at_rest(4), finer = at_rest(9), coarser = at_rest(1);
   TimeAxis axis(finer);

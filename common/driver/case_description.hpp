@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace fsi {
+
+/// A line of what --check prints: what it is about, and what is known of it.
+struct DescriptionLine {
+  std::string head, text;
+};
+using Description = std::vector<DescriptionLine>;
+
+// What a case says, in words, for who looks it through before a run. Units stand with the numbers.
+
+/// Of a plane scene that of an area.
+const char* unit_of_volume(const Case& setup);
+
+void describe_fluid(const Case& setup, Description& lines);
+/// Density, fibres' frame and gravity; not its layers.
+void describe_wall(const Case& setup, Description& lines);
+/// "neo-hookean, c10 = 3 kPa", defaults too.
+std::string text_of_layer(const MaterialData& layer);
+/// One line per opening. \param surfaces  of the mesh: openings that need not be there and are not have no line
+void describe_openings(const Case& setup, const std::vector<std::string>& surfaces, Description& lines);
+/// What holds and loads the wall. \param surfaces  of the mesh
+void describe_supports(const Case& setup, const std::vector<std::string>& surfaces, Description& lines);
+/// \param scheme  of a case in time
+void describe_time(const Case& setup, TimeScheme scheme, Description& lines);
+
+/// One text: heads in a column of their own.
+std::string text_of(const Description& lines);
+
+}  // namespace fsi

@@ -1,0 +1,65 @@
+#include "system/step_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double smallest_change = 0.01;  // of a field: changes below count as large as this
+
+}  // namespace
+
+template <int n>
+double relative_to_step(const State& state, const StepData& data, const FieldDifference& fluid,
+                        const FieldDifference& wall, const Communicator& processes) {
+  constexpr int entries = MixedLayout<n>::entries;
+  // Where values alternate from step to step, two steps show what changes beside that.
+  const bool two = data.rates.stage == 0 && state.balances_since_jump > 1;
+  const Solution& before = two ? state.balances[1] : data.rates.stage > 0 ? state.stage_balance : state.last_balance();
+  std::vector<double> sums;  // of each field of vectors and of scalars: squares of difference, change and size
+  const auto measure = [&](const FieldDifference& medium, const std::vector<double>& now,
+                           const std::vector<double>& old) {
+    for (const bool scalar : {false, true}) {
+      double difference = 0, change = 0, size = 0;
+      for (std::size_t i = 0; i < medium.difference.size(); ++i) {
+        if ((i % entries == n) != scalar) continue;
+        const double volume = medium.volumes[i / entries];
+        difference += volume * medium.difference[i] * medium.difference[i];
+        change += volume * (now[i] - old[i]) * (now[i] - old[i]);
+        size += volume * now[i] * now[i];
+      }
+      sums.insert(sums.end(), {difference, change, size});
+    }
+  };
+  measure(fluid, state.now.fluid, before.fluid);
+  measure(wall, state.now.wall, before.wall);
+  processes.sum(sums);
+  double largest = 0;
+  for (std::size_t i = 0; i < sums.size(); i += 3) {
+    const double difference = sums[i], change = sums[i + 1], size = sums[i + 2];
+    const double steps = two ? 4 : 1;  // squared
+    const double worth = std::max(std::min(change / steps, size), smallest_change * smallest_change * size);
+    if (difference > 0) largest = std::max(largest, difference / worth);
+  }
+  return std::sqrt(largest);
+}
+
+template <int n>
+std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes& part) {
+  std::vector<double> volumes = space.volumes();
+  for (int a = 0; part.share && a < part.node_count(); ++a)
+    if (!part.owns(a)) volumes[a] = 0;
+  return volumes;
+}
+
+#define FSI_INSTANTIATE(n)                                                                                           \
+  template double relative_to_step<n>(const State&, const StepData&, const FieldDifference&, const FieldDifference&, \
+                                      const Communicator&);                                                          \
+  template std::vector<double> owned_volumes<n>(const FunctionSpace<n>&, const PartNodes&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

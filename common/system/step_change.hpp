@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "fem/function_space.hpp"
+#include "mesh/submesh.hpp"
+#include "parallel/communicator.hpp"
+#include "time/state.hpp"
+#include "time/step_data.hpp"
+
+namespace fsi {
+
+/// A difference of two solutions in one medium.
+struct FieldDifference {
+  const std::vector<double>& volumes;     ///< that belong to the nodes, mm^3; zero where another process counts them
+  const std::vector<double>& difference;  ///< a vector and a scalar per node; empty: there is no such medium
+};
+
+/// How large a difference of solutions is beside what the step in progress changes: the largest of velocity, the wall's
+/// displacement and the pressures of both, in L2 norms (docs/theory.md, section 9.3). One norm of all fields would not
+/// do: the pressures of the next step feel errors of displacements that count little in it.
+/// \param state  its `now` less the solution before is the change
+template <int n>
+double relative_to_step(const State& state, const StepData& data, const FieldDifference& fluid,
+                        const FieldDifference& wall, const Communicator& processes);
+
+/// The volumes that belong to the nodes of a part, mm^3; zero at nodes of other processes, which count them.
+template <int n>
+std::vector<double> owned_volumes(const FunctionSpace<n>& space, const PartNodes& part);
+
+}  // namespace fsi

@@ -1,0 +1,65 @@
+#include "partitioned/scheme_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/dimensions.hpp"
+#include "partitioned/interface/membrane.hpp"
+#include "partitioned/interface/wetted_sides.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr auto for_short_steps = "robin-neumann-iqn", for_long_steps = "iqn-ils";
+
+/// Answer times of the wall in the period of a step up to which Robin-Neumann takes no more passes than the other
+/// (docs/coupling.md).
+constexpr double long_step = 2;
+/// The same for the longest that adaptive steps may be: most of them are less than half as long.
+constexpr double long_adaptive_step = 2 * long_step;
+
+}  // namespace
+
+template <int n>
+std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<n>& scene) {
+  if (!setup.time || !scene.coupled()) return std::nullopt;
+  if (setup.time->adaptive && !setup.time->largest_step) return std::nullopt;
+  StepsOverAnswer steps;
+  steps.adaptive = setup.time->adaptive;
+  steps.length = steps.adaptive ? *setup.time->largest_step : setup.time->step;
+  steps.period = scene.integrator->period(steps.length);
+  steps.answers = steps.period / membrane_of(scene).answer_time();
+  return steps;
+}
+
+template <int n>
+SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
+  if (const auto& named = setup.partitioned.scheme) return {*named, "named by the case", true};
+  if (scene.has_flow_only())
+    return {
+        for_short_steps,
+        "the flow is given at every opening, and schemes that prescribe the fluid's velocity on the wall would leave "
+        "its pressure undetermined",
+        false};
+  if (wetted_sides_of(scene).stands_in_the_fluid())
+    return {for_long_steps, "the wall stands in the fluid, and is no tube around it"};
+  const auto steps = steps_over_answer(setup, scene);
+  if (!steps)
+    return {for_short_steps, "adaptive steps are mostly short against the time within which the wall answers"};
+  const double limit = steps->adaptive ? long_adaptive_step : long_step;
+  const bool is_long = steps->answers > limit;
+  return {is_long ? for_long_steps : for_short_steps,
+          fmt::format(
+              "{} of {:.3g} ms is, as its time scheme solves it, {:.3g} times as long as the wall takes to answer, {} "
+              "than {:g}",
+              steps->adaptive ? "the longest step" : "a step", steps->length, steps->answers,
+              is_long ? "more" : "no more", limit)};
+}
+
+#define FSI_INSTANTIATE(n)                                                                                \
+  template std::optional<StepsOverAnswer> steps_over_answer<n>(const Case& setup, const Scene<n>& scene); \
+  template SchemeChoice chosen_scheme<n>(const Case& setup, const Scene<n>& scene);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

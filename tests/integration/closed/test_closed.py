@@ -1,0 +1,143 @@
+"""Named surfaces of the fluid: each is an opening or closed, and both are said. Fluids without any opening."""
+
+import csv
+import unittest
+
+import numpy as np
+from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, run
+
+FLUID = """element = "p2p1"
+geometry = "axisymmetric"
+[mesh]
+file = "tube.msh"
+[fluid]
+density = 1.0
+viscosity = 3.5e-3
+"""
+WALL = """[structure]
+density = 1.2
+bulk_modulus = 1e5
+[structure.layers.media]
+material = "neo-hookean"
+c10 = 3.0
+[structure.layers.adventitia]
+material = "neo-hookean"
+c10 = 0.3
+"""
+INLET = '[[opening]]\nsurface = "inlet"\npressure = 0.5\n'
+TISSUE = '[[support]]\nsurface = "outer"\npressure = [[0, 0], [0.25, 0.05], [1, 0.05]]\n'
+TIME = """[time]
+step = 0.125
+end = 0.5
+[monolithic]
+newton_tolerance = 1e-9
+[partitioned]
+tolerance = 1e-8
+[output]
+every = 0
+"""
+
+
+class Closed(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        mesh = make_mesh(cls.base / "tube.msh", "--axisymmetric", "--level", "coarse", "--length", 6, "--format", "2.2")
+        mesh.write_text(mesh.read_text().replace('"outlet"', '"eca"'))
+
+    def case(self, text):
+        file = self.base / "case.toml"
+        file.write_text(text + TIME)
+        return file
+
+    def log(self, program, text):
+        return (run(program, self.case(text), self.base / "out") / "run.log").read_text()
+
+    def refusal(self, program, text):
+        folder = self.base / "refused"
+        process = attempt(program, self.case(text), folder=folder)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertEqual(len(process.stderr.splitlines()), 1, process.stderr)
+        self.assertFalse(folder.exists())
+        return process.stderr
+
+    def test_a_surface_that_the_case_forgets_is_no_lid(self):
+        for program in DRIVERS:
+            for wall in ("", WALL):
+                said = self.refusal(program, FLUID + wall + INLET)
+                # The end of the coarse section: 1.43 mm of radius at z = 6.
+                for part in ("case.toml: opening: ", "eca (1.43 mm, about (0.715, 0, 6) mm)", 'closed = ["eca"]'):
+                    self.assertIn(part, said)
+            said = self.refusal(program, FLUID + WALL + "[inlet]\npressure = 0.5\n")
+            self.assertIn("outlet: the physical curve is missing or empty; if eca is meant", said)
+
+    def test_what_is_closed_and_what_is_free_of_traction_is_said(self):
+        for program in DRIVERS:
+            closed = self.log(program, FLUID + 'closed = ["eca"]\n' + WALL + INLET)
+            self.assertIn("closed, the fluid sticks there: eca\n", closed)
+            self.assertNotIn("free of traction", closed)
+            free = self.log(program, FLUID + WALL + INLET + '[[opening]]\nsurface = "eca"\n')
+            self.assertIn("free of traction: eca\n", free)
+            self.assertNotIn("closed", free)
+
+    def test_an_outlet_that_the_case_does_not_list_is_said(self):
+        mesh = make_mesh(self.base / "free.msh", "--axisymmetric", "--level", "coarse", "--length", 6)
+        text = FLUID.replace("tube.msh", mesh.name)
+        self.assertIn("free of traction: outlet\n", self.log(MONOLITHIC, text + INLET))
+        self.assertIn(
+            "closed, the fluid sticks there: outlet\n", self.log(MONOLITHIC, text + "outlet = false\n" + INLET)
+        )
+
+    def test_names_that_close_nothing(self):
+        for names, said in (
+            ('["ecb"]', "fluid.closed: the mesh"),
+            ('["ecb"]', "did you mean eca? There are inlet, eca, wall_ends or outer"),
+            ('["eca", "wall_ends"]', 'fluid.closed: "wall_ends" is no surface of the fluid alone'),
+        ):
+            self.assertIn(said, self.refusal(MONOLITHIC, FLUID + f"closed = {names}\n" + WALL + INLET))
+
+    def test_a_fluid_without_openings(self):
+        """Pressed by tissue from all sides it cannot yield: its pressure is that of the tissue, 50 Pa from 0.25 ms on."""
+        points = "[output.points]\nmiddle = [0.5, 0, 3]\n"
+        found = []
+        for program in DRIVERS:
+            text = self.log(program, FLUID + 'closed = ["inlet", "eca"]\n' + WALL + TISSUE + points)
+            self.assertIn("closed, the fluid sticks there: inlet, eca\n", text)
+            found.append(energy(self.base / "out")["wall_volumetric_energy"])
+            with (self.base / "out" / "points.csv").open() as file:
+                (row,) = (row for row in csv.DictReader(file) if float(row["time_ms"]) == 0.375)
+            self.assertAlmostEqual(float(row["pressure_Pa"]), 50, delta=0.1)
+        np.testing.assert_allclose(*found, atol=1e-5 * np.abs(found[0]).max())
+
+    def test_a_fluid_without_openings_that_no_wall_moves(self):
+        said = self.refusal(MONOLITHIC, FLUID + 'closed = ["inlet", "eca"]\n')
+        self.assertIn("fluid.closed: a closed fluid between rigid walls: nothing can move it", said)
+        said = self.refusal(MONOLITHIC, FLUID + WALL)
+        self.assertIn("no [inlet]; add [inlet] with pressure", said)
+        self.assertIn("closed = [...] in [fluid]", said)
+        scheme = FLUID + 'closed = ["inlet", "eca"]\n' + WALL + TISSUE
+        process = attempt(
+            PARTITIONED, self.case(scheme), folder=self.base / "no", settings=('partitioned.scheme="iqn-ils"',)
+        )
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("its pressure is not determined", process.stderr)
+
+    def test_a_volume_that_the_case_leaves_out(self):
+        """The outer layer: a warning. The inner one, on which the wall's ends are: the remedy names it."""
+        text = FLUID + 'closed = ["eca"]\n' + WALL.split("[structure.layers.adventitia]")[0] + INLET
+        process = attempt(MONOLITHIC, self.case(text), "-q", folder=self.base / "left")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("adventitia: left out, since no section of [structure.layers] has the name", process.stderr)
+
+    def test_ends_of_another_name(self):
+        mesh = self.base / "ends.msh"
+        mesh.write_text((self.base / "tube.msh").read_text().replace('"wall_ends"', '"ends"'))
+        for geometry in ("", "[mesh_motion]\n"):
+            said = self.refusal(
+                MONOLITHIC, FLUID.replace("tube.msh", mesh.name) + 'closed = ["eca"]\n' + WALL + INLET + geometry
+            )
+            self.assertIn('rename it, or add [[support]] with surface = "ends" and fixed = ["r", "z"]', said)
+
+
+if __name__ == "__main__":
+    unittest.main()
