@@ -2,7 +2,7 @@
 
 import argparse
 from pathlib import Path
-from typing import Any, List, Sequence
+from typing import TYPE_CHECKING, Any, List, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import folder, together
@@ -10,11 +10,17 @@ from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
 from ..runs.labels import folder_labels, read_labels
+from ..runs.samples import CENTRE_LINE
 from .layout import Table, fixed, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
+from .samples import sample_differences, sample_table
+
+if TYPE_CHECKING:
+    from .report import Report
 
 MOST_RUNS = 24
+MOST_ROWS = 40  # of a table that is open from the start
 
 DESCRIPTION = """\
 One HTML file of finished runs, which needs no network: pressure along the centre
@@ -65,6 +71,7 @@ def report(options: argparse.Namespace) -> int:
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     runs = [open_run(folder) for folder in options.folders]
     check_runs(runs, times)
+    tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]
     title = printable(options.title) if options.title is not None else default_title(runs)
     with together(options.output) as place:
         load_matplotlib()
@@ -78,7 +85,7 @@ def report(options: argparse.Namespace) -> int:
         add_waves(page, runs, labels, times)
         if len(runs) > 1:
             page.section("Differences")
-            page.table(differences_table(runs, labels))
+            add_differences(page, *tables)
         page.write()
     if not options.quiet:
         say_written(options.output, page.written)
@@ -151,6 +158,26 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return table
 
 
+def add_differences(page: "Report", lines: Table, samples: Table) -> None:
+    """Along the lines that `fsi-compare pressure` compares, where runs have them, and of all samples. One of them may be
+    empty; where both are, the first says so."""
+    if lines.rows or not samples.rows:
+        page.table(lines)
+    samples.title += " in flows, openings, points, lines and planes"
+    samples.notes.append(
+        "Of all times that both runs have, in the unit of the column. `of`: the largest value of the first run."
+    )
+    if len(samples.rows) > MOST_ROWS:
+        page.folded(samples.title, [samples])
+    elif samples.rows:
+        page.table(samples)
+
+
+def pressure_line(run: RunResults) -> "Line | None":
+    """The centre line: along the axis, or the one that was found of a bent tube."""
+    return run.centre_line if run.centre_line is not None else run.lines.get(CENTRE_LINE)
+
+
 def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Of each run against the first, where both have the line and it has the same extent."""
     table = Table(
@@ -161,11 +188,10 @@ def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Tabl
         left=2,
     )
     for run, label in zip(runs[1:], labels[1:]):
-        for attribute, quantity, words in (
-            ("centre_line", "pressure", "pressure"),
-            ("wall_line", "radial", "radial displacement"),
+        for line, reference, quantity, words in (
+            (pressure_line(run), pressure_line(runs[0]), "pressure", "pressure"),
+            (run.wall_line, runs[0].wall_line, "radial", "radial displacement"),
         ):
-            line, reference = (getattr(one, attribute) for one in (run, runs[0]))
             row = _difference(line, reference, quantity)
             if row:
                 table.rows.append([label, words, fixed(row[0], ".2e"), fixed(row[1], ".2e"), fixed(row[2], "d")])

@@ -1,4 +1,5 @@
-"""`fsi-compare pressure` of vessels without a centre line: what all runs have in common is compared instead."""
+"""How far runs are apart in their flows, openings, points, lines and planes: what `fsi-compare pressure` compares of vessels
+without a centre line, and `fsi-compare report` of all runs."""
 
 from pathlib import Path
 from typing import List, Optional, Sequence
@@ -25,25 +26,39 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
     for folder in folders:
         read_finished(folder)
     labels = given_labels or [printable(str(folder)) for folder in folders]
-    table = Table(
-        "sample_differences",
-        f"Largest differences from {labels[0]}: not all runs have a centre line",
-        [("", "run"), ("", "table"), ("", "sample"), ("", "column"), ("", "difference"), ("", "of"), ("", "times")],
-        ["run", "table", "sample", "column", "largest_difference", "largest_value", "times"],
-        left=4,
-    )
-    for folder, label in zip(folders[1:], labels[1:]):
-        found: List[Difference] = differences_of_tables(folders[0], folder, TABLES)
-        if not found:
+    found = sample_differences(folders)
+    for folder, of_run in zip(folders[1:], found):
+        if not of_run:
             raise InputError(
                 folder, "", f"has no samples at times in common with {folders[0]}", "compare runs of one scene"
             )
-        for d in found:
-            table.rows.append([label, d.table, d.sample, d.column, f"{d.largest:.3e}", f"{d.size:.3e}", str(d.levels)])
-            table.csv_rows.append([label, d.table, d.sample, d.column, d.largest, d.size, d.levels])
+    table = sample_table(found, labels)
+    table.title += ": not all runs have a centre line"
     with together(output) as place:
         written = [table.write_csv(place)]
     if not quiet:
         print(table.text())
         say_written(output, written)
     return 0
+
+
+def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
+    """Of each run from the first: of each column of each table of samples, at the times that both have. Raises InputError for
+    tables that cannot be read."""
+    return [differences_of_tables(folders[0], folder, TABLES) for folder in folders[1:]]
+
+
+def sample_table(found: Sequence[Sequence[Difference]], labels: Sequence[str]) -> Table:
+    """What sample_differences() found."""
+    table = Table(
+        "sample_differences",
+        f"Largest differences from {labels[0]}",
+        [("", "run"), ("", "table"), ("", "sample"), ("", "column"), ("", "difference"), ("", "of"), ("", "times")],
+        ["run", "table", "sample", "column", "largest_difference", "largest_value", "times"],
+        left=4,
+    )
+    for of_run, label in zip(found, labels[1:]):
+        for d in of_run:
+            table.rows.append([label, d.table, d.sample, d.column, f"{d.largest:.3e}", f"{d.size:.3e}", str(d.levels)])
+            table.csv_rows.append([label, d.table, d.sample, d.column, d.largest, d.size, d.levels])
+    return table

@@ -16,7 +16,7 @@ from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
-from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, Quantity, Waves, read_run, relative_difference
+from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
@@ -126,8 +126,21 @@ def read_any_reference(folder: Path, times: Sequence[float]) -> Reference:
         kept = read_reference(folder)
         return Reference(folder, dict(kept.waves), kept.step)
     read_finished(folder)
+    require_lines(folder)
     waves = read_run(folder, times)
     return Reference(folder, waves, _step(waves))
+
+
+def require_lines(folder: Path) -> None:
+    """Raises InputError for a finished run of a vessel that bends or branches, or without fluid or wall."""
+    for q in WRITTEN:
+        if not exists(folder / q.file):
+            raise InputError(
+                folder / q.file,
+                "",
+                "is missing, though the run is finished: only straight tubes with fluid and wall have one",
+                "compare others by fsi-compare pressure or fsi-compare report",
+            )
 
 
 def _step(waves: Dict[str, Waves]) -> float:
@@ -139,6 +152,7 @@ def _step(waves: Dict[str, Waves]) -> float:
 def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequence[float]) -> Accuracy:
     """Raises InputError unless the run is finished and run and reference cover the times and the reference's line."""
     summary = read_finished(folder)
+    require_lines(folder)
     waves = read_run(folder, times)
     errors = {}
     for q in QUANTITIES:
