@@ -1,0 +1,241 @@
+"""Draws the picture on README's first screen: the pressure wave of the artery by both drivers, beside the error that a run
+leaves for the seconds that it takes. The numbers lie in docs/pictures/data.
+
+usage: python3 scripts/readme_picture.py [-o FILE.png]
+       python3 scripts/readme_picture.py --measure BIN WORK
+  -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
+  --measure BIN WORK   makes the numbers anew with the programs of BIN (build/release/bin); WORK keeps meshes and runs.
+                       Four minutes of one core, nearly all of it the finest meshes by turns.
+"""
+
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Dict, List, NamedTuple, NoReturn, Tuple
+
+TOP = Path(__file__).resolve().parents[1]
+DATA = TOP / "docs/pictures/data"
+WAVE, ERRORS = DATA / "artery-wave.csv", DATA / "artery-error-seconds.csv"
+PICTURE = TOP / "docs/pictures/artery-both-drivers.png"
+CASE = "meshes/artery/axisymmetric/neo-hookean.toml"
+REFERENCE = "compare/studies/references/neo-hookean"  # step and mesh extrapolated to zero
+DRIVERS = ("monolithic", "partitioned")
+WAVE_TIMES = (1.5, 3.0, 6.0)  # ms
+WAVE_MESH, WAVE_STEP = "p2p1-6-2-2-96", 1 / 32
+END = 6.375  # ms: the last of the times, and half of the averaged pressure's window
+QUICK_ENOUGH = 10.0  # s: shorter runs are made three times, and the least seconds count
+TIMINGS = 3
+
+
+class Rung(NamedTuple):
+    """A mesh and the step that goes with it: both are refined together."""
+
+    element: str
+    cells: str  # through lumen, media and adventitia, and along the axis
+    gradings: Tuple[str, str]  # of lumen and axis
+    step: float  # ms
+
+
+LADDERS = (
+    Rung("p1", "6-2-2-72", ("2", "4"), 1 / 16),
+    Rung("p1", "12-4-3-144", ("2", "4"), 1 / 32),
+    Rung("p1", "24-8-6-288", ("2", "4"), 1 / 64),
+    Rung("p2p1", "4-1-1-96", ("2", "4"), 1 / 16),
+    Rung("p2p1", "6-2-2-96", ("3", "4"), 1 / 32),
+    Rung("p2p1", "9-3-3-144", ("3", "4"), 1 / 64),
+)
+# What solving leaves is far below what mesh and step leave.
+TOLERANCES = {"monolithic": "monolithic.newton_tolerance=1e-3", "partitioned": "partitioned.tolerance=1e-4"}
+
+RUN = f"fsi-DRIVER {CASE} --threads 1 --set mesh.file=MESH --set 'time.scheme=\"midpoint\"' --set time.end={END}"
+WAVE_ORIGIN = f"""made by scripts/readme_picture.py --measure: centre-line pressure of both drivers, tolerances of the case file
+{RUN} --set time.step={WAVE_STEP}
+MESH: the axisymmetric p2p1 mesh of 6-2-2-96 cells of artery-error-seconds.csv"""
+ERRORS_ORIGIN = f"""made by scripts/readme_picture.py --measure: error of wall displacement or averaged pressure, the larger one
+{RUN} --set 'element="ELEMENT"' --set time.step=STEP
+  and --set {TOLERANCES['monolithic']} or --set {TOLERANCES['partitioned']}
+fsi-compare accuracy {REFERENCE} DIR: mean of the relative L2 norms at 1.5, 3, 4.5 and 6 ms
+MESH: fsi-mesh artery --axisymmetric --order 1 (p1) or 2 (p2p1), cells through lumen, media, adventitia and along the axis
+processor_s: user and system time; of runs shorter than {QUICK_ENOUGH:g} s the least of {TIMINGS}"""
+
+
+# ---- the numbers ----
+
+
+def measure(programs: Path, work: Path) -> None:
+    work.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for rung in LADDERS:
+        for driver in DRIVERS:
+            rows.append(_error_and_seconds(programs, work, rung, driver))
+            print(" ".join(rows[-1]), flush=True)
+    header = ("element", "driver", "cells", "nodes", "step_ms", "error_percent", "processor_s")
+    _write(ERRORS, ERRORS_ORIGIN, header, rows)
+    _write(WAVE, WAVE_ORIGIN, ("time_ms", "z_mm", *(f"{driver}_Pa" for driver in DRIVERS)), _wave(programs, work))
+
+
+def _error_and_seconds(programs: Path, work: Path, rung: Rung, driver: str) -> Tuple[str, ...]:
+    """The larger one of the errors of wall displacement and averaged pressure, relative L2 norms along the tube, each the
+    mean over the times that fsi-compare accuracy takes; and user and system time of the run."""
+    folder = work / f"{rung.element}-{rung.cells}-{driver}"
+    settings = [f'element="{rung.element}"', f"time.step={rung.step}", TOLERANCES[driver]]
+    seconds = [_run(programs, work, rung, driver, settings, folder)]
+    while seconds[0] < QUICK_ENOUGH and len(seconds) < TIMINGS:
+        seconds.append(_run(programs, work, rung, driver, settings, folder))
+    _call([programs / "fsi-compare", "accuracy", TOP / REFERENCE, folder, "-o", folder / "errors", "-q"])
+    found = _read(folder / "errors/accuracy.csv")
+    largest = max(
+        sum(float(row[column]) for row in found) / len(found)
+        for column in ("radial_relative_L2", "averaged_pressure_relative_L2")
+    )
+    nodes = found[0]["nodes"]
+    return (rung.element, driver, rung.cells, nodes, f"{rung.step:g}", f"{100 * largest:.3g}", f"{min(seconds):.3g}")
+
+
+def _wave(programs: Path, work: Path) -> List[Tuple[str, ...]]:
+    """The centre-line pressure with the tolerances of the case file, at which the drivers agree to solver tolerance."""
+    rung = next(rung for rung in LADDERS if f"{rung.element}-{rung.cells}" == WAVE_MESH)
+    waves: List[Dict[Tuple[float, str], str]] = []
+    for driver in DRIVERS:
+        folder = work / f"wave-{driver}"
+        _run(programs, work, rung, driver, [f"time.step={WAVE_STEP}"], folder)
+        rows = _read(folder / "centerline_pressure.csv")
+        waves.append({(float(r["time_ms"]), r["z_mm"]): r["pressure_Pa"] for r in rows})
+    return [
+        (f"{time:g}", z, *(f"{float(wave[time, z]):.6g}" for wave in waves))
+        for time, z in waves[0]
+        if time in WAVE_TIMES
+    ]
+
+
+def _run(programs: Path, work: Path, rung: Rung, driver: str, settings: List[str], folder: Path) -> float:
+    mesh = work / f"{rung.element}-{rung.cells}.msh"
+    if not mesh.exists():
+        names = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--axial-cells")
+        counts = [word for pair in zip(names, rung.cells.split("-")) for word in pair]
+        gradings = ["--lumen-grading", rung.gradings[0], "--axial-grading", rung.gradings[1]]
+        order = "2" if rung.element == "p2p1" else "1"
+        _call([programs / "fsi-mesh", "artery", "--axisymmetric", "--order", order, *counts, *gradings, "-q", "-o", mesh])
+    common = [f'mesh.file="{mesh.resolve()}"', 'time.scheme="midpoint"', f"time.end={END}"]
+    silent = ["output.every=0", "output.checkpoint_every=0"]
+    words: List[object] = [programs / f"fsi-{driver}", TOP / CASE, "-o", folder, "--force", "-q", "--threads", "1"]
+    for setting in [*common, *silent, *settings]:
+        words += ["--set", setting]
+    return _call(words)
+
+
+def _call(words: List[object]) -> float:
+    """Its processor seconds: on a machine that is busy with other work they are nearer to an idle machine's seconds."""
+    command = [str(word) for word in words]
+    try:
+        process = subprocess.Popen(command)
+    except OSError as error:
+        fail(f"{command[0]}: {error.strerror}; name the folder of the programs, build/release/bin")
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        fail(f"{' '.join(command)}: exit code {process.returncode}; see its message above")
+    return usage.ru_utime + usage.ru_stime
+
+
+# ---- the picture ----
+
+
+def draw(picture: Path) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib.figure import Figure
+
+    style = {"font.family": ["DejaVu Sans"], "font.size": 12, "axes.titlesize": 13, "legend.frameon": False}
+    frame = {"axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd"}
+    with matplotlib.rc_context({**style, **frame, "axes.axisbelow": True, "legend.handlelength": 3.0}):
+        figure = Figure(figsize=(10.7, 4.5), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _draw_wave(left)
+        _draw_errors(right)
+        figure.savefig(picture, dpi=150, metadata={"Software": None})
+    print(picture)
+
+
+def _draw_wave(axes) -> None:
+    rows = _read(WAVE)
+    for time in WAVE_TIMES:
+        wave = [row for row in rows if float(row["time_ms"]) == time]
+        z = [float(row["z_mm"]) for row in wave]
+        first, second = ([float(row[f"{driver}_Pa"]) for row in wave] for driver in DRIVERS)
+        label = time == WAVE_TIMES[0]
+        axes.plot(z, first, "-", color="black", linewidth=3.2, label="monolithic" if label else None)
+        axes.plot(z, second, "--", color="#f0a030", linewidth=1.6, dashes=(3, 2), label="partitioned" if label else None)
+        top = max(range(len(z)), key=first.__getitem__)
+        axes.annotate(f"{time:g} ms", (z[top], first[top]), (7, 3), textcoords="offset points")
+    axes.set(title="A pressure wave in an artery, solved both ways", xlabel="z along the artery, mm")
+    axes.set(ylabel="pressure on the centre line, Pa", xlim=(0, 18))
+    axes.margins(y=0.08)
+    axes.legend(loc="upper right")
+
+
+def _draw_errors(axes) -> None:
+    from matplotlib.ticker import NullLocator
+
+    rows = _read(ERRORS)
+    names = {"p1": "linear elements", "p2p1": "quadratic elements"}
+    for element, marker, color in (("p1", "s", "#2a6fb0"), ("p2p1", "o", "black")):
+        for driver, line in zip(DRIVERS, ("-", "--")):
+            found = [row for row in rows if (row["element"], row["driver"]) == (element, driver)]
+            seconds, errors = ([float(row[name]) for row in found] for name in ("processor_s", "error_percent"))
+            filled = color if driver == "monolithic" else "white"
+            label = f"{names[element]}, {driver}"
+            axes.loglog(seconds, errors, line, marker=marker, color=color, markerfacecolor=filled, label=label)
+    axes.set(title="What error a run leaves for its seconds", xlabel="processor seconds, one thread")
+    axes.set(ylabel="error of the wave, %")
+    axes.set(xlim=(0.2, 250), ylim=(0.16, 11))
+    axes.set_xticks([0.3, 1, 3, 10, 30, 100])
+    axes.set_yticks([0.2, 0.5, 1, 2, 5, 10])
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_locator(NullLocator())
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.legend(loc="lower left", fontsize=11)
+
+
+# ---- files ----
+
+
+def _read(path: Path) -> List[Dict[str, str]]:
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    except OSError as error:
+        fail(f"{path}: {error.strerror}; --measure makes it")
+
+
+def _write(path: Path, origin: str, header: Tuple[str, ...], rows: List[Tuple[str, ...]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {line}\n" for line in origin.split("\n"))
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)
+    print(path)
+
+
+def main(words: List[str]) -> int:
+    if len(words) == 3 and words[0] == "--measure":
+        measure(Path(words[1]).resolve(), Path(words[2]).resolve())
+    elif not words or (len(words) == 2 and words[0] == "-o"):
+        draw(Path(words[1]) if words else PICTURE)
+    else:
+        print(__doc__, file=sys.stderr)
+        return 1
+    return 0
+
+
+def fail(text: str) -> NoReturn:
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+    print(f"readme_picture: error: {line[:1000]}", file=sys.stderr)
+    sys.exit(1)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
