@@ -5,7 +5,7 @@ usage: python3 scripts/readme_picture.py [-o FILE.png]
        python3 scripts/readme_picture.py --measure BIN WORK
   -o FILE.png          where the picture goes; docs/pictures/artery-both-drivers.png unless given
   --measure BIN WORK   makes the numbers anew with the programs of BIN (build/release/bin); WORK keeps meshes and runs.
-                       Four minutes of one core, nearly all of it the finest meshes by turns.
+                       Seven processor minutes, five of them the finest meshes by turns.
 """
 
 import csv
@@ -13,7 +13,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Dict, List, NamedTuple, NoReturn, Tuple
+from typing import Any, Dict, List, NamedTuple, NoReturn, Tuple
 
 TOP = Path(__file__).resolve().parents[1]
 DATA = TOP / "docs/pictures/data"
@@ -117,7 +117,9 @@ def _run(programs: Path, work: Path, rung: Rung, driver: str, settings: List[str
         counts = [word for pair in zip(names, rung.cells.split("-")) for word in pair]
         gradings = ["--lumen-grading", rung.gradings[0], "--axial-grading", rung.gradings[1]]
         order = "2" if rung.element == "p2p1" else "1"
-        _call([programs / "fsi-mesh", "artery", "--axisymmetric", "--order", order, *counts, *gradings, "-q", "-o", mesh])
+        _call(
+            [programs / "fsi-mesh", "artery", "--axisymmetric", "--order", order, *counts, *gradings, "-q", "-o", mesh]
+        )
     common = [f'mesh.file="{mesh.resolve()}"', 'time.scheme="midpoint"', f"time.end={END}"]
     silent = ["output.every=0", "output.checkpoint_every=0"]
     words: List[object] = [programs / f"fsi-{driver}", TOP / CASE, "-o", folder, "--force", "-q", "--threads", "1"]
@@ -149,8 +151,18 @@ def draw(picture: Path) -> None:
     matplotlib.use("Agg")
     from matplotlib.figure import Figure
 
-    style = {"font.family": ["DejaVu Sans"], "font.size": 12, "axes.titlesize": 13, "legend.frameon": False}
-    frame = {"axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#dddddd"}
+    style: Dict[str, Any] = {
+        "font.family": ["DejaVu Sans"],
+        "font.size": 12,
+        "axes.titlesize": 13,
+        "legend.frameon": False,
+    }
+    frame: Dict[str, Any] = {
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "grid.color": "#dddddd",
+    }
     with matplotlib.rc_context({**style, **frame, "axes.axisbelow": True, "legend.handlelength": 3.0}):
         figure = Figure(figsize=(10.7, 4.5), layout="constrained")
         left, right = figure.subplots(1, 2)
@@ -168,7 +180,9 @@ def _draw_wave(axes) -> None:
         first, second = ([float(row[f"{driver}_Pa"]) for row in wave] for driver in DRIVERS)
         label = time == WAVE_TIMES[0]
         axes.plot(z, first, "-", color="black", linewidth=3.2, label="monolithic" if label else None)
-        axes.plot(z, second, "--", color="#f0a030", linewidth=1.6, dashes=(3, 2), label="partitioned" if label else None)
+        axes.plot(
+            z, second, "--", color="#f0a030", linewidth=1.6, dashes=(3, 2), label="partitioned" if label else None
+        )
         top = max(range(len(z)), key=first.__getitem__)
         axes.annotate(f"{time:g} ms", (z[top], first[top]), (7, 3), textcoords="offset points")
     axes.set(title="A pressure wave in an artery, solved both ways", xlabel="z along the artery, mm")

@@ -9,7 +9,8 @@
   "drifts"    true: each call has results of its own
   "deaf"      true: SIGTERM is not heeded
   "wait"      FILE: each run goes on when it exists
-  "sleep"     seconds that each run takes; it writes its process number to `pid`, and begin and end to `times.txt`
+  "meet"      number: each run goes on when so many have begun
+  "sleep"     seconds that each run takes; it writes its process number to `pid`
 Each run adds its command line to `calls.txt`. Behind the `mpirun` of install_mpirun() it says that it was several
 processes, as fast as that many. Single linear systems are left to fake_monolithic.
 """
@@ -91,14 +92,13 @@ def main(words):
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
     while "wait" in behaviour and not Path(behaviour["wait"]).exists():
         time.sleep(0.02)
+    while len(calls(home)) < behaviour.get("meet", 0):
+        time.sleep(0.02)
     if "sleep" in behaviour:
         with open(home / "pid", "a") as log:
             log.write(f"{os.getpid()}\n")
         (folder / "centerline_pressure.csv").write_text("time_ms,z_mm,pre")  # what a killed run leaves behind
-        begin = time.time()
         time.sleep(behaviour["sleep"])
-        with open(home / "times.txt", "a") as log:
-            log.write(f"{begin} {time.time()}\n")
     if named("signal"):
         os.kill(os.getpid(), named("signal"))
     if named("end"):

@@ -14,6 +14,7 @@ from synthetic import parabola, write_run
 
 PACKAGE = Path(__file__).resolve().parents[3] / "compare"
 SCRIPT = "import sys; sys.path.insert(0, sys.argv.pop(1)); from fsi_compare.start import program; program()"
+PATIENCE = 120  # s, after which a test that hangs fails
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -23,13 +24,13 @@ class Program(StudyCase):
         return subprocess.Popen(command, stderr=subprocess.PIPE, text=True, **options)
 
     def wait_for(self, happens):
-        latest = time.monotonic() + 60
+        latest = time.monotonic() + PATIENCE
         while not happens():
             self.assertLess(time.monotonic(), latest, "it does not begin")
             time.sleep(0.02)
 
     def assert_gone(self, pid):
-        latest = time.monotonic() + 10
+        latest = time.monotonic() + PATIENCE
         while os.path.exists(f"/proc/{pid}"):
             self.assertLess(time.monotonic(), latest, "a driver outlives the study")
             time.sleep(0.02)
@@ -37,7 +38,7 @@ class Program(StudyCase):
     def begin(self, *words, deaf=False, **options):
         """A study whose second run lasts; (process, process number of the driver)."""
         self.call("--quick", "-q")
-        behave(self.programs, sleep=60, deaf=deaf)
+        behave(self.programs, sleep=600, deaf=deaf)
         (self.programs / "pid").unlink(missing_ok=True)
         process = self.start(*self.words("-q", *words), **options)
         pid = self.programs / "pid"
@@ -50,7 +51,7 @@ class Signals(Program):
         for number in SIGNALS:
             process, driver = self.begin()
             process.send_signal(number)
-            _, err = process.communicate(timeout=60)
+            _, err = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 128 + number)
             said = f"fsi-compare: interrupted by {number.name}; finished runs are kept, the same command goes on\n"
             self.assertEqual(err, said)
@@ -67,14 +68,14 @@ class Signals(Program):
         process.send_signal(signal.SIGTERM)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=5)
+        process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130)
         self.assert_gone(driver)
 
     def test_a_killed_study_takes_its_runs_with_it(self):
         process, driver = self.begin()
         process.kill()
-        process.communicate(timeout=60)
+        process.communicate(timeout=PATIENCE)
         self.assert_gone(driver)
 
     def test_a_signal_that_was_ignored_stays_ignored(self):
@@ -84,7 +85,7 @@ class Signals(Program):
         time.sleep(0.5)
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
+        process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 143)
 
     def test_a_signal_at_the_start(self):
@@ -92,7 +93,7 @@ class Signals(Program):
         for number in SIGNALS:
             process = self.start("cost", "nothing", preexec_fn=block)
             process.send_signal(number)
-            _, err = process.communicate(timeout=60)
+            _, err = process.communicate(timeout=PATIENCE)
             self.assertEqual((process.returncode, err), (128 + number, f"fsi-compare: interrupted by {number.name}\n"))
 
 
@@ -120,7 +121,7 @@ class Surroundings(Program):
         file.write_text("backend: [\n")
         for change in ({"MPLBACKEND": "nonsense"}, {"MPLCONFIGDIR": str(file)}, {"MATPLOTLIBRC": str(file)}):
             process = self.start("pressure", run, "-q", "-o", self.out, cwd=self.base, env={**os.environ, **change})
-            _, err = process.communicate(timeout=120)
+            _, err = process.communicate(timeout=PATIENCE)
             self.assertEqual((process.returncode, err), (0, ""))
 
 

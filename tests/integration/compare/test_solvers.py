@@ -400,7 +400,7 @@ class Restart(StudyTest):
         )
 
     def test_a_study_that_is_ended_leaves_no_run_behind(self):
-        behave(self.program, sleep=60)
+        behave(self.program, sleep=600)
         code = (
             "import sys; sys.path[:0] = sys.argv.pop(1),; "
             "from fsi_compare.start import main; sys.exit(main(sys.argv[1:]))"
@@ -423,12 +423,12 @@ class Restart(StudyTest):
         ]
         study = subprocess.Popen(list(map(str, words)), stderr=subprocess.PIPE, text=True)
         pid = self.base / "pid"
-        until = time.monotonic() + 30
+        until = time.monotonic() + 120  # then it hangs
         while not (pid.exists() and pid.read_text()):
             self.assertLess(time.monotonic(), until)
             time.sleep(0.05)
         study.terminate()
-        _, err = study.communicate(timeout=30)
+        _, err = study.communicate(timeout=120)
         self.assertEqual(
             (study.returncode, err),
             (143, "fsi-compare: interrupted by SIGTERM; finished runs are kept, the same command goes on\n"),

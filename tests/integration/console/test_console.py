@@ -4,7 +4,6 @@ import os
 import pty
 import re
 import subprocess
-import time
 import unittest
 
 from programs import (
@@ -200,11 +199,10 @@ class Console(FolderTest):
         (foreign / "thesis.tex").write_text("mine")
         for program in DRIVERS:
             for folder, shown in ((file, "is a file"), (file / "below", "cannot be created"), (foreign, "thesis.tex")):
-                start = time.monotonic()
                 process = attempt(program, NEO_HOOKEAN, folder=folder, settings=("time.end=1",))
                 with self.subTest(program=program, folder=folder.name):
                     self.assertRefused(process, shown)
-                    self.assertLess(time.monotonic() - start, 60)
+                    self.assertEqual(process.stdout, "")
         self.assertEqual((file.read_text(), (foreign / "thesis.tex").read_text()), ("mine", "mine"))
         self.assertEqual(len(list(foreign.iterdir())), 1)
 
