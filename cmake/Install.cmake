@@ -39,7 +39,7 @@ install(DIRECTORY gallery DESTINATION ${_data} COMPONENT programs
 install(FILES scripts/slurm/fsi-duo.sbatch DESTINATION ${_data}/slurm COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${_documents} COMPONENT programs PATTERN "*.in" EXCLUDE)
 install(FILES README.md DESTINATION ${_documents} COMPONENT programs)
-install(FILES CHANGELOG.md CONTRIBUTING.md DESTINATION ${_documents} COMPONENT programs OPTIONAL)
+install(FILES CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${_documents} COMPONENT programs OPTIONAL)
 install(FILES LICENSE DESTINATION ${_documents} RENAME copyright COMPONENT programs)
 
 # Headers and libraries. The libraries are found in the folders, so that a new one needs no entry here.

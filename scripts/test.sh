@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
 # Builds and tests; installs what is missing first. May be run again: only what changed is built anew.
-#   scripts/test.sh         the quick tests of the release build: 6 minutes of a fresh clone on two idle cores with AVX-512,
-#                           about 20 on an older AMD EPYC
+#   scripts/test.sh         the quick tests of the release build
 #   scripts/test.sh --all   everything, with warnings as errors: unit tests under the address and undefined-behaviour
 #                           sanitizers in a build without MPI, for x86-64-v2; what depends on the width of vectors for
 #                           another processor level, and by clang; then the release build, for this machine, with every
-#                           other test and the unit tests that use MPI. Must end within 25 minutes of a fresh clone on two
-#                           idle cores with AVX-512, 45 without. A test program is then one test of ctest, which spares
-#                           its start for each case; the quick tests, and cmake -DFSI_TEST_CASES=ON -DFSI_UNIT_TESTS=ON,
-#                           run each case by itself
+#                           other test and the unit tests that use MPI. A test program is then one test of ctest, which
+#                           spares its start for each case; the quick tests, and cmake -DFSI_TEST_CASES=ON
+#                           -DFSI_UNIT_TESTS=ON, run each case by itself
+# CONTRIBUTING.md says how many minutes that takes on which kind of machine.
 # Ends with ctest's summary; any failure ends it earlier or makes its exit code non-zero.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
