@@ -1,6 +1,10 @@
 """Makes the documentation site: one tree of static pages with search, the gallery and the API, from the Markdown of the
 repository by mkdocs (Debian packages mkdocs and mkdocs-material).
 
+Every link is checked: to pages, headings, pictures and files, in the repository, as its host shows the pages, and in the
+site; also the files of the repository that pages name. Dead ones are listed, the exit code is 1, and FOLDER stays as it
+was. Links to other sites are not followed.
+
 usage: python3 scripts/make_site.py FOLDER [--api HTML]
   FOLDER       where the site goes; what a former call made there is replaced
   --api HTML   the API documentation (build/release/api/html), copied to FOLDER/api/html; without it a page in its place
@@ -18,8 +22,11 @@ import tempfile
 from pathlib import Path
 from typing import List, NoReturn, Optional
 
+from site_links import dead_in_repository, dead_in_site
+
 TOP = Path(__file__).resolve().parents[1]
 REPOSITORY_PAGES = ("CONTRIBUTING.md", "CHANGELOG.md")
+REPOSITORY_FILES = ("CITATION.cff",)  # that pages link to
 MARK = ".made-by-make_site"  # a folder that holds it may be replaced
 NO_API = """# API of the C++ code
 
@@ -33,6 +40,8 @@ def stage(pages: Path) -> None:
     (pages / "index.md").write_text(_from_top((TOP / "README.md").read_text(encoding="utf-8")), encoding="utf-8")
     for name in REPOSITORY_PAGES:
         (pages / name).write_text(_from_top((TOP / name).read_text(encoding="utf-8")), encoding="utf-8")
+    for name in REPOSITORY_FILES:
+        shutil.copyfile(TOP / name, pages / name)
     for page in pages.rglob("*.md"):
         text = page.read_text(encoding="utf-8")
         up = os.path.relpath(pages, page.parent)
@@ -94,11 +103,21 @@ def make(folder: Path, api: Optional[Path]) -> None:
             fail("mkdocs: " + " ".join(told or lines))
         if api is not None:
             shutil.copytree(api, site / "api" / "html")
+        refuse([f"in the repository: {link}" for link in dead_in_repository(TOP)])
+        refuse([f"in the site: {link}" for link in dead_in_site(site)])
         (site / MARK).touch()
         if folder.exists():
             shutil.rmtree(folder)
         shutil.copytree(site, folder)
-    print(folder / "index.html")
+    print(f"{folder / 'index.html'}: no dead links")
+
+
+def refuse(dead: List[str]) -> None:
+    """Ends with the list of dead links, if there are any."""
+    for link in dead:
+        print(f"make_site: dead link {link}", file=sys.stderr)
+    if dead:
+        fail(f"{len(dead)} dead links; mend the pages, nothing was written")
 
 
 def main(words: List[str]) -> int:

@@ -50,6 +50,7 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
     gallery.add_argument(
         "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
     )
+    gallery.add_argument("--threads", metavar="N", type=int, help="accepted as by all programs; a run has one thread")
     gallery.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -81,7 +82,7 @@ def gallery(options: argparse.Namespace) -> int:
         outcomes = make_runs(scenes, options.output, programs, options.quick, options.jobs, said, options.processes)
         from .page import write_page  # matplotlib takes a second to load
 
-        report, numbers = write_page(options.output, outcomes, options.quick)
+        report, numbers = write_page(options.output, outcomes, options.quick, options.jobs)
     failed = [f"{o.scene.name}: {program}: {why}" for o in outcomes for program, why in o.failures.items()]
     wrong = [_too_far(number) for number in numbers if not number.holds]
     for text in failed + wrong:

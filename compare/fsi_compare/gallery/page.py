@@ -12,7 +12,7 @@ from .scene import Number
 TITLE = "fsi-duo: gallery"
 
 
-def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool) -> Tuple[Report, List[Number]]:
+def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool, at_once: int) -> Tuple[Report, List[Number]]:
     """Writes the page; also what was measured, of all scenes. A scene of which a run failed says so."""
     report = Report(folder, TITLE + (", short form" if quick else ""))
     report.text(
@@ -21,12 +21,12 @@ def write_page(folder: Path, outcomes: Sequence[Outcome], quick: bool) -> Tuple[
     )
     measured: List[Number] = []
     for outcome in outcomes:
-        measured += _scene(report, outcome, quick)
+        measured += _scene(report, outcome, quick, at_once)
     report.write()
     return report, measured
 
 
-def _scene(report: Report, outcome: Outcome, quick: bool) -> List[Number]:
+def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[Number]:
     scene = outcome.scene
     stem = scene.name.replace("-", "_")
     report.section(scene.title)
@@ -49,7 +49,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool) -> List[Number]:
     report.figure(stem, lambda: scene.module.draw(runs), scene.title + ".")
     numbers = scene.numbers(runs)
     report.table(_numbers_table(stem, numbers))
-    report.table(_cost_table(stem, outcome))
+    report.table(_cost_table(stem, outcome, at_once))
     return numbers
 
 
@@ -79,13 +79,14 @@ def _numbers_table(stem: str, numbers: Sequence[Number]) -> Table:
     return table
 
 
-def _cost_table(stem: str, outcome: Outcome) -> Table:
+def _cost_table(stem: str, outcome: Outcome, at_once: int) -> Table:
+    programs = {1: "one program", 2: "two programs"}.get(at_once, f"{at_once} programs")
     table = Table(
         stem=f"{stem}_cost",
         title="What it costs",
         columns=[("", name) for name in ("driver", "unknowns", "steps", "seconds", "Newton iterations", "passes")],
         csv_columns=("program", "unknowns", "steps", "seconds", "newton_iterations", "passes"),
-        notes=["Seconds of the whole program with one thread, two programs at a time."],
+        notes=[f"Seconds of the whole program with one thread, {programs} at a time."],
     )
     for program, run in outcome.runs.items():
         totals = run.summary.get("totals", {})

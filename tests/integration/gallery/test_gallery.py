@@ -30,7 +30,7 @@ class Gallery(FolderTest):
         return self.gallery("--from", self.own)
 
     def test_page_of_a_scene(self):
-        process = self.gallery("--from", self.own)
+        process = self.gallery("--from", self.own, "--jobs", 1, "--threads", 1)
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertIn("2 of 2 numbers as known", process.stdout)
         text = (self.base / "out" / "report.md").read_text()
@@ -39,6 +39,7 @@ class Gallery(FolderTest):
             "fsi-mesh geo gallery/static-tube/tube.geo --order 2",
             "integral over the wall",
             "static_tube.png",
+            "with one thread, one program at a time",
         ):
             self.assertIn(part, text)
         self.assertTrue((self.base / "out" / "static_tube.png").is_file())

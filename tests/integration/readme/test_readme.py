@@ -1,13 +1,19 @@
-"""The commands that README prints after the quickstart work in the folder that the quickstart leaves."""
+"""README: its first screen, its tables of programs, presets and targets against what there is, its case file, and the
+commands that it prints after the quickstart, in the folder that the quickstart leaves."""
 
+import csv
+import json
 import re
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 
-from programs import CASES, MONOLITHIC, FolderTest
+from programs import CASES, DRIVERS, MONOLITHIC, FolderTest, attempt, execute, make_mesh
 
 ROOT = CASES.parent.parent
+TEXT = (ROOT / "README.md").read_text()
+DATA = ROOT / "docs" / "pictures" / "data"
 
 
 def blocks(text):
@@ -17,9 +23,106 @@ def blocks(text):
         yield [line for line in lines if line]
 
 
+def rows(*header):
+    """The cells of README's table with this header, row by row."""
+    lines = TEXT.split(f"| {' | '.join(header)} |\n", 1)[1].split("\n\n")[0].splitlines()[1:]
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
+
+
+def code(text):
+    return re.findall(r"`([^`]+)`", text)
+
+
+class FirstScreen(FolderTest):
+    def test_one_picture_for_whom_and_no_badge(self):
+        first = TEXT.split("\n## ")[0]
+        self.assertLess(first.count("\n"), 30)
+        self.assertEqual(re.findall(r"!\[[^\]]+\]\(([^)]+)\)", first), ["docs/pictures/artery-both-drivers.png"])
+        self.assertIn("**For whom:** ", first)
+        for badge in ("[![", "shields.io", "/badge", "<img"):
+            self.assertNotIn(badge, TEXT)
+
+    def test_the_picture_is_drawn_from_the_kept_numbers(self):
+        picture = self.base / "picture.png"
+        process = execute(sys.executable, "-B", ROOT / "scripts" / "readme_picture.py", "-o", picture)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        kept = (ROOT / "docs" / "pictures" / "artery-both-drivers.png").read_bytes()
+        self.assertEqual(picture.read_bytes()[:24], kept[:24])  # a PNG file of the same width and height
+
+    def test_what_is_said_of_the_kept_numbers(self):
+        def table(name):
+            with open(DATA / name) as file:
+                return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+        wave = [(float(row["monolithic_Pa"]), float(row["partitioned_Pa"])) for row in table("artery-wave.csv")]
+        said = float(re.search(r"differ by (\S+) of the largest pressure", TEXT).group(1))
+        found = max(abs(a - b) for a, b in wave) / max(a for a, _ in wave)
+        self.assertTrue(0.7 * said < found < 1.4 * said, found)
+        accuracy = (ROOT / "docs" / "accuracy.md").read_text()
+        errors = table("artery-error-seconds.csv")
+        for row, other in zip(errors[::2], errors[1::2]):
+            self.assertEqual([r["driver"] for r in (row, other)], ["monolithic", "partitioned"])
+            kept = [float(row["error_percent"]), float(row["processor_s"]), float(other["processor_s"])]
+            line = re.search(
+                rf"(?m)^\| {row['element']} \| {row['cells']}; .* \| (\S+) % \| (\S+) \| (\S+) \|$", accuracy
+            )
+            self.assertIsNotNone(line, row)
+            for shown, number in zip(map(float, line.groups()), kept):  # to two digits
+                self.assertLess(abs(shown - number), 0.051 * number, row)
+
+
+class Tables(FolderTest):
+    def test_programs_and_their_options(self):
+        bin_folder = Path(MONOLITHIC).parent
+        named = [code(cell)[0].split() for cell, _ in rows("program", "job")]
+        self.assertGreater(len(named), 12)
+        commands = {tuple(words[: 1 if words[0][4:] in ("monolithic", "partitioned") else 2]) for words in named}
+        for words in named:
+            command = [word for word in words[:2] if re.fullmatch(r"[a-z-]+", word)]
+            process = execute(bin_folder / command[0], *command[1:], "--help")
+            self.assertEqual(process.returncode, 0, words)
+            for option in (word for word in words if word.startswith("-")):
+                self.assertRegex(process.stdout, rf"(?m)(^|[\s,]){option}\b", words)
+            self.assertIn("--threads", process.stdout, words)
+        helped = execute(bin_folder / "fsi-compare", "--help").stdout
+        there = set(re.findall(r"(?m)^    ([a-z-]+)(?:  |$)", helped)) - {"convert-mesh"}  # fsi-mesh import calls that
+        self.assertEqual({c[1] for c in commands if c[0] == "fsi-compare"}, there)
+        of_drivers = re.search(r"All take (.*?)\n\n", TEXT, re.DOTALL).group(1)
+        for driver in DRIVERS:
+            helped = execute(driver, "--help").stdout
+            for words in code(of_drivers):
+                self.assertRegex(helped, rf"(?m)(^|[\s,]){words.split()[0]}\b")
+
+    def test_presets_and_targets(self):
+        presets = json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]
+        shown = {code(cell)[0] for cell, _ in rows("preset", "for")}
+        self.assertLessEqual(shown, {preset["name"] for preset in presets if not preset.get("hidden")})
+        files = [*(ROOT / "cmake").glob("*.cmake"), *ROOT.glob("*/CMakeLists.txt")]
+        made = set(re.findall(r"add_custom_target\((\w+)", "\n".join(file.read_text() for file in files)))
+        targets = set(re.findall(r"--target (\w+)", TEXT))
+        self.assertGreaterEqual(len(targets), 3)
+        self.assertLessEqual(targets, made)
+
+    def test_studies_and_scenes(self):
+        sentence = re.search(r"Ready studies lie in `compare/studies/`: (.*?)\n\n", TEXT, re.DOTALL).group(1)
+        studies = re.findall(r"`([a-z-]+)` \(", sentence)
+        self.assertGreater(len(studies), 6)
+        for study in studies:
+            self.assertTrue((ROOT / "compare" / "studies" / f"{study}.toml").is_file(), study)
+        self.assertIn(f"{len(list(ROOT.glob('gallery/*/scene.py')))} scenes to start from", TEXT)
+
+    def test_the_case_file_is_accepted_as_it_is_printed(self):
+        case = self.base / "case.toml"
+        case.write_text(re.search(r"^```toml\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL).group(1))
+        make_mesh(self.base / "artery.msh", "--level", "coarse")
+        for driver in DRIVERS:
+            process = attempt(driver, case, "--check")
+            self.assertEqual((process.returncode, process.stderr), (0, ""))
+
+
 class Readme(FolderTest):
     def setUp(self):
-        self.quickstart, self.next = list(blocks((ROOT / "README.md").read_text()))[:2]
+        self.quickstart, self.next = list(blocks(TEXT))[:2]
         self.script = (ROOT / "scripts" / "quickstart.sh").read_text()
 
     def variable(self, name):
