@@ -36,7 +36,7 @@ class CoupledProduct {
   /// For all processes together: copies get their owners' values, then each has its rows. x is one everywhere.
   void multiply();
 
-  /// Of the last product, in the layouts of the media. No numbers of a Jacobian but where F and W are concerned.
+  /// Of the last product, in the layouts of the media. Only where the scene has one medium do they mean anything.
   const std::vector<double>& fluid_rows() const { return fluid_rows_; }
   const std::vector<double>& mesh_rows() const { return mesh_rows_; }
   const std::vector<double>& wall_rows() const { return wall_rows_; }
