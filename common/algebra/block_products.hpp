@@ -19,16 +19,15 @@ namespace detail {
 
 /// Calls store(row, sum) with sum = row of A x, `Rows` entries, for all rows in parallel. Each row is summed in the
 /// order of the graph: the numbers do not depend on the number of threads.
+/// \param values  of A, Rows x Columns of them for each pair of nodes in the order of the graph
 template <int Rows, int Columns, class Store>
-inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double* x, Store store) {
-  const NodeGraph& graph = *a.graph;
+inline void for_each_block_row(const NodeGraph& graph, const double* values, const double* x, Store store) {
   const int rows = graph.rows();
-  assert(a.values.size() == static_cast<std::size_t>(graph.blocks()) * Rows * Columns);
 #pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
   for (int row = 0; row < rows; ++row) {
     double sum[Rows] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
-      const double* block = a.block(at);
+      const double* block = values + static_cast<std::size_t>(at) * Rows * Columns;
       const double* from = x + static_cast<std::size_t>(graph.columns[at]) * Columns;
       for (int r = 0; r < Rows; ++r)
         for (int c = 0; c < Columns; ++c) sum[r] += block[r * Columns + c] * from[c];
@@ -36,23 +35,31 @@ inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double
     store(row, sum);
   }
 }
+template <int Rows, int Columns, class Store>
+inline void for_each_block_row(const BlockMatrix<Rows, Columns>& a, const double* x, Store store) {
+  assert(a.values.size() == static_cast<std::size_t>(a.graph->blocks()) * Rows * Columns);
+  for_each_block_row<Rows, Columns>(*a.graph, a.values.data(), x, store);
+}
 
 /// The same for a matrix with `Numbers` numbers a node pair, one for each of `Components` components or one for all.
 template <int Components, int Numbers, class Store>
-inline void for_each_component_row(const BlockMatrix<1, Numbers>& a, const double* x, Store store) {
+inline void for_each_component_row(const NodeGraph& graph, const double* values, const double* x, Store store) {
   static_assert(Numbers == 1 || Numbers == Components, "one number for all components or one for each");
-  const NodeGraph& graph = *a.graph;
   const int rows = graph.rows();
 #pragma omp parallel for schedule(static) if (graph.blocks() > serial_blocks)
   for (int row = 0; row < rows; ++row) {
     double sum[Components] = {};
     for (int at = graph.offsets[row]; at < graph.offsets[row + 1]; ++at) {
-      const double* number = a.block(at);
+      const double* number = values + static_cast<std::size_t>(at) * Numbers;
       const double* from = x + static_cast<std::size_t>(graph.columns[at]) * Components;
       for (int k = 0; k < Components; ++k) sum[k] += number[Numbers == 1 ? 0 : k] * from[k];
     }
     store(row, sum);
   }
+}
+template <int Components, int Numbers, class Store>
+inline void for_each_component_row(const BlockMatrix<1, Numbers>& a, const double* x, Store store) {
+  for_each_component_row<Components, Numbers>(*a.graph, a.values.data(), x, store);
 }
 
 }  // namespace detail

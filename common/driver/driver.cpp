@@ -32,6 +32,7 @@
 #include "driver/checkpoint_arrays.hpp"
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
+#include "driver/cost_summary.hpp"
 #include "driver/field_output.hpp"
 #include "driver/interruption.hpp"
 #include "driver/load_scene.hpp"
@@ -57,6 +58,7 @@
 #include "petsc_solver/general_solvers.hpp"
 #include "petsc_solver/petsc_options.hpp"
 #include "scene/time_scheme.hpp"
+#include "system/work_unit.hpp"
 #include "time/balance.hpp"
 
 namespace fsi {
@@ -71,6 +73,8 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   nlohmann::json json;
   json["program"] = program;
   json["version"] = version;
+  json["machine"] = machine_json();
+  json["build"] = build_json();
   json["title"] = setup.title;
   json["case"] = setup.path.string();
   json["case_hash"] = hash_of_case(setup);
@@ -147,6 +151,7 @@ class Run {
         processes_(shared_by_all(*scene_)),
         first_(processes_),
         about_processes_(*scene_),
+        work_unit_(*scene_),
         orders_(*scene_, loaded_.derived.statistics ? &loaded_.derived.shear->nodes() : nullptr),
         loads_(setup),
         stepper_(make_stepper.make(*scene_, loads_, setup)),
@@ -214,7 +219,10 @@ class Run {
     if (restarted && setup_.output.checkpoint_every > 0 && !in_place(line_)) save();
     try {
       about_processes_.steps_begin();
-      while (state_.step < loads_.steps() && !is_stopped()) step(folder, fields, console, log);
+      while (state_.step < loads_.steps() && !is_stopped()) {
+        step(folder, fields, console, log);
+        measure_work_unit();
+      }
       if (state_.step == loads_.steps()) end(folder, fields, console, log);
     } catch (const Stopped&) {
       loads_.axis().drop_insertions_after(state_.step);
@@ -314,6 +322,7 @@ class Run {
     total_.outer_iterations += record.outer_iterations;
     total_.newton_iterations += record.newton_iterations;
     total_.linear_iterations += record.linear_iterations;
+    total_.wall_seconds += record.wall_seconds;
     record.solver_error = report.solver_error;
     total_.solver_error = std::max(total_.solver_error, record.solver_error);
     if (energy_) {
@@ -345,6 +354,13 @@ class Run {
     const double waited = longest_time_between_looks();
     answer_signals_within(std::max(waited, waited_), console);
     waited_ = waited;
+  }
+
+  /// After a step: the matrices are there, and the run has taken long enough for a product to be nothing beside it.
+  void measure_work_unit() {
+    const Traffic before = processes_.traffic();
+    work_unit_.measure(seconds_since(start_));
+    about_processes_.leave_out_since(before);
   }
 
   /// What a signal is answered from now on: when the run will look for it, as far as the last two steps tell.
@@ -708,6 +724,9 @@ class Run {
   }
   /// What the run has taken up to now, into the summary.
   void take_stock() {
+    const WorkUnit& unit = work_unit_.unit();
+    const int steps = state_.step - first_step_;
+    summary_["work_unit"] = work_unit_json(unit);
     summary_["totals"] = {{"steps", state_.step},
                           {"outer_iterations", total_.outer_iterations},
                           {"newton_iterations", total_.newton_iterations},
@@ -716,11 +735,11 @@ class Run {
                           {"rejected_steps", march_.attempts().rejected},
                           {"steps_above_tolerance", march_.attempts().beyond},
                           {"failed_steps", march_.attempts().failed},
+                          {"work_units_per_step", work_units_per_step(unit, total_.wall_seconds, steps)},
                           {"wall_s", seconds_since(start_)}};
     summary_["peak_memory_MiB"] = peak_memory_mib();
     summary_.update(profile_json(scene_->profile));
-    if (!processes_.is_alone())
-      summary_["per_process"] = about_processes_.json(state_.step - first_step_, step_seconds_);
+    if (!processes_.is_alone()) summary_["per_process"] = about_processes_.json(steps, step_seconds_);
   }
 
   Clock::time_point start_ = Clock::now();
@@ -735,6 +754,7 @@ class Run {
   const Communicator& processes_;
   FirstProcess first_;
   ProcessSummary<n> about_processes_;
+  WorkUnitMeter<n> work_unit_;
   ArrayOrders<n> orders_;
   Loads loads_;
   std::unique_ptr<Stepper> stepper_;

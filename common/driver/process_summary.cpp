@@ -71,6 +71,14 @@ void ProcessSummary<n>::steps_begin() {
 }
 
 template <int n>
+void ProcessSummary<n>::leave_out_since(const Traffic& before) {
+  const Traffic& now = scene_.processes().traffic();
+  before_.messages += now.messages - before.messages;
+  before_.bytes += now.bytes - before.bytes;
+  before_.reductions += now.reductions - before.reductions;
+}
+
+template <int n>
 nlohmann::json ProcessSummary<n>::json(std::int64_t steps, double seconds) const {
   const Communicator& processes = scene_.processes();
   const Traffic now = processes.traffic();

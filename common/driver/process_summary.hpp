@@ -26,6 +26,9 @@ class ProcessSummary {
 
   /// From now on messages count.
   void steps_begin();
+  /// What was said since then is none of the steps'.
+  /// \param before  the scene's traffic at that moment
+  void leave_out_since(const Traffic& before);
 
   /// For all processes together.
   /// \param steps    taken since steps_begin()

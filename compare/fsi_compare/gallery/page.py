@@ -6,6 +6,7 @@ from typing import List, Sequence, Tuple
 
 from ..reporting.layout import Table
 from ..reporting.report import Report
+from ..runs.work_units import NOTE, per_step, shown
 from .running import Outcome
 from .scene import Number
 
@@ -84,8 +85,11 @@ def _cost_table(stem: str, outcome: Outcome, at_once: int) -> Table:
     table = Table(
         stem=f"{stem}_cost",
         title="What it costs",
-        columns=[("", name) for name in ("driver", "unknowns", "steps", "seconds", "Newton iterations", "passes")],
-        csv_columns=("program", "unknowns", "steps", "seconds", "newton_iterations", "passes"),
+        columns=[
+            ("", name)
+            for name in ("driver", "unknowns", "steps", "work units per step", "seconds", "Newton iterations", "passes")
+        ],
+        csv_columns=("program", "unknowns", "steps", "seconds", "newton_iterations", "passes", "work_units_per_step"),
         notes=[f"Seconds of the whole program with one thread, {programs} at a time."],
     )
     for program, run in outcome.runs.items():
@@ -93,12 +97,10 @@ def _cost_table(stem: str, outcome: Outcome, at_once: int) -> Table:
         steps, newton = totals.get("steps"), totals.get("newton_iterations")
         passes = totals.get("outer_iterations") if program == "fsi-partitioned" else None
         unknowns = run.summary.get("unknowns", {}).get("coupled")
-        cells = (unknowns, steps, run.seconds, newton, passes)
-        table.rows.append(
-            (
-                program.removeprefix("fsi-"),
-                *("-" if c is None else f"{c:.2f}" if c is run.seconds else f"{c}" for c in cells),
-            )
-        )
-        table.csv_rows.append((program, *cells))
+        work = per_step(run.summary)
+        whole = ["-" if c is None else f"{c}" for c in (unknowns, steps, newton, passes)]
+        table.rows.append((program.removeprefix("fsi-"), *whole[:2], shown(work), f"{run.seconds:.2f}", *whole[2:]))
+        table.csv_rows.append((program, unknowns, steps, run.seconds, newton, passes, work))
+    if any(per_step(run.summary) is not None for run in outcome.runs.values()):
+        table.notes.append(NOTE)
     return table

@@ -11,16 +11,19 @@ from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
+from ..runs.work_units import NOTE, about_machines, per_step, shown
 from .layout import Table, fixed, say_written, write_markdown
 
 DESCRIPTION = """\
-Tabulates what finished runs took: wall time, coupling iterations, solves of the whole system and of the
-sub-problems, Newton and linear iterations, factorisations, memory. The first run is the reference of the column
-"relative time". Writes to OUTDIR:
+Tabulates what finished runs took: work units, wall time, coupling iterations, solves of the whole system and of the
+sub-problems, Newton and linear iterations, factorisations, memory. The first run is the reference of what is
+"relative". Writes to OUTDIR:
   cost.csv   all numbers, in full precision, with units in the column names
   cost.md    the table for documents
-Seconds compare only between runs on the same, otherwise idle machine with the same number of threads; a run that
-was restarted counts its last part only, which a note says."""
+A work unit is the time of one product with the coupled matrix, measured in each run: work units can be read together
+across machines. Seconds compare only between runs on the same, otherwise idle machine with the same number of threads;
+a note says where runs are of several machines or builds. A run that was restarted counts its last part only, which a
+note says."""
 
 EXAMPLES = """\
 examples:
@@ -55,6 +58,8 @@ class Cost:
     force_residual: Optional[float]
     memory_mib: Optional[float]
     restarted_from: Optional[int]
+    work_units: Optional[float]  # per step; None: not measured
+    summary: dict  # all of summary.json
 
     @property
     def seconds_per_step(self) -> float:
@@ -134,6 +139,8 @@ def read_cost(folder: Path, label: str) -> Cost:
         force_residual=float(coupling["force_residual"].max()) if coupling else None,
         memory_mib=summary.get("peak_memory_MiB"),
         restarted_from=summary.get("restarted_from_step"),
+        work_units=per_step(summary),
+        summary=summary,
     )
 
 
@@ -160,6 +167,8 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
             ("", "mesh"),
             ("", "processes"),
             ("", "steps"),
+            ("work units", "per step"),
+            ("work units", "relative"),
             ("", "seconds per step"),
             ("", "relative time"),
             ("coupling iterations", "mean"),
@@ -195,10 +204,13 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
             "force_residual_max",
             "peak_memory_MiB",
             "processes",
+            "work_units_per_step",
+            "work_units_relative_to_first",
         ],
     )
     for c in costs:
         relative = c.seconds_per_step / costs[0].seconds_per_step if costs[0].seconds_per_step > 0 else None
+        relative_work = c.work_units / costs[0].work_units if c.work_units and costs[0].work_units else None
         low, high = c.coupling_range or (None, None)
         solves = [c.solves.get(key) for key in keys]
         prepared = [c.preparations.get(key) for key in keys]
@@ -209,6 +221,8 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
                 c.mesh,
                 str(c.processes),
                 str(c.steps),
+                shown(c.work_units),
+                fixed(relative_work, ".2f", ""),
                 f"{c.seconds_per_step:.3g}",
                 fixed(relative, ".2f"),
                 fixed(c.coupling_mean, ".2f"),
@@ -243,8 +257,15 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
                 c.force_residual,
                 c.memory_mib,
                 c.processes,
+                c.work_units,
+                relative_work,
             ]
         )
+    machines = about_machines([c.summary for c in costs])
+    if machines:
+        table.notes.append(f"{machines}.")
+    if any(c.work_units is not None for c in costs):
+        table.notes.append(NOTE)
     table.notes.append(
         "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
         "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
@@ -269,6 +290,6 @@ def cost_table(costs: Sequence[Cost], title: str) -> Table:
     parts = [c.label for c in costs if c.restarted_from is not None]
     if parts:
         table.notes.append(
-            f"Restarted, so that solves, factorisations and memory are those of the last part: {', '.join(parts)}."
+            f"Restarted, so that work units, solves, factorisations and memory are those of the last part: {', '.join(parts)}."
         )
     return table

@@ -4,13 +4,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, List, Sequence
 
-from ..base.errors import InputError, printable
+from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
 from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
+from ..runs.work_units import NOTE, about_machines, per_step, shown
 from .layout import Table, fixed, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -88,6 +89,9 @@ def report(options: argparse.Namespace) -> int:
             add_differences(page, *tables)
         page.write()
     if not options.quiet:
+        machines = about_machines([run.summary for run in runs])
+        if machines:
+            say_note(machines)
         say_written(options.output, page.written)
     return 0
 
@@ -116,9 +120,32 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
         "Runs",
         [
             ("", name)
-            for name in ("run", "program", "case", "element", "nodes", "processes", "steps", "end, ms", "seconds")
+            for name in (
+                "run",
+                "program",
+                "case",
+                "element",
+                "nodes",
+                "processes",
+                "steps",
+                "end, ms",
+                "work units per step",
+                "seconds",
+            )
         ],
-        ["run", "program", "title", "element", "geometry", "nodes", "steps", "end_ms", "wall_s", "processes"],
+        [
+            "run",
+            "program",
+            "title",
+            "element",
+            "geometry",
+            "nodes",
+            "steps",
+            "end_ms",
+            "wall_s",
+            "processes",
+            "work_units_per_step",
+        ],
         left=4,
     )
     for run, label in zip(runs, labels):
@@ -138,6 +165,7 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
                 str(run.processes),
                 fixed(totals.get("steps"), "g"),
                 fixed(end, "g"),
+                shown(per_step(summary)),
                 fixed(totals.get("wall_s"), ".1f"),
             ]
         )
@@ -153,8 +181,14 @@ def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
                 end,
                 totals.get("wall_s"),
                 run.processes,
+                per_step(summary),
             ]
         )
+    machines = about_machines([run.summary for run in runs])
+    if machines:
+        table.notes.append(f"{machines}.")
+    if any(per_step(run.summary) is not None for run in runs):
+        table.notes.append(NOTE)
     return table
 
 

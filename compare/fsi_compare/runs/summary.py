@@ -84,6 +84,9 @@ SHAPE: Mapping[str, Shape] = {
     "phases": _Each(entry={"calls": _count, "seconds": _number}),
     "totals": _Each(entry=_number),
     "counters": _Each(entry=_number),
+    "work_unit": {"seconds": _number, "products": _count, "entries": _count, "measuring_s": _number},
+    "machine": {"processor": _text},
+    "build": {"compiler": _text, "instruction_set": _text, "doubles_per_pack": _count},
 }
 
 

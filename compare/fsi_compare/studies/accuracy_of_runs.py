@@ -15,6 +15,7 @@ from ..reporting.pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
+from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all, shown
 from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
 from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
 
@@ -59,6 +60,7 @@ class Accuracy:
     steps: int
     seconds: float  # of all time steps
     errors: Dict[str, List[float]]  # by quantity's column: at each time, relative
+    summary: dict  # all of summary.json
 
     def worst(self, quantity: Quantity) -> float:
         values = self.errors[quantity.column]
@@ -184,6 +186,7 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
         steps=len(seconds),
         seconds=float(seconds.sum()),
         errors=errors,
+        summary=summary,
     )
 
 
@@ -200,6 +203,7 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             ("", "nodes"),
             ("", "step"),
             ("", "steps"),
+            ("", "work units"),
             ("", "seconds"),
             *((HEADS[q.column], head) for q in QUANTITIES for head in heads),
         ],
@@ -213,6 +217,7 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             "wall_s",
             "time_ms",
             *(f"{CSV[q.column]}_relative_L2" for q in QUANTITIES),
+            "work_units",
         ],
         notes=[
             f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
@@ -228,6 +233,7 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             "-" if one.nodes is None else str(one.nodes),
             f"{one.step:g}",
             str(one.steps),
+            shown(in_all(one.summary)),
             f"{one.seconds:.3g}",
         ]
         for q in QUANTITIES:
@@ -235,7 +241,12 @@ def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Seque
             row += [fixed(None if math.isnan(value) else 100 * value, ".3g") for value in values]
         table.rows.append(row)
         by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
-        table.csv_rows += [[*facts, time, *values] for time, *values in by_time]
+        table.csv_rows += [[*facts, time, *values, in_all(one.summary)] for time, *values in by_time]
+    machines = about_machines([one.summary for one in found])
+    if machines:
+        table.notes.append(f"{machines}.")
+    if any(in_all(one.summary) is not None for one in found):
+        table.notes.append(NOTE_IN_ALL)
     steps = {reference.step, *(one.step for one in found)}
     if None in steps or max(steps) - min(steps) > SAME_STEP * max(steps):  # type: ignore[type-var,operator]
         table.notes.append("Time steps differ: the errors are of space and time together.")

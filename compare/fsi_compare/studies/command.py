@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
-from ..base.errors import InputError, ProgramError, printable, say_warning
+from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, is_file, output_folder, together
 from ..base.folder_lock import locked
 from ..base.progress import duration
@@ -155,6 +155,8 @@ def make(options: argparse.Namespace, asked: Study, kind: Any, folder: Path, pro
     if not options.quiet:
         if runner.warning:
             say_warning(runner.warning)
+        if runner.machines:
+            say_note(runner.machines)
         print(f"Runs took {duration(runner.seconds)} in all, this call {duration(time.monotonic() - begin)}.")
         print(f"Report: {printable(str(absolute(path)))}")
     return code
@@ -206,6 +208,8 @@ def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Pr
     report.section("About this report")
     if runner.warning:
         report.text(f"**Note:** {runner.warning}.")
+    if runner.machines:
+        report.text(f"**Note:** {runner.machines}.")
     versions = ", ".join(f"{name} {program.version}" for name, program in programs.items())
     report.text(
         f"Study `{printable(asked.path.name)}`{', quick form' if asked.quick else ''}; {versions}; {runner.threads} "

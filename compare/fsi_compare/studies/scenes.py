@@ -10,13 +10,14 @@ from ..base.progress import duration
 from ..gallery.scene import Number, Scene, SceneRun, SceneRuns
 from ..reporting.layout import Table, fixed
 from ..runs.columns import ITERATIONS
+from ..runs.work_units import shown
 from .running.context import Context
 from .running.study_file import Study
 from .running.study_run import StudyRun
 
 SHORT = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 COUNTED = {"fsi-monolithic": "Newton iterations a step", "fsi-partitioned": "passes a step"}
-OF_A_DRIVER = ("computed", "off by", "seconds")
+OF_A_DRIVER = ("computed", "off by", "work units a step", "seconds")
 
 
 @dataclass(frozen=True)
@@ -119,6 +120,7 @@ def scenes_table(measured: Sequence[Measured]) -> Table:
         csv_columns=[
             *("scene", "quantity", "unit", "program", "value", "published", "relative_error", "tolerance"),
             *("spread_of_codes", "source", "nodes", "step_ms", "steps", "seconds", "iterations_per_step"),
+            "work_units_per_step",
         ],
         notes=[
             "Codes differ by: the spread of published amplitudes, where one is known. Off by: of the value; of a mean, of "
@@ -149,9 +151,10 @@ def _percent(share: float) -> str:
 
 def _driver_cells(m: Measured, what: str, program: str, first: bool) -> List[str]:
     number, run = m.number(what, program), m.runs.get(program)
-    cost = ["", ""]
+    cost = ["", "", ""]
     if first and run is not None:
-        cost = [duration(run.seconds), fixed(run.passes, ".2f")] if run.done else [run.status, ""]
+        work = shown(run.work_units_per_step)
+        cost = [work, duration(run.seconds), fixed(run.passes, ".2f")] if run.done else ["", run.status, ""]
     if number is None:
         return ["", "", *cost]
     return [f"{number.value:.5g}", f"{100 * number.error:.2g} %" + ("" if number.holds else " (!)"), *cost]
@@ -180,4 +183,5 @@ def _facts(m: Measured, number: Number) -> List[Any]:
     run = m.runs[number.program]
     nodes, step, steps = _counts(m)
     known = (number.what, number.unit, number.program, number.value, number.reference, number.error, number.tolerance)
-    return [m.scene.name, *known, number.spread or None, number.source, nodes, step, steps, run.seconds, run.passes]
+    source, cost = (number.spread or None, number.source), (run.seconds, run.passes, run.work_units_per_step)
+    return [m.scene.name, *known, *source, nodes, step, steps, *cost]

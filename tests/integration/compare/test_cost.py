@@ -85,6 +85,60 @@ class Cost(FolderCase):
         for note in ("different numbers of threads", "differ in mesh", "Restarted"):
             self.assertIn(note, out)
 
+    def doctor(self, folder, **entries):
+        """Writes these entries into the run's summary; None removes one."""
+        path = folder / "summary.json"
+        summary = {**json.loads(path.read_text()), **entries}
+        path.write_text(json.dumps({key: value for key, value in summary.items() if value is not None}))
+
+    def test_work_units_of_runs_that_measured_them(self):
+        self.doctor(self.whole, totals={"steps": 2, "work_units_per_step": 150.0})
+        self.doctor(self.parts, totals={"steps": 2, "work_units_per_step": 600.0})
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        whole, parts = self.csv("cost.csv")
+        self.assertEqual([float(run["work_units_per_step"]) for run in (whole, parts)], [150, 600])
+        self.assertEqual([float(run["work_units_relative_to_first"]) for run in (whole, parts)], [1, 4])
+        self.assertLess(out.index("work units"), out.index("seconds per step"), "work units come first")
+        row = next(line for line in out.splitlines() if line.strip().startswith("parts"))
+        self.assertRegex(row, r" 600 +4\.00 +0\.75 +2\.00 ")
+        self.assertIn("Work units: ", out)
+
+    def test_runs_without_work_units_have_empty_cells(self):
+        self.doctor(self.parts, totals={"steps": 2, "work_units_per_step": 600.0}, work_unit={"seconds": 0.00125})
+        self.doctor(self.whole, work_unit=None, totals={"steps": 2, "work_units_per_step": None})
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        whole, parts = self.csv("cost.csv")
+        self.assertEqual((whole["work_units_per_step"], float(parts["work_units_per_step"])), ("", 600))
+        self.assertEqual(parts["work_units_relative_to_first"], "")
+        row = next(line for line in out.splitlines() if line.strip().startswith("whole"))
+        self.assertRegex(row, r" 1 +2 +0\.375 ", "an empty cell between steps and seconds")
+
+    def test_names_machines_and_builds_that_differ(self):
+        build = {"compiler": "gcc 12.2.0", "instruction_set": "x86-64-v4"}
+        for folder in (self.whole, self.parts):
+            self.doctor(folder, machine={"processor": "Maker A"}, build=build)
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        self.assertNotIn("These runs are of", out)
+        self.doctor(self.parts, machine={"processor": "Maker B"})
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        said = "These runs are of 2 processors: Maker A, Maker B; compare work units, not seconds."
+        self.assertEqual(out.count(said), 1)
+        self.assertIn(said, (self.out / "cost.md").read_text())
+        self.doctor(self.parts, build={**build, "instruction_set": "x86-64-v3"})
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        builds = "0.1.0 gcc 12.2.0 x86-64-v4, 0.1.0 gcc 12.2.0 x86-64-v3"
+        self.assertIn(f"Maker A, Maker B; and of 2 builds: {builds}; compare work units", out)
+        self.doctor(self.parts, machine={"processor": "Maker A"}, build=build, version="0.2.0")
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        self.assertIn("These runs are of 2 builds: 0.1.0 gcc 12.2.0 x86-64-v4, 0.2.0 gcc", out)
+
+    def test_a_run_that_does_not_name_its_build_is_another_one(self):
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        self.assertNotIn("These runs are of", out, "neither names one")
+        self.doctor(self.parts, build={"compiler": "gcc 12.2.0", "instruction_set": "x86-64-v4"})
+        _, out, _ = self.call("cost", self.whole, self.parts, "-o", self.out)
+        self.assertIn("2 builds: 0.1.0 gcc 12.2.0 x86-64-v4, one that does not name itself;", out)
+
     def test_refusals(self):
         self.assert_refused("no such folder", self.base / "missing")
         self.assert_refused("2 labels for 1 runs", self.whole, "--labels", "a,b")

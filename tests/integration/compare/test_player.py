@@ -316,6 +316,29 @@ class Command(FolderCase):
         self.assertEqual(names | {"report.md"}, {path.name for path in self.out.iterdir()})
         self.assertIn("pressure_along_the_centre_line.svg", names)
 
+    def test_says_where_runs_are_of_two_machines(self):
+        shape, words = lambda t, z: pressure(0, t, z), "These runs are of 2 processors: A, B; compare work units"
+        folders = {
+            name: write_run(
+                self.base / name,
+                shape,
+                TIMES,
+                Z,
+                machine={"processor": processor},
+                totals={"work_units_per_step": work},
+            )
+            for name, processor, work in (("one", "A", 310.0), ("two", "A", None), ("third", "B", 2500.0))
+        }
+        code, _, err = self.call("report", folders["one"], folders["two"], "-o", self.out)
+        self.assertEqual((code, err), (0, ""))
+        self.assertNotIn("These runs are of", (self.out / "report.html").read_text())
+        self.assertEqual([run["work_units_per_step"] for run in self.csv("runs.csv")], ["310.0", ""])
+        code, _, err = self.call("report", *folders.values(), "-o", self.out)
+        self.assertEqual((code, err), (0, f"fsi-compare: note: {words}, not seconds\n"))
+        page = (self.out / "report.html").read_text()
+        self.assertEqual(page.count(words), 1)
+        self.assertIn("<td>2,500</td>", page)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -194,6 +194,21 @@ class Builds(StudyCase):
         self.assertNotIn("another build", err)
         self.assertIsNone(self.note())
 
+    def test_runs_of_two_machines_are_named(self):
+        self.call()
+        for processor, place in zip("AB", sorted(self.out.glob("runs/tube-*"))):
+            summary = json.loads((place / "summary.json").read_text())
+            (place / "summary.json").write_text(json.dumps({**summary, "machine": {"processor": processor}}))
+        said = "These runs are of 2 processors: A, B; compare work units, not seconds"
+        _, _, err = self.call()
+        self.assertEqual(err, f"fsi-compare: note: {said}\n")
+        self.assertEqual(self.note()[1], f"{said}.")
+        for place in self.out.glob("runs/tube-*"):
+            text = (place / "summary.json").read_text()
+            (place / "summary.json").write_text(text.replace('"processor": "B"', '"processor": "A"'))
+        _, _, err = self.call()
+        self.assertEqual((err, self.note()), ("", None))
+
     def test_a_run_made_now_is_of_this_build(self):
         self.call("--quick")
         build_anew(self.programs, "fsi-monolithic", "fsi-partitioned")

@@ -217,6 +217,8 @@ class Files(ProcessTest):
         self.assertEqual(summary(alone)["unknowns"], summary(both)["unknowns"])
         self.assertEqual(summary(alone)["mesh"], summary(both)["mesh"])
         self.assertEqual((summary(alone)["processes"], summary(both)["processes"]), (1, 2))
+        self.assertEqual(*(summary(folder)["work_unit"]["entries"] for folder in (alone, both)))
+        self.assertGreater(summary(both)["totals"]["work_units_per_step"], 0)
         of_each = summary(both)["per_process"]
         self.assertNotIn("per_process", summary(alone))
         nodes = summary(both)["mesh"]["fluid_nodes"] + summary(both)["mesh"]["wall_nodes"]

@@ -18,6 +18,7 @@
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
 #include "system/system.hpp"
+#include "system/work_unit.hpp"
 
 namespace fsi::test {
 
@@ -272,6 +273,17 @@ TYPED_TEST(SharedScene, IsTheWholeScene) {
 
 TYPED_TEST(SharedScene, WithFibresAndContinuousPressure) {
   compare<TypeParam>(case_of("artery", LayerPressure::continuous));
+}
+
+/// Each number of the whole matrix is one process's, and all decide alike how many products there are.
+TYPED_TEST(SharedScene, HasTheWholeMatrixOfTheWorkUnit) {
+  Both<TypeParam> both(case_of("neo-hookean", LayerPressure::separate));
+  EXPECT_EQ(CoupledProduct<TypeParam::components>(*both.here).entries(),
+            CoupledProduct<TypeParam::components>(*both.whole).entries());
+  WorkUnitMeter<TypeParam::components> meter(*both.here);
+  for (int step = 0; step < 9; ++step) meter.measure(step == 0 ? 1.0 + world().rank() : 1e9);
+  EXPECT_EQ(meter.unit().products, WorkUnitMeter<TypeParam::components>::enough);
+  EXPECT_EQ(meter.unit().seconds, world().largest(meter.unit().seconds));
 }
 
 /// Openings that follow wall ends which slide in an oblique plane beside planes of symmetry, or are free: forces, flows

@@ -36,6 +36,10 @@ class Measured:
         return self.run.wall_s
 
     @property
+    def work_units(self) -> Optional[float]:
+        return self.run.work_units
+
+    @property
     def step(self) -> float:  # ms
         return float(self.run.request.settings[STEP])
 

@@ -9,6 +9,7 @@ from ...base.names import MATERIALS
 from ...base.progress import duration
 from ...reporting.layout import Table, fixed
 from ...reporting.report import Report
+from ...runs.work_units import NOTE_IN_ALL, shown
 from ..evidence.runs_table import runs_table
 from ..evidence.waves import JUDGED, QUANTITIES, Quantity
 from ..running.context import Context
@@ -157,15 +158,22 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
             stem=f"frontier_{quantity.file.split('.')[0]}{stem}",
             title=f"The frontier in {quantity.name}{name}",
             left=3,
-            columns=[("", "number"), ("", "equations"), ("", "solved by"), ("", "error"), ("", "seconds")],
-            csv_columns=["number", "equations", "solved_by", "relative_error", "seconds"],
+            columns=[("", name) for name in ("number", "equations", "solved by", "error", "work units", "seconds")],
+            csv_columns=["number", "equations", "solved_by", "relative_error", "seconds", "work_units"],
         )
         for number, i in enumerate(best, 1):
             m = measured[i]
             table.rows.append(
-                [str(number), m.equations, m.solving, percent(m.total[quantity.column]), fixed(m.seconds, ".1f")]
+                [
+                    str(number),
+                    m.equations,
+                    m.solving,
+                    percent(m.total[quantity.column]),
+                    shown(m.work_units),
+                    fixed(m.seconds, ".1f"),
+                ]
             )
-            table.csv_rows.append([number, m.equations, m.solving, m.total[quantity.column], m.seconds])
+            table.csv_rows.append([number, m.equations, m.solving, m.total[quantity.column], m.seconds, m.work_units])
         report.table(table)
 
 
@@ -287,6 +295,7 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
             columns=[
                 ("", "solved by"),
                 *(("error", name) for name in SHORT),
+                ("", "work units"),
                 ("", "seconds"),
                 ("", "iterations per step"),
                 ("", "frontier"),
@@ -298,6 +307,7 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
                 "seconds",
                 "iterations_per_step",
                 "on_frontier",
+                "work_units",
             ],
             notes=["Frontier: in the largest of the errors. Iterations: coupling passes, or Newton's."],
         )
@@ -309,13 +319,22 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
                 [
                     m.solving,
                     *(percent(m.algebraic[q.column]) for q in QUANTITIES),
+                    shown(m.work_units),
                     fixed(m.seconds, ".2f"),
                     fixed(passes, ".1f"),
                     "" if on is None else str(on),
                 ]
             )
             table.csv_rows.append(
-                [name, m.solving, *(m.algebraic[q.column] for q in QUANTITIES), m.seconds, passes, on is not None]
+                [
+                    name,
+                    m.solving,
+                    *(m.algebraic[q.column] for q in QUANTITIES),
+                    m.seconds,
+                    passes,
+                    on is not None,
+                    m.work_units,
+                ]
             )
         report.table(table)
 
@@ -332,6 +351,7 @@ def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
             ("", "group"),
             ("", "nodes"),
             *((kind, name) for kind in ("total error", "solver's error") for name in SHORT),
+            ("", "work units"),
             ("", "time"),
         ],
         csv_columns=[
@@ -347,6 +367,7 @@ def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
             "seconds",
             "process_s",
             "folder",
+            "work_units",
         ],
     )
     for m in sorted(measured, key=lambda m: (m.run.request.case, m.worst)):
@@ -361,6 +382,7 @@ def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
                 f"{m.nodes:,}",
                 *(percent(m.total[q.column]) for q in QUANTITIES),
                 *("-" if e is None else percent(e) for e in solver),
+                shown(m.work_units),
                 duration(m.seconds),
             ]
         )
@@ -379,6 +401,9 @@ def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
                 m.seconds,
                 m.run.seconds,
                 m.run.folder.name,
+                m.work_units,
             ]
         )
+    if any(m.work_units is not None for m in measured):
+        table.notes.append(NOTE_IN_ALL)
     return table

@@ -4,6 +4,7 @@ from typing import Sequence
 
 from ...base.progress import duration
 from ...reporting.layout import Table, fixed
+from ...runs.work_units import shown
 from ..running.study_file import show
 from ..running.study_run import StudyRun
 
@@ -21,6 +22,7 @@ def runs_table(runs: Sequence[StudyRun], stem: str = "runs", title: str = "All r
             ("", "outcome"),
             ("", "steps"),
             ("", "iterations per step"),
+            ("", "work units per step"),
             ("", "time"),
         ],
         csv_columns=[
@@ -36,6 +38,7 @@ def runs_table(runs: Sequence[StudyRun], stem: str = "runs", title: str = "All r
             "process_s",
             "folder",
             "command",
+            "work_units_per_step",
         ],
     )
     for run in runs:
@@ -52,6 +55,7 @@ def runs_table(runs: Sequence[StudyRun], stem: str = "runs", title: str = "All r
                 outcome,
                 str(run.steps),
                 fixed(passes, ".2f"),
+                shown(run.work_units_per_step),
                 duration(run.seconds),
             ]
         )
@@ -70,6 +74,7 @@ def runs_table(runs: Sequence[StudyRun], stem: str = "runs", title: str = "All r
                 run.seconds,
                 run.folder.name,
                 run.command,
+                run.work_units_per_step,
             ]
         )
     return table

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence
 
 from ...base.names import MATERIALS
+from ...runs.work_units import shown
 from ..evidence.mesh_error import MeshError, percent
 from .claims import NOT_REPRODUCED, Claim, tally
 from .cost import FAST_MONOLITHIC, NOISE, PAPER_MONOLITHIC, PAPER_PARTITIONED, RIVALS, StepCost
@@ -140,7 +141,8 @@ def failures(claims: Sequence[Claim], runs: int, missing: Sequence[str]) -> str:
 
 
 def _seconds(one: StepCost) -> str:
-    return f"{one.seconds:.3g} s"
+    work = one.run.work_units_per_step
+    return f"{one.seconds:.3g} s" if work is None else f"{shown(work)} work units ({one.seconds:.3g} s)"
 
 
 def _times(one: StepCost, other: Optional[StepCost]) -> str:

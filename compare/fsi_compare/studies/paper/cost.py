@@ -9,6 +9,7 @@ from ...base.names import MATERIALS, MESHES
 from ...linear.solver_tables import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
 from ...reporting.layout import Table, fixed
+from ...runs.work_units import NOTE, shown
 from ..running.repeats import spread
 from ..running.study_run import OUT_OF_TIME, StudyRun
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
@@ -136,6 +137,7 @@ def cost_table(found: Sequence[StepCost]) -> Table:
             ("", "sub-problem solves"),
             ("", "linear systems"),
             ("", "linear iterations"),
+            ("", "work units"),
             ("", "seconds"),
             ("", "timed"),
         ],
@@ -151,6 +153,7 @@ def cost_table(found: Sequence[StepCost]) -> Table:
             "wall_s_per_step",
             "steps",
             "timings",
+            "work_units_per_step",
         ],
         notes=[
             "Means over the same steps. Rounds: coupled linear iterations, or Newton iterations of a sub-problem "
@@ -174,6 +177,7 @@ def cost_table(found: Sequence[StepCost]) -> Table:
                 f"{c.solves:.0f}",
                 f"{c.systems:.1f}",
                 f"{c.linear:.0f}",
+                shown(c.run.work_units_per_step),
                 f"{c.seconds:.3g}",
                 c.timing,
             ]
@@ -191,8 +195,11 @@ def cost_table(found: Sequence[StepCost]) -> Table:
                 c.seconds,
                 c.run.steps,
                 max(1, len(c.run.timings)),
+                c.run.work_units_per_step,
             ]
         )
+    if any(c.run.work_units_per_step is not None for c in found):
+        table.notes.append(NOTE)
     return table
 
 

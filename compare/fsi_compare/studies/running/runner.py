@@ -29,6 +29,7 @@ from ...runs.launch import launched
 from ...runs.processes import End, Job, execute, run_jobs
 from ...runs.programs import Program
 from ...runs.summary import FILE, read_summary
+from ...runs.work_units import about_machines
 from . import repeats
 from .builds import Builds
 from .fingerprint import fingerprint
@@ -162,6 +163,11 @@ class Runner:
         self._known[key] = replace(
             run, status=record["status"], message=record["message"], timings=tuple(record.get("timings", ()))
         )
+
+    @property
+    def machines(self) -> str:
+        """About machines and builds of the finished runs; empty: they are all of one."""
+        return about_machines([run.summary for run in self._known.values() if run.done])
 
     @property
     def warning(self) -> str:

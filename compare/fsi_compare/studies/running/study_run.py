@@ -3,7 +3,7 @@
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Tuple
+from typing import Optional, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_object
@@ -11,6 +11,7 @@ from ...runs.columns import Columns, read_columns
 from ...runs.pressure_waves import PressureWaves
 from ...runs.run_folder import has_pressure, read_pressure_line
 from ...runs.summary import FILE, checked
+from ...runs.work_units import in_all, per_step
 from .study_file import Request
 
 DONE = "done"
@@ -75,6 +76,16 @@ class StudyRun:
     def wall_s(self) -> float:
         """Seconds of the time steps, without start and mesh."""
         return float(self.summary.get("totals", {}).get("wall_s", float("nan")))
+
+    @property
+    def work_units_per_step(self) -> Optional[float]:
+        """None: the run did not measure the unit."""
+        return per_step(self.summary)
+
+    @property
+    def work_units(self) -> Optional[float]:
+        """Of all time steps."""
+        return in_all(self.summary)
 
     @property
     def passes(self) -> float:

@@ -1,0 +1,73 @@
+"""Seconds of runs that were made on different machines, read together: work units, and word of the machines.
+
+A work unit is the seconds of one product with the coupled matrix, which each run measures itself
+(docs/performance.md, "Work units").
+"""
+
+from typing import Any, List, Mapping, Optional, Sequence
+
+from ..base.errors import printable
+
+Summary = Mapping[str, Any]  # summary.json as read_summary returns it
+
+NOTE = (
+    "Work units: seconds of a step over those of one product with the coupled matrix, measured in the same run; empty "
+    "for runs that did not measure it."
+)
+
+NOTE_IN_ALL = f"Work units of all steps together. {NOTE}"
+
+
+def per_step(summary: Summary) -> Optional[float]:
+    """Of the steps of the program that wrote the summary, without output; None: it did not measure the unit."""
+    value = summary.get("totals", {}).get("work_units_per_step")
+    return None if value is None else float(value)
+
+
+def in_all(summary: Summary) -> Optional[float]:
+    """Of the same steps together."""
+    each, steps = per_step(summary), summary.get("totals", {}).get("steps")
+    if each is None or steps is None:
+        return None
+    return each * (steps - summary.get("restarted_from_step", 0))
+
+
+def shown(work: Optional[float]) -> str:
+    """In a table for readers: three digits, without exponent."""
+    if work is None:
+        return ""
+    return f"{work:,.0f}" if work >= 100 else f"{work:.3g}"
+
+
+def about_machines(summaries: Sequence[Summary]) -> str:
+    """One sentence without its full stop where the runs were made on machines with several processors, or by several
+    builds of the programs; else nothing. A run of a version that did not say so counts as another build beside one that
+    does."""
+    processors = _distinct([_processor(s) for s in summaries])
+    builds = _distinct([_build(s) for s in summaries])
+    if any("build" in s for s in summaries) and not all("build" in s for s in summaries):
+        builds.append("one that does not name itself")
+    parts = [
+        f"{len(names)} {kind}: {', '.join(names)}"
+        for kind, names in (("processors", processors), ("builds", builds))
+        if len(names) > 1
+    ]
+    return f"These runs are of {'; and of '.join(parts)}; compare work units, not seconds" if parts else ""
+
+
+def _distinct(names: Sequence[str]) -> List[str]:
+    """In the order in which they come, without what is not known."""
+    return list(dict.fromkeys(name for name in names if name))
+
+
+def _processor(summary: Summary) -> str:
+    return printable(summary.get("machine", {}).get("processor", ""))
+
+
+def _build(summary: Summary) -> str:
+    """Empty where the summary does not tell."""
+    build = summary.get("build", {})
+    words = [build.get("compiler", ""), build.get("instruction_set", "")]
+    if not any(words):
+        return ""
+    return printable(" ".join([summary.get("version", ""), *words]).strip())
