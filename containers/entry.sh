@@ -8,7 +8,7 @@ usage() {
 }
 
 # A user whom the container does not know has no home to write to; matplotlib and Open MPI want one.
-if ! [ -w "${HOME:-/}" ]; then
+if [ -z "${HOME:-}" ] || ! [ -w "$HOME" ]; then
   HOME=$(mktemp -d)
   export HOME
   export MPLCONFIGDIR="$HOME"
