@@ -109,7 +109,7 @@ setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-pro
 inside=$!
 code=0
 trap 'code=143; kill -KILL $inside' INT TERM HUP
-wait $inside || { [ $code -ne 0 ] || code=1; }
+{ wait $inside; } 2>/dev/null || { [ $code -ne 0 ] || code=1; } # without the shell's word that it was killed
 trap - INT TERM HUP
 echo "Log: $log"
 remove_machine

@@ -50,7 +50,7 @@ enter_root() {
   fi
 }
 
-# Environment of every program in there, NAME=VALUE: nothing of this machine's but the proxies and how many compile.
+# root_environment FOLDER: of every program in there that starts in this folder, NAME=VALUE: nothing of this machine's but the proxies and how many compile.
 root_environment() {
   local name
   echo "PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
@@ -59,14 +59,17 @@ root_environment() {
     [ -z "${!name:-}" ] || echo "$name=${!name}"
   done
   level_environment "$level"
-  [ -z "$ccache_folder" ] || printf '%s\n' "CMAKE_CXX_COMPILER_LAUNCHER=ccache" "CCACHE_DIR=/ccache"
+  # Paths below the working folder count as relative ones, so that objects of another clone serve here.
+  [ -z "$ccache_folder" ] ||
+    printf '%s\n' CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=/ccache CCACHE_NOHASHDIR=1 "CCACHE_BASEDIR=$1" \
+      CCACHE_SLOPPINESS=include_file_mtime,include_file_ctime,time_macros
 }
 
 # in_root ROOT USER FOLDER [NAME=VALUE...] COMMAND...: runs a command there, in a folder of it; the user by name or UID:GID.
 in_root() {
   local root=$1 user=$2 folder=$3 home environment
   shift 3
-  mapfile -t environment < <(root_environment)
+  mapfile -t environment < <(root_environment "$folder")
   home=$(sed -nE "s/^$user:([^:]*:){4}([^:]*):.*/\2/p" "$root/etc/passwd")
   chroot --userspec="$user" "$root" /usr/bin/env -i --chdir="$folder" "${environment[@]}" HOME="${home:-/}" "$@"
 }
