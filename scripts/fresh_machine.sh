@@ -102,15 +102,17 @@ remove_machine() {
 
 # In namespaces of their own: what is mounted goes, and what still runs is killed, with the first process there; and that
 # one with unshare, and that with this script, however it ends.
-export fresh_mode=$mode fresh_tests=$tests fresh_level=$level fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
-export fresh_package=${package:+$(realpath "$package")} fresh_ccache=${cache:+$(cd "$cache" && pwd)} fresh_folder=$folder
-setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-proc --fork --kill-child \
-  bash "$here/fresh_machine/stages.sh" &
-inside=$!
-code=0
-trap 'code=143; kill -KILL $inside' INT TERM HUP
-{ wait $inside; } 2>/dev/null || { [ $code -ne 0 ] || code=1; } # without the shell's word that it was killed
-trap - INT TERM HUP
-echo "Log: $log"
-remove_machine
-exit $code
+run_stages() {
+  export fresh_mode=$mode fresh_tests=$tests fresh_level=$level fresh_debs=${debs:+$(cd "$debs" && pwd)} fresh_log=$log
+  export fresh_package=${package:+$(realpath "$package")} fresh_ccache=${cache:+$(cd "$cache" && pwd)} fresh_folder=$folder
+  setpriv --pdeathsig KILL unshare --mount --propagation private --pid --mount-proc --fork --kill-child \
+    bash "$here/fresh_machine/stages.sh" &
+  local inside=$! code=0
+  trap 'code=143; { kill -KILL $inside; wait $inside; } 2>/dev/null || true' INT TERM HUP # without the shell's word on it
+  wait $inside || { [ $code -ne 0 ] || code=1; }
+  trap - INT TERM HUP
+  echo "Log: $log"
+  remove_machine
+  exit $code
+}
+run_stages # in a function, which a change of this file in the meantime does not reach

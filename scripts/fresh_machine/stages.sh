@@ -98,9 +98,14 @@ try_package() {
   say "Programs: $(in_root "$root" user / fsi-monolithic --version)"
 }
 
-say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian 12, processor level: ${level:-that of this machine}"
-changed=$(git -C "$top" status --porcelain | wc -l)
-[ "$changed" -eq 0 ] || say "$changed files of the sources differ from this commit; the machine has the commit's"
-stage "minimal Debian 12" make_root "$root"
-"try_$fresh_mode"
-print_table | tee -a "$log"
+main() {
+  local changed
+  say "fsi-duo $(git -C "$top" rev-parse --short HEAD) on a fresh Debian 12, processor level: ${level:-that of this machine}"
+  changed=$(git -C "$top" status --porcelain | wc -l)
+  [ "$changed" -eq 0 ] || say "$changed files of the sources differ from this commit; the machine has the commit's"
+  stage "minimal Debian 12" make_root "$root"
+  "try_$fresh_mode"
+  print_table | tee -a "$log"
+}
+main
+exit
