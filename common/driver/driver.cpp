@@ -71,6 +71,7 @@ nlohmann::json scene_json(const std::string& program, const Case& setup, const M
   nlohmann::json json;
   json["program"] = program;
   json["version"] = version;
+  if (*instruction_set != '\0') json["instruction_set"] = instruction_set;
   json["title"] = setup.title;
   json["case"] = setup.path.string();
   json["case_hash"] = hash_of_case(setup);
