@@ -1,6 +1,7 @@
 # What `cmake --install` puts where. Below the prefix everything finds everything else by relative paths, so that the
 # tree can be moved.
 #   bin/                   the programs
+#   lib/fsi-duo/LEVEL/     with FSI_PACKAGE_LEVELS: the drivers for each x86-64 level, which those in bin/ start
 #   share/fsi-duo/         fsi-compare's Python, ready studies, ready cases, the gallery, an example for Slurm
 #   lib/python3/dist-packages/   fsi-duo.pth, which puts that Python on the path of Debian's
 #   share/doc/fsi-duo/     README, docs, licence
@@ -15,9 +16,14 @@ set(_config ${CMAKE_INSTALL_LIBDIR}/cmake/fsi-duo)
 set(_data ${CMAKE_INSTALL_DATADIR}/fsi-duo)
 set(_documents ${CMAKE_INSTALL_DATADIR}/doc/fsi-duo)
 
-# Programs.
-install(TARGETS fsi-mesh fsi-monolithic fsi-partitioned
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+# Programs. fsi-mesh spends no time in element loops and looks for fsi-compare beside itself: one build of it will do.
+install(TARGETS fsi-mesh RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+set(_drivers fsi-monolithic fsi-partitioned)
+if(FSI_PACKAGE_LEVELS)
+  include(cmake/Levels.cmake)
+else()
+  install(TARGETS ${_drivers} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+endif()
 
 # fsi-compare: compare/ and meshes/ lie beside each other as in the sources, where it looks for cases and studies.
 file(RELATIVE_PATH FSI_COMPARE_PACKAGE_DIR

@@ -1,5 +1,6 @@
 # Debian packages of what is built: `cpack -G DEB` in the build folder makes fsi-duo (programs, cases, studies, documents)
-# and fsi-duo-dev (libraries and headers). For other machines than this one, build with the preset `portable`.
+# and fsi-duo-dev (libraries and headers), of one build. scripts/package.sh makes those for other machines: fsi-duo with the
+# drivers for each x86-64 level, fsi-duo-dev for the lowest.
 set(CPACK_PACKAGE_NAME fsi-duo)
 set(CPACK_PACKAGE_VENDOR "the fsi-duo authors")
 set(FSI_MAINTAINER "the fsi-duo authors <fsi-duo@localhost>" CACHE STRING "Who answers for the Debian packages, with address")
@@ -16,10 +17,12 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME fsi-duo)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-# Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found.
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-matplotlib, python3-numpy, python3-h5py")
-if(FSI_MPI)
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "openmpi-bin, openssh-client")  # mpirun, which asks for ssh
+# Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found; what fsi-mesh import
+# reads other formats with.
+string(CONCAT CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-matplotlib, python3-numpy, python3-h5py, "
+  "python3-meshio, python3-netcdf4")
+if(FSI_MPI)  # mpirun, which asks for ssh
+  string(APPEND CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS ", openmpi-bin, openssh-client")
 endif()
 if(NOT FSI_PYTHON STREQUAL "/usr/bin/python3")
   message(STATUS "Packages: fsi-compare would run with ${FSI_PYTHON}, which the Debian packages do not bring; "
@@ -45,9 +48,19 @@ Static libraries, headers and the CMake package fsi-duo of the programs in fsi-d
 set(_native_text "
 .
 Built for the instruction set of the machine that made this package: it may not start on another one.")
-if(NOT FSI_NATIVE)
+if(FSI_ARCH)  # as CMakeLists.txt chooses
+  set(_native_text "
+.
+Built for processors with the instructions of ${FSI_ARCH}: it does not start on others.")
+elseif(NOT FSI_NATIVE)
   set(_native_text "")
 endif()
 set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "${_programs_text}${_native_text}")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${_development_text}${_native_text}")
+if(FSI_PACKAGE_LEVELS)
+  list(JOIN _packaged ", " _levels_text)  # of cmake/Levels.cmake
+  set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "${_programs_text}
+.
+Holds the drivers for ${_levels_text} and starts the best for the processor.")
+endif()
 include(CPack)

@@ -32,7 +32,7 @@ std::string help_of(const std::vector<fsi::MeshCommand>& commands) {
 /// Does what the command line asks for; help and version are printed.
 int run(int argc, const char* const* argv) {
   CLI::App app("Makes meshes for the FSI programs. Lengths in mm.", fsi::mesh_program);
-  app.set_version_flag("--version", fmt::format("{} {}", fsi::mesh_program, fsi::version));
+  app.set_version_flag("--version", fsi::version_text(fsi::mesh_program));
   app.require_subcommand(1);
   const std::vector<fsi::MeshCommand> commands{fsi::artery_command(app), fsi::geo_command(app),
                                                fsi::import_command(app), fsi::thicken_command(app)};

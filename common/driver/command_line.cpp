@@ -145,7 +145,7 @@ std::optional<CommandLine> parse_command_line(const std::string& program, const 
     return {};
   }
   if (show_version) {
-    print(program + " " + version + "\n");
+    print(version_text(program) + "\n");
     return {};
   }
   refuse_extras(app);

@@ -6,7 +6,9 @@
 namespace fsi {
 
 /// Doubles that one vector instruction handles. Element kernels use a pack as their scalar type, one element per lane.
-#if defined(__AVX512F__)
+#if defined(FSI_PACK_WIDTH)  // only to measure other widths: docs/performance.md
+inline constexpr int pack_width = FSI_PACK_WIDTH;
+#elif defined(__AVX512F__)
 inline constexpr int pack_width = 8;
 #elif defined(__AVX__)
 inline constexpr int pack_width = 4;

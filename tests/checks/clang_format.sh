@@ -3,8 +3,8 @@
 set -euo pipefail
 clang_format=$1
 cd "$2"
-mapfile -d '' files < <(find common monolithic partitioned meshes tests benchmarks -type f \
-  \( -name '*.cpp' -o -name '*.hpp' \) -print0)
+mapfile -d '' files < <(find common monolithic partitioned meshes packages tests benchmarks -type f \
+  \( -name '*.cpp' -o -name '*.hpp' -o -name '*.c' \) -print0)
 if [ ${#files[@]} -eq 0 ]; then
   echo "clang_format.sh: error: no source files in $2" >&2
   exit 1

@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from ..base.files import absolute, exists, is_file, is_folder, read_bytes
 from .processes import answer
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"
+LEVELS = Path("..", "lib", "fsi-duo")  # from the folder of a package's programs: their builds, one folder a level
+VERSION = re.compile(r"(?P<name>\S+) (?P<version>\S+)(?: \((?P<level>[\w.-]+)\))?")  # fsi-mesh 0.1.0 (x86-64-v3)
 
 
 @dataclass(frozen=True)
@@ -57,13 +60,21 @@ def find_program(name: str, named: Optional[Path] = None, option: str = "--progr
     if is_folder(path) or not os.access(path, os.X_OK):
         raise InputError(path, option, "is not a program", BUILD)
     path = absolute(path)
-    words = _answer(path, "--version").split()
-    if len(words) != 2 or words[0] != name:
+    said = VERSION.fullmatch(_answer(path, "--version").strip())
+    if said is None or said["name"] != name:
         raise InputError(path, option, f"is not {name}", BUILD)
-    return Program(path, words[1], _executable_digest(path))
+    return Program(path, said["version"], _digest(_executable(path, said["level"])))
 
 
-def _executable_digest(path: Path) -> str:
+def _executable(path: Path, level: Optional[str]) -> Path:
+    """What runs when `path` is called: in a package with builds for several x86-64 levels, the build for the level that
+    it says (packages/start_level.c)."""
+    own = Path(os.path.realpath(path))
+    build = own.parent / LEVELS / level / own.name if level else own
+    return build if is_file(build) else path
+
+
+def _digest(path: Path) -> str:
     return hashlib.sha256(read_bytes(path, BUILD, BUILD)).hexdigest()
 
 

@@ -62,8 +62,7 @@ static int fails(size_t size) {
   if (now == unknown) atomic_store(&kind, now = read_kind());
   const unsigned long long call = atomic_fetch_add(&calls, 1) + 1;
   const int yes = (now == once && call == number) || (now == from && call >= number) ||
-                  (now == above && size >= number) ||
-                  (now == random_ones && number > 0 && mixed(call) % number == 0);
+                  (now == above && size >= number) || (now == random_ones && number > 0 && mixed(call) % number == 0);
   if (yes) errno = ENOMEM;
   return yes;
 }

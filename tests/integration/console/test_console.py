@@ -20,7 +20,7 @@ from programs import (
     make_small_mesh,
 )
 
-VERSION = os.environ["FSI_VERSION"]
+VERSION, SAID_VERSION = os.environ["FSI_VERSION"], os.environ["FSI_SAID_VERSION"]
 STEPS = 3
 
 
@@ -105,7 +105,7 @@ class Console(FolderTest):
     def test_version_and_help(self):
         for program in (*DRIVERS, MESH):
             process = execute(program, "--version")
-            self.assertEqual((process.returncode, process.stdout), (0, f"{self.name(program)} {VERSION}\n"))
+            self.assertEqual((process.returncode, process.stdout), (0, f"{self.name(program)} {SAID_VERSION}\n"))
             process = execute(program, "--help")
             self.assertEqual((process.returncode, process.stderr), (0, ""))
             self.assertIn("--version", process.stdout)

@@ -8,6 +8,10 @@ function(fsi_integration_test)
   if(arg_UNPARSED_ARGUMENTS)
     list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${folder}. OUTPUT_VARIABLE tests)
   endif()
+  set(said_version ${PROJECT_VERSION})
+  if(FSI_ARCH)
+    string(APPEND said_version " (${FSI_ARCH})")
+  endif()
   set(labels integration)
   if(arg_QUICK)
     list(APPEND labels quick)
@@ -22,7 +26,8 @@ function(fsi_integration_test)
       FSI_PARTITIONED=$<TARGET_FILE:fsi-partitioned>
       FSI_CASES=${PROJECT_SOURCE_DIR}/meshes/artery
       FSI_VTK_PYTHON=${FSI_VTK_PYTHON}
-      FSI_VERSION=${PROJECT_VERSION})
+      FSI_VERSION=${PROJECT_VERSION}
+      "FSI_SAID_VERSION=${said_version}")  # by the programs in C++
     set_tests_properties(${test} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT "${environment}")
     fsi_start_early(${test})
   endforeach()

@@ -1,0 +1,42 @@
+# The drivers of this build, which is for the lowest x86-64 level, and of the builds in FSI_PACKAGE_LEVELS, each in a folder
+# named after its level; and in bin/ what starts the highest one that the processor has (packages/start_level.c).
+set(_level_names x86-64-v2 x86-64-v3 x86-64-v4)
+set(_packaged "")
+macro(fsi_require_new_level level folder)
+  if(NOT "${level}" IN_LIST _level_names)
+    message(FATAL_ERROR "FSI_PACKAGE_LEVELS: ${folder} is built for FSI_ARCH='${level}', which is no level: "
+      "give -DFSI_ARCH=x86-64-v2, -v3 or -v4 there (scripts/package.sh does all of it)")
+  endif()
+  if("${level}" IN_LIST _packaged)
+    message(FATAL_ERROR "FSI_PACKAGE_LEVELS: ${folder} is the second build for ${level}; leave one out")
+  endif()
+  list(APPEND _packaged ${level})
+endmacro()
+
+set(_levels ${CMAKE_INSTALL_LIBDIR}/fsi-duo)
+fsi_require_new_level("${FSI_ARCH}" ${PROJECT_BINARY_DIR})
+install(TARGETS ${_drivers} RUNTIME DESTINATION ${_levels}/${FSI_ARCH} COMPONENT programs)
+foreach(_folder IN LISTS FSI_PACKAGE_LEVELS)
+  if(NOT EXISTS ${_folder}/CMakeCache.txt)
+    message(FATAL_ERROR "FSI_PACKAGE_LEVELS: ${_folder} is no build folder; call scripts/package.sh")
+  endif()
+  load_cache(${_folder} READ_WITH_PREFIX _other_ FSI_ARCH CMAKE_PROJECT_VERSION FSI_MPI)
+  fsi_require_new_level("${_other_FSI_ARCH}" ${_folder})
+  foreach(_same CMAKE_PROJECT_VERSION FSI_MPI)
+    if(NOT "${_other_${_same}}" STREQUAL "${${_same}}")
+      message(FATAL_ERROR "FSI_PACKAGE_LEVELS: ${_folder} has ${_same}=${_other_${_same}}, "
+        "this build ${${_same}}; build both alike")
+    endif()
+  endforeach()
+  foreach(_driver IN LISTS _drivers)
+    install(PROGRAMS ${_folder}/bin/${_driver} DESTINATION ${_levels}/${_other_FSI_ARCH} COMPONENT programs)
+  endforeach()
+endforeach()
+if(NOT "x86-64-v2" STREQUAL "${FSI_ARCH}")
+  message(FATAL_ERROR "FSI_PACKAGE_LEVELS: the build that makes the packages has to be for the lowest level, x86-64-v2, "
+    "not ${FSI_ARCH}")
+endif()
+foreach(_driver IN LISTS _drivers)
+  install(PROGRAMS $<TARGET_FILE:fsi_start_level> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${_driver}
+    COMPONENT programs)
+endforeach()
