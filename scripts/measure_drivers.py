@@ -200,12 +200,14 @@ def _plain(path: Path) -> List[Row]:
 
 
 def _call(words: Iterable[object]) -> float:
-    """Its processor seconds."""
+    """Its processor seconds. A shell of its own starts it: a program counts the memory of the process that it is made from."""
     command = [str(word) for word in words]
+    if not Path(command[0]).exists():
+        fail(f"{command[0]}: there is no such program; name the folder of the programs, build/release/bin")
     try:
-        process = subprocess.Popen(command)
+        process = subprocess.Popen(["sh", "-c", '"$@"; exit $?', "sh", *command])
     except OSError as error:
-        fail(f"{command[0]}: {error.strerror}; name the folder of the programs, build/release/bin")
+        fail(f"sh: {error.strerror}")
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
