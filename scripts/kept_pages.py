@@ -77,12 +77,14 @@ def found(rows: List[Row], name: str, where: str, column: str) -> str:
 
 
 def like(shown: str, value: str) -> str:
-    """`value` with as many significant digits as `shown` has, and commas between thousands as there."""
+    """`value` with as many significant digits as `shown` has, two where that is a whole number, and never less than its whole
+    part."""
     try:
         number, old = Decimal(value), Decimal(shown.replace(",", ""))
     except ArithmeticError:
         raise PageError(f"'{value}' is no number") from None
-    rounded = Decimal(f"{number:.{len(old.as_tuple().digits) - 1}e}")
+    digits = len(old.as_tuple().digits) if "." in shown else 2
+    rounded = Decimal(f"{number:.{max(digits, number.adjusted() + 1) - 1}e}")
     if old in (number, rounded):
         return shown
     return f"{rounded:,f}" if abs(rounded) >= 1000 else f"{rounded:f}"

@@ -9,7 +9,7 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "scripts"))
 
-from kept_blocks import BlockError, drivers_table, drivers_verdict, pairs  # noqa: E402
+from kept_blocks import BlockError, drivers_table, drivers_verdict, drivers_why, pairs  # noqa: E402
 from kept_pages import PageError, like, loose_numbers, renewed, stale  # noqa: E402
 from kept_tables import read_table  # noqa: E402
 
@@ -111,8 +111,12 @@ class Numbers(unittest.TestCase):
             ("0.10", "0.1044", "0.10"),
             ("54,540", "54541", "54,541"),
             ("1.0", "0.0441", "0.044"),
+            ("64", "114", "114"),
+            ("1.72", "1234.6", "1,235"),
+            ("18", "0.404", "0.40"),
         ):
             self.assertEqual(like(shown, value), expected)
+            self.assertEqual(like(expected, value), expected)  # written anew it stays
         with self.assertRaises(PageError):
             like("1", "yes")
 
@@ -145,7 +149,13 @@ class Drivers(unittest.TestCase):
         self.assertIn("In 1 of 2 cases", text)
         self.assertIn("2.6 times as many in the median, 4.5 times at most.", text)
         self.assertIn("It takes fewer in Flag.", text)
-        self.assertIn("In Tube it needs 0.50 GiB, the monolithic one 1.00.", text)
+        self.assertIn("In the largest run, Tube, it needs 0.50 GiB, the monolithic one 1.00.", text)
+
+    def test_why(self):
+        text = " ".join(drivers_why(DRIVERS).split())
+        self.assertIn("1.5 to 22 times as many Newton iterations", text)
+        self.assertIn("takes 0.20 to 0.50 of the seconds of a coupled one", text)
+        self.assertIn("highest in Tube, with 5.0 passes a step", text)
 
     def test_table(self):
         lines = drivers_table(DRIVERS).splitlines()
