@@ -131,6 +131,15 @@ class Numbers(unittest.TestCase):
         for path in tables:
             self.assertGreater(len(read_table(path)), 0)
 
+    def test_every_scene_that_both_drivers_run_is_measured(self):
+        scenes = {path.parent.name: path.read_text(encoding="utf-8") for path in TOP.glob("gallery/*/scene.py")}
+        both = {name for name, text in scenes.items() if "DRIVERS = " not in text}
+        self.assertGreater(len(both), 15)
+        paper = {f"{path.stem}-coarse" for path in TOP.glob("meshes/artery/*.toml")}
+        self.assertEqual(len(paper), 3)
+        measured = {pair.monolithic["case"] for pair in pairs(read_table(TOP / "docs" / "data" / "drivers.csv"))}
+        self.assertLessEqual(both | paper, measured)
+
     def test_the_answer_page_is_checked_whole(self):
         page = (TOP / "docs" / "which.md").read_text(encoding="utf-8")
         self.assertIn("<!-- numbers: kept -->", page)
