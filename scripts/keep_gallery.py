@@ -1,13 +1,36 @@
-"""Keeps the gallery's page under docs/: text and tables as docs/gallery.md, pictures as docs/pictures/gallery-*.png.
+"""Keeps the gallery's page under docs/: text and tables as docs/gallery.md, pictures as docs/pictures/gallery-*.png. What
+both drivers take is measured apart, by scripts/measure_drivers.py, and stands on docs/which.md alone.
 
 usage: python3 scripts/keep_gallery.py FOLDER    (results/gallery, as fsi-compare gallery leaves it)
 """
 
+import re
 import sys
 from pathlib import Path
 from typing import List
 
 from keep_study import TOP, fail, with_pictures
+
+
+COST = re.compile(
+    r"(\| driver \| unknowns \| steps \| seconds \|.*\n(?:\|.*\n){2,}?)\n[^|\n]*seconds of the whole program[^\n]*\n",
+    re.I,
+)
+SECONDS = 3  # the column
+ELSEWHERE = "Seconds and memory of both drivers: [which.md](which.md).\n"
+
+
+def without_seconds(text: str) -> str:
+    """The page without seconds where both drivers run a scene."""
+
+    def table(match: "re.Match[str]") -> str:
+        rows = [line.strip("| ").split(" | ") for line in match.group(1).splitlines()]
+        if len(rows) < 4:  # names, rule, one driver
+            return match.group(0)
+        lines = [" | ".join(row[:SECONDS] + row[SECONDS + 1 :]) for row in rows]
+        return "".join(f"| {line} |\n" for line in lines) + "\n" + ELSEWHERE
+
+    return COST.sub(table, text)
 
 
 def main(words: List[str]) -> int:
@@ -19,7 +42,7 @@ def main(words: List[str]) -> int:
         text = (folder / "report.md").read_text(encoding="utf-8")
         text = with_pictures(text, folder, TOP / "docs" / "pictures", "gallery", "pictures")
         page = TOP / "docs" / "gallery.md"
-        page.write_text(text, encoding="utf-8")
+        page.write_text(without_seconds(text), encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{folder}: {error}; run fsi-compare gallery first")
     print(page)

@@ -1,5 +1,5 @@
 """Draws the picture on README's first screen: the pressure wave of the artery by both drivers, beside the error that a run
-leaves for the seconds that it takes. The numbers lie in docs/pictures/data.
+leaves for the seconds that it takes. The numbers lie in docs/data.
 
 usage: python3 scripts/readme_picture.py [-o FILE.png]
        python3 scripts/readme_picture.py --measure BIN WORK
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Dict, List, NamedTuple, NoReturn, Tuple
 
 TOP = Path(__file__).resolve().parents[1]
-DATA = TOP / "docs/pictures/data"
+DATA = TOP / "docs/data"
 WAVE, ERRORS = DATA / "artery-wave.csv", DATA / "artery-error-seconds.csv"
 PICTURE = TOP / "docs/pictures/artery-both-drivers.png"
 CASE = "meshes/artery/axisymmetric/neo-hookean.toml"

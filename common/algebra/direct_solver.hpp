@@ -13,7 +13,7 @@ namespace fsi {
 class DirectSolver {
  public:
   /// Fill-reducing ordering and pivoting strategy, by name; the defaults are what measurement favoured
-  /// (docs/performance.md).
+  /// (docs/solver-measurements.md).
   struct Options {
     std::string ordering = "metis";  ///< "amd", "metis", "best"
     std::string strategy = "auto";   ///< "auto", "unsymmetric", "symmetric"

@@ -118,7 +118,7 @@ struct MonolithicData {
   KrylovOptions krylov;  ///< of the coupled solvers; their tolerance comes with each solve
   MultigridData multigrid;
 
-  /// A tolerance that leaves a tenth of the discretisation's error at most (docs/accuracy.md).
+  /// A tolerance that leaves a tenth of the discretisation's error at most (docs/evidence.md).
   static NewtonOptions standard_newton() {
     NewtonOptions options;
     options.tolerance = 1e-3;
@@ -167,7 +167,7 @@ struct EconomyData {
 struct Case {
   std::filesystem::path path;  ///< of the case file
   std::string title;
-  ElementPair element = ElementPair::p2p1;  ///< at equal seconds the more accurate one: docs/accuracy.md
+  ElementPair element = ElementPair::p2p1;  ///< at equal seconds the more accurate one: docs/evidence.md
   Geometry geometry = Geometry::three_dimensional;
   Stabilisation stabilisation = Stabilisation::projected;
   MeshData mesh;

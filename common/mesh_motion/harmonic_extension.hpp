@@ -12,7 +12,7 @@
 
 namespace fsi {
 
-/// How a harmonic extension is computed. Defaults by measurement (docs/performance.md).
+/// How a harmonic extension is computed. Defaults by measurement (docs/solver-measurements.md).
 struct HarmonicExtensionOptions {
   /// Inner nodes from which the iteration serves; without it standard_iterative_from().
   std::optional<int> iterative_from;

@@ -82,7 +82,7 @@ class LinearSolver {
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
   virtual LinearStatistics statistics() const { return {}; }
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
-  /// matter of what update() costs beside solve(). By measurement (docs/performance.md, docs/solvers.md).
+  /// matter of what update() costs beside solve(). By measurement (docs/solver-measurements.md, docs/solvers.md).
   virtual double keep_contraction() const { return 0.15; }
 };
 
