@@ -60,7 +60,8 @@ if [ $all = yes ]; then
   check_level x86-64-v2 clang++
 
   echo "== all other tests, release build"
-  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=OFF -DFSI_WARNINGS_AS_ERRORS=ON
+  cmake --preset release -DFSI_TESTS=ON -DFSI_TEST_CASES=OFF -DFSI_UNIT_TESTS=OFF -DFSI_WARNINGS_AS_ERRORS=ON \
+    -DCMAKE_UNITY_BUILD=OFF  # each source by itself, as the warnings and the analyser want it
   cmake --build --preset release
   run_tests build/release
 else

@@ -149,11 +149,13 @@ struct PetscData {
 /// [output]
 struct OutputData {
   std::vector<std::string> fields = standard_output_fields();
-  int every = 8;                     ///< steps between entries of fields.h5; 0: no fields
-  std::optional<double> interval{};  ///< ms between entries of fields.h5, in place of `every`; steps end there
-  std::vector<double> times{};       ///< ms, ascending: further times at which steps end and fields.h5 has entries
-  int checkpoint_every = 1;          ///< steps between checkpoints; 0: none
-  bool energy = true;                ///< energy.csv
+  int every = 8;                          ///< steps between entries of fields.h5; 0: no fields
+  std::optional<double> interval{};       ///< ms between entries of fields.h5, in place of `every`; steps end there
+  std::vector<double> times{};            ///< ms, ascending: further times at which steps end and fields.h5 has entries
+  std::optional<int> checkpoint_every{};  ///< steps between checkpoints; 0: none; empty: by time
+  std::optional<double>
+      checkpoint_seconds{};  ///< s, age of the last checkpoint at which one is written; empty: by cost
+  bool energy = true;        ///< energy.csv
   DerivedOutput derived{};
   SampleRequests samples;  ///< [output.points], [output.lines.NAME], [output.planes.NAME]
 };

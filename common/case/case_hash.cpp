@@ -1,5 +1,6 @@
 #include "case/case_hash.hpp"
 
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -77,13 +78,6 @@ std::string hash_of_case(const Case& scene) {
   Fnv1a hash;
   hash.add(canonical_dump(scene));
   return hash.hex();
-}
-
-std::map<std::string, std::string> stepping_of_case(const Case& scene) {
-  std::map<std::string, std::string> steps;
-  for (const auto& [key, value, role] : values_of_case(scene))
-    if (role == KeyRole::stepping) steps[key] = value;
-  return steps;
 }
 
 }  // namespace fsi

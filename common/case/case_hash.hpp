@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "case/case.hpp"
@@ -27,8 +26,5 @@ std::string readable_dump(const Case& scene);
 /// How two readable dumps differ, for a message: the first key that is not the same, with both values, and how many
 /// there are more; empty when they agree.
 std::string difference_of_cases(const std::string& earlier, const std::string& now);
-
-/// The steps in which the equations are marched, by key: {"time.step": "0.125"} or {"static.load_steps": "10"}.
-std::map<std::string, std::string> stepping_of_case(const Case& scene);
 
 }  // namespace fsi

@@ -15,9 +15,8 @@ namespace fsi {
 
 /// What a change of a key's value changes.
 enum class KeyRole {
-  physics,   ///< the equations: part of the case's hash
-  stepping,  ///< the steps in which they are marched, see stepping_of_case()
-  running    ///< neither: names, files, solvers, output, the end of the run
+  physics,  ///< the equations: part of the case's hash
+  running   ///< nothing of them: names, files, steps, solvers, output, the end of the run
 };
 
 /// An effective value of a case, default or given, as canonical text: numbers with round-trip precision.

@@ -348,7 +348,7 @@ std::vector<CaseKey<TimeData>> time_keys() {
           "step", required, "time step in {unit}, or \"adaptive\"",
           {read_step, [](const TimeData& time) { return time.adaptive ? "adaptive" : fmt::format("{}", time.step); },
            "", quantity::time_step().unit},
-          KeyRole::stepping),
+          KeyRole::running),
       leaf("tolerance", optional, "error that adaptive steps aim at, relative to the solution, default {}",
            number(at(&TimeData::tolerance), Bounds{0, 1, false, false}), KeyRole::running),
       leaf("first_step", optional,
@@ -386,7 +386,7 @@ std::vector<CaseKey<TimeData>> time_keys() {
 std::vector<CaseKey<StaticData>> static_keys() {
   return {
       leaf("load_steps", optional, "equal steps in which the load is raised, default {}",
-           whole(at(&StaticData::load_steps), 1, most_steps), KeyRole::stepping),
+           whole(at(&StaticData::load_steps), 1, most_steps), KeyRole::running),
   };
 }
 

@@ -185,8 +185,12 @@ std::vector<CaseKey<OutputData>> output_keys() {
           {read_output_times,
            [](const OutputData& output) { return fmt::format("[{}]", fmt::join(output.times, ", ")); }, "",
            quantity::time().unit}),
-      leaf("checkpoint_every", optional, "steps between checkpoints, default {}; 0: none",
+      leaf("checkpoint_every", optional,
+           "steps between checkpoints; 0: none; unless given by time: at most 2 % of the run, at least each minute",
            whole(at(&OutputData::checkpoint_every), 0, most_steps_between)),
+      leaf("checkpoint_seconds", optional,
+           "age of the last checkpoint in seconds of real time at which the next is written, in place of that",
+           number(at(&OutputData::checkpoint_seconds), not_negative)),
       leaf("energy", optional, "energy balance of each step in energy.csv, default {}", flag(at(&OutputData::energy))),
   };
   for (auto& key : derived_output_keys()) keys.push_back(std::move(key));

@@ -30,6 +30,7 @@
 #include "diagnostics/ringing_monitor.hpp"
 #include "driver/check.hpp"
 #include "driver/checkpoint_arrays.hpp"
+#include "driver/checkpoint_pace.hpp"
 #include "driver/command_line.hpp"
 #include "driver/console.hpp"
 #include "driver/cost_summary.hpp"
@@ -216,7 +217,7 @@ class Run {
     else if (restarted && !std::filesystem::exists(line_.output / "fields.h5"))
       field_entries_ = 0;
     // A new folder can be gone on from as soon as it holds all that the earlier one has.
-    if (restarted && setup_.output.checkpoint_every > 0 && !in_place(line_)) save();
+    if (restarted && pace_.writes_any() && !in_place(line_)) save();
     try {
       about_processes_.steps_begin();
       while (state_.step < loads_.steps() && !is_stopped()) {
@@ -339,9 +340,8 @@ class Run {
       if (!lagging()) observe(state_, folder, fields);
       if (!lagging()) vouch(folder);
       first_.agree();  // the tables hold what the checkpoint says
-      const int every = setup_.output.checkpoint_every;
-      if (every > 0 && (state_.step % every == 0 || state_.step == loads_.steps())) save();
     }
+    if (checkpoint_is_due()) save();
     complete_ = state_.step;
     log.info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,
                          record.outer_iterations, record.newton_iterations,
@@ -602,9 +602,19 @@ class Run {
     return checkpoint;
   }
 
+  /// After a step, for all processes together: the first one's clock decides.
+  bool checkpoint_is_due() {
+    if (!pace_.writes_any()) return false;
+    if (state_.step == loads_.steps()) return true;
+    return processes_.any(first_.is_here() && pace_.is_due(state_.step, seconds_since(start_)));
+  }
+
   void save() {
+    const auto phase = scene_->profile.phase("checkpoint");
+    const auto start = Clock::now();
     save(checkpoint_of_now());
     saved_ = state_.step;
+    pace_.written(seconds_since(start_), seconds_since(start));
   }
   void save(const Checkpoint& checkpoint) {
     do_together(processes_, [&] {
@@ -773,7 +783,8 @@ class Run {
   bool gave_up_step_ = false;                    ///< in the middle, at a signal
   double waited_ = 0;                            ///< s, longest time of the last step in which no signal was looked for
   int saved_ = -1;                               ///< the step whose checkpoint the folder has
-  std::optional<Checkpoint> finished_;           ///< of the last finished step, where that is not written
+  CheckpointPace pace_{{setup_.output.checkpoint_every, setup_.output.checkpoint_seconds}};
+  std::optional<Checkpoint> finished_;  ///< of the last finished step, where that is not written
   State state_;
   State shown_;  ///< a finished level, for output
   TableDigests digests_;

@@ -1,14 +1,11 @@
 #include "driver/observables.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "base/error.hpp"
-#include "driver/same_state.hpp"
+#include "driver/same_rows.hpp"
 #include "fem/dimensions.hpp"
 #include "mesh/group_names.hpp"
 
@@ -79,61 +76,48 @@ std::vector<double> Observables<n>::centre_line_pressure(const std::vector<doubl
 template <int n>
 void Observables<n>::write(const State& state, ResultFolder& folder) const {
   const Seen seen = look(state);
-  if (!points_.centre_line.empty()) folder.write_centerline(state.time, points_.centre_z, seen.pressure);
+  if (!points_.centre_line.empty()) folder.write_centerline(state.time, centre_points(seen));
   if (scene_.fluid) folder.write_flow(state.time, seen.flow);
-  if (!points_.wall_line.empty()) folder.write_wall(state.time, points_.wall_z, seen.radial, seen.axial);
+  if (!points_.wall_line.empty()) folder.write_wall(state.time, wall_points(seen));
   for (std::size_t i = 0; i < seen.samples.size(); ++i)
     folder.write_sampled(samples_.tables()[i], state.time, seen.samples[i]);
 }
 
 template <int n>
+std::vector<CentrePoint> Observables<n>::centre_points(const Seen& seen) const {
+  std::vector<CentrePoint> found;
+  for (std::size_t i = 0; i < seen.pressure.size(); ++i) found.push_back({points_.centre_z[i], seen.pressure[i]});
+  return found;
+}
+
+template <int n>
+std::vector<WallPoint> Observables<n>::wall_points(const Seen& seen) const {
+  std::vector<WallPoint> found;
+  for (std::size_t i = 0; i < seen.radial.size(); ++i)
+    found.push_back({points_.wall_z[i], seen.radial[i], seen.axial[i]});
+  return found;
+}
+
+template <int n>
 void Observables<n>::require_same(const State& level, const EarlierTables& earlier) const {
   const Seen seen = look(level);
-  using Columns = std::vector<std::pair<std::size_t, const std::vector<double>&>>;
-  // Columns of one unit are compared by the largest number in any of them: the small ones may be rounding alone.
-  const auto require = [&](const std::string& file, double apart, double size) {
-    if (!(apart <= same_state * size))
-      throw InputError((earlier.folder() / file).string(), "",
-                       fmt::format("its rows of the time {:g} differ from the checkpoint's state by {:.1e} of their "
-                                   "largest value: the two are not of one run",
-                                   level.time, apart / size),
-                       "restart from a folder as its run has left it, or run from the start");
-  };
-  const auto compare = [&](const ResultTable& table, std::size_t width, const Columns& columns) {
-    const auto& rows = earlier.last_level(table.file);
-    if (rows.empty()) return;
-    double size = 0, apart = 0;
-    for (const auto& [column, values] : columns)
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const double row = rows.at(i * width + column);
-        size = std::max({size, std::abs(row), std::abs(values[i])});
-        apart = std::max(apart, std::abs(row - values[i]));
-      }
-    require(table.file, apart, size);
-  };
-  std::vector<double> pressure = seen.pressure;
-  for (double& p : pressure) p *= pascal_per_kilopascal;
-  const std::vector<double> in{seen.flow.inlet_flow}, out{seen.flow.outlet_flow};
-  const std::vector<double> pressure_in{pascal_per_kilopascal * seen.flow.inlet_pressure};
-  const std::vector<double> pressure_out{pascal_per_kilopascal * seen.flow.outlet_pressure};
-  compare(centerline_table(), 3, {{2, pressure}});
-  compare(wall_table(), 4, {{2, seen.radial}, {3, seen.axial}});
-  compare(flow_table(), 5, {{1, in}, {2, out}});
-  compare(flow_table(), 5, {{3, pressure_in}, {4, pressure_out}});
+  require_same_rows(earlier, centerline_table().file, level.time, centreline_columns(), centre_points(seen));
+  require_same_rows(earlier, wall_table().file, level.time, wall_columns(), wall_points(seen));
+  require_same_rows(earlier, flow_table().file, level.time, flow_columns(), std::vector<FlowRecord>{seen.flow});
   for (std::size_t t = 0; t < seen.samples.size(); ++t) {
     const SampledTable& table = samples_.tables()[t];
     const auto& before = earlier.last_level(table.file);
     const auto& now = seen.samples[t];
-    std::map<int, std::pair<double, double>> by_kind;  // how far apart, largest
+    std::map<int, Agreement> by_kind;
     for (std::size_t i = 0; i < before.size(); ++i) {
       const auto& value = now.at(i / table.kinds.size()).at(i % table.kinds.size());
-      auto& [apart, size] = by_kind[table.kinds[i % table.kinds.size()]];
-      if (std::isnan(before[i]) != !value.has_value()) apart = HUGE_VAL;
-      if (std::isnan(before[i]) || !value) continue;
-      size = std::max({size, std::abs(before[i]), std::abs(*value)});
-      apart = std::max(apart, std::abs(before[i] - *value));
+      auto& found = by_kind[table.kinds[i % table.kinds.size()]];
+      if (std::isnan(before[i]) != !value.has_value())
+        found.differ();
+      else if (value)
+        found.include(before[i], *value);
     }
-    for (const auto& [kind, found] : by_kind) require(table.file, found.first, found.second);
+    for (const auto& [kind, found] : by_kind) require_agreement(earlier, table.file, level.time, found);
   }
 }
 

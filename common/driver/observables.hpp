@@ -33,6 +33,9 @@ class Observables {
     std::vector<std::vector<SampledRow>> samples;  ///< of each sampled table
   };
   Seen look(const State& level) const;
+  /// The rows of what is seen; none where there is no such line.
+  std::vector<CentrePoint> centre_points(const Seen& seen) const;
+  std::vector<WallPoint> wall_points(const Seen& seen) const;
   /// This process's part.
   std::vector<double> centre_line_part(const std::vector<double>& fluid) const;
 

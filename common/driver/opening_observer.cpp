@@ -1,14 +1,6 @@
 #include "driver/opening_observer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-
-#include "base/error.hpp"
-#include "driver/same_state.hpp"
+#include "driver/same_rows.hpp"
 #include "fem/dimensions.hpp"
 
 namespace fsi {
@@ -45,32 +37,7 @@ void OpeningObserver<n>::write(const State& level, ResultFolder& folder) const {
 template <int n>
 void OpeningObserver<n>::require_same(const State& level, const EarlierTables& earlier) const {
   if (openings_.empty()) return;
-  constexpr std::size_t width = 4;  // time, flow, two pressures
-  const std::string file = openings_table(names_).file;
-  const auto& rows = earlier.last_level(file);
-  if (rows.empty()) return;
-  const auto seen = look(level);
-  // Of the largest number of a unit: small ones may be rounding alone.
-  for (const bool pressures : {false, true}) {
-    double size = 0, apart = 0;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const std::array<double, 2> values =
-          pressures ? std::array<double, 2>{seen[i].mean_pressure, seen[i].windkessel_pressure}
-                    : std::array<double, 2>{seen[i].flow, seen[i].flow};
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double row = rows.at(i * width + (pressures ? 2 + k : 1));
-        const double value = pressures ? pascal_per_kilopascal * values[k] : values[k];
-        size = std::max({size, std::abs(row), std::abs(value)});
-        apart = std::max(apart, std::abs(row - value));
-      }
-    }
-    if (!(apart <= same_state * size))
-      throw InputError((earlier.folder() / file).string(), "",
-                       fmt::format("its rows of the time {:g} differ from the checkpoint's state by {:.1e} of their "
-                                   "largest value: the two are not of one run",
-                                   level.time, apart / size),
-                       "restart from a folder as its run has left it, or run from the start");
-  }
+  require_same_rows(earlier, openings_table(names_).file, level.time, opening_columns(), look(level));
 }
 
 #define FSI_INSTANTIATE(n) template class OpeningObserver<n>;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
+#include "io/column.hpp"
 #include "io/result_tables.hpp"
 
 namespace fsi {

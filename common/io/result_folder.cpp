@@ -36,6 +36,11 @@ const std::vector<std::string>& result_files() {
   return files;
 }
 
+/// What a row of a step begins with.
+std::vector<double> lead(const StepRecord& record) {
+  return {static_cast<double>(record.step), record.time};
+}
+
 bool is_result_file(const fs::path& name) {
   const auto& files = result_files();
   return std::any_of(files.begin(), files.end(),
@@ -210,19 +215,12 @@ TableDigests ResultFolder::digests() const {
   return numbers;
 }
 
-void ResultFolder::write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure) {
-  assert(pressure.size() == z.size());
-  std::vector<std::vector<double>> rows;
-  for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], pascal_per_kilopascal * pressure.at(i)});
-  write(centerline_, centerline_table().file, rows);
+void ResultFolder::write_centerline(double time, const std::vector<CentrePoint>& points) {
+  write(centerline_, centerline_table().file, rows_of({time}, centreline_columns(), points));
 }
 
-void ResultFolder::write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
-                              const std::vector<double>& axial) {
-  assert(radial.size() == z.size() && axial.size() == z.size());
-  std::vector<std::vector<double>> rows;
-  for (std::size_t i = 0; i < z.size(); ++i) rows.push_back({time, z[i], radial.at(i), axial.at(i)});
-  write(wall_, wall_table().file, rows);
+void ResultFolder::write_wall(double time, const std::vector<WallPoint>& points) {
+  write(wall_, wall_table().file, rows_of({time}, wall_columns(), points));
 }
 
 void ResultFolder::write_sampled(const SampledTable& table, double time, const std::vector<SampledRow>& rows) {
@@ -231,51 +229,31 @@ void ResultFolder::write_sampled(const SampledTable& table, double time, const s
 }
 
 void ResultFolder::write_flow(double time, const FlowRecord& flow) {
-  write(flow_, flow_table().file,
-        {{time, flow.inlet_flow, flow.outlet_flow, pascal_per_kilopascal * flow.inlet_pressure,
-          pascal_per_kilopascal * flow.outlet_pressure}});
+  write(flow_, flow_table().file, {row_of({time}, flow_columns(), flow)});
 }
 
 void ResultFolder::write_openings(double time, const std::vector<OpeningRecord>& openings) {
-  std::vector<std::vector<double>> rows;
-  for (const OpeningRecord& opening : openings) {
-    rows.push_back({time, opening.flow, pascal_per_kilopascal * opening.mean_pressure,
-                    pascal_per_kilopascal * opening.windkessel_pressure});
-  }
-  write(openings_, openings_table({}).file, rows, opening_names_);
+  write(openings_, openings_table({}).file, rows_of({time}, opening_columns(), openings), opening_names_);
 }
 
 void ResultFolder::write_iterations(const StepRecord& record) {
-  write(iterations_, iterations_table().file,
-        {{static_cast<double>(record.step), record.time, static_cast<double>(record.outer_iterations),
-          static_cast<double>(record.newton_iterations), static_cast<double>(record.linear_iterations),
-          record.wall_seconds, record.solver_error}});
+  write(iterations_, iterations_table().file, {row_of(lead(record), iteration_columns(), record)});
 }
 
-void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& c) {
-  const auto number = [](auto count) { return static_cast<double>(count); };
-  write(coupling_, coupling_table().file,
-        {{number(record.step), record.time, number(record.outer_iterations), number(c.failed_passes), c.relaxation,
-          number(c.columns), c.displacement_residual, c.displacement_gap, c.force_residual,
-          number(c.fluid_newton_iterations), number(c.wall_newton_iterations), number(c.fluid_linear_iterations),
-          number(c.wall_linear_iterations), c.fluid_seconds, c.wall_seconds, c.mesh_seconds, c.algebra_seconds,
-          c.pressure_residual}});
+void ResultFolder::write_coupling(const StepRecord& record, const CouplingReport& report) {
+  const CouplingRecord coupling{static_cast<int>(record.outer_iterations), report};
+  write(coupling_, coupling_table().file, {row_of(lead(record), coupling_columns(), coupling)});
 }
 
 void ResultFolder::write_energy(const StepRecord& record, const EnergyRecord& energy) {
-  write(energy_, energy_table(*energy_parts_).file,
-        {energy_row(energy_parts_.value(), static_cast<int>(record.step), record.time, energy)});
+  const EnergyParts& parts = energy_parts_.value();
+  write(energy_, energy_table(parts).file, {row_of(lead(record), energy_columns(parts), energy)});
 }
 
 void ResultFolder::write_surfaces(double time, const std::vector<SurfaceRecord>& surfaces) {
-  std::vector<std::vector<double>> rows;
   std::vector<std::string> names;
-  for (const SurfaceRecord& s : surfaces) {
-    const auto &f = s.force, &p = s.pressure;
-    rows.push_back({time, s.area, f[0], f[1], f[2], p[0], p[1], p[2], f[0] - p[0], f[1] - p[1], f[2] - p[2]});
-    names.push_back(s.surface);
-  }
-  write(surfaces_, "surfaces.csv", rows, names);
+  for (const SurfaceRecord& s : surfaces) names.push_back(s.surface);
+  write(surfaces_, surfaces_table({}).file, rows_of({time}, surface_columns(), surfaces), names);
 }
 
 void ResultFolder::close() {

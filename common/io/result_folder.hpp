@@ -10,27 +10,11 @@
 #include "io/csv_file.hpp"
 #include "io/earlier_tables.hpp"
 #include "io/first_process.hpp"
+#include "io/level_columns.hpp"
 #include "io/result_tables.hpp"
-#include "io/step_record.hpp"
-#include "io/surface_record.hpp"
-#include "time/stepper.hpp"
+#include "io/step_columns.hpp"
 
 namespace fsi {
-
-/// A row of flow.csv. Flow is positive from inlet to outlet; pressures are means over the face.
-struct FlowRecord {
-  double inlet_flow = 0;       ///< mm^3/ms, into the fluid
-  double outlet_flow = 0;      ///< mm^3/ms, out of the fluid
-  double inlet_pressure = 0;   ///< kPa; written in Pa
-  double outlet_pressure = 0;  ///< kPa; written in Pa
-};
-
-/// What openings.csv says of an opening at a level.
-struct OpeningRecord {
-  double flow = 0;                 ///< mm^3/ms, out of the fluid
-  double mean_pressure = 0;        ///< of the fluid, over the surface, kPa; written in Pa
-  double windkessel_pressure = 0;  ///< stored; behind a resistance the distal pressure, else 0; kPa; written in Pa
-};
 
 /// Refuses a new run in a folder that holds results of finished steps: whether that run is finished or not, whether its
 /// summary can be read or not, they are worth the time they took. A folder whose run has not come to the end of a step
@@ -65,11 +49,9 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Pressures (kPa, written in Pa) at the axial positions z (mm); both of the same length.
-  void write_centerline(double time, const std::vector<double>& z, const std::vector<double>& pressure);
-  /// Displacements (mm) of the inner wall at the axial positions z (mm); all of the same length.
-  void write_wall(double time, const std::vector<double>& z, const std::vector<double>& radial,
-                  const std::vector<double>& axial);
+  /// Rows of the level at `time`, ms.
+  void write_centerline(double time, const std::vector<CentrePoint>& points);
+  void write_wall(double time, const std::vector<WallPoint>& points);
   /// \param rows  as many as the table has places
   void write_sampled(const SampledTable& table, double time, const std::vector<SampledRow>& rows);
   void write_flow(double time, const FlowRecord& flow);

@@ -1,50 +1,41 @@
 #include "io/result_tables.hpp"
 
 #include "io/energy_table.hpp"
+#include "io/level_columns.hpp"
+#include "io/step_columns.hpp"
 
 namespace fsi {
 
 ResultTable iterations_table() {
-  return {"iterations.csv",
-          "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s,"
-          "solver_error",
-          true};
+  return {"iterations.csv", header_of("step,time_ms", iteration_columns()), true};
 }
 
 ResultTable centerline_table() {
-  return {"centerline_pressure.csv", "time_ms,z_mm,pressure_Pa"};
+  return {"centerline_pressure.csv", header_of("time_ms", centreline_columns())};
 }
 
 ResultTable wall_table() {
-  return {"wall_displacement.csv", "time_ms,z_mm,radial_mm,axial_mm"};
+  return {"wall_displacement.csv", header_of("time_ms", wall_columns())};
 }
 
 ResultTable flow_table() {
-  return {"flow.csv", "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa"};
+  return {"flow.csv", header_of("time_ms", flow_columns())};
 }
 
 ResultTable openings_table(const std::vector<std::string>& names) {
-  return {"openings.csv", "time_ms,opening,flow_mm3_per_ms,mean_pressure_Pa,windkessel_pressure_Pa", false, names};
+  return {"openings.csv", header_of("time_ms,opening", opening_columns()), false, names};
 }
 
 ResultTable coupling_table() {
-  return {
-      "coupling.csv",
-      "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
-      "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,wall_linear_iterations,"
-      "fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual",
-      true};
+  return {"coupling.csv", header_of("step,time_ms", coupling_columns()), true};
 }
 
 ResultTable energy_table(const EnergyParts& parts) {
-  return {"energy.csv", energy_header(parts), true};
+  return {"energy.csv", header_of("step,time_ms", energy_columns(parts)), true};
 }
 
 ResultTable surfaces_table(const std::vector<std::string>& names) {
-  return {"surfaces.csv",
-          "time_ms,surface,area_mm2,force_x_mN,force_y_mN,force_z_mN,pressure_force_x_mN,pressure_force_y_mN,"
-          "pressure_force_z_mN,viscous_force_x_mN,viscous_force_y_mN,viscous_force_z_mN",
-          false, names, true};
+  return {"surfaces.csv", header_of("time_ms,surface", surface_columns()), false, names, true};
 }
 
 std::vector<ResultTable> tables_of(const ResultTables& wanted) {

@@ -9,8 +9,6 @@
 
 namespace fsi {
 
-constexpr double pascal_per_kilopascal = 1000.0;  ///< tables show pressures in Pa
-
 /// Which tables a scene has besides iterations.csv.
 struct ResultTables {
   bool centerline_pressure = false;     ///< scenes with fluid

@@ -27,26 +27,6 @@ struct SimplexEdges<3> {
   static constexpr std::array<std::array<int, 2>, 6> vertices{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 };
 
-/// The facet of a cell opposite to one of its vertices, its own vertices in ascending order of their numbers, so that
-/// the two cells at a facet give the same; the middles of its edges behind them. Not oriented.
-template <int Dim, int Order>
-typename SimplexMesh<Dim, Order>::Facet facet_opposite(const typename SimplexMesh<Dim, Order>::Cell& cell, int vertex) {
-  std::array<int, Dim> local{};
-  for (int v = 0, at = 0; v <= Dim; ++v)
-    if (v != vertex) local[at++] = v;
-  std::sort(local.begin(), local.end(), [&](int a, int b) { return cell[a] < cell[b]; });
-  typename SimplexMesh<Dim, Order>::Facet facet{};
-  std::size_t at = 0;
-  for (int v : local) facet[at++] = cell[v];
-  if constexpr (Order == 2) {
-    const auto& edges = SimplexEdges<Dim>::vertices;
-    for (const auto& [a, b] : SimplexEdges<Dim - 1>::vertices)
-      for (std::size_t e = 0; e < edges.size(); ++e)
-        if (std::minmax(local[a], local[b]) == std::minmax(edges[e][0], edges[e][1])) facet[at++] = cell[Dim + 1 + e];
-  }
-  return facet;
-}
-
 /// The mesh with a node in the middle of every edge, edges straight. Vertices keep their numbers; the new nodes follow
 /// in the order in which the cells come to them. Facets of the named groups are edges or faces of cells.
 template <int Dim>

@@ -56,7 +56,6 @@ class System : public NewtonProblem {
   const Numbering& numbering() const { return numbering_; }
   const std::vector<double>& residual() const { return residual_; }
   const LinearSolver& solver() const { return *solver_; }
-  const LinearReport& linear_report() const { return linear_report_; }
   /// The Jacobian, for as long as the system lives; its values are those of the last linearise().
   JacobianBlocks<n> blocks();
   const LinearisationPoint& linearisation_point() const { return point_; }

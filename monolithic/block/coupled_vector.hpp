@@ -16,11 +16,6 @@ struct CoupledVector {
   std::vector<double> mesh, fluid, wall;
 
   std::size_t size() const { return mesh.size() + fluid.size() + wall.size(); }
-  void resize_like(const CoupledVector& other) {
-    mesh.resize(other.mesh.size());
-    fluid.resize(other.fluid.size());
-    wall.resize(other.wall.size());
-  }
   void set_zero() {
     for (auto* part : {&mesh, &fluid, &wall}) std::fill(part->begin(), part->end(), 0.0);
   }

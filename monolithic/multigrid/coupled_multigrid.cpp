@@ -48,14 +48,10 @@ void CoupledMultigrid<n>::update() {
 
 template <int n>
 void CoupledMultigrid<n>::set_smoothing(const CoupledSmoothingOptions& options) {
-  radii_.clear();
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
     auto& level = *levels_[l];
     double omega = options.damping;
-    if (omega <= 0) {
-      radii_.push_back(largest_eigenvalue(level, options.power_iterations));
-      omega = options.safety * damping_for(radii_.back());
-    }
+    if (omega <= 0) omega = options.safety * damping_for(largest_eigenvalue(level, options.power_iterations));
     const BlockDamping damping{options.mesh_damping, omega, omega};
     level.pre_smoothing.assign(static_cast<std::size_t>(options.pre_smoothing), damping);
     level.post_smoothing.assign(static_cast<std::size_t>(options.post_smoothing), damping);

@@ -77,8 +77,6 @@ class CoupledMultigrid {
   /// Stored numbers of all levels over those of the finest.
   double operator_complexity() const;
   double memory_mib() const;
-  /// Largest eigenvalue of the undamped smoother's iteration, by size, as last estimated; level by level.
-  const std::vector<double>& largest_eigenvalues() const { return radii_; }
 
  private:
   /// Ams, Afm, Afs and Asf of a coarse level.
@@ -141,7 +139,6 @@ class CoupledMultigrid {
   std::vector<std::unique_ptr<Couplings>> couplings_;
   std::vector<CoupledMatrix<n>> matrices_;
   Levels levels_;
-  std::vector<double> radii_;
 };
 
 }  // namespace fsi

@@ -32,7 +32,6 @@ class MultigridCycle {
   int levels() const { return static_cast<int>(work_.size()); }
   const std::shared_ptr<const NodeTransfer>& transfer(int level) const { return transfers_[level]; }
   const std::vector<std::shared_ptr<const NodeTransfer>>& transfers() const { return transfers_; }
-  const CycleOptions& cycle_options() const { return cycle_options_; }
   /// Kind and steps may change between cycles.
   void set_cycle(CycleKind kind, int pre_smoothing, int post_smoothing);
 

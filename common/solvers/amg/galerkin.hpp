@@ -36,10 +36,9 @@ class GalerkinProduct {
                   std::shared_ptr<const NodeTransfer> right)
       : left_(std::move(left)), right_(std::move(right)), coarse_graph_(std::move(coarse)) {}
 
-  const std::shared_ptr<const NodeGraph>& coarse_graph() const { return coarse_graph_; }
   Matrix make_coarse() const { return Matrix(coarse_graph_); }
 
-  /// coarse = L^T fine R; `coarse` is on coarse_graph(). No allocation after the first call.
+  /// coarse = L^T fine R; `coarse` is of make_coarse(). No allocation after the first call.
   void compute(const Matrix& fine, Matrix& coarse) const {
     const NodeGraph& from = *fine.graph;
     const NodeGraph& to = *coarse_graph_;

@@ -220,7 +220,6 @@ void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const std:
   prolongation_ = RegisterBlocks<n, modes>(first->prolongation);
   BlockMatrix<modes, modes> a = std::move(first->matrix);
   std::vector<double> space = std::move(first->space);
-  entries_ = static_cast<double>(a.values.size());
   while (a.graph->rows() > options.coarsest_nodes && static_cast<int>(levels_.size()) < options.levels) {
     auto next = coarsened<modes>(a, space, threshold, options.threshold, options.damping);
     if (!next) break;
@@ -235,9 +234,7 @@ void RigidMotionMultigrid<n>::set_up(const BlockMatrix<n, n>& finest, const std:
     levels_.push_back(std::move(level));
     a = std::move(next->matrix);
     space = std::move(next->space);
-    entries_ += static_cast<double>(a.values.size());
   }
-  entries_ /= static_cast<double>(finest.values.size());
   invert_coarsest(a);
   const std::size_t size = static_cast<std::size_t>(a.graph->rows()) * lanes;
   coarsest_b_.assign(size, 0.0f);

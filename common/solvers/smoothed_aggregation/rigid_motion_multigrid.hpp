@@ -39,8 +39,6 @@ class RigidMotionMultigrid {
   void correct(const std::vector<float>& residual, std::vector<float>& velocity);
 
   int levels() const { return coarsest_inverse_.empty() ? 1 : static_cast<int>(levels_.size()) + 2; }
-  /// Entries of the coarse levels' matrices over those of the finest.
-  double coarse_complexity() const { return entries_; }
   std::size_t bytes() const;
 
  private:
@@ -65,7 +63,6 @@ class RigidMotionMultigrid {
   int coarsest_rows_ = 0;
   std::vector<float> coarsest_inverse_;  ///< dense, column-major; empty without coarse levels
   std::vector<float> coarsest_b_, coarsest_x_, dense_x_;
-  double entries_ = 0;
   bool post_smoothing_ = false;
 };
 

@@ -20,22 +20,31 @@ STEPS = 8
 MOST_KILLS = 3  # of one run and those that continue it
 LOCK = "run.lock"  # of a running program; a kill leaves it, and the next run removes it
 
+EVERY = "output.checkpoint_every=1"  # by time these short runs would have one at their end
+
 # Runs that differ in what they write and when.
 KINDS = {
-    "monolithic": ("fsi-monolithic", ["time.scheme=midpoint", "output.every=1"]),
-    "monolithic, no scheme with balances": ("fsi-monolithic", ["output.every=2"]),
+    "monolithic": ("fsi-monolithic", ["time.scheme=midpoint", "output.every=1", EVERY]),
+    "monolithic, checkpoints by time": ("fsi-monolithic", ["time.scheme=midpoint", "output.every=1"]),
+    "monolithic, no scheme with balances": ("fsi-monolithic", ["output.every=2", EVERY]),
     "monolithic, adaptive steps": (
         "fsi-monolithic",
-        ["time.scheme=midpoint", 'time.step="adaptive"', "output.interval=0.25"],
+        ["time.scheme=midpoint", 'time.step="adaptive"', "output.interval=0.25", EVERY],
     ),
     "monolithic, a checkpoint every third step": (
         "fsi-monolithic",
         ["time.scheme=midpoint", "output.every=1", "output.checkpoint_every=3"],
     ),
-    "partitioned": ("fsi-partitioned", ["time.scheme=midpoint", "output.every=1", "partitioned.tolerance=1e-2"]),
+    "partitioned": ("fsi-partitioned", ["time.scheme=midpoint", "output.every=1", "partitioned.tolerance=1e-2", EVERY]),
     "partitioned, quasi-Newton over steps": (
         "fsi-partitioned",
-        ["output.every=2", "partitioned.scheme=iqn-ils", "partitioned.reused_steps=2", "partitioned.tolerance=1e-2"],
+        [
+            "output.every=2",
+            "partitioned.scheme=iqn-ils",
+            "partitioned.reused_steps=2",
+            "partitioned.tolerance=1e-2",
+            EVERY,
+        ],
     ),
 }
 

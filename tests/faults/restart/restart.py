@@ -42,7 +42,13 @@ class Base:
     def __init__(self, harness, name):
         self.harness, self.name = harness, name
         self.program, settings = BASES[name]
-        self.settings = (f"mesh.file={tiny_mesh(harness)}", "output.every=1", f"time.end={END}", *settings)
+        self.settings = (
+            f"mesh.file={tiny_mesh(harness)}",
+            "output.every=1",
+            "output.checkpoint_every=1",
+            f"time.end={END}",
+            *settings,
+        )
         self.whole, self.folder = harness.base / f"{name}-whole", harness.base / f"{name}-killed"
         self.run("-o", self.whole)
         shutil.copytree(self.whole, self.folder)

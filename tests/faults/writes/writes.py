@@ -47,7 +47,13 @@ class Writes:
         self.mesh = tiny_mesh(harness)
 
     def settings(self, steps, *more):
-        return (f"mesh.file={self.mesh}", f"time.end={steps * STEP}", "output.every=1", *more)
+        return (
+            f"mesh.file={self.mesh}",
+            f"time.end={steps * STEP}",
+            "output.every=1",
+            "output.checkpoint_every=1",
+            *more,
+        )
 
     def scenario(self, program, name, *arguments, **options_):
         """None if it is not wanted."""

@@ -176,12 +176,13 @@ class Restart:
         return process.returncode < 0
 
     def test_after_kills_at_random_moments(self):
-        whole = self.march("kill_whole", "output.every=1")
+        each = "output.checkpoint_every=1"  # by time such a run has one at its end
+        whole = self.march("kill_whole", "output.every=1", each)
         seconds = table(whole, "iterations.csv")[1:, 5].sum()  # after the first checkpoint
         killed = 0
         for k in range(self.kills):
             folder, delay = self.base / f"killed{k}", random.uniform(0, 0.9 * seconds)
-            process = self.start(folder)
+            process = self.start(folder, each)
             saved = []
 
             def reached():

@@ -60,16 +60,16 @@ TEST(CaseHash, NoticesWhatChangesTheEquations) {
 TEST(CaseHash, KeepsTheStepsApart) {
   auto scene = example();
   const auto hash = hash_of_case(scene);
-  EXPECT_EQ(stepping_of_case(scene), (std::map<std::string, std::string>{{"time.step", "0.125"}}));
   scene.time->step = 0.0625;
   EXPECT_EQ(hash_of_case(scene), hash);
-  EXPECT_EQ(stepping_of_case(scene).at("time.step"), "0.0625");
 
   Case wall = example();
   wall.time.reset();
   wall.static_load = StaticData{7};
-  EXPECT_NE(hash_of_case(wall), hash);
-  EXPECT_EQ(stepping_of_case(wall), (std::map<std::string, std::string>{{"static.load_steps", "7"}}));
+  const auto of_wall = hash_of_case(wall);
+  EXPECT_NE(of_wall, hash);
+  wall.static_load->load_steps = 9;
+  EXPECT_EQ(hash_of_case(wall), of_wall);
 }
 
 TEST(CaseHash, LeavesOutWhatTheRunDoesNotRead) {

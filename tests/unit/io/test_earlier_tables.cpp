@@ -38,8 +38,8 @@ class Tables : public FolderTest {
       const double time = 0.1 * k;
       results.write_iterations({k, time, 1, 3, 0, 0.5, 1e-4});
       results.write_energy({k, time, 1, 3, 0, 0.5, 1e-4}, EnergyRecord());
-      results.write_centerline(time, centre, {1.0 * k, 2, 3});
-      results.write_wall(time, wall, {0.25 * k, 0}, {1e-320, -1e300});
+      results.write_centerline(time, {{centre[0], 1.0 * k}, {centre[1], 2}, {centre[2], 3}});
+      results.write_wall(time, {{wall[0], 0.25 * k, 1e-320}, {wall[1], 0, -1e300}});
       results.write_flow(time, {1.0 * k, 2, 3, 4});
       results.write_surfaces(time - 0.05, {{"wall", 1, {1.0 * k, 2, 3}, {1, 2, 3}}, {"3", 2, {4, 5, 6}, {}}});
       if (k == step) {

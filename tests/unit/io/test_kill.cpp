@@ -28,7 +28,7 @@ void write_step(ResultFolder& results, FieldsWriter& fields, const std::vector<F
     fields.write(step, sample_values(grids, time));
     return;
   }
-  results.write_wall(time, {0, 1, 2}, {time, time, time}, {0, 0, 0});
+  results.write_wall(time, {{0, time, 0}, {1, time, 0}, {2, time, 0}});
   results.write_iterations({step, time, 1, 3, 0, 0.5});
   fields.write(step, sample_values(grids, time));
   Checkpoint checkpoint;

@@ -17,8 +17,8 @@ const ResultTables all_tables{true, true, true, false, coupled};
 
 void write_step(ResultFolder& results, int step) {
   const double time = 0.1 * step;
-  results.write_centerline(time, {0, 0.1}, {1.332 / step, 1.0 / 3.0});
-  results.write_wall(time, {0.5}, {1e-17}, {-0.25});
+  results.write_centerline(time, {{0, 1.332 / step}, {0.1, 1.0 / 3.0}});
+  results.write_wall(time, {{0.5, 1e-17, -0.25}});
   results.write_flow(time, {1, 2, 0.003, 0.004});
   results.write_iterations({step, time, 4, 9, 0, 0.75, 0.002});
   EnergyRecord energy;
