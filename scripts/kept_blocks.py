@@ -55,16 +55,16 @@ def drivers_verdict(rows: List[Row]) -> str:
     """The answer in words: who is faster, by how much, who needs less memory."""
     coupled = [pair for pair in pairs(rows) if pair.coupled]
     ratios = [pair.ratio("processor_s") for pair in coupled]
-    loose = [pair.loose_ratio for pair in coupled if pair.loose_ratio is not None]
+    worst = coupled[-1]
     slower = sum(ratio > SAME for ratio in ratios)
     faster = [pair.title for pair, ratio in zip(coupled, ratios) if ratio < 1 / SAME]
     equal = [pair.title for pair, ratio in zip(coupled, ratios) if 1 / SAME <= ratio <= SAME]
-    memory = max(coupled, key=lambda pair: float(pair.monolithic["memory_MiB"]))
+    memory = max(coupled, key=lambda pair: float(pair.monolithic["memory_MiB"] or 0))
     gibibytes = [f"{float(row['memory_MiB']) / 1024:.2f}" for row in (memory.partitioned, memory.monolithic)]
     lines = [
         f"**Take the monolithic driver.** In {slower} of {len(coupled)} cases with fluid and wall the partitioned one takes more seconds:",
-        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most."
-        + (f" Coupled to `1e-4` only, it is {median(loose):.2g} and {max(loose):.2g}." if loose else ""),
+        f"{median(ratios):.2g} times as many in the median, {max(ratios):.2g} times at most, in {worst.title}"
+        + (f"; there {worst.loose_ratio:.2g} times if coupled to `1e-4` only." if worst.loose_ratio else "."),
     ]
     if faster:
         lines.append(f"It takes fewer in {_listed(faster)}.")
@@ -102,7 +102,8 @@ def drivers_table(rows: List[Row]) -> str:
             cells += [_a_step(pair.monolithic, "newton_iterations")]
             cells += [_seconds(pair.partitioned), pair.partitioned["memory_MiB"], _a_step(pair.partitioned, "passes")]
             cells += [f"**{pair.ratio('processor_s'):.2g}**", f"{pair.loose_ratio:.2g}" if pair.loose_ratio else ""]
-            cells += [f"**{pair.ratio('memory_MiB'):.2f}**", _errors(pair)]
+            known = all(row["memory_MiB"] for row in (pair.monolithic, pair.partitioned))
+            cells += [f"**{pair.ratio('memory_MiB'):.2f}**" if known else "", _errors(pair)]
             lines.append(cells)
     single = [pair for pair in pairs(rows) if not pair.coupled]
     if single:

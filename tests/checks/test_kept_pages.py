@@ -156,7 +156,10 @@ class Drivers(unittest.TestCase):
     def test_verdict(self):
         text = drivers_verdict(DRIVERS)
         self.assertIn("In 1 of 2 cases", text)
-        self.assertIn("2.6 times as many in the median, 4.5 times at most.", text)
+        self.assertIn(
+            "2.6 times as many in the median, 4.5 times at most, in Tube; there 3 times if coupled to `1e-4` only.",
+            text,
+        )
         self.assertIn("It takes fewer in Flag.", text)
         self.assertIn("In the largest run, Tube, it needs 0.50 GiB, the monolithic one 1.00.", text)
 
