@@ -52,6 +52,7 @@ def _part(name: str) -> str:
         "factorisation": "set-up",
         "solve": "solve",
         "output": "output",
+        "checkpoint": "output",
         "energy balance": "output",
         "coupling": "coupling",
     }.get(kind, "other")
