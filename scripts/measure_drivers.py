@@ -80,7 +80,7 @@ def cases(wanted: Sequence[str]) -> List[Case]:
         for material in MATERIALS:
             name = f"{material}-{kind}"
             if name in wanted or not wanted:
-                title = f"Paper's artery, {kind}, {material}"
+                title = f"Paper's artery ({kind}, {material})"
                 found.append(
                     Case(name, title, TOP / pattern.format(material), ["artery", *MESHES[kind]], None, material)
                 )
