@@ -35,7 +35,7 @@ DRIVERS = [
     for case, scheme, driver, newton, seconds, memory in (
         ("Tube", "aitken", "monolithic", "40", "2.0", "1024"),
         ("Tube", "aitken", "partitioned", "900", "9.0", "512"),
-        ("Tube", "aitken", "partitioned 0.0001", "700", "6.0", "512"),
+        ("Tube", "aitken", "partitioned 0.0001", "700", "", "512"),
         ("Flag", "iqn-ils", "monolithic", "40", "4.0", "200"),
         ("Flag", "iqn-ils", "partitioned", "60", "3.0", "200"),
         ("Pipe", "", "monolithic", "20", "1.0", "70"),
@@ -151,15 +151,12 @@ class Drivers(unittest.TestCase):
         found = pairs(DRIVERS)
         self.assertEqual([pair.title for pair in found], ["Flag", "Pipe", "Tube"])
         self.assertEqual([pair.ratio("processor_s") for pair in found], [0.75, 1.0, 4.5])
-        self.assertEqual([pair.loose_ratio for pair in found], [None, None, 3.0])
+        self.assertEqual([pair.loose is not None for pair in found], [False, False, True])
 
     def test_verdict(self):
         text = drivers_verdict(DRIVERS)
         self.assertIn("In 1 of 2 cases", text)
-        self.assertIn(
-            "2.6 times as many in the median, 4.5 times at most, in Tube; there 3 times if coupled to `1e-4` only.",
-            text,
-        )
+        self.assertIn("2.6 times as many in the median, 4.5 times at most, in Tube.", text)
         self.assertIn("It takes fewer in Flag.", text)
         self.assertIn("In the largest run, Tube, it needs 0.50 GiB, the monolithic one 1.00.", text)
 
@@ -173,7 +170,7 @@ class Drivers(unittest.TestCase):
         lines = drivers_table(DRIVERS).splitlines()
         self.assertEqual(len(lines), 5)
         self.assertEqual(
-            lines[3], "| Tube | 10 | 2.0 | 1024 | 4.0 | 9.0 | 512 | 5.0 | **4.5** | 3 | **0.50** | 0.5 % |"
+            lines[3], "| Tube | 10 | 2.0 | 1024 | 4.0 | 9.0 | 512 | 5.0 | 5.0 | **4.5** | **0.50** | 0.5 % |"
         )
         self.assertTrue(lines[4].startswith("| one medium: Pipe |"))
 
