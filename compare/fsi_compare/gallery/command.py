@@ -3,7 +3,7 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import Any, List
+from typing import Any
 
 from ..base.errors import InputError, printable, say_error
 from ..base.files import folder, make_folder

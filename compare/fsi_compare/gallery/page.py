@@ -2,13 +2,14 @@
 
 from os.path import normpath
 from pathlib import Path
-from typing import List, Sequence, Tuple
+from typing import Any, List, Sequence, Tuple
 
+from ..reporting.column import Column
 from ..reporting.layout import Table
 from ..reporting.report import Report
 from ..runs.work_units import NOTE, per_step, shown
 from .running import Outcome
-from .scene import Number
+from .scene import Number, SceneRun
 
 TITLE = "fsi-duo: gallery"
 
@@ -49,58 +50,63 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
         return []
     report.figure(stem, lambda: scene.module.draw(runs), scene.title + ".")
     numbers = scene.numbers(runs)
-    report.table(_numbers_table(stem, numbers))
-    report.table(_cost_table(stem, outcome, at_once))
+    report.table(Table(f"{stem}_numbers", "What is known", NUMBERS, numbers))
+    programs = {1: "one program", 2: "two programs"}.get(at_once, f"{at_once} programs")
+    notes = [f"Seconds of the whole program with one thread, {programs} at a time."]
+    if any(per_step(run.summary) is not None for run in outcome.runs.values()):
+        notes.append(NOTE)
+    report.table(Table(f"{stem}_cost", "What it costs", COSTS, list(outcome.runs.items()), notes=notes))
     return numbers
 
 
-def _numbers_table(stem: str, numbers: Sequence[Number]) -> Table:
-    table = Table(
-        stem=f"{stem}_numbers",
-        title="What is known",
-        columns=[("", name) for name in ("quantity", "driver", "known from", "value", "known", "differs by", "may by")],
-        csv_columns=("quantity", "unit", "program", "source", "value", "reference", "relative_error", "tolerance"),
-        left=3,
-    )
-    for n in numbers:
-        unit = f" [{n.unit}]" if n.unit else ""
-        mark = "" if n.holds else " (!)"
-        table.rows.append(
-            (
-                n.what + unit,
-                n.program.removeprefix("fsi-"),
-                n.source,
-                f"{n.value:.5g}",
-                f"{n.reference:.5g}",
-                f"{100 * n.error:.2g} %{mark}",
-                f"{100 * n.tolerance:.2g} %",
-            )
-        )
-        table.csv_rows.append((n.what, n.unit, n.program, n.source, n.value, n.reference, n.error, n.tolerance))
-    return table
+def driver(program: str) -> str:
+    return program.removeprefix("fsi-")
 
 
-def _cost_table(stem: str, outcome: Outcome, at_once: int) -> Table:
-    programs = {1: "one program", 2: "two programs"}.get(at_once, f"{at_once} programs")
-    table = Table(
-        stem=f"{stem}_cost",
-        title="What it costs",
-        columns=[
-            ("", name)
-            for name in ("driver", "unknowns", "steps", "work units per step", "seconds", "Newton iterations", "passes")
-        ],
-        csv_columns=("program", "unknowns", "steps", "seconds", "newton_iterations", "passes", "work_units_per_step"),
-        notes=[f"Seconds of the whole program with one thread, {programs} at a time."],
-    )
-    for program, run in outcome.runs.items():
-        totals = run.summary.get("totals", {})
-        steps, newton = totals.get("steps"), totals.get("newton_iterations")
-        passes = totals.get("outer_iterations") if program == "fsi-partitioned" else None
-        unknowns = run.summary.get("unknowns", {}).get("coupled")
-        work = per_step(run.summary)
-        whole = ["-" if c is None else f"{c}" for c in (unknowns, steps, newton, passes)]
-        table.rows.append((program.removeprefix("fsi-"), *whole[:2], shown(work), f"{run.seconds:.2f}", *whole[2:]))
-        table.csv_rows.append((program, unknowns, steps, run.seconds, newton, passes, work))
-    if any(per_step(run.summary) is not None for run in outcome.runs.values()):
-        table.notes.append(NOTE)
-    return table
+def percent(share: float) -> str:
+    return f"{100 * share:.2g} %"
+
+
+def total(run: SceneRun, name: str) -> Any:
+    return run.summary.get("totals", {}).get(name)
+
+
+NUMBERS: Sequence[Column[Number]] = (
+    Column(
+        "quantity",
+        "quantity",
+        value=lambda n: n.what,
+        text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""),
+        left=True,
+    ),
+    Column(csv="unit", value=lambda n: n.unit),
+    Column("driver", "program", value=lambda n: n.program, format=driver, left=True),
+    Column("known from", "source", value=lambda n: n.source, left=True),
+    Column("value", "value", value=lambda n: n.value, format=".5g"),
+    Column("known", "reference", value=lambda n: n.reference, format=".5g"),
+    Column(
+        "differs by",
+        "relative_error",
+        value=lambda n: n.error,
+        text=lambda n: percent(n.error) + ("" if n.holds else " (!)"),
+    ),
+    Column("may by", "tolerance", value=lambda n: n.tolerance, format=percent),
+)
+
+# Of (program, its run).
+COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
+    Column("driver", "program", value=lambda r: r[0], format=driver, left=True),
+    Column("unknowns", "unknowns", value=lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
+    Column("steps", "steps", value=lambda r: total(r[1], "steps")),
+    Column(
+        "work units per step",
+        "work_units_per_step",
+        value=lambda r: per_step(r[1].summary),
+        format=shown,
+        missing="",
+        behind=True,
+    ),
+    Column("seconds", "seconds", value=lambda r: r[1].seconds, format=".2f"),
+    Column("Newton iterations", "newton_iterations", value=lambda r: total(r[1], "newton_iterations")),
+    Column("passes", "passes", value=lambda r: total(r[1], "outer_iterations") if r[0] == "fsi-partitioned" else None),
+)

@@ -203,9 +203,9 @@ def solve(
     outcomes = run_study(program, options.output / "runs", requests, options.quiet)
 
     load_matplotlib()
-    from . import solver_pictures, solver_tables  # matplotlib takes a second to load
+    from . import grid as grids, solver_pictures, solver_tables  # matplotlib takes a second to load
 
-    grid = solver_tables.Grid(outcomes)
+    grid = grids.Grid(outcomes)
     tables = solver_tables.solver_tables(grid)
     with together(options.output) as place:
         written = write(place, tables, "solvers.md", "Linear solvers")

@@ -12,7 +12,7 @@ from ..base import paper
 from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
 from ..reporting.pictures import finish, write_figure
 from .results import System
-from .solver_tables import Grid, suffix
+from .grid import Grid, suffix
 
 # By material: dash pattern, marker and lightness differ, so that they are told apart in grey. Later ones are narrower,
 # so that curves that coincide are all seen.

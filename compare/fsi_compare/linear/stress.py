@@ -3,14 +3,15 @@
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple
+from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.files import TEMPORARY, absolute, exists, make_folder
 from ..base.names import MATERIALS
-from ..reporting.layout import Table, fixed
+from ..reporting.column import Column, Facts
+from ..reporting.layout import Table
 from ..runs.processes import execute
 from ..runs.programs import Program, find_mesh_maker
-from .results import Solve
+from .results import NewtonSystem, Solve
 from .study import Outcome, Request
 
 FLUID_DENSITY = 1.0  # mg/mm^3, of the paper's case
@@ -31,6 +32,10 @@ class Row:
     value: float
     settings: Tuple[str, ...] = ()
     axial_stretch: Optional[float] = None  # edge length along the axis / across; the mesh is made for it
+
+    @property
+    def is_papers(self) -> bool:
+        return self.quantity == "as in the paper"
 
     @property
     def folder(self) -> str:
@@ -139,80 +144,101 @@ def make_stretched_mesh(program: Program, file: Path, mesh: str, stretch: float)
     return ""
 
 
+class Cell(NamedTuple):
+    """One method in one line of the table."""
+
+    line: Planned
+    outcome: Outcome
+    method: str
+
+    @property
+    def system(self) -> Optional[NewtonSystem]:
+        return self.outcome.results.systems[SYSTEM] if self.outcome.results else None
+
+    @property
+    def solve(self) -> Optional[Solve]:
+        return self.system.solves[self.method] if self.system else None
+
+    @property
+    def good(self) -> Optional[Solve]:
+        return self.solve if self.solve is not None and self.solve.converged else None
+
+    @property
+    def status(self) -> str:
+        return "converged" if self.good else "not converged" if self.solve else "failed"
+
+    @property
+    def message(self) -> str:
+        return "" if self.good else self.solve.message if self.solve else self.outcome.failure
+
+    @property
+    def iterations(self) -> str:
+        """For people."""
+        return str(self.good.iterations) if self.good else "n.c." if self.solve else "failed"
+
+    @property
+    def failure(self) -> str:
+        """For the notes."""
+        where = f"{self.line.row.quantity} {self.line.row.value:g}".strip()
+        return f"n.c.: {self.method}, {where}: {self.message}" if self.solve else f"failed: {where}: {self.message}"
+
+
+Line = Sequence[Cell]  # of all methods
+
+
+def _of_method(place: int, method: str) -> List[Column[Line]]:
+    return [
+        Column(
+            "#it",
+            value=lambda line: _of_good("iterations")(line[place]),
+            text=lambda line: line[place].iterations,
+            group=method,
+        ),
+        Column("seconds", value=lambda line: _of_good("total_seconds")(line[place]), format=".3g", group=method),
+        Column("converged", value=lambda line: "yes" if line[place].good else "no", group=method),
+    ]
+
+
+def _of_good(name: str) -> Callable[[Cell], Any]:
+    return lambda cell: getattr(cell.good, name) if cell.good else None
+
+
+CELLS: Sequence[Column[Cell]] = (
+    Column(csv="material", value=lambda c: c.line.request.material),
+    Column(csv="mesh", value=lambda c: c.line.request.mesh),
+    Column(csv="nodes", value=lambda c: c.outcome.results.mesh.get("nodes") if c.outcome.results else None),
+    Column(csv="unknowns", value=lambda c: c.system.unknowns["total"] if c.system else None),
+    Column(csv="quantity", value=lambda c: c.line.row.quantity),
+    Column(csv="value", value=lambda c: c.line.row.value),
+    Column(csv="unit", value=lambda c: c.line.row.unit),
+    Column(csv="method", value=lambda c: c.method),
+    Column(csv="status", value=lambda c: c.status),
+    Column(csv="iterations", value=_of_good("iterations")),
+    Column(csv="set_up_seconds", value=_of_good("set_up_seconds")),
+    Column(csv="solve_seconds", value=_of_good("solve_seconds")),
+    Column(csv="work_units", value=_of_good("work_units")),
+    Column(csv="relative_residual", value=_of_good("relative_residual")),
+    Column(csv="message", value=lambda c: c.message),
+)
+
+LINES: Sequence[Column[Line]] = (
+    Column("material", value=lambda line: MATERIALS[line[0].line.request.material], left=True),
+    Column("mesh", value=lambda line: line[0].line.request.mesh, left=True),
+    Column("quantity", value=lambda line: line[0].line.row.quantity, left=True),
+    Column("value", value=lambda line: "" if line[0].line.row.is_papers else f"{line[0].line.row.value:g}"),
+    Column("unit", value=lambda line: line[0].line.row.unit),
+)
+
+
 def stress_table(planned: Sequence[Planned], outcomes: Sequence[Outcome], methods: Sequence[str]) -> Table:
     """Iterations and seconds (set-up and solve) of each method, line by line."""
-    table = Table(
+    lines = [[Cell(one, outcome, method) for method in methods] for one, outcome in zip(planned, outcomes)]
+    cells = [cell for line in lines for cell in line]
+    return Table(
         "stress",
         "Stress: first Newton system, one quantity at a time far from the paper's case",
-        [
-            ("", "material"),
-            ("", "mesh"),
-            ("", "quantity"),
-            ("", "value"),
-            ("", "unit"),
-            *((method, name) for method in methods for name in ("#it", "seconds", "converged")),
-        ],
-        (
-            "material",
-            "mesh",
-            "nodes",
-            "unknowns",
-            "quantity",
-            "value",
-            "unit",
-            "method",
-            "status",
-            "iterations",
-            "set_up_seconds",
-            "solve_seconds",
-            "work_units",
-            "relative_residual",
-            "message",
-        ),
-        left=3,
+        [*LINES, *(column for place, method in enumerate(methods) for column in _of_method(place, method))],
+        lines,
+        Facts(CELLS, cells),
+        ["seconds: set-up and solve", *dict.fromkeys(cell.failure for cell in cells if not cell.good)],
     )
-    failures = []
-    for plan_, outcome in zip(planned, outcomes):
-        row, request = plan_.row, plan_.request
-        system = outcome.results.systems[SYSTEM] if outcome.results else None
-        line = [
-            MATERIALS[request.material],
-            request.mesh,
-            row.quantity,
-            f"{row.value:g}" if row.quantity != "as in the paper" else "",
-            row.unit,
-        ]
-        for method in methods:
-            solve: Optional[Solve] = system.solves[method] if system else None
-            good = solve if solve is not None and solve.converged else None
-            status = "converged" if good else "not converged" if solve else "failed"
-            message = "" if good else solve.message if solve else outcome.failure
-            if good:
-                line += [str(good.iterations), fixed(good.total_seconds, ".3g"), "yes"]
-            else:
-                line += ["n.c." if solve else "failed", "-", "no"]
-                where = f"{row.quantity} {row.value:g}".strip()
-                failures.append(f"n.c.: {method}, {where}: {message}" if solve else f"failed: {where}: {message}")
-            numbers = (
-                (good.iterations, good.set_up_seconds, good.solve_seconds, good.work_units, good.relative_residual)
-                if good
-                else (None,) * 5
-            )
-            table.csv_rows.append(
-                (
-                    request.material,
-                    request.mesh,
-                    outcome.results.mesh.get("nodes") if outcome.results else None,
-                    system.unknowns["total"] if system else None,
-                    row.quantity,
-                    row.value,
-                    row.unit,
-                    method,
-                    status,
-                    *numbers,
-                    message,
-                )
-            )
-        table.rows.append(line)
-    table.notes = ["seconds: set-up and solve", *dict.fromkeys(failures)]
-    return table

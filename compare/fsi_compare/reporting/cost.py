@@ -3,7 +3,7 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
@@ -12,7 +12,8 @@ from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
 from ..runs.work_units import NOTE, about_machines, per_step, shown
-from .layout import Table, fixed, say_written, write_markdown
+from .column import Column
+from .layout import Table, say_written, write_markdown
 
 DESCRIPTION = """\
 Tabulates what finished runs took: work units, wall time, coupling iterations, solves of the whole system and of the
@@ -154,142 +155,130 @@ def calls(phases: dict, kinds: Sequence[str]) -> Dict[str, int]:
     return found
 
 
-def cost_table(costs: Sequence[Cost], title: str) -> Table:
-    systems = ("whole", "fluid", "wall", "mesh")
-    keys = (COUPLED, FLUID, WALL, MESH)
-    table = Table(
-        stem="cost",
-        title=title,
-        left=3,
-        columns=[
-            ("", "run"),
-            ("", "driver"),
-            ("", "mesh"),
-            ("", "processes"),
-            ("", "steps"),
-            ("work units", "per step"),
-            ("work units", "relative"),
-            ("", "seconds per step"),
-            ("", "relative time"),
-            ("coupling iterations", "mean"),
-            ("coupling iterations", "range"),
-            ("linear solves per step", "whole"),
-            ("linear solves per step", "fluid"),
-            ("linear solves per step", "wall"),
-            ("linear solves per step", "mesh"),
-            ("linear iterations", "per step"),
-            ("", "set-ups"),
-            ("interface residual", "displacement"),
-            ("interface residual", "force"),
-            ("", "memory in MiB"),
-        ],
-        csv_columns=[
-            "run",
-            "program",
-            "mesh",
-            "unknowns",
-            "threads",
-            "steps",
-            "wall_s",
-            "wall_s_per_step",
-            "wall_relative_to_first",
-            "coupling_iterations_mean",
-            "coupling_iterations_min",
-            "coupling_iterations_max",
-            "newton_iterations",
-            "linear_iterations",
-            *(f"solves_{name}" for name in systems),
-            *(f"preparations_{name}" for name in systems),
-            "displacement_residual_max",
-            "force_residual_max",
-            "peak_memory_MiB",
-            "processes",
+def _solves(head: str, system: str) -> Column[Cost]:
+    def per_step(cost: Cost) -> Optional[float]:
+        count = cost.solves.get(system)
+        return None if count is None else count / cost.steps
+
+    return Column(head, value=per_step, format=".1f", group="linear solves per step")
+
+
+def _calls(counts: str, csv: str, system: str) -> Column[Cost]:
+    return Column(csv=csv, value=lambda c: getattr(c, counts).get(system))
+
+
+SYSTEMS = {"whole": COUPLED, "fluid": FLUID, "wall": WALL, "mesh": MESH}  # by their names in tables
+
+
+def _work_units(first: Cost) -> List[Column[Cost]]:
+    def relative(cost: Cost) -> Optional[float]:
+        return cost.work_units / first.work_units if cost.work_units and first.work_units else None
+
+    return [
+        Column(
+            "per step",
             "work_units_per_step",
+            value=lambda c: c.work_units,
+            format=shown,
+            group="work units",
+            missing="",
+            behind=True,
+        ),
+        Column(
+            "relative",
             "work_units_relative_to_first",
-        ],
-    )
-    for c in costs:
-        relative = c.seconds_per_step / costs[0].seconds_per_step if costs[0].seconds_per_step > 0 else None
-        relative_work = c.work_units / costs[0].work_units if c.work_units and costs[0].work_units else None
-        low, high = c.coupling_range or (None, None)
-        solves = [c.solves.get(key) for key in keys]
-        prepared = [c.preparations.get(key) for key in keys]
-        table.rows.append(
-            [
-                c.label,
-                c.program,
-                c.mesh,
-                str(c.processes),
-                str(c.steps),
-                shown(c.work_units),
-                fixed(relative_work, ".2f", ""),
-                f"{c.seconds_per_step:.3g}",
-                fixed(relative, ".2f"),
-                fixed(c.coupling_mean, ".2f"),
-                "-" if low is None else f"{low}-{high}",
-                *(fixed(None if n is None else n / c.steps, ".1f") for n in solves),
-                fixed(c.linear / c.steps, ".1f"),
-                str(sum(n for n in prepared if n is not None)),
-                fixed(c.displacement_residual, ".1e"),
-                fixed(c.force_residual, ".1e"),
-                fixed(c.memory_mib, ".0f"),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                c.label,
-                c.program,
-                c.mesh,
-                c.unknowns,
-                c.threads,
-                c.steps,
-                c.seconds,
-                c.seconds_per_step,
-                relative,
-                c.coupling_mean,
-                low,
-                high,
-                c.newton,
-                c.linear,
-                *solves,
-                *prepared,
-                c.displacement_residual,
-                c.force_residual,
-                c.memory_mib,
-                c.processes,
-                c.work_units,
-                relative_work,
-            ]
-        )
+            value=relative,
+            format=".2f",
+            group="work units",
+            missing="",
+            behind=True,
+        ),
+    ]
+
+
+def cost_columns(first: Cost) -> List[Column[Cost]]:
+    """`first`: the run that the others' seconds and work units are relative to."""
+
+    def relative(cost: Cost) -> Optional[float]:
+        return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
+
+    return [
+        Column("run", "run", value=lambda c: c.label, left=True),
+        Column("driver", "program", value=lambda c: c.program, left=True),
+        Column("mesh", "mesh", value=lambda c: c.mesh, left=True),
+        Column(csv="unknowns", value=lambda c: c.unknowns),
+        Column(csv="threads", value=lambda c: c.threads),
+        Column("processes", "processes", value=lambda c: c.processes, behind=True),
+        Column("steps", "steps", value=lambda c: c.steps),
+        *_work_units(first),
+        Column(csv="wall", unit="s", value=lambda c: c.seconds),
+        Column("seconds per step", "wall_s_per_step", value=lambda c: c.seconds_per_step, format=".3g"),
+        Column("relative time", "wall_relative_to_first", value=relative, format=".2f"),
+        Column(
+            "mean",
+            "coupling_iterations_mean",
+            value=lambda c: c.coupling_mean,
+            format=".2f",
+            group="coupling iterations",
+        ),
+        Column(
+            "range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group="coupling iterations"
+        ),
+        Column(csv="coupling_iterations_min", value=lambda c: c.coupling_range and c.coupling_range[0]),
+        Column(csv="coupling_iterations_max", value=lambda c: c.coupling_range and c.coupling_range[1]),
+        *(_solves(head, system) for head, system in SYSTEMS.items()),
+        Column("per step", value=lambda c: c.linear / c.steps, format=".1f", group="linear iterations"),
+        Column(csv="newton_iterations", value=lambda c: c.newton),
+        Column(csv="linear_iterations", value=lambda c: c.linear),
+        *(_calls("solves", f"solves_{name}", system) for name, system in SYSTEMS.items()),
+        *(_calls("preparations", f"preparations_{name}", system) for name, system in SYSTEMS.items()),
+        Column("set-ups", value=lambda c: sum(c.preparations.get(system, 0) for system in SYSTEMS.values())),
+        Column(
+            "displacement",
+            "displacement_residual_max",
+            value=lambda c: c.displacement_residual,
+            format=".1e",
+            group="interface residual",
+        ),
+        Column(
+            "force", "force_residual_max", value=lambda c: c.force_residual, format=".1e", group="interface residual"
+        ),
+        Column("memory in {unit}", "peak_memory", "MiB", value=lambda c: c.memory_mib, format=".0f"),
+    ]
+
+
+def cost_table(costs: Sequence[Cost], title: str) -> Table:
+    return Table("cost", title, cost_columns(costs[0]), costs, notes=cost_notes(costs))
+
+
+def cost_notes(costs: Sequence[Cost]) -> List[str]:
     machines = about_machines([c.summary for c in costs])
-    if machines:
-        table.notes.append(f"{machines}.")
+    notes = [f"{machines}."] if machines else []
     if any(c.work_units is not None for c in costs):
-        table.notes.append(NOTE)
-    table.notes.append(
+        notes.append(NOTE)
+    notes += [
         "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
         "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
-        "preconditioner, in all steps."
-    )
-    table.notes.append(
+        "preconditioner, in all steps.",
         "Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
-        "up to Newton's tolerance."
-    )
+        "up to Newton's tolerance.",
+    ]
     threads = sorted({c.threads for c in costs if c.threads is not None})
     if len(threads) > 1:
-        table.notes.append(
+        notes.append(
             f"The runs had different numbers of threads ({', '.join(map(str, threads))}): seconds do not compare."
         )
     processes = sorted({c.processes for c in costs})
     if len(processes) > 1:
-        table.notes.append(f"The runs had different numbers of processes ({', '.join(map(str, processes))}).")
+        notes.append(f"The runs had different numbers of processes ({', '.join(map(str, processes))}).")
     if processes[-1] > 1:
-        table.notes.append("Memory: of the process that needed most.")
+        notes.append("Memory: of the process that needed most.")
     if len({(c.mesh, c.steps) for c in costs}) > 1:
-        table.notes.append("The runs differ in mesh or number of steps.")
+        notes.append("The runs differ in mesh or number of steps.")
     parts = [c.label for c in costs if c.restarted_from is not None]
     if parts:
-        table.notes.append(
-            f"Restarted, so that work units, solves, factorisations and memory are those of the last part: {', '.join(parts)}."
+        notes.append(
+            "Restarted, so that work units, solves, factorisations and memory are those of the last part: "
+            f"{', '.join(parts)}."
         )
-    return table
+    return notes

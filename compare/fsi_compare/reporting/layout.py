@@ -3,32 +3,60 @@
 import csv
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Any, List, Sequence, Tuple
+from typing import Any, List, Optional, Sequence, Tuple
 
 from ..base.errors import printable
 from ..base.files import replacing
+from .column import Column, Facts
 
 
 @dataclass
 class Table:
-    """`columns` are (group, name); text shows groups above their columns, Markdown before their names. CSV has one line
-    per fact, in full precision, with units in the names of `csv_columns`; None is an empty field there."""
+    """A row for each record. Text shows groups above their columns, Markdown before their names. CSV has a line for each
+    record, or for each of the facts where rows gather several, in full precision; None is an empty field there."""
 
     stem: str
     title: str
-    columns: Sequence[Tuple[str, str]]
-    csv_columns: Sequence[str]
-    rows: List[Sequence[str]] = field(default_factory=list)
-    csv_rows: List[Sequence] = field(default_factory=list)
+    columns: Sequence[Column[Any]]
+    records: Sequence[Any]
+    facts: Optional[Facts] = None
     notes: List[str] = field(default_factory=list)
-    left: int = 1  # columns aligned to the left, the others to the right
+
+    @cached_property
+    def shown(self) -> List[Column[Any]]:
+        """The columns that people read."""
+        return [column for column in self.columns if column.head]
+
+    @cached_property
+    def heads(self) -> List[Tuple[str, str]]:
+        """(group, name) of each of them."""
+        return [tuple(t.replace("{unit}", c.unit) for t in (c.group, c.head)) for c in self.shown]  # type: ignore[misc]
+
+    @cached_property
+    def rows(self) -> List[List[str]]:
+        return [[column.shown(record) for column in self.shown] for record in self.records]
+
+    @cached_property
+    def _csv(self) -> List[Column[Any]]:
+        columns = self.columns if self.facts is None else self.facts.columns
+        return sorted((column for column in columns if column.csv), key=lambda column: column.behind)
+
+    @property
+    def csv_columns(self) -> List[str]:
+        return [column.name for column in self._csv]
+
+    @cached_property
+    def csv_rows(self) -> List[List[Any]]:
+        records = self.records if self.facts is None else self.facts.records
+        return [[column.value(record) for column in self._csv] for record in records]
 
     def text(self) -> str:
-        names = [name for _, name in self.columns]
+        names = [name for _, name in self.heads]
         widths = [max([len(name), *(len(row[i]) for row in self.rows)]) for i, name in enumerate(names)]
         spans: List[Tuple[str, int, int]] = []  # group, first column, end
-        for i, (group, _) in enumerate(self.columns):
+        for i, (group, _) in enumerate(self.heads):
             if spans and group and spans[-1][0] == group:
                 spans[-1] = (group, spans[-1][1], i + 1)
             else:
@@ -46,17 +74,17 @@ class Table:
 
     def _line(self, cells: Sequence[str], widths: Sequence[int]) -> str:
         return "  " + "  ".join(
-            cell.ljust(width) if i < self.left else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(cells, widths))
+            cell.ljust(width) if column.left else cell.rjust(width)
+            for column, cell, width in zip(self.shown, cells, widths)
         )
 
     def markdown(self, heading: str = "## {}") -> str:
-        heads = [f"{group}: {name}" if group and name else group or name for group, name in self.columns]
+        heads = [f"{group}: {name}" if group and name else group or name for group, name in self.heads]
         lines = [
             heading.format(self.title),
             "",
             _markdown_row(heads),
-            _markdown_row(["---" if i < self.left else "---:" for i in range(len(heads))]),
+            _markdown_row(["---" if column.left else "---:" for column in self.shown]),
         ]
         lines += [_markdown_row(row) for row in self.rows]
         for note in self.notes:
@@ -93,8 +121,3 @@ def say_written(folder: Path, files: Sequence[Path]) -> None:
 
 def _markdown_row(cells: Sequence[str]) -> str:
     return "| " + " | ".join(cell.replace("|", r"\|").replace("*", r"\*").replace("_", r"\_") for cell in cells) + " |"
-
-
-def fixed(value: Any, form: str, missing: str = "-") -> str:
-    """A number in the given format; a dash for what there is not."""
-    return missing if value is None else format(value, form)

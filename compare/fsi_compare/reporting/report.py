@@ -148,8 +148,8 @@ def _inline(text: str) -> str:
 
 
 def _html_table(table: Table) -> str:
-    names = [name for _, name in table.columns]
-    groups = [group for group, _ in table.columns]
+    names = [name for _, name in table.heads]
+    groups = [group for group, _ in table.heads]
     rows = [f"<caption>{_inline(table.title)}</caption>", "<thead>"]
     if any(groups):
         cells, i = [], 0
@@ -163,8 +163,8 @@ def _html_table(table: Table) -> str:
 
     def line(cells: Sequence[str], tag: str) -> str:
         shown = []
-        for i, cell in enumerate(cells):
-            side = ' class="l"' if i < table.left else ""
+        for column, cell in zip(table.shown, cells):
+            side = ' class="l"' if column.left else ""
             shown.append(f"<{tag}{side}>{_inline(cell)}</{tag}>")
         return "<tr>" + "".join(shown) + "</tr>"
 

@@ -2,17 +2,19 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, List, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
+from ..runs.differences import Difference
 from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step, shown
-from .layout import Table, fixed, say_written
+from .column import Column
+from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
 from .samples import sample_differences, sample_table
@@ -114,82 +116,52 @@ def default_title(runs: Sequence[RunResults]) -> str:
     return titles.pop() if len(titles) == 1 and "" not in titles else "Runs beside each other"
 
 
+RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
+    Column("run", "run", value=lambda r: r[0], left=True),
+    Column("program", "program", value=lambda r: r[1].program, left=True),
+    Column("case", "title", value=lambda r: r[1].title, left=True),
+    Column(
+        "element",
+        "element",
+        value=lambda r: named(r[1], "element"),
+        text=lambda r: ", ".join(part for part in (named(r[1], "element"), named(r[1], "geometry")) if part),
+        left=True,
+    ),
+    Column(csv="geometry", value=lambda r: named(r[1], "geometry")),
+    Column("nodes", "nodes", value=lambda r: r[1].summary.get("mesh", {}).get("nodes"), format="d"),
+    Column("processes", "processes", value=lambda r: r[1].processes, behind=True),
+    Column("steps", "steps", value=lambda r: r[1].summary.get("totals", {}).get("steps"), format="g"),
+    Column("end, {unit}", "end", "ms", value=lambda r: end_of(r[1]), format="g"),
+    Column(
+        "work units per step",
+        "work_units_per_step",
+        value=lambda r: per_step(r[1].summary),
+        format=shown,
+        missing="",
+        behind=True,
+    ),
+    Column("seconds", "wall", "s", value=lambda r: r[1].summary.get("totals", {}).get("wall_s"), format=".1f"),
+)
+
+
 def runs_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
-    table = Table(
-        "runs",
-        "Runs",
-        [
-            ("", name)
-            for name in (
-                "run",
-                "program",
-                "case",
-                "element",
-                "nodes",
-                "processes",
-                "steps",
-                "end, ms",
-                "work units per step",
-                "seconds",
-            )
-        ],
-        [
-            "run",
-            "program",
-            "title",
-            "element",
-            "geometry",
-            "nodes",
-            "steps",
-            "end_ms",
-            "wall_s",
-            "processes",
-            "work_units_per_step",
-        ],
-        left=4,
-    )
-    for run, label in zip(runs, labels):
-        summary = run.summary
-        nodes, totals = summary.get("mesh", {}).get("nodes"), summary.get("totals", {})
-        element, geometry = (printable(summary.get(key, "")) for key in ("element", "geometry"))
-        ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
-        ends += [opening.time[-1] for opening in run.openings.values()]
-        end = float(max(ends)) if ends else None
-        table.rows.append(
-            [
-                label,
-                run.program,
-                run.title,
-                ", ".join(part for part in (element, geometry) if part),
-                fixed(nodes, "d"),
-                str(run.processes),
-                fixed(totals.get("steps"), "g"),
-                fixed(end, "g"),
-                shown(per_step(summary)),
-                fixed(totals.get("wall_s"), ".1f"),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                label,
-                run.program,
-                run.title,
-                element,
-                geometry,
-                nodes,
-                totals.get("steps"),
-                end,
-                totals.get("wall_s"),
-                run.processes,
-                per_step(summary),
-            ]
-        )
     machines = about_machines([run.summary for run in runs])
-    if machines:
-        table.notes.append(f"{machines}.")
+    notes = [f"{machines}."] if machines else []
     if any(per_step(run.summary) is not None for run in runs):
-        table.notes.append(NOTE)
-    return table
+        notes.append(NOTE)
+    return Table("runs", "Runs", RUNS, list(zip(labels, runs)), notes=notes)
+
+
+def named(run: RunResults, entry: str) -> str:
+    """What its summary says."""
+    return printable(run.summary.get(entry, ""))
+
+
+def end_of(run: RunResults) -> Optional[float]:
+    """ms, the last time that a line or an opening has; None where there is neither."""
+    ends = [line.times[-1] for line in (run.centre_line, run.wall_line) if line is not None]
+    ends += [opening.time[-1] for opening in run.openings.values()]
+    return float(max(ends)) if ends else None
 
 
 def add_differences(page: "Report", lines: Table, samples: Table) -> None:
@@ -212,35 +184,55 @@ def pressure_line(run: RunResults) -> "Line | None":
     return run.centre_line if run.centre_line is not None else run.lines.get(CENTRE_LINE)
 
 
+class Apart(NamedTuple):
+    """A line of a run and that of the first."""
+
+    run: str
+    quantity: str
+    difference: Optional[Difference]
+    levels: int
+
+
+LINES: Sequence[Column[Apart]] = (
+    Column("run", "run", value=lambda a: a.run, left=True),
+    Column("quantity", "quantity", value=lambda a: a.quantity, left=True),
+    Column(
+        "maximum norm",
+        "max_relative",
+        value=lambda a: a.difference and a.difference.max_relative,
+        format=".2e",
+        group="relative",
+    ),
+    Column(
+        "L2 norm",
+        "l2_relative",
+        value=lambda a: a.difference and a.difference.l2_relative,
+        format=".2e",
+        group="relative",
+    ),
+    Column("levels", "levels", value=lambda a: a.levels, format="d"),
+)
+
+
 def differences_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Of each run against the first, where both have the line and it has the same extent."""
-    table = Table(
-        "differences",
-        f"Largest difference from {labels[0]} over the common time levels",
-        [("", "run"), ("", "quantity"), ("relative", "maximum norm"), ("relative", "L2 norm"), ("", "levels")],
-        ["run", "quantity", "max_relative", "l2_relative", "levels"],
-        left=2,
-    )
+    records = []
     for run, label in zip(runs[1:], labels[1:]):
         for line, reference, quantity, words in (
             (pressure_line(run), pressure_line(runs[0]), "pressure", "pressure"),
             (run.wall_line, runs[0].wall_line, "radial", "radial displacement"),
         ):
-            row = _difference(line, reference, quantity)
-            if row:
-                table.rows.append([label, words, fixed(row[0], ".2e"), fixed(row[1], ".2e"), fixed(row[2], "d")])
-                table.csv_rows.append([label, words, *row])
-    table.notes.append(
-        "The first norm is relative to the largest value of the reference at the same time, the second to its L2 norm along "
-        "the line; the largest of all levels that both runs have. A dash: no level in common, or a reference of zero."
+            if line is not None and reference is not None and line.waves(quantity).covers_line(reference.s):
+                largest = difference(line, reference, quantity, times=[]).largest
+                records.append(Apart(label, words, largest.largest, largest.levels))
+    return Table(
+        "differences",
+        f"Largest difference from {labels[0]} over the common time levels",
+        LINES,
+        records,
+        notes=[
+            "The first norm is relative to the largest value of the reference at the same time, the second to its L2 norm "
+            "along the line; the largest of all levels that both runs have. A dash: no level in common, or a reference of "
+            "zero."
+        ],
     )
-    return table
-
-
-def _difference(line: "Line | None", reference: "Line | None", quantity: str) -> List[Any]:
-    """[maximum, L2, levels], or nothing where the lines cannot be compared."""
-    if line is None or reference is None or not line.waves(quantity).covers_line(reference.s):
-        return []
-    largest = difference(line, reference, quantity, times=[]).largest
-    found = largest.largest
-    return [found and found.max_relative, found and found.l2_relative, largest.levels]

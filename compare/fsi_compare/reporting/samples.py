@@ -2,12 +2,13 @@
 without a centre line, and `fsi-compare report` of all runs."""
 
 from pathlib import Path
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, is_file, together
 from ..runs.run_folder import read_finished
 from ..runs.samples import CENTRE_LINE, LINES, PLANES, POINTS, Difference, differences_of_tables, read_samples
+from .column import Column
 from .layout import Table, say_written
 
 TABLES = ("flow.csv", "openings.csv", POINTS, LINES, PLANES)
@@ -48,17 +49,18 @@ def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
     return [differences_of_tables(folders[0], folder, TABLES) for folder in folders[1:]]
 
 
+COLUMNS: Sequence[Column[Tuple[str, Difference]]] = (
+    Column("run", "run", value=lambda r: r[0], left=True),
+    Column("table", "table", value=lambda r: r[1].table, left=True),
+    Column("sample", "sample", value=lambda r: r[1].sample, left=True),
+    Column("column", "column", value=lambda r: r[1].column, left=True),
+    Column("difference", "largest_difference", value=lambda r: r[1].largest, format=".3e"),
+    Column("of", "largest_value", value=lambda r: r[1].size, format=".3e"),
+    Column("times", "times", value=lambda r: r[1].levels),
+)
+
+
 def sample_table(found: Sequence[Sequence[Difference]], labels: Sequence[str]) -> Table:
     """What sample_differences() found."""
-    table = Table(
-        "sample_differences",
-        f"Largest differences from {labels[0]}",
-        [("", "run"), ("", "table"), ("", "sample"), ("", "column"), ("", "difference"), ("", "of"), ("", "times")],
-        ["run", "table", "sample", "column", "largest_difference", "largest_value", "times"],
-        left=4,
-    )
-    for of_run, label in zip(found, labels[1:]):
-        for d in of_run:
-            table.rows.append([label, d.table, d.sample, d.column, f"{d.largest:.3e}", f"{d.size:.3e}", str(d.levels)])
-            table.csv_rows.append([label, d.table, d.sample, d.column, d.largest, d.size, d.levels])
-    return table
+    records = [(label, d) for of_run, label in zip(found, labels[1:]) for d in of_run]
+    return Table("sample_differences", f"Largest differences from {labels[0]}", COLUMNS, records)

@@ -4,13 +4,14 @@ import argparse
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
-from ..reporting.layout import Table, fixed, say_written, write_markdown
+from ..reporting.column import Column, Facts
+from ..reporting.layout import Table, say_written, write_markdown
 from ..reporting.pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
@@ -190,58 +191,62 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
     )
 
 
+RUNS: Sequence[Column[Accuracy]] = (
+    Column("run", "run", value=lambda a: a.label, left=True),
+    Column("element", "element", value=lambda a: a.element, left=True),
+    Column("geometry", "geometry", value=lambda a: a.geometry, left=True),
+    Column("nodes", "nodes", value=lambda a: a.nodes),
+    Column("step", "step", "ms", value=lambda a: a.step, format="g"),
+    Column("steps", "steps", value=lambda a: a.steps),
+    Column("work units", "work_units", value=lambda a: in_all(a.summary), format=shown, missing="", behind=True),
+    Column("seconds", "wall", "s", value=lambda a: a.seconds, format=".3g"),
+)
+
+
+def _percents(q: Quantity, times: Sequence[float]) -> List[Column[Accuracy]]:
+    """At each time, in the mean and at worst."""
+
+    def column(head: str, value: Callable[[Accuracy], float]) -> Column[Accuracy]:
+        return Column(
+            head, value=lambda a: None if math.isnan(value(a)) else 100 * value(a), format=".3g", group=HEADS[q.column]
+        )
+
+    def at(place: int) -> Callable[[Accuracy], float]:
+        return lambda a: a.errors[q.column][place]
+
+    return [
+        *(column(f"{time:g} ms", at(place)) for place, time in enumerate(times)),
+        column("mean", lambda a: a.mean(q)),
+        column("worst", lambda a: a.worst(q)),
+    ]
+
+
+def _facts(found: Sequence[Accuracy], times: Sequence[float]) -> Facts:
+    """A line for each time of each run."""
+
+    def of_run(column: Column[Accuracy]) -> Column[Tuple[Accuracy, int]]:
+        return Column(csv=column.name, value=lambda r: column.value(r[0]), behind=column.behind)
+
+    def of_quantity(q: Quantity) -> Column[Tuple[Accuracy, int]]:
+        return Column(csv=f"{CSV[q.column]}_relative_L2", value=lambda r: r[0].errors[q.column][r[1]])
+
+    time: Column[Tuple[Accuracy, int]] = Column(csv="time", unit="ms", value=lambda r: times[r[1]])
+    columns = [*map(of_run, RUNS), time, *map(of_quantity, QUANTITIES)]
+    return Facts(columns, [(one, place) for one in found for place in range(len(times))])
+
+
 def accuracy_table(found: Sequence[Accuracy], reference: Reference, times: Sequence[float], title: str) -> Table:
-    heads = [*(f"{time:g} ms" for time in times), "mean", "worst"]
     table = Table(
-        stem="accuracy",
-        title=title,
-        left=3,
-        columns=[
-            ("", "run"),
-            ("", "element"),
-            ("", "geometry"),
-            ("", "nodes"),
-            ("", "step"),
-            ("", "steps"),
-            ("", "work units"),
-            ("", "seconds"),
-            *((HEADS[q.column], head) for q in QUANTITIES for head in heads),
-        ],
-        csv_columns=[
-            "run",
-            "element",
-            "geometry",
-            "nodes",
-            "step_ms",
-            "steps",
-            "wall_s",
-            "time_ms",
-            *(f"{CSV[q.column]}_relative_L2" for q in QUANTITIES),
-            "work_units",
-        ],
-        notes=[
+        "accuracy",
+        title,
+        [*RUNS, *(column for q in QUANTITIES for column in _percents(q, times))],
+        found,
+        _facts(found, times),
+        [
             f"Relative L2 norm along z of the difference from {reference.folder}. Averaged: over {WINDOW} ms around the "
             "time; no number where run or reference do not cover that."
         ],
     )
-    for one in found:
-        facts = [one.label, one.element, one.geometry, one.nodes, one.step, one.steps, one.seconds]
-        row = [
-            one.label,
-            one.element,
-            one.geometry,
-            "-" if one.nodes is None else str(one.nodes),
-            f"{one.step:g}",
-            str(one.steps),
-            shown(in_all(one.summary)),
-            f"{one.seconds:.3g}",
-        ]
-        for q in QUANTITIES:
-            values = (*one.errors[q.column], one.mean(q), one.worst(q))
-            row += [fixed(None if math.isnan(value) else 100 * value, ".3g") for value in values]
-        table.rows.append(row)
-        by_time = zip(times, *(one.errors[q.column] for q in QUANTITIES))
-        table.csv_rows += [[*facts, time, *values, in_all(one.summary)] for time, *values in by_time]
     machines = about_machines([one.summary for one in found])
     if machines:
         table.notes.append(f"{machines}.")

@@ -2,13 +2,14 @@
 and what that costs."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError
 from ..base.files import read_toml
 from ..base.progress import duration
 from ..gallery.scene import Number, Scene, SceneRun, SceneRuns
-from ..reporting.layout import Table, fixed
+from ..reporting.column import Column, Facts, fixed
+from ..reporting.layout import Table
 from ..runs.columns import ITERATIONS
 from ..runs.work_units import shown
 from .running.context import Context
@@ -17,7 +18,6 @@ from .running.study_run import StudyRun
 
 SHORT = {"fsi-monolithic": "monolithic", "fsi-partitioned": "partitioned"}
 COUNTED = {"fsi-monolithic": "Newton iterations a step", "fsi-partitioned": "passes a step"}
-OF_A_DRIVER = ("computed", "off by", "work units a step", "seconds")
 
 
 @dataclass(frozen=True)
@@ -100,45 +100,102 @@ def _section(context: Context, measured: Measured) -> None:
         context.report.figure(stem, lambda: measured.scene.module.draw(runs), measured.scene.title + ".")
 
 
+class Row(NamedTuple):
+    """A quantity of a scene; what a run cost stands in the first of its scene."""
+
+    measured: Measured
+    known: Number
+    first: bool
+
+    def number(self, program: str) -> Optional[Number]:
+        return self.measured.number(self.known.what, program)
+
+    def run(self, program: str) -> Optional[StudyRun]:
+        return self.measured.runs.get(program) if self.first else None
+
+    def off_by(self, program: str) -> str:
+        number = self.number(program)
+        return "" if number is None else f"{100 * number.error:.2g} %" + ("" if number.holds else " (!)")
+
+    def work_units(self, program: str) -> str:
+        run = self.run(program)
+        return shown(run.work_units_per_step) if run is not None and run.done else ""
+
+    def seconds(self, program: str) -> str:
+        run = self.run(program)
+        return "" if run is None else duration(run.seconds) if run.done else run.status
+
+    def passes(self, program: str) -> str:
+        run = self.run(program)
+        return fixed(run.passes, ".2f") if run is not None and run.done else ""
+
+    def size(self, place: int) -> Any:
+        return counts(self.measured)[place] if self.first else None
+
+
+def _of_driver(program: str) -> List[Column[Row]]:
+    def value(row: Row) -> Optional[float]:
+        number = row.number(program)
+        return None if number is None else number.value
+
+    group = SHORT[program]
+    return [
+        Column("computed", value=value, format=".5g", group=group, missing=""),
+        Column("off by", value=lambda row: row.off_by(program), group=group),
+        Column("work units a step", value=lambda row: row.work_units(program), group=group),
+        Column("seconds", value=lambda row: row.seconds(program), group=group),
+        Column(COUNTED[program], value=lambda row: row.passes(program), group=group),
+    ]
+
+
+ROWS: Sequence[Column[Row]] = (
+    Column("scene", value=lambda row: _title(row.measured.scene) if row.first else "", left=True),
+    Column(
+        "quantity", value=lambda row: row.known.what + (f" [{row.known.unit}]" if row.known.unit else ""), left=True
+    ),
+    Column("published", value=lambda row: row.known.reference, format=".6g"),
+    Column("codes differ by", value=lambda row: _percent(row.known.spread)),
+    Column("may be off by", value=lambda row: _percent(row.known.tolerance)),
+    *(column for program in SHORT for column in _of_driver(program)),
+    Column("nodes", value=lambda row: row.size(0), missing=""),
+    Column("step [{unit}]", unit="ms", value=lambda row: row.size(1), format="g", missing=""),
+    Column("steps", value=lambda row: row.size(2), missing=""),
+)
+NUMBERS: Sequence[Column[Tuple[Measured, Number]]] = (
+    Column(csv="scene", value=lambda r: r[0].scene.name),
+    Column(csv="quantity", value=lambda r: r[1].what),
+    Column(csv="unit", value=lambda r: r[1].unit),
+    Column(csv="program", value=lambda r: r[1].program),
+    Column(csv="value", value=lambda r: r[1].value),
+    Column(csv="published", value=lambda r: r[1].reference),
+    Column(csv="relative_error", value=lambda r: r[1].error),
+    Column(csv="tolerance", value=lambda r: r[1].tolerance),
+    Column(csv="spread_of_codes", value=lambda r: r[1].spread or None),
+    Column(csv="source", value=lambda r: r[1].source),
+    Column(csv="nodes", value=lambda r: counts(r[0])[0]),
+    Column(csv="step", unit="ms", value=lambda r: counts(r[0])[1]),
+    Column(csv="steps", value=lambda r: counts(r[0])[2]),
+    Column(csv="seconds", value=lambda r: r[0].runs[r[1].program].seconds),
+    Column(csv="iterations_per_step", value=lambda r: r[0].runs[r[1].program].passes),
+    Column(csv="work_units_per_step", value=lambda r: r[0].runs[r[1].program].work_units_per_step),
+)
+
+
 def scenes_table(measured: Sequence[Measured]) -> Table:
     """A row for each quantity; what a run cost stands in the first of its scene."""
-    table = Table(
-        stem="scenes",
-        title="Computed and published",
-        left=2,
-        columns=[
-            ("", "scene"),
-            ("", "quantity"),
-            ("", "published"),
-            ("", "codes differ by"),
-            ("", "may be off by"),
-            *((SHORT[program], name) for program in SHORT for name in (*OF_A_DRIVER, COUNTED[program])),
-            ("", "nodes"),
-            ("", "step [ms]"),
-            ("", "steps"),
-        ],
-        csv_columns=[
-            *("scene", "quantity", "unit", "program", "value", "published", "relative_error", "tolerance"),
-            *("spread_of_codes", "source", "nodes", "step_ms", "steps", "seconds", "iterations_per_step"),
-            "work_units_per_step",
-        ],
-        notes=[
+    return Table(
+        "scenes",
+        "Computed and published",
+        ROWS,
+        [Row(m, known, i == 0) for m in measured for i, known in enumerate(m.quantities())],
+        Facts(NUMBERS, [(m, number) for m in measured for number in m.numbers]),
+        [
             "Codes differ by: the spread of published amplitudes, where one is known. Off by: of the value; of a mean, of "
             "the amplitude where that is larger; (!): by more than asked.",
             "Seconds of the whole program with the threads of the study; other runs at the same time lengthen them. Where "
             "there is one medium, nothing is coupled and both programs do the same.",
         ],
     )
-    for m in measured:
-        for row, known in enumerate(m.quantities()):
-            cells = [_title(m.scene) if row == 0 else "", known.what + (f" [{known.unit}]" if known.unit else "")]
-            cells += [f"{known.reference:.6g}", _percent(known.spread), _percent(known.tolerance)]
-            for program in SHORT:
-                cells += _driver_cells(m, known.what, program, row == 0)
-            cells += _size(m) if row == 0 else ["", "", ""]
-            table.rows.append(cells)
-        table.csv_rows += [_facts(m, number) for number in m.numbers]
-    return table
 
 
 def _title(scene: Scene) -> str:
@@ -149,27 +206,7 @@ def _percent(share: float) -> str:
     return f"{100 * share:.2g} %" if share else ""
 
 
-def _driver_cells(m: Measured, what: str, program: str, first: bool) -> List[str]:
-    number, run = m.number(what, program), m.runs.get(program)
-    cost = ["", "", ""]
-    if first and run is not None:
-        work = shown(run.work_units_per_step)
-        cost = [work, duration(run.seconds), fixed(run.passes, ".2f")] if run.done else ["", run.status, ""]
-    if number is None:
-        return ["", "", *cost]
-    return [f"{number.value:.5g}", f"{100 * number.error:.2g} %" + ("" if number.holds else " (!)"), *cost]
-
-
-def _size(m: Measured) -> List[str]:
-    nodes, step, steps = _counts(m)
-    return [
-        "" if nodes is None else str(nodes),
-        "" if step is None else f"{step:g}",
-        "" if steps is None else str(steps),
-    ]
-
-
-def _counts(m: Measured) -> Tuple[Optional[int], Optional[float], Optional[int]]:
+def counts(m: Measured) -> Tuple[Optional[int], Optional[float], Optional[int]]:
     """Nodes of the mesh, the mean length of the steps in ms where there is time, and their number."""
     run = next((run for run in m.runs.values() if run.done), None)
     if run is None:
@@ -177,11 +214,3 @@ def _counts(m: Measured) -> Tuple[Optional[int], Optional[float], Optional[int]]
     ends = run.columns(ITERATIONS)["time_ms"]
     step = None if "static" in read_toml(m.scene.case, "", "") else float(ends[-1]) / len(ends)
     return run.summary["mesh"]["nodes"], step, run.steps
-
-
-def _facts(m: Measured, number: Number) -> List[Any]:
-    run = m.runs[number.program]
-    nodes, step, steps = _counts(m)
-    known = (number.what, number.unit, number.program, number.value, number.reference, number.error, number.tolerance)
-    source, cost = (number.spread or None, number.source), (run.seconds, run.passes, run.work_units_per_step)
-    return [m.scene.name, *known, *source, nodes, step, steps, *cost]

@@ -107,19 +107,19 @@ class Tables(FolderCase):
         slow = self.run_of("aitken", "fsi-partitioned", [30, 20])
         failed = self.run_of("constant", "fsi-partitioned", [9, 6], status=NOT_CONVERGED)
         everything = [whole, quick, slow, failed]
-        lines = coupling.in_short([quick, slow, failed], coupling.agreement_table([whole, quick, failed]), everything)
+        lines = coupling.in_short([quick, slow, failed], coupling.agreements([whole, quick, failed]), everything)
         self.assertIn(
             "Fewest coupling iterations a step: iqn-ils, 7.5 over walls and meshes; most: aitken, 25.0.", lines
         )
         self.assertIn("agree: the pressure differs by at most 1.0e-07", lines[1])
         self.assertEqual(lines[2], "1 of 4 runs did not come to their end: 1 not converged.")
         other = self.run_of("other", "fsi-partitioned", [9, 6], factor=1.01)
-        lines = coupling.in_short([], coupling.agreement_table([whole, other]), [whole, other, other])
+        lines = coupling.in_short([], coupling.agreements([whole, other]), [whole, other, other])
         self.assertIn("do not agree: the pressure differs by up to 1.0e-02", lines[0])
         self.assertEqual(lines[1], "All 2 runs came to their end.")
 
     def test_passes_are_mean_and_range(self):
-        table = coupling.passes_table(None, [self.run_of("iqn-ils", "fsi-partitioned", [9, 6], group="passes")])
+        table = coupling.passes_table([self.run_of("iqn-ils", "fsi-partitioned", [9, 6], group="passes")])
         self.assertEqual(table.rows[0][1], "7.5 (6-9)")
 
     def test_meshes_compare_over_the_same_steps(self):

@@ -20,7 +20,7 @@ from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies.evidence.fields import TETRAHEDRA
 from fsi_compare.studies import kinds
 from fsi_compare.base.names import MATERIALS
-from fsi_compare.linear.solver_tables import Grid
+from fsi_compare.linear.grid import Grid
 from fsi_compare.linear.study import Outcome, Request as LinearRequest
 from fsi_compare.studies.paper import cost as paper_cost
 from fsi_compare.studies.paper.claims import (
@@ -278,8 +278,8 @@ class Levels(unittest.TestCase):
     def test_one_level_has_no_error(self):
         table = speed_table([self.wall("artery", 0.87)], ["coarse"])
         self.assertEqual(table.rows[0][5:], ["0.870", "8.7"])
-        self.assertNotIn("error", [name for _, name in table.columns])
-        self.assertEqual(len(table.columns), len(table.rows[0]))
+        self.assertNotIn("error", [name for _, name in table.heads])
+        self.assertEqual(len(table.heads), len(table.rows[0]))
         self.assertNotIn("Error: estimated", " ".join(table.notes))
 
 

@@ -13,6 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from study_case import StudyCase
 
+from fsi_compare.reporting.column import Column
 from fsi_compare.reporting.layout import Table
 from fsi_compare.reporting.report import Report
 
@@ -44,18 +45,12 @@ class OneFile(FolderCase):
         report = Report(self.base, "A <title> & more")
         report.section("Numbers with `code`")
         report.text("Some **bold** text, 1 < 2 & so on.")
-        columns = [("", "name"), ("pressure", "Pa"), ("pressure", "kPa")]
-        report.table(
-            Table(
-                "numbers",
-                "Numbers",
-                columns,
-                ["name", "pressure_Pa"],
-                rows=[["one <b>", "1.0", "1e-3"]],
-                csv_rows=[["one <b>", 0.1 + 0.2]],
-                notes=["a note"],
-            )
-        )
+        columns = [
+            Column("name", "name", value=lambda record: record[0], left=True),
+            Column("{unit}", "pressure", "Pa", value=lambda record: record[1], format=".1f", group="pressure"),
+            Column("kPa", value=lambda record: "1e-3", group="pressure"),
+        ]
+        report.table(Table("numbers", "Numbers", columns, [("one <b>", 0.1 + 0.2)], notes=["a note"]))
         report.figure("line", line_figure, "A line, in `mm`")
         return report
 
@@ -78,7 +73,7 @@ class OneFile(FolderCase):
         text = (self.base / "report.md").read_text()
         self.assertIn("# A <title> & more\n\n## Numbers with `code`\n\nSome **bold** text, 1 < 2 & so on.\n\n**N", text)
         self.assertIn(
-            "| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 1.0 | 1e-3 |\n\na note\n", text
+            "| name | pressure: Pa | pressure: kPa |\n| --- | ---: | ---: |\n| one <b> | 0.3 | 1e-3 |\n\na note\n", text
         )
         self.assertIn("![line](line.png)\n\nA line, in `mm`\n", text)
 

@@ -3,13 +3,10 @@
 Two errors are kept apart. The total error is against a reference on far finer meshes and steps. The algebraic error is
 against the tight solution of the same discrete equations: what stopping early, a loose tolerance, costs."""
 
-from typing import Dict, List, Optional, Sequence
+from typing import Dict, List, Sequence
 
 from ...base.names import MATERIALS
-from ...base.progress import duration
-from ...reporting.layout import Table, fixed
 from ...reporting.report import Report
-from ...runs.work_units import NOTE_IN_ALL, shown
 from ..evidence.runs_table import runs_table
 from ..evidence.waves import JUDGED, QUANTITIES, Quantity
 from ..running.context import Context
@@ -18,12 +15,9 @@ from ..running.study_file import Study
 from . import pictures
 from .advice import algebraic_advice, enough, estimate, percent, small_steps, total_advice
 from .convergence import SPACE, TIME, Series, series
-from .frontier import frontier
 from .measured import GAIN, Measured, measure
 from .plan import Plan, read_plan
-
-SHORT = ("pressure", "averaged pressure", "displacement")  # of QUANTITIES, as heads of columns
-CSV = ("pressure", "averaged_pressure", "displacement")
+from .tables import algebraic_table, frontier_table, orders_table, settings_table
 
 
 def check(study: Study) -> None:
@@ -44,7 +38,7 @@ def evaluate(context: Context) -> int:
     _orders(report, found, cases)
     _algebraic(report, groups, plan)
     report.section("All runs")
-    report.table(_all_runs(measured, plan))
+    report.table(settings_table(measured))
     failed = [run for run in context.runs if not run.done]
     if failed:
         report.subsection("Runs without a result")
@@ -153,28 +147,7 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
         "in the tables; **grey**: dominated.",
     )
     for quantity in QUANTITIES:
-        best = frontier([(m.seconds, m.total[quantity.column]) for m in measured], GAIN)
-        table = Table(
-            stem=f"frontier_{quantity.file.split('.')[0]}{stem}",
-            title=f"The frontier in {quantity.name}{name}",
-            left=3,
-            columns=[("", name) for name in ("number", "equations", "solved by", "error", "work units", "seconds")],
-            csv_columns=["number", "equations", "solved_by", "relative_error", "seconds", "work_units"],
-        )
-        for number, i in enumerate(best, 1):
-            m = measured[i]
-            table.rows.append(
-                [
-                    str(number),
-                    m.equations,
-                    m.solving,
-                    percent(m.total[quantity.column]),
-                    shown(m.work_units),
-                    fixed(m.seconds, ".1f"),
-                ]
-            )
-            table.csv_rows.append([number, m.equations, m.solving, m.total[quantity.column], m.seconds, m.work_units])
-        report.table(table)
+        report.table(frontier_table(measured, quantity, name, stem))
 
 
 def _hollow(measured: Sequence[Measured]) -> str:
@@ -192,56 +165,7 @@ def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> No
         "that extrapolations are rough. In element size linear elements have 2; quadratic ones 2 in pressure and 3 in "
         "displacement. In time `euler` has 1, the other schemes 2."
     )
-    table = Table(
-        stem="orders",
-        title="Observed orders",
-        left=3,
-        columns=[
-            ("", "refined"),
-            ("", "all else"),
-            ("", "sizes"),
-            *((q.name, name) for q in QUANTITIES for name in ("differences", "order", "left", "slope")),
-        ],
-        csv_columns=[
-            "refined",
-            "fixed",
-            "sizes",
-            "quantity",
-            "relative_differences",
-            "order",
-            "estimated_error",
-            "slope_against_reference",
-        ],
-    )
-    for one in found:
-        for i in range(len(one.runs) - 2):
-            three = one.runs[i : i + 3]
-            sizes = " / ".join(m.mesh_label if one.what == SPACE else f"{m.step:g} ms" for m in three)
-            row = [one.what, one.fixed, sizes]
-            for q in QUANTITIES:
-                of = one.orders[q.column][i]
-                apart = one.distances[q.column][i : i + 2]
-                last = i == len(one.runs) - 3
-                row += [
-                    ", ".join(percent(d) for d in apart),
-                    fixed(of.order, ".2f"),
-                    "-" if of.remaining is None else percent(of.remaining),
-                    fixed(one.against_reference[q.column] if last else None, ".2f"),
-                ]
-                table.csv_rows.append(
-                    [
-                        one.what,
-                        one.fixed,
-                        sizes,
-                        q.column,
-                        " ".join(f"{d:.6g}" for d in apart),
-                        of.order,
-                        of.remaining,
-                        one.against_reference[q.column] if last else None,
-                    ]
-                )
-            table.rows.append(row)
-    report.table(table)
+    report.table(orders_table(found))
     for what, stem in ((SPACE, "orders_space"), (TIME, "orders_time")):
         own = [one for one in found if one.what == what]
         if own:
@@ -286,124 +210,4 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
             f"Shape by method, a thin line along its tolerances{_hollow(everyone)}. Black and numbered: the frontier.",
         )
     for i, (name, group) in enumerate(groups.items(), 1):
-        runs = group["runs"]
-        best = frontier([(m.seconds, m.worst_algebraic) for m in runs])
-        table = Table(
-            stem=f"algebraic_{i}",
-            title=f"Solver's error, {name}",
-            left=1,
-            columns=[
-                ("", "solved by"),
-                *(("error", name) for name in SHORT),
-                ("", "work units"),
-                ("", "seconds"),
-                ("", "iterations per step"),
-                ("", "frontier"),
-            ],
-            csv_columns=[
-                "equations",
-                "solved_by",
-                *(f"{name}_error" for name in CSV),
-                "seconds",
-                "iterations_per_step",
-                "on_frontier",
-                "work_units",
-            ],
-            notes=["Frontier: in the largest of the errors. Iterations: coupling passes, or Newton's."],
-        )
-        for j in sorted(range(len(runs)), key=lambda j: runs[j].seconds):
-            m = runs[j]
-            on = best.index(j) + 1 if j in best else None
-            passes: Optional[float] = m.run.passes if m.run.passes == m.run.passes else None
-            table.rows.append(
-                [
-                    m.solving,
-                    *(percent(m.algebraic[q.column]) for q in QUANTITIES),
-                    shown(m.work_units),
-                    fixed(m.seconds, ".2f"),
-                    fixed(passes, ".1f"),
-                    "" if on is None else str(on),
-                ]
-            )
-            table.csv_rows.append(
-                [
-                    name,
-                    m.solving,
-                    *(m.algebraic[q.column] for q in QUANTITIES),
-                    m.seconds,
-                    passes,
-                    on is not None,
-                    m.work_units,
-                ]
-            )
-        report.table(table)
-
-
-def _all_runs(measured: Sequence[Measured], plan: Plan) -> Table:
-    table = Table(
-        stem="settings",
-        title="All settings, by total error",
-        left=4,
-        columns=[
-            ("", "case"),
-            ("", "equations"),
-            ("", "solved by"),
-            ("", "group"),
-            ("", "nodes"),
-            *((kind, name) for kind in ("total error", "solver's error") for name in SHORT),
-            ("", "work units"),
-            ("", "time"),
-        ],
-        csv_columns=[
-            "case",
-            "mesh",
-            "nodes",
-            "step_ms",
-            "equations",
-            "solved_by",
-            "driver",
-            "group",
-            *(f"{name}_{kind}" for kind in ("error", "solver_error") for name in CSV),
-            "seconds",
-            "process_s",
-            "folder",
-            "work_units",
-        ],
-    )
-    for m in sorted(measured, key=lambda m: (m.run.request.case, m.worst)):
-        request = m.run.request
-        solver = [m.algebraic.get(q.column) for q in QUANTITIES]
-        table.rows.append(
-            [
-                request.case,
-                m.equations,
-                m.solving,
-                request.group,
-                f"{m.nodes:,}",
-                *(percent(m.total[q.column]) for q in QUANTITIES),
-                *("-" if e is None else percent(e) for e in solver),
-                shown(m.work_units),
-                duration(m.seconds),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                request.case,
-                m.mesh,
-                m.nodes,
-                m.step,
-                m.equations,
-                m.solving,
-                request.method.program,
-                request.group,
-                *(m.total[q.column] for q in QUANTITIES),
-                *solver,
-                m.seconds,
-                m.run.seconds,
-                m.run.folder.name,
-                m.work_units,
-            ]
-        )
-    if any(m.work_units is not None for m in measured):
-        table.notes.append(NOTE_IN_ALL)
-    return table
+        report.table(algebraic_table(i, name, group["runs"]))

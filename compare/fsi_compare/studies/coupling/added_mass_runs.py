@@ -6,11 +6,12 @@ theory.
 alpha), `levels` (time steps of a run), `set` (entries of the case file for these runs)."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping
+from typing import Any, Dict, List, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from ...base.errors import ProgramError
+from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..running.context import Context
 from ..running.section import Section
@@ -122,88 +123,91 @@ def flatten(entries: Mapping[str, Any], prefix: str = "") -> Dict[str, Any]:
     return found
 
 
+class Found(NamedTuple):
+    """Between which values of a quantity it turns, for one stabilisation and time step."""
+
+    stabilisation: float
+    step: float
+    bracket: Bracket
+
+
+FOUND: Sequence[Column[Found]] = (
+    Column("wall's stabilisation", "stabilisation", value=lambda f: f.stabilisation, format="g", left=True),
+    Column("time step", "time_step", "ms", value=lambda f: f.step, format=lambda step: f"{step:g} ms", left=True),
+    Column("measured", value=lambda f: text(f.bracket)),
+)
+RUNS: Column[Found] = Column("runs", "runs", value=lambda f: f.bracket.runs)
+
+
+def search_all(context: Context, name: str, entry: Search) -> List[Found]:
+    return [
+        Found(stabilisation, step, search(context, name, entry, step, stabilisation))
+        for stabilisation in entry.stabilisations
+        for step in entry.steps
+    ]
+
+
 def explicit(context: Context, entry: Search) -> List[Bracket]:
-    theory, brackets = AddedMass(), []
-    table = Table(
-        stem="added_mass_explicit",
-        left=2,
-        title="Critical density ratio of the wall to the fluid: `explicit` is unstable below",
-        columns=[
-            ("", "wall's stabilisation"),
-            ("", "time step"),
-            ("", "measured"),
-            ("theory", "as published"),
-            ("theory", "for this scheme"),
-            ("", "runs"),
-        ],
-        csv_columns=[
-            "stabilisation",
-            "time_step_ms",
-            "unstable_at",
-            "stable_at",
+    theory, found = AddedMass(), search_all(context, "explicit", entry)
+    columns: List[Column[Found]] = [
+        *FOUND,
+        Column(csv="unstable_at", value=lambda f: f.bracket.fails),
+        Column(csv="stable_at", value=lambda f: f.bracket.holds),
+        Column(
+            "as published",
             "theory_published",
+            value=lambda f: theory.critical_density_ratio(),
+            format=".0f",
+            group="theory",
+        ),
+        Column(
+            "for this scheme",
             "theory_this_scheme",
-            "runs",
+            value=lambda f: theory.explicit_limit(1),
+            format=".0f",
+            group="theory",
+        ),
+        RUNS,
+    ]
+    table = Table(
+        "added_mass_explicit",
+        "Critical density ratio of the wall to the fluid: `explicit` is unstable below",
+        columns,
+        found,
+        notes=[
+            "As published (Causin, Gerbeau and Nobile): rho_s h = rho_f m. For this scheme: rho_s h e = 2 rho_f m, since "
+            "Newmark's beta = gamma = 1 leaves the wall half as heavy when steps alternate, e = (R/h) ln(1 + h/R) for a "
+            "thick wall.",
+            "The quasi-static stabilisation of the wall, tau = alpha h^2/(2 mu), lets volume leak through heavy elements, "
+            "so that only the nodes of the inner face answer: with alpha = 0.5 the limit lies higher still "
+            "(docs/coupling.md).",
         ],
     )
-    for stabilisation in entry.stabilisations:
-        for step in entry.steps:
-            bracket = search(context, "explicit", entry, step, stabilisation)
-            brackets.append(bracket)
-            published, own = theory.critical_density_ratio(), theory.explicit_limit(1)
-            table.rows.append(
-                [
-                    f"{stabilisation:g}",
-                    f"{step:g} ms",
-                    text(bracket),
-                    f"{published:.0f}",
-                    f"{own:.0f}",
-                    str(bracket.runs),
-                ]
-            )
-            table.csv_rows.append([stabilisation, step, bracket.fails, bracket.holds, published, own, bracket.runs])
-    table.notes += [
-        "As published (Causin, Gerbeau and Nobile): rho_s h = rho_f m. For this scheme: rho_s h e = 2 rho_f m, since "
-        "Newmark's beta = gamma = 1 leaves the wall half as heavy when steps alternate, e = (R/h) ln(1 + h/R) for a "
-        "thick wall.",
-        "The quasi-static stabilisation of the wall, tau = alpha h^2/(2 mu), lets volume leak through heavy elements, "
-        "so that only the nodes of the inner face answer: with alpha = 0.5 the limit lies higher still "
-        "(docs/coupling.md).",
-    ]
     context.report.table(table)
-    return brackets
+    return [one.bracket for one in found]
 
 
 def constant(context: Context, entry: Search) -> List[Bracket]:
-    theory, brackets = AddedMass(), []
+    theory, found = AddedMass(), search_all(context, "constant", entry)
+    columns: List[Column[Found]] = [
+        *FOUND,
+        Column(csv="converges_at", value=lambda f: f.bracket.holds),
+        Column(csv="diverges_at", value=lambda f: f.bracket.fails),
+        Column("theory 2/(1 + |G|)", "theory", value=lambda f: theory.largest_factor(f.step), format=".4f"),
+        RUNS,
+    ]
     table = Table(
-        stem="added_mass_constant",
-        title="Largest factor of `constant` that converges",
-        left=2,
-        columns=[
-            ("", "wall's stabilisation"),
-            ("", "time step"),
-            ("", "measured"),
-            ("", "theory 2/(1 + |G|)"),
-            ("", "runs"),
+        "added_mass_constant",
+        "Largest factor of `constant` that converges",
+        columns,
+        found,
+        notes=[
+            "Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers "
+            "with 0.74 (alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md."
         ],
-        csv_columns=["stabilisation", "time_step_ms", "converges_at", "diverges_at", "theory", "runs"],
-    )
-    for stabilisation in entry.stabilisations:
-        for step in entry.steps:
-            bracket = search(context, "constant", entry, step, stabilisation)
-            brackets.append(bracket)
-            largest = theory.largest_factor(step)
-            table.rows.append(
-                [f"{stabilisation:g}", f"{step:g} ms", text(bracket), f"{largest:.4f}", str(bracket.runs)]
-            )
-            table.csv_rows.append([stabilisation, step, bracket.holds, bracket.fails, largest, bracket.runs])
-    table.notes.append(
-        "Within one step the discrete fluid is 1.17 times as heavy as the theory's and the wall answers "
-        "with 0.74 (alpha = 0.5) to 0.87 (alpha small) of its mass and stiffness: docs/coupling.md."
     )
     context.report.table(table)
-    return brackets
+    return [one.bracket for one in found]
 
 
 def text(bracket: Bracket) -> str:

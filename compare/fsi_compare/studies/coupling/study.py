@@ -9,19 +9,18 @@ Groups by name, or by name and a suffix (passes, passes-fine), each of which may
 `[report]`: `sweeps` (see sweeps); `explicit` and `constant`, sections with what is bisected (see added_mass_runs)."""
 
 from collections import Counter
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Dict, List, Sequence
 
 from ...base.errors import InputError
 from ...base.names import MATERIALS
 from ...reporting.cost import Cost, cost_table, read_cost
-from ...reporting.layout import Table, fixed
-from ...runs.differences import largest_difference
 from ..evidence.cross_check import WRONG, Cell
 from ..running.context import Context
-from ..running.study_file import Study, show
+from ..running.study_file import Study
 from ..running.study_run import DONE, StudyRun
 from . import added_mass_runs, sweeps
 from .pictures import passes_figure
+from .tables import Agreement, agreement_table, agreements, growth_table, mesh_name, passes_table, saving_table
 
 GROUPS = ("passes", "agreement", "density", "step", "cost")
 MONOLITHIC = sweeps.MONOLITHIC
@@ -51,16 +50,16 @@ def evaluate(context: Context) -> int:
     report = context.report
     passes, agreement = chosen(context, "passes"), chosen(context, "agreement")
     report.section("In short")
-    report.list(in_short(passes, agreement_table(agreement) if agreement else None, context.runs))
+    report.list(in_short(passes, agreements(agreement), context.runs))
     report.section("Coupling iterations")
     if passes:
         report.text(
             "Coupling iterations per step, mean (range). A pass is one solve of the fluid and one of the wall; "
             "of `newton-krylov` every evaluation of the interface residual counts."
         )
-        report.table(passes_table(context, passes))
+        report.table(passes_table(passes))
         growth = growth_table(passes)
-        if growth.rows:
+        if growth.records:
             report.table(growth)
     if agreement:
         report.text(
@@ -95,8 +94,8 @@ def evaluate(context: Context) -> int:
     return 2 if missing or wrong else 0
 
 
-def in_short(passes: Sequence[StudyRun], agreement: Optional[Table], runs: Sequence[StudyRun]) -> List[str]:
-    """The findings in words; of what was not run nothing is said. `agreement`: see agreement_table."""
+def in_short(passes: Sequence[StudyRun], agreement: Sequence[Agreement], runs: Sequence[StudyRun]) -> List[str]:
+    """The findings in words; of what was not run nothing is said. `agreement`: see agreements()."""
     lines = []
     means: Dict[str, List[float]] = {}
     for run in passes:
@@ -106,8 +105,7 @@ def in_short(passes: Sequence[StudyRun], agreement: Optional[Table], runs: Seque
         best, worst = (pick(means, key=lambda label: max(means[label])) for pick in (min, max))
         line = f"Fewest coupling iterations a step: {best}, {_span(means[best])} over walls and meshes"
         lines.append(line + (f"; most: {worst}, {_span(means[worst])}." if worst != best else "."))
-    column = agreement.csv_columns.index("largest_relative_difference") if agreement else 0
-    differences = [row[column] for row in agreement.csv_rows if row[column] is not None] if agreement else []
+    differences = [a.difference for a in agreement if a.difference is not None]
     if differences:
         lines.append(
             f"Converged steps and monolithic ones agree: the pressure differs by at most {max(differences):.1e} of the "
@@ -178,175 +176,6 @@ def chosen(context: Context, group: str) -> List[StudyRun]:
     return [run for run in context.runs if base(run.request.group) == group]
 
 
-def methods(runs: Sequence[StudyRun]) -> List[str]:
-    return list(dict.fromkeys(run.request.method.name for run in runs))
-
-
-def mesh_name(run: StudyRun) -> str:
-    return run.request.mesh.name if run.request.mesh else ""
-
-
-def step_range(run: StudyRun) -> Tuple[float, int, int, int]:
-    """Mean, least and most coupling iterations of a step, and the number of steps."""
-    outer = run.columns("iterations.csv")["outer_iterations"]
-    return float(outer.mean()), int(outer.min()), int(outer.max()), len(outer)
-
-
-def passes_table(context: Context, runs: Sequence[StudyRun]) -> Table:
-    """A line per scheme, a column per mesh and material."""
-    columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in runs))
-    names = {(mesh, case): (f"{mesh}, {steps(runs, mesh)} steps", MATERIALS.get(case, case)) for mesh, case in columns}
-    table = Table(
-        stem="coupling_passes",
-        title="Coupling iterations per step, mean (range)",
-        left=1,
-        columns=[("", "scheme"), *(names[key] for key in columns)],
-        csv_columns=["scheme", "mesh", "case", "tolerance", "steps", "mean", "least", "most", "status"],
-    )
-    for name in methods(runs):
-        cells = []
-        for mesh, case in columns:
-            found = [
-                r for r in runs if r.request.method.name == name and r.request.case == case and mesh_name(r) == mesh
-            ]
-            if not found:
-                cells.append("")
-                continue
-            run = found[0]
-            tolerance = run.request.settings.get("partitioned.tolerance")
-            if run.done:
-                mean, least, most, count = step_range(run)
-                cells.append(f"{mean:.1f} ({least}-{most})")
-                table.csv_rows.append([name, mesh, case, tolerance, count, mean, least, most, run.status])
-            else:
-                cells.append(run.status)
-                table.csv_rows.append([name, mesh, case, tolerance, run.steps, None, None, None, run.status])
-        table.rows.append([runs_label(runs, name), *cells])
-    return table
-
-
-def steps(runs: Sequence[StudyRun], mesh: str) -> int:
-    return max(r.steps for r in runs if mesh_name(r) == mesh)
-
-
-def runs_label(runs: Sequence[StudyRun], method: str) -> str:
-    return next(run.request.method.label for run in runs if run.request.method.name == method)
-
-
-def growth_table(runs: Sequence[StudyRun]) -> Table:
-    """Mean over the steps that both runs have, on the finer mesh over the coarsest: the first steps take the most
-    passes, so that only equal numbers of steps compare."""
-    done = [run for run in runs if run.done]
-    meshes = list(dict.fromkeys(mesh_name(run) for run in done))
-    table = Table(
-        stem="coupling_growth",
-        title="Coupling iterations against the mesh, over the same steps",
-        left=3,
-        columns=[
-            ("", "scheme"),
-            ("", "material"),
-            ("", "mesh"),
-            ("", "steps"),
-            ("", f"mean, {meshes[0] if meshes else ''}"),
-            ("", "mean here"),
-            ("", "ratio"),
-        ],
-        csv_columns=["scheme", "case", "mesh", "steps", "mean_coarsest", "mean", "ratio"],
-    )
-    for run in done:
-        coarsest = [
-            r
-            for r in done
-            if mesh_name(r) == meshes[0]
-            and r.request.case == run.request.case
-            and r.request.method.name == run.request.method.name
-        ]
-        if mesh_name(run) == meshes[0] or not coarsest:
-            continue
-        passes = [r.columns("iterations.csv")["outer_iterations"] for r in (coarsest[0], run)]
-        count = min(len(p) for p in passes)
-        base_mean, mean = (float(p[:count].mean()) for p in passes)
-        r = run.request
-        table.rows.append(
-            [
-                r.method.label,
-                MATERIALS.get(r.case, r.case),
-                mesh_name(run),
-                str(count),
-                f"{base_mean:.1f}",
-                f"{mean:.1f}",
-                f"{mean / base_mean:.2f}",
-            ]
-        )
-        table.csv_rows.append([r.method.name, r.case, mesh_name(run), count, base_mean, mean, mean / base_mean])
-    return table
-
-
-def agreement_table(runs: Sequence[StudyRun]) -> Table:
-    """A line per scheme, a column per mesh and material: difference (iterations per step)."""
-    schemes = [run for run in runs if run.request.method.program != MONOLITHIC]
-    tolerances = sorted({show(run.request.settings.get("partitioned.tolerance", "?")) for run in schemes})
-    columns = list(dict.fromkeys((mesh_name(run), run.request.case) for run in schemes))
-    table = Table(
-        stem="coupling_agreement",
-        left=1,
-        title=f"Relative difference to the monolithic pressure at tolerance {', '.join(tolerances)} "
-        "(iterations per step)",
-        columns=[("", "scheme"), *((mesh, MATERIALS.get(case, case)) for mesh, case in columns)],
-        csv_columns=[
-            "scheme",
-            "mesh",
-            "case",
-            "tolerance",
-            "common_levels",
-            "iterations_per_step",
-            "largest_relative_difference",
-            "status",
-        ],
-    )
-    for name in methods(schemes):
-        cells = []
-        for mesh, case in columns:
-            own = [r for r in schemes if (r.request.method.name, mesh_name(r), r.request.case) == (name, mesh, case)]
-            cells.append(agreement_cell(table, own[0], runs) if own else "")
-        table.rows.append([runs_label(runs, name), *cells])
-    counts = [(row[1], row[4]) for row in table.csv_rows]
-    for mesh in dict.fromkeys(mesh for mesh, _ in columns):
-        levels = sorted({count for m, count in counts if m == mesh and count})
-        table.notes.append(f"{mesh}: time levels compared {', '.join(map(str, levels))}.")
-    return table
-
-
-def agreement_cell(table: Table, run: StudyRun, runs: Sequence[StudyRun]) -> str:
-    r = run.request
-    whole = [
-        m
-        for m in runs
-        if m.request.method.program == MONOLITHIC
-        and m.request.case == r.case
-        and mesh_name(m) == mesh_name(run)
-        and m.done
-    ]
-    difference: Optional[float] = None
-    levels = 0
-    if whole and run.done:
-        over_time = largest_difference(max(whole, key=lambda m: m.steps).pressure, run.pressure)
-        levels, difference = over_time.levels, over_time.largest.max_relative if over_time.largest else None
-    table.csv_rows.append(
-        [
-            r.method.name,
-            mesh_name(run),
-            r.case,
-            r.settings.get("partitioned.tolerance"),
-            levels,
-            run.passes if run.done else None,
-            difference,
-            run.status,
-        ]
-    )
-    return f"{fixed(difference, '.1e')} ({run.passes:.1f})" if run.done else run.status
-
-
 def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
     done = [run for run in runs if run.done]
     for mesh in dict.fromkeys(mesh_name(run) for run in done):
@@ -365,43 +194,3 @@ def cost_section(context: Context, runs: Sequence[StudyRun]) -> None:
             )
             if saving:
                 context.report.table(saving)
-
-
-def saving_table(runs: Sequence[StudyRun], costs: Sequence[Cost], stem: str, title: str) -> Optional[Table]:
-    """What the cheapest monolithic run saves of each partitioned one: 1 - monolithic/partitioned, per step. The paper
-    counts "almost 50 %"."""
-    whole = [cost for run, cost in zip(runs, costs) if run.request.method.program == MONOLITHIC]
-    if not whole:
-        return None
-    best = min(whole, key=lambda cost: cost.seconds_per_step)
-    table = Table(
-        stem=stem,
-        title=title,
-        left=1,
-        columns=[
-            ("", "scheme"),
-            ("saved by the monolithic driver, %", "seconds"),
-            ("saved by the monolithic driver, %", "linear solves"),
-            ("saved by the monolithic driver, %", "linear iterations"),
-        ],
-        csv_columns=["scheme", "seconds_saved", "linear_solves_saved", "linear_iterations_saved"],
-    )
-    for run, cost in zip(runs, costs):
-        if run.request.method.program == MONOLITHIC:
-            continue
-        saved = [
-            share(best.seconds_per_step, cost.seconds_per_step),
-            share(sum(best.solves.values()) / best.steps, sum(cost.solves.values()) / cost.steps),
-            share(best.linear / best.steps, cost.linear / cost.steps),
-        ]
-        table.rows.append([cost.label, *(fixed(None if x is None else 100 * x, ".0f") for x in saved)])
-        table.csv_rows.append([cost.label, *saved])
-    table.notes.append(
-        "Negative: the monolithic driver takes more. A linear solve of the whole system counts as one, "
-        "like one of the fluid, the wall or the mesh motion."
-    )
-    return table
-
-
-def share(whole: float, parts: float) -> Optional[float]:
-    return 1 - whole / parts if parts else None

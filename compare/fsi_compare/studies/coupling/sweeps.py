@@ -4,9 +4,10 @@
 `one_pass`, schemes that do not iterate, whose difference is relative to the largest pressure of the run."""
 
 from dataclasses import dataclass
-from typing import List, Sequence
+from typing import Dict, List, Optional, Sequence
 
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
 from ..running.commands import with_name
 from ..running.section import report_of
@@ -100,60 +101,54 @@ def in_words(found: Sequence[Cell], settings: Settings) -> str:
     return text + "."
 
 
+def _cells(group: str) -> List[Column[Cell]]:
+    """For the CSV."""
+    return [
+        Column(csv="scheme", value=lambda c: c.method),
+        Column(csv=group, value=lambda c: varied(c.run)),
+        Column(csv="steps", value=lambda c: c.run.steps),
+        Column(csv="mean", value=lambda c: c.run.passes if c.run.done else None),
+        Column(csv="status", value=lambda c: c.run.status),
+        Column(csv="outcome", value=lambda c: c.outcome),
+        Column(csv="largest_difference", value=lambda c: c.difference),
+        Column(csv="compared_with", value=lambda c: c.against and c.against.request.method.name),
+        Column(csv="message", value=lambda c: c.run.message),
+        Column(csv="command", value=lambda c: with_name(c.run.command)),
+    ]
+
+
+Swept = Dict[float, Cell]  # of a scheme, by what is varied, rising
+
+
+def _of_value(value: float) -> Column[Swept]:
+    return Column(f"{value:g}", value=lambda own: cell_text(own[value]) if value in own else "")
+
+
+def _worst(own: Swept) -> Optional[float]:
+    differences = [cell.difference for cell in own.values() if cell.run.done and cell.difference is not None]
+    return max(differences, default=None)
+
+
 def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Settings) -> Table:
     values = sorted({varied(cell.run) for cell in found})
-    table = Table(
-        stem=f"coupling_{group}",
-        title=f"Mean coupling iterations per step against the {label}",
-        left=1,
-        columns=[("", "scheme"), *(("", f"{value:g}") for value in values), ("", "largest difference from monolithic")],
-        csv_columns=[
-            "scheme",
-            group,
-            "steps",
-            "mean",
-            "status",
-            "outcome",
-            "largest_difference",
-            "compared_with",
-            "message",
-            "command",
+    own = [{varied(cell.run): cell for cell in found if cell.method == name} for name in schemes(found)]
+    rows = [dict(sorted(cells.items())) for cells in own]
+    return Table(
+        f"coupling_{group}",
+        f"Mean coupling iterations per step against the {label}",
+        [
+            Column("scheme", value=lambda row: next(iter(row.values())).run.request.method.label, left=True),
+            *map(_of_value, values),
+            Column("largest difference from monolithic", value=_worst, format=".1e"),
+        ],
+        rows,
+        Facts(_cells(group), [cell for row in rows for cell in row.values()]),
+        [
+            "Difference: of the pressure of runs that came to their end, the largest of all time levels, "
+            "relative to the largest pressure of the level"
+            + (f"; of {', '.join(settings.one_pass)}, one pass a step, of all levels." if settings.one_pass else ".")
         ],
     )
-    for name in schemes(found):
-        own = {varied(cell.run): cell for cell in found if cell.method == name}
-        for value, cell in sorted(own.items()):
-            run = cell.run
-            table.csv_rows.append(
-                [
-                    name,
-                    value,
-                    run.steps,
-                    run.passes if run.done else None,
-                    run.status,
-                    cell.outcome,
-                    cell.difference,
-                    cell.against.request.method.name if cell.against else None,
-                    run.message,
-                    with_name(run.command),
-                ]
-            )
-        worst = max(
-            (cell.difference for cell in own.values() if cell.run.done and cell.difference is not None), default=None
-        )
-        table.rows.append(
-            [
-                next(iter(own.values())).run.request.method.label,
-                *(cell_text(own[value]) if value in own else "" for value in values),
-                fixed(worst, ".1e"),
-            ]
-        )
-    table.notes.append(
-        "Difference: of the pressure of runs that came to their end, the largest of all time levels, "
-        "relative to the largest pressure of the level"
-        + (f"; of {', '.join(settings.one_pass)}, one pass a step, of all levels." if settings.one_pass else ".")
-    )
-    return table
 
 
 def cell_text(cell: Cell) -> str:

@@ -1,11 +1,12 @@
 """The energy balance of runs from their `energy.csv`: what there is, what was put in, and where it went."""
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.pictures import PANEL_INCHES, finish
 from ...reporting.report import Report
@@ -123,39 +124,44 @@ def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str
     return figure
 
 
+Named = Tuple[str, Balance]  # label of the run
+
+
+def _of_part(name: str) -> Column[Named]:
+    """In the CSV in uJ, for people in percent of what was supplied."""
+
+    def text(one: Named) -> str:
+        share = 100 * one[1].end(name) / one[1].end("supplied")
+        return f"{share:.1e}" if name == REMAINDER else f"{share:.2f}"
+
+    return Column(name, name.replace(", ", "_").replace(" ", "_"), "uJ", value=lambda one: one[1].end(name), text=text)
+
+
+ENERGY: Sequence[Column[Named]] = (
+    Column("run", "run", value=lambda one: one[0], left=True),
+    Column(csv="time", unit="ms", value=lambda one: float(one[1].times[-1])),
+    Column("supplied in {unit}", "supplied", "uJ", value=lambda one: one[1].end("supplied"), format=".4g"),
+    *(_of_part(name) for name in PARTS[1:]),
+    Column(
+        "left over at most",
+        "largest_remainder_relative",
+        value=lambda one: one[1].largest_remainder,
+        format=lambda share: f"{100 * share:.1e}",
+    ),
+)
+
+
 def energy_table(balances: Sequence[Balance], labels: Sequence[str], stem: str = "energy") -> Table:
-    table = Table(
-        stem=stem,
-        title="Energy at the end of the runs, in percent of what was supplied",
-        columns=[("", "run"), ("", "supplied in uJ"), *(("", name) for name in PARTS[1:]), ("", "left over at most")],
-        csv_columns=[
-            "run",
-            "time_ms",
-            *(f"{name.replace(', ', '_').replace(' ', '_')}_uJ" for name in PARTS),
-            "largest_remainder_relative",
-        ],
+    return Table(
+        stem,
+        "Energy at the end of the runs, in percent of what was supplied",
+        ENERGY,
+        list(zip(labels, balances)),
         notes=[
             "Left over: what the balance of the discrete equations misses, summed over the steps; the last column "
             "its largest value at any time."
         ],
     )
-    for one, label in zip(balances, labels):
-        supplied = one.end("supplied")
-        table.rows.append(
-            [
-                label,
-                f"{supplied:.4g}",
-                *(
-                    f"{100 * one.end(name) / supplied:.2f}"
-                    if name != REMAINDER
-                    else f"{100 * one.end(name) / supplied:.1e}"
-                    for name in PARTS[1:]
-                ),
-                f"{100 * one.largest_remainder:.1e}",
-            ]
-        )
-        table.csv_rows.append([label, float(one.times[-1]), *(one.end(name) for name in PARTS), one.largest_remainder])
-    return table
 
 
 def energy_section(

@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_toml
 from ...base.names import MATERIALS, MESHES
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column
+from ...reporting.layout import Table
 from ..running.study_run import StudyRun
 from .reference import FILE, WaveReference, read_reference
 from .waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
@@ -20,6 +21,7 @@ REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 NUMERICAL = ("title", "element", "stabilisation", "economy", "monolithic", "partitioned", "output", "mesh", "time")
 STABILISATION = "structure.stabilisation"
 DISCRETE = (STABILISATION, "structure.layer_pressure")
+PRESSURE_HEAD, RADIAL_HEAD = "centre-line pressure", "radial displacement"
 TUBES = ("3d", "axisymmetric")  # values of `geometry` in which the artery is the same body
 
 
@@ -135,46 +137,57 @@ def _departure(own: Mapping[str, Any], known: Mapping[str, WaveReference]) -> st
     return f"no reference for {', '.join(shown)}" + (" and more" if len(nearest) > 2 else "")
 
 
+Wave = Tuple[StudyRun, MeshError]
+
+
+def _error(name: str, csv: str, group: str, value: Callable[[MeshError], Optional[float]]) -> Column[Wave]:
+    return Column(
+        name, csv, value=lambda w: value(w[1]), format=lambda e: f"{100 * e:.2g}", group=group, missing="unknown"
+    )
+
+
+def _mesh_words(run: StudyRun) -> str:
+    mesh = run.request.mesh.name if run.request.mesh else ""
+    factor = run.request.settings.get(STABILISATION)
+    return mesh if factor is None else f"{mesh}, stabilisation {factor:g}"
+
+
+ERRORS: Sequence[Column[Wave]] = (
+    Column(
+        "case",
+        "case",
+        value=lambda w: w[0].request.case,
+        text=lambda w: MATERIALS.get(w[0].request.case, w[0].request.case),
+        left=True,
+    ),
+    Column("mesh", "mesh", value=lambda w: _mesh_words(w[0]), left=True),
+    Column(
+        "method",
+        "method",
+        value=lambda w: w[0].request.method.name,
+        text=lambda w: w[0].request.method.label,
+        left=True,
+    ),
+    _error("error", "pressure_relative_L2", PRESSURE_HEAD, lambda e: e.pressure),
+    _error("reference's own", "pressure_reference_own", PRESSURE_HEAD, lambda e: e.own_pressure),
+    _error("error", "radial_relative_L2", RADIAL_HEAD, lambda e: e.displacement),
+    _error("reference's own", "radial_reference_own", RADIAL_HEAD, lambda e: e.own_displacement),
+    Column(csv="unknown_because", value=lambda w: w[1].unknown),
+)
+
+
 def error_table(runs: Sequence[StudyRun], errors: Sequence[MeshError]) -> Table:
     """A line per run, with the reference's own error beside it."""
-    table = Table(
-        stem="mesh_error",
-        title="How far the waves are from the reference, in percent: the error of mesh and time step",
-        left=3,
-        columns=[
-            ("", "case"),
-            ("", "mesh"),
-            ("", "method"),
-            ("centre-line pressure", "error"),
-            ("centre-line pressure", "reference's own"),
-            ("radial displacement", "error"),
-            ("radial displacement", "reference's own"),
-        ],
-        csv_columns=[
-            "case",
-            "mesh",
-            "method",
-            "pressure_relative_L2",
-            "pressure_reference_own",
-            "radial_relative_L2",
-            "radial_reference_own",
-            "unknown_because",
-        ],
+    reasons = dict.fromkeys(error.unknown for error in errors if error.unknown)
+    return Table(
+        "mesh_error",
+        "How far the waves are from the reference, in percent: the error of mesh and time step",
+        ERRORS,
+        list(zip(runs, errors)),
         notes=[
             "Relative L2 norm over the line and the reference's time levels, as in the study `accuracy-cost`. The "
             "references are axisymmetric and finer in mesh and step than any run here; how each was made stands in its "
-            "reference.json. Their own error is an estimate."
+            "reference.json. Their own error is an estimate.",
+            *(f"unknown: {reason}" for reason in reasons),
         ],
     )
-    for run, error in zip(runs, errors):
-        request = run.request
-        mesh = request.mesh.name if request.mesh else ""
-        if STABILISATION in request.settings:
-            mesh += f", stabilisation {request.settings[STABILISATION]:g}"
-        values = (error.pressure, error.own_pressure, error.displacement, error.own_displacement)
-        shown = [fixed(None if value is None else 100 * value, ".2g", "unknown") for value in values]
-        table.rows.append([MATERIALS.get(request.case, request.case), mesh, request.method.label, *shown])
-        table.csv_rows.append([request.case, mesh, request.method.name, *values, error.unknown])
-    reasons = dict.fromkeys(error.unknown for error in errors if error.unknown)
-    table.notes += [f"unknown: {reason}" for reason in reasons]
-    return table

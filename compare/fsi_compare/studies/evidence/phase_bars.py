@@ -1,11 +1,12 @@
 """Where the time of runs went: stacked bars of assembly, set-up, solve, coupling and output."""
 
-from typing import Dict, Sequence
+from typing import Dict, NamedTuple, Sequence
 
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ...base.errors import InputError
+from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.pictures import finish
 from ..running.study_run import StudyRun
@@ -58,25 +59,39 @@ def _part(name: str) -> str:
     }.get(kind, "other")
 
 
+class Phases(NamedTuple):
+    """Of a run: seconds by part."""
+
+    label: str
+    run: StudyRun
+    parts: Dict[str, float]
+
+    def per_step(self, seconds: float) -> str:
+        return _shown(1e3 * seconds / max(self.run.steps, 1))
+
+
+def _of_part(part: str) -> Column[Phases]:
+    return Column(
+        part, part.replace("-", "_"), "s", value=lambda p: p.parts[part], text=lambda p: p.per_step(p.parts[part])
+    )
+
+
+PHASES: Sequence[Column[Phases]] = (
+    Column("run", "run", value=lambda p: p.label, left=True),
+    Column(csv="steps", value=lambda p: p.run.steps),
+    *(_of_part(part) for part in PARTS),
+    Column("all", "wall", "s", value=lambda p: p.run.wall_s, text=lambda p: p.per_step(p.run.wall_s)),
+)
+
+
 def phase_table(
     runs: Sequence[StudyRun],
     labels: Sequence[str],
     stem: str = "phases",
     title: str = "Milliseconds per time step, by phase",
 ) -> Table:
-    table = Table(
-        stem=stem,
-        title=title,
-        columns=[("", "run"), *(("", part) for part in PARTS), ("", "all")],
-        csv_columns=["run", "steps", *(f"{part.replace('-', '_')}_s" for part in PARTS), "wall_s"],
-    )
-    for run, label in zip(runs, labels):
-        parts = phase_seconds(run)
-        steps = max(run.steps, 1)
-        table.rows.append([label, *(_shown(1e3 * s / steps) for s in (*parts.values(), run.wall_s))])
-        table.csv_rows.append([label, run.steps, *parts.values(), run.wall_s])
-    table.notes.append(MEANING)
-    return table
+    found = [Phases(label, run, phase_seconds(run)) for run, label in zip(runs, labels)]
+    return Table(stem, title, PHASES, found, notes=[MEANING])
 
 
 def _shown(milliseconds: float) -> str:

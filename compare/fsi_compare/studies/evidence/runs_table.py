@@ -3,78 +3,52 @@
 from typing import Sequence
 
 from ...base.progress import duration
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column
+from ...reporting.layout import Table
 from ...runs.work_units import shown
 from ..running.study_file import show
-from ..running.study_run import StudyRun
+from ..running.study_run import StudyRun, known
+
+
+RUNS: Sequence[Column[StudyRun]] = (
+    Column("group", "group", value=lambda run: run.request.group, left=True),
+    Column("case", "case", value=lambda run: run.request.case, left=True),
+    Column(
+        "method",
+        "method",
+        value=lambda run: run.request.method.name,
+        text=lambda run: run.request.method.label,
+        left=True,
+    ),
+    Column("values", "values", value=lambda run: values_of(run), left=True),
+    Column(
+        "outcome",
+        "status",
+        value=lambda run: run.status,
+        text=lambda run: run.status if run.done else f"{run.status}: {run.message}",
+        left=True,
+    ),
+    Column(csv="message", value=lambda run: run.message),
+    Column("steps", "steps", value=lambda run: run.steps),
+    Column("iterations per step", "iterations_per_step", value=lambda run: known(run.passes), format=".2f"),
+    Column(
+        "work units per step",
+        "work_units_per_step",
+        value=lambda run: run.work_units_per_step,
+        format=shown,
+        missing="",
+        behind=True,
+    ),
+    Column(csv="wall", unit="s", value=lambda run: known(run.wall_s)),
+    Column("time", "process", "s", value=lambda run: run.seconds, format=duration),
+    Column(csv="folder", value=lambda run: run.folder.name),
+    Column(csv="command", value=lambda run: run.command),
+)
+
+
+def values_of(run: StudyRun) -> str:
+    return "; ".join(f"{name} = {show(value)}" for name, value in run.request.values.items())
 
 
 def runs_table(runs: Sequence[StudyRun], stem: str = "runs", title: str = "All runs") -> Table:
-    table = Table(
-        stem=stem,
-        title=title,
-        left=5,
-        columns=[
-            ("", "group"),
-            ("", "case"),
-            ("", "method"),
-            ("", "values"),
-            ("", "outcome"),
-            ("", "steps"),
-            ("", "iterations per step"),
-            ("", "work units per step"),
-            ("", "time"),
-        ],
-        csv_columns=[
-            "group",
-            "case",
-            "method",
-            "values",
-            "status",
-            "message",
-            "steps",
-            "iterations_per_step",
-            "wall_s",
-            "process_s",
-            "folder",
-            "command",
-            "work_units_per_step",
-        ],
-    )
-    for run in runs:
-        r = run.request
-        values = "; ".join(f"{name} = {show(value)}" for name, value in r.values.items())
-        passes = run.passes if run.passes == run.passes else None
-        outcome = run.status if run.done else f"{run.status}: {run.message}"
-        table.rows.append(
-            [
-                r.group,
-                r.case,
-                r.method.label,
-                values,
-                outcome,
-                str(run.steps),
-                fixed(passes, ".2f"),
-                shown(run.work_units_per_step),
-                duration(run.seconds),
-            ]
-        )
-        wall = run.wall_s if run.wall_s == run.wall_s else None
-        table.csv_rows.append(
-            [
-                r.group,
-                r.case,
-                r.method.name,
-                values,
-                run.status,
-                run.message,
-                run.steps,
-                passes,
-                wall,
-                run.seconds,
-                run.folder.name,
-                run.command,
-                run.work_units_per_step,
-            ]
-        )
-    return table
+    return Table(stem, title, RUNS, runs)

@@ -4,6 +4,7 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Sequence
 
+from ...reporting.column import Column
 from ...reporting.layout import Table
 
 REPRODUCED = "reproduced"
@@ -48,17 +49,22 @@ def tally(claims: Sequence[Claim]) -> str:
     return f"Of {counts.total()} claims: " + ", ".join(f"{counts[name]} {name}" for name in TALLY if counts[name]) + "."
 
 
+CLAIM: Sequence[Column[Claim]] = (
+    Column("section", "section", value=lambda c: c.section, left=True),
+    Column("the paper", "claim", value=lambda c: c.claim, left=True),
+)
+VERDICTS: Sequence[Column[Claim]] = (
+    *CLAIM,
+    Column("here", "verdict", value=lambda c: c.verdict, left=True),
+    Column("our numbers", "ours", value=lambda c: c.ours, left=True),
+    Column("why", "why", value=lambda c: c.why, left=True),
+    Column(csv="rule", value=lambda c: c.rule),
+)
+RULES: Sequence[Column[Claim]] = (*CLAIM, Column("rule", "rule", value=lambda c: c.rule, left=True))
+
+
 def claims_table(claims: Sequence[Claim]) -> Table:
-    table = Table(
-        stem="claims",
-        title="The paper's claims, one by one",
-        left=5,
-        columns=[("", "section"), ("", "the paper"), ("", "here"), ("", "our numbers"), ("", "why")],
-        csv_columns=["section", "claim", "verdict", "ours", "why", "rule"],
-    )
-    for c in claims:
-        table.rows.append([c.section, c.claim, c.verdict, c.ours, c.why])
-        table.csv_rows.append([c.section, c.claim, c.verdict, c.ours, c.why, c.rule])
+    table = Table("claims", "The paper's claims, one by one", VERDICTS, claims)
     if any(c.verdict not in TALLY for c in claims):
         table.notes.append(f"{FEWER}, {MORE}: counts compared, of which the paper claims nothing; not in the tally.")
     return table
@@ -66,16 +72,7 @@ def claims_table(claims: Sequence[Claim]) -> Table:
 
 def rules_table(claims: Sequence[Claim]) -> Table:
     """What each verdict asks for, so that it can be judged without our numbers."""
-    table = Table(
-        stem="claim_rules",
-        title="What each verdict asks for",
-        left=3,
-        columns=[("", "section"), ("", "the paper"), ("", "rule")],
-        csv_columns=["section", "claim", "rule"],
-        notes=["What meets neither is not reproduced."],
+    ruled = [c for c in claims if c.rule]
+    return Table(
+        "claim_rules", "What each verdict asks for", RULES, ruled, notes=["What meets neither is not reproduced."]
     )
-    for c in claims:
-        if c.rule:
-            table.rows.append([c.section, c.claim, c.rule])
-            table.csv_rows.append([c.section, c.claim, c.rule])
-    return table

@@ -6,9 +6,10 @@ from typing import Dict, List, Optional, Sequence
 
 from ...base import paper
 from ...base.names import MATERIALS, MESHES
-from ...linear.solver_tables import Grid
+from ...linear.grid import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column
+from ...reporting.layout import Table
 from ...runs.work_units import NOTE, shown
 from ..running.repeats import spread
 from ..running.study_run import OUT_OF_TIME, StudyRun
@@ -69,6 +70,10 @@ class StepCost:
     def method(self) -> str:
         return self.run.request.method.name
 
+    @property
+    def label(self) -> str:
+        return self.run.request.method.label
+
 
 def step_cost(run: StudyRun, cycles: Optional[float] = None) -> StepCost:
     """`cycles`: of a sub-problem in an iteration of the coupled multigrid method."""
@@ -123,38 +128,36 @@ TIMED = (
 )
 
 
+STEPS: Sequence[Column[StepCost]] = (
+    Column("mesh", "mesh", value=lambda c: mesh_of(c.run), left=True),
+    Column("method", "method", value=lambda c: c.method, text=lambda c: c.label, left=True),
+    Column("coupling iterations", "coupling_iterations", value=lambda c: c.passes, format=".1f"),
+    Column("Newton iterations", "newton_iterations", value=lambda c: c.newton, format=".1f"),
+    Column("rounds as the paper counts", "rounds", value=lambda c: c.rounds, format=".0f"),
+    Column("sub-problem solves", "sub_problem_solves", value=lambda c: c.solves, format=".0f"),
+    Column("linear systems", "linear_systems", value=lambda c: c.systems, format=".1f"),
+    Column("linear iterations", "linear_iterations", value=lambda c: c.linear, format=".0f"),
+    Column(
+        "work units",
+        "work_units_per_step",
+        value=lambda c: c.run.work_units_per_step,
+        format=shown,
+        missing="",
+        behind=True,
+    ),
+    Column("seconds", "wall_s_per_step", value=lambda c: c.seconds, format=".3g"),
+    Column(csv="steps", value=lambda c: c.run.steps),
+    Column("timed", "timings", value=lambda c: max(1, len(c.run.timings)), text=lambda c: c.timing),
+)
+
+
 def cost_table(found: Sequence[StepCost]) -> Table:
-    table = Table(
-        stem="cost_statement",
-        title="What a time step takes",
-        left=2,
-        columns=[
-            ("", "mesh"),
-            ("", "method"),
-            ("", "coupling iterations"),
-            ("", "Newton iterations"),
-            ("", "rounds as the paper counts"),
-            ("", "sub-problem solves"),
-            ("", "linear systems"),
-            ("", "linear iterations"),
-            ("", "work units"),
-            ("", "seconds"),
-            ("", "timed"),
-        ],
-        csv_columns=[
-            "mesh",
-            "method",
-            "coupling_iterations",
-            "newton_iterations",
-            "rounds",
-            "sub_problem_solves",
-            "linear_systems",
-            "linear_iterations",
-            "wall_s_per_step",
-            "steps",
-            "timings",
-            "work_units_per_step",
-        ],
+    notes = [NOTE] if any(c.run.work_units_per_step is not None for c in found) else []
+    return Table(
+        "cost_statement",
+        "What a time step takes",
+        STEPS,
+        found,
         notes=[
             "Means over the same steps. Rounds: coupled linear iterations, or Newton iterations of a sub-problem "
             "(half of those of fluid and wall together); the paper sets each equal to one use of the sub-problems' "
@@ -163,44 +166,9 @@ def cost_table(found: Sequence[StepCost]) -> Table:
             "own solver, a factorised one counting once. Linear systems: of the whole, or of fluid and wall. Seconds "
             "without output.",
             TIMED,
+            *notes,
         ],
     )
-    for c in found:
-        mesh = mesh_of(c.run)
-        table.rows.append(
-            [
-                mesh,
-                c.run.request.method.label,
-                fixed(c.passes, ".1f"),
-                f"{c.newton:.1f}",
-                f"{c.rounds:.0f}",
-                f"{c.solves:.0f}",
-                f"{c.systems:.1f}",
-                f"{c.linear:.0f}",
-                shown(c.run.work_units_per_step),
-                f"{c.seconds:.3g}",
-                c.timing,
-            ]
-        )
-        table.csv_rows.append(
-            [
-                mesh,
-                c.method,
-                c.passes,
-                c.newton,
-                c.rounds,
-                c.solves,
-                c.systems,
-                c.linear,
-                c.seconds,
-                c.run.steps,
-                max(1, len(c.run.timings)),
-                c.run.work_units_per_step,
-            ]
-        )
-    if any(c.run.work_units_per_step is not None for c in found):
-        table.notes.append(NOTE)
-    return table
 
 
 @dataclass(frozen=True)
@@ -221,9 +189,6 @@ class Saving:
         return 1 / NOISE < ratio < NOISE
 
 
-SAVED = (("rounds", "rounds as the paper counts"), ("solves", "sub-problem solves"), ("seconds", "seconds"))
-
-
 def savings(found: Sequence[StepCost]) -> List[Saving]:
     by = {(mesh_of(c.run), c.method): c for c in found}
     return [
@@ -235,32 +200,38 @@ def savings(found: Sequence[StepCost]) -> List[Saving]:
     ]
 
 
+def _saved(quantity: str, head: str) -> Column[Saving]:
+    """In percent for people; "~" where seconds are too close."""
+
+    def text(saving: Saving) -> str:
+        return f"{100 * saving.of(quantity):.0f}" + "~" * (quantity == "seconds" and saving.within_noise)
+
+    return Column(head, f"saved_{quantity}", value=lambda s: s.of(quantity), text=text, group="saved in")
+
+
+SAVINGS: Sequence[Column[Saving]] = (
+    Column("mesh", "mesh", value=lambda s: s.mesh, left=True),
+    Column(
+        "monolithic", "monolithic", value=lambda s: s.monolithic.method, text=lambda s: s.monolithic.label, left=True
+    ),
+    Column("over", "partitioned", value=lambda s: s.partitioned.method, text=lambda s: s.partitioned.label, left=True),
+    _saved("rounds", "rounds as the paper counts"),
+    _saved("solves", "sub-problem solves"),
+    _saved("seconds", "seconds"),
+)
+
+
 def saving_table(found: Sequence[Saving]) -> Table:
-    table = Table(
-        stem="cost_saving",
-        title="What the monolithic approach saves, in percent; negative: it takes more",
-        left=3,
-        columns=[("", "mesh"), ("", "monolithic"), ("", "over"), *(("saved in", name) for _, name in SAVED)],
-        csv_columns=["mesh", "monolithic", "partitioned", *(f"saved_{name}" for name, _ in SAVED)],
+    return Table(
+        "cost_saving",
+        "What the monolithic approach saves, in percent; negative: it takes more",
+        SAVINGS,
+        found,
         notes=[
             f"~: the seconds are within a factor of {NOISE:g}, which single runs do not tell apart: "
             f"{sum(s.within_noise for s in found) or 'none'} of {len(found)}."
         ],
     )
-    for s in found:
-        table.rows.append(
-            [
-                s.mesh,
-                s.monolithic.run.request.method.label,
-                s.partitioned.run.request.method.label,
-                *(
-                    f"{100 * s.of(name):.0f}" + ("~" if name == "seconds" and s.within_noise else "")
-                    for name, _ in SAVED
-                ),
-            ]
-        )
-        table.csv_rows.append([s.mesh, s.monolithic.method, s.partitioned.method, *(s.of(name) for name, _ in SAVED)])
-    return table
 
 
 def cycles_per_iteration(grid: Optional[Grid], mesh: str, method: str = "amg_fgmres") -> Optional[float]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
 from ...base.names import MATERIALS
+from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.energy_plots import Balance, balance, energy_section
@@ -60,23 +61,28 @@ def remainders(balances: Sequence[Tuple[StudyRun, Balance]]) -> List[Remainder]:
     return [Remainder(*key, len(values), *max(values)) for key, values in rows.items()]
 
 
+REMAINDERS: Sequence[Column[Remainder]] = (
+    Column("runs of", "group", value=lambda r: r.group, left=True),
+    Column("approach", "approach", value=lambda r: r.approach, left=True),
+    Column("wall", "wall", value=lambda r: r.wall, left=True),
+    Column("runs", "runs", value=lambda r: r.runs),
+    Column("left over at most", "largest_remainder_relative", value=lambda r: r.worst, format=".1e"),
+    Column(csv="run", value=lambda r: r.run),
+)
+
+
 def remainder_table(found: Sequence[Remainder]) -> Table:
-    table = Table(
-        stem="energy_remainder",
-        title="What the energy balance leaves over: the worst of the runs, relative to what was supplied",
-        left=3,
-        columns=[("", "runs of"), ("", "approach"), ("", "wall"), ("", "runs"), ("", "left over at most")],
-        csv_columns=["group", "approach", "wall", "runs", "largest_remainder_relative", "run"],
+    return Table(
+        "energy_remainder",
+        "What the energy balance leaves over: the worst of the runs, relative to what was supplied",
+        REMAINDERS,
+        found,
         notes=[
             "Partitioned runs leave over what their tolerance lets the interface mismatch. Fibres tighten "
             "at a kink of the stress: the balance integrates it with an error where that falls within a "
             "step."
         ],
     )
-    for r in found:
-        table.rows.append([r.group, r.approach, r.wall, str(r.runs), f"{r.worst:.1e}"])
-        table.csv_rows.append([r.group, r.approach, r.wall, r.runs, r.worst, r.run])
-    return table
 
 
 def _closes(found: Sequence[Remainder]) -> str:

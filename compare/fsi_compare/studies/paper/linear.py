@@ -10,7 +10,7 @@ from ...base.files import make_folder
 from ...base.names import MATERIALS, MESHES, METHODS
 from ...base.suggestions import check_keys, nearest
 from ...linear.results import System
-from ...linear.solver_tables import Grid
+from ...linear.grid import Grid
 from ...linear.study import Request, finished, run_study
 from ...runs.programs import require_linear_systems
 from ..running.builds import Builds

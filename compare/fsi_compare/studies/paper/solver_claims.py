@@ -7,7 +7,7 @@ from typing import Callable, Collection, Dict, Iterator, List, Mapping, Optional
 
 from ...base import paper
 from ...base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
-from ...linear.solver_tables import Grid
+from ...linear.grid import Grid
 from .claims import Claim, compared, unexamined, verdict
 from .linear import FIRST_SYSTEM
 

@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ...base.names import MATERIALS
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
 from ...reporting.pictures import PANEL_INCHES, finish
 from ...runs.pressure_waves import crest_speed
 from ..evidence import wave_speed
@@ -164,69 +165,66 @@ def with_error(value: float, error: Optional[float], form: str) -> str:
     return format(value, form) + ("" if error is None else f" +- {error:{form}}")
 
 
+LEVELS: Sequence[Column[Tuple[Speeds, Measured]]] = (
+    Column(csv="material", value=lambda r: r[0].material),
+    Column(csv="reading", value=lambda r: r[0].reading),
+    Column(csv="moens_korteweg", unit="mm/ms", value=lambda r: r[0].free),
+    Column(csv="moens_korteweg_held", unit="mm/ms", value=lambda r: r[0].held),
+    Column(csv="long_wave", unit="mm/ms", value=lambda r: r[0].long),
+    Column(csv="kR_1", unit="mm/ms", value=lambda r: r[0].dispersed),
+    Column(csv="level", value=lambda r: r[1].level),
+    Column(csv="crest", unit="mm/ms", value=lambda r: r[1].speed),
+    Column(csv="crest_difference_to_coarser", unit="mm/ms", value=lambda r: r[1].speed_error),
+    Column(csv="mean_peak", unit="Pa", value=lambda r: r[1].height),
+    Column(csv="mean_peak_difference_to_coarser", unit="Pa", value=lambda r: r[1].height_error),
+)
+
+WALLS: Sequence[Column[Speeds]] = (
+    Column("wall", value=lambda s: s.label, left=True),
+    Column("free to shorten", value=lambda s: s.free, format=".3f", group="Moens-Korteweg"),
+    Column("held at its length", value=lambda s: s.held, format=".3f", group="Moens-Korteweg"),
+    Column("long waves", value=lambda s: s.long, format=".3f", group="thick wall, held"),
+    Column("kR = 1", value=lambda s: s.dispersed, format=".3f", group="thick wall, held"),
+)
+
+
+def _measured_columns(levels: Sequence[str], name: str, form: str, group: str) -> List[Column[Speeds]]:
+    """Of the levels, and the error of the finest where there are several: one level tells none."""
+
+    def of_level(level: str) -> Column[Speeds]:
+        return Column(
+            level,
+            value=lambda s: getattr(s.measured[level], name) if level in s.measured else None,
+            format=form,
+            group=group,
+        )
+
+    error: Column[Speeds] = Column(
+        "error", value=lambda s: getattr(s.finest, f"{name}_error") if s.finest else None, format=form, group=group
+    )
+    return [*(of_level(level) for level in levels), *([error] if len(levels) > 1 else [])]
+
+
 def speed_table(found: Sequence[Speeds], levels: Sequence[str]) -> Table:
-    crest, height = "crest, 4.5 to 9 ms", "mean peak in Pa, 4.5 to 9 ms"
-    errors = ("error",) if len(levels) > 1 else ()  # one level tells none
-    table = Table(
-        stem="wave_speed",
-        title="Speed of the pressure wave in mm/ms (m/s)",
-        columns=[
-            ("", "wall"),
-            ("Moens-Korteweg", "free to shorten"),
-            ("Moens-Korteweg", "held at its length"),
-            ("thick wall, held", "long waves"),
-            ("thick wall, held", "kR = 1"),
-            *((crest, level) for level in levels),
-            *((crest, error) for error in errors),
-            *((height, level) for level in levels),
-            *((height, error) for error in errors),
+    return Table(
+        "wave_speed",
+        "Speed of the pressure wave in mm/ms (m/s)",
+        [
+            *WALLS,
+            *_measured_columns(levels, "speed", ".3f", "crest, 4.5 to 9 ms"),
+            *_measured_columns(levels, "height", ".1f", "mean peak in Pa, 4.5 to 9 ms"),
         ],
-        csv_columns=[
-            "material",
-            "reading",
-            "moens_korteweg_mm_per_ms",
-            "moens_korteweg_held_mm_per_ms",
-            "long_wave_mm_per_ms",
-            "kR_1_mm_per_ms",
-            "level",
-            "crest_mm_per_ms",
-            "crest_difference_to_coarser_mm_per_ms",
-            "mean_peak_Pa",
-            "mean_peak_difference_to_coarser_Pa",
-        ],
-        notes=[
+        found,
+        Facts(LEVELS, [(s, m) for s in found for m in s.measured.values()]),
+        [
             "Moens-Korteweg: c^2 = E h / (2 rho R) with the hoop modulus E of both layers together, inner radius R. "
             "Thick wall: c^2 = R/(2 rho) dp/du from the closed-form inflation of the two layers; kR: wave number "
             "times radius, with the fluid's added mass and the wall's mass.",
             "Error: estimated by the difference of the two finest levels of the row." + _resolved_note(levels)
-            if errors
+            if len(levels) > 1
             else "The study has one level of resolution, which tells no error of its own: see table `mesh_error`.",
         ],
     )
-    for s in found:
-        last = s.finest
-        row = [s.label, *(f"{v:.3f}" for v in (s.free, s.held, s.long, s.dispersed))]
-        for name, form in (("speed", ".3f"), ("height", ".1f")):
-            row += [fixed(getattr(s.measured[level], name) if level in s.measured else None, form) for level in levels]
-            row += [fixed(getattr(last, f"{name}_error") if last else None, form) for _ in errors]
-        table.rows.append(row)
-        table.csv_rows += [
-            [
-                s.material,
-                s.reading,
-                s.free,
-                s.held,
-                s.long,
-                s.dispersed,
-                m.level,
-                m.speed,
-                m.speed_error,
-                m.height,
-                m.height_error,
-            ]
-            for m in s.measured.values()
-        ]
-    return table
 
 
 def _resolved_note(levels: Sequence[str]) -> str:

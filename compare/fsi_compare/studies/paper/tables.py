@@ -1,60 +1,84 @@
 """The paper's Tables 1 and 2 beside ours: parameters and meshes."""
 
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional
+from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence
 
 from ...base import paper
 from ...base.errors import InputError
 from ...base.files import read_toml
 from ...base.names import MATERIALS, MESHES
-from ...linear.solver_tables import Grid
-from ...reporting.layout import Table, fixed
+from ...linear.grid import Grid
+from ...reporting.column import Column, Facts, fixed
+from ...reporting.layout import Table
 from .runs import WAVES, PaperRuns, mesh_of
 
+QUANTITIES = ("nodes", "tetrahedra", "unknowns")  # of a mesh
 LAYERS = ("media", "adventitia")
 UNITS = {"c10": "kPa", "c01": "kPa", "k1": "kPa", "k2": "", "alpha": "deg", "density": "mg/mm^3", "bulk_modulus": "kPa"}
 
 
+class Parameter(NamedTuple):
+    """Of a wall, ours and the paper's."""
+
+    material: str
+    first: bool  # of its material
+    layer: str
+    name: str
+    ours: Optional[float]
+    theirs: float
+
+    @property
+    def same(self) -> bool:
+        return self.ours is not None and abs(self.ours - self.theirs) <= 1e-12 * abs(self.theirs)
+
+    @property
+    def unit(self) -> str:
+        return UNITS[self.name]
+
+    def shown(self, value: Optional[float]) -> str:
+        return fixed(value, "g") + (f" {self.unit}" if self.unit else "")
+
+
+PARAMETERS: Sequence[Column[Parameter]] = (
+    Column(
+        "material", "material", value=lambda p: p.material, text=lambda p: p.first * MATERIALS[p.material], left=True
+    ),
+    Column("layer", "layer", value=lambda p: p.layer, left=True),
+    Column("parameter", "parameter", value=lambda p: p.name, format=lambda name: name.replace("_", " "), left=True),
+    Column(csv="unit", value=lambda p: p.unit),
+    Column("ours", "ours", value=lambda p: p.ours, text=lambda p: p.shown(p.ours) + ("" if p.same else " !")),
+    Column("paper", "paper", value=lambda p: p.theirs, text=lambda p: p.shown(p.theirs)),
+    Column(csv="same", value=lambda p: "yes" if p.same else "no"),
+)
+
+
 def parameter_table(cases: Mapping[str, Path], printed_density: bool) -> Table:
     """`printed_density`: the study has runs with the wall's density as the paper prints it."""
-    table = Table(
-        stem="table1_parameters",
-        title="Table 1: parameters of the walls, ours and the paper's",
-        left=3,
-        columns=[("", "material"), ("", "layer"), ("", "parameter"), ("", "ours"), ("", "paper")],
-        csv_columns=["material", "layer", "parameter", "unit", "ours", "paper", "same"],
+    found = [p for material in MATERIALS if material in cases for p in _parameters(material, cases[material])]
+    differing = {p.name for p in found if not p.same}
+    return Table(
+        "table1_parameters",
+        "Table 1: parameters of the walls, ours and the paper's",
+        PARAMETERS,
+        found,
+        notes=[
+            "!: differs from the paper: "
+            + (", ".join(sorted(differing)) or "none")
+            + ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
+            "is 1.2 mg/mm^3 = 1200 kg/m^3" + (", and the printed value is tried above." if printed_density else ".")
+        ],
     )
-    differing = set()
-    for material in [name for name in MATERIALS if name in cases]:
-        structure = _structure(cases[material])
-        rows = [
-            (layer, name, structure.get("layers", {}).get(layer, {}).get(name), values[i])
-            for name, values in paper.parameters(material).items()
-            for i, layer in enumerate(LAYERS)
-        ]
-        rows += [("both", name, structure.get(name), value) for name, value in paper.wall().items()]
-        for i, (layer, name, ours, theirs) in enumerate(rows):
-            same = ours is not None and abs(ours - theirs) <= 1e-12 * abs(theirs)
-            if not same:
-                differing.add(name)
-            unit = f" {UNITS[name]}" if UNITS[name] else ""
-            table.rows.append(
-                [
-                    MATERIALS[material] if i == 0 else "",
-                    layer,
-                    name.replace("_", " "),
-                    fixed(ours, "g") + unit + ("" if same else " !"),
-                    f"{theirs:g}{unit}",
-                ]
-            )
-            table.csv_rows.append([material, layer, name, UNITS[name], ours, theirs, "yes" if same else "no"])
-    table.notes.append(
-        "!: differs from the paper: "
-        + (", ".join(sorted(differing)) or "none")
-        + ". The paper prints the wall's density as 1.2 kg/m^3, a thousandth of any tissue's; here it "
-        "is 1.2 mg/mm^3 = 1200 kg/m^3" + (", and the printed value is tried above." if printed_density else ".")
-    )
-    return table
+
+
+def _parameters(material: str, case: Path) -> List[Parameter]:
+    structure = _structure(case)
+    rows = [
+        (layer, name, structure.get("layers", {}).get(layer, {}).get(name), values[i])
+        for name, values in paper.parameters(material).items()
+        for i, layer in enumerate(LAYERS)
+    ]
+    rows += [("both", name, structure.get(name), value) for name, value in paper.wall().items()]
+    return [Parameter(material, i == 0, *row) for i, row in enumerate(rows)]
 
 
 def _structure(case: Path) -> dict:
@@ -88,20 +112,46 @@ def mesh_counts(runs: PaperRuns, grid: Optional[Grid]) -> Dict[str, Dict[str, in
     return {mesh: found[mesh] for mesh in MESHES if mesh in found}
 
 
+class Counted(NamedTuple):
+    """A quantity of a mesh, ours and the paper's."""
+
+    mesh: str
+    quantity: str
+    ours: Optional[int]
+    theirs: Optional[int]
+
+
+COUNTED: Sequence[Column[Counted]] = (
+    Column(csv="mesh", value=lambda c: c.mesh),
+    Column(csv="quantity", value=lambda c: c.quantity),
+    Column(csv="ours", value=lambda c: c.ours),
+    Column(csv="paper", value=lambda c: c.theirs),
+)
+
+
+def _of_quantity(place: int, name: str) -> List[Column[Sequence[Counted]]]:
+    return [
+        Column("ours", value=lambda row: row[place].ours, format=",d", group=name),
+        Column("paper", value=lambda row: row[place].theirs, format=",d", group=name),
+    ]
+
+
+MESH_ROWS: Sequence[Column[Sequence[Counted]]] = (
+    Column("mesh", value=lambda row: row[0].mesh, left=True),
+    *(column for place, name in enumerate(QUANTITIES) for column in _of_quantity(place, name)),
+)
+
+
 def mesh_table(counts: Mapping[str, Mapping[str, int]]) -> Table:
-    names = ("nodes", "tetrahedra", "unknowns")
-    table = Table(
-        stem="table2_meshes",
-        title="Table 2: the meshes, ours and the paper's",
-        columns=[("", "mesh"), *((name, who) for name in names for who in ("ours", "paper"))],
-        csv_columns=["mesh", "quantity", "ours", "paper"],
-        notes=["The paper's 6,959 unknowns of the coarse mesh do not fit its other rows."],
+    rows = [
+        [Counted(mesh, name, ours.get(name), paper.mesh_counts(mesh).get(name)) for name in QUANTITIES]
+        for mesh, ours in counts.items()
+    ]
+    return Table(
+        "table2_meshes",
+        "Table 2: the meshes, ours and the paper's",
+        MESH_ROWS,
+        rows,
+        Facts(COUNTED, [counted for row in rows for counted in row]),
+        ["The paper's 6,959 unknowns of the coarse mesh do not fit its other rows."],
     )
-    for mesh, ours in counts.items():
-        theirs = paper.mesh_counts(mesh)
-        cells: List[str] = [mesh]
-        for name in names:
-            cells += [fixed(ours.get(name), ",d"), fixed(theirs.get(name), ",d")]
-            table.csv_rows.append([mesh, name, ours.get(name), theirs.get(name)])
-        table.rows.append(cells)
-    return table

@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from ...base.names import MATERIALS, MESHES
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
 from ...reporting.pictures import pressure_figure
 from ...reporting.player import Player
 from ...reporting.report import Report
@@ -140,19 +141,22 @@ def _largest(reference: PressureWaves, other: PressureWaves, until: float = np.i
     return found.max_relative if found and found.max_relative is not None else float("nan")
 
 
+AGREEMENTS: Sequence[Column[Agreement]] = (
+    Column("material", "material", value=lambda a: a.material, format=MATERIALS.__getitem__, left=True),
+    Column("mesh", "mesh", value=lambda a: a.mesh, left=True),
+    Column("until 1.5 ms", "max_relative_until_1_5_ms", value=lambda a: a.start, format=".1e"),
+    Column("all levels", "max_relative", value=lambda a: a.all, format=".1e"),
+)
+
+
 def agreement_table(found: Sequence[Agreement]) -> Table:
-    table = Table(
-        stem="agreement",
-        title="Partitioned against monolithic, largest relative difference of the pressure",
-        left=2,
-        columns=[("", "material"), ("", "mesh"), ("", "until 1.5 ms"), ("", "all levels")],
-        csv_columns=["material", "mesh", "max_relative_until_1_5_ms", "max_relative"],
+    return Table(
+        "agreement",
+        "Partitioned against monolithic, largest relative difference of the pressure",
+        AGREEMENTS,
+        found,
         notes=["Interface tolerance 1e-6. Relative to the largest pressure of the same time level."],
     )
-    for a in found:
-        table.rows.append([MATERIALS[a.material], a.mesh, f"{a.start:.1e}", f"{a.all:.1e}"])
-        table.csv_rows.append([a.material, a.mesh, a.start, a.all])
-    return table
 
 
 # ---- the interface iteration stopped early
@@ -194,18 +198,48 @@ def stopped_early(runs: PaperRuns) -> Tuple[Optional[StudyRun], List[Stopped]]:
     return reference, found
 
 
+class Wave(NamedTuple):
+    """Of a run that was stopped early, or of the monolithic one, which has neither passes nor difference."""
+
+    label: str
+    passes: Optional[float]
+    peaks: Sequence[Optional[float]]
+    ratios: Sequence[Optional[float]]
+    difference: Optional[float]
+
+
+def _peak(place: int) -> Column[Wave]:
+    return Column(f"{TIMES[place]:g}", value=lambda s: s.peaks[place], format=".1f", group="t in ms")
+
+
+STOPPED: Sequence[Column[Wave]] = (
+    Column("stopped at", value=lambda s: s.label, left=True),
+    Column("iterations per step", value=lambda s: s.passes, format=".1f", missing=""),
+    *map(_peak, range(len(TIMES))),
+    Column("largest relative difference", value=lambda s: s.difference, format=".1e", missing=""),
+)
+PEAKS: Sequence[Column[Tuple[Wave, int]]] = (  # and the place in TIMES
+    Column(csv="stop", value=lambda r: r[0].label),
+    Column(csv="iterations_per_step", value=lambda r: r[0].passes),
+    Column(csv="time", unit="ms", value=lambda r: TIMES[r[1]]),
+    Column(csv="peak", unit="Pa", value=lambda r: r[0].peaks[r[1]]),
+    Column(csv="peak_over_monolithic", value=lambda r: r[0].ratios[r[1]]),
+    Column(csv="max_relative", value=lambda r: r[0].difference),
+)
+
+
 def stopped_table(reference: StudyRun, found: Sequence[Stopped]) -> Table:
+    rows = [
+        Wave("monolithic", None, peaks(reference.pressure), [1.0] * len(TIMES), None),
+        *(Wave(s.label, s.passes, s.peaks, s.ratios, s.difference) for s in found),
+    ]
     table = Table(
-        stem="stopped_early",
-        title="The largest pressure in Pa when the interface iteration is stopped early",
-        columns=[
-            ("", "stopped at"),
-            ("", "iterations per step"),
-            *(("t in ms", f"{time:g}") for time in TIMES),
-            ("", "largest relative difference"),
-        ],
-        csv_columns=["stop", "iterations_per_step", "time_ms", "peak_Pa", "peak_over_monolithic", "max_relative"],
-        notes=[
+        "stopped_early",
+        "The largest pressure in Pa when the interface iteration is stopped early",
+        STOPPED,
+        rows,
+        Facts(PEAKS, [(row, place) for row in rows for place in range(len(TIMES))]),
+        [
             "Largest difference: of the whole wave to the monolithic one, relative to the largest pressure of the "
             f"time level, over all levels. {MATERIALS[reference.request.case]}, {mesh_of(reference)} mesh."
         ],
@@ -214,14 +248,6 @@ def stopped_table(reference: StudyRun, found: Sequence[Stopped]) -> Table:
         table.notes.append(
             "'From the last step': the iteration starts from the last displacement, otherwise from its extrapolation."
         )
-    exact = peaks(reference.pressure)
-    table.rows.append(["monolithic", "", *(fixed(p, ".1f") for p in exact), ""])
-    table.csv_rows += [["monolithic", None, time, p, 1.0, None] for time, p in zip(TIMES, exact)]
-    for s in found:
-        table.rows.append([s.label, f"{s.passes:.1f}", *(fixed(p, ".1f") for p in s.peaks), f"{s.difference:.1e}"])
-        table.csv_rows += [
-            [s.label, s.passes, time, p, ratio, s.difference] for time, p, ratio in zip(TIMES, s.peaks, s.ratios)
-        ]
     return table
 
 

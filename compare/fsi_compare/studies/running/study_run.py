@@ -93,3 +93,8 @@ class StudyRun:
         totals = self.summary.get("totals", {})
         key = "outer_iterations" if self.request.method.program == "fsi-partitioned" else "newton_iterations"
         return totals.get(key, float("nan")) / self.steps if self.steps else float("nan")
+
+
+def known(value: float) -> Optional[float]:
+    """None for what is no number."""
+    return value if value == value else None

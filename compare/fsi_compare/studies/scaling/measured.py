@@ -51,6 +51,14 @@ class Measured:
     solver_counted: bool  # whether messages, bytes and reductions hold the linear solver's
 
     @property
+    def method(self) -> str:
+        return self.run.request.method.name
+
+    @property
+    def meaningful_seconds(self) -> Optional[float]:
+        return None if self.crowded else self.seconds
+
+    @property
     def copies(self) -> float:
         """Nodes that processes count in all, over the mesh's: those on the interface are the fluid's and the wall's."""
         return self.owned.mean * self.processes / self.nodes

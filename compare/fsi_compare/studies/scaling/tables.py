@@ -1,12 +1,11 @@
 """Tables of the study of scaling."""
 
-from typing import List, Optional, Sequence, Tuple
+from typing import Callable, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, fixed
+from ...reporting.layout import Table
 from .measured import Measured, Spread
 from .model import Step
-
-MEANINGLESS = "-"  # where there were more processes than cores
 
 
 def short(value: float) -> str:
@@ -18,79 +17,67 @@ def alone(runs: Sequence[Measured]) -> Optional[Measured]:
     return next((run for run in runs if run.processes == 1), None)
 
 
+class Strong(NamedTuple):
+    """A run, that on one process, and that by the solver for one process."""
+
+    run: Measured
+    one: Optional[Measured]
+    reference: Optional[Measured]
+
+    @property
+    def speed_up(self) -> Optional[float]:
+        return None if self.run.crowded or self.one is None else self.one.seconds / self.run.seconds
+
+    @property
+    def efficiency(self) -> Optional[float]:
+        return self.speed_up and self.speed_up / self.run.processes
+
+
+MEMORY = "memory per process in {unit}"
+STRONG: Sequence[Column[Strong]] = (
+    Column("method", "method", value=lambda s: s.run.method, text=lambda s: s.run.label, left=True),
+    Column("processes", "processes", value=lambda s: s.run.processes),
+    Column(csv="cores_suffice", value=lambda s: not s.run.crowded),
+    Column(csv="nodes", value=lambda s: s.run.nodes),
+    Column(csv="unknowns", value=lambda s: s.run.unknowns),
+    Column(
+        "measured",
+        "seconds_per_step",
+        value=lambda s: s.run.seconds,
+        text=lambda s: fixed(s.run.meaningful_seconds, ".3g"),
+        group="seconds per step",
+    ),
+    Column(
+        "of `fast` on one",
+        "fast_seconds_per_step",
+        value=lambda s: s.reference and s.reference.seconds,
+        format=".3g",
+        group="seconds per step",
+    ),
+    Column("speed-up", "speed_up", value=lambda s: s.speed_up, format=".2f"),
+    Column("efficiency", "efficiency", value=lambda s: s.efficiency, format=".0%"),
+    Column("Newton", "newton_per_step", value=lambda s: s.run.newton, format=".2f", group="iterations per step"),
+    Column("linear", "linear_per_step", value=lambda s: s.run.linear, format=".1f", group="iterations per step"),
+    Column(
+        "largest",
+        "memory_max",
+        "MiB",
+        value=lambda s: s.run.memory and s.run.memory.maximum,
+        format=".0f",
+        group=MEMORY,
+    ),
+    Column(
+        "mean", "memory_mean", "MiB", value=lambda s: s.run.memory and s.run.memory.mean, format=".0f", group=MEMORY
+    ),
+    Column(csv="folder", value=lambda s: s.run.run.folder.name),
+)
+
+
 def strong_table(by_method: Sequence[Sequence[Measured]], fast: Sequence[Optional[Measured]], stem: str) -> Table:
     """`fast`: of each method, the run of its driver by the solver for one process."""
-    table = Table(
-        stem=stem,
-        title="The same mesh on more processes",
-        columns=[
-            ("", "method"),
-            ("", "processes"),
-            ("seconds per step", "measured"),
-            ("seconds per step", "of `fast` on one"),
-            ("", "speed-up"),
-            ("", "efficiency"),
-            ("iterations per step", "Newton"),
-            ("iterations per step", "linear"),
-            ("memory per process in MiB", "largest"),
-            ("memory per process in MiB", "mean"),
-        ],
-        csv_columns=[
-            "method",
-            "processes",
-            "cores_suffice",
-            "nodes",
-            "unknowns",
-            "seconds_per_step",
-            "fast_seconds_per_step",
-            "speed_up",
-            "efficiency",
-            "newton_per_step",
-            "linear_per_step",
-            "memory_max_MiB",
-            "memory_mean_MiB",
-            "folder",
-        ],
-    )
-    for runs, reference in zip(by_method, fast):
-        one = alone(runs)
-        for run in runs:
-            speed = None if run.crowded or one is None else one.seconds / run.seconds
-            seconds = None if run.crowded else run.seconds
-            against = reference and reference.seconds
-            table.rows.append(
-                [
-                    run.label,
-                    str(run.processes),
-                    fixed(seconds, ".3g"),
-                    fixed(against, ".3g"),
-                    fixed(speed, ".2f"),
-                    fixed(speed and speed / run.processes, ".0%"),
-                    f"{run.newton:.2f}",
-                    f"{run.linear:.1f}",
-                    fixed(run.memory and run.memory.maximum, ".0f"),
-                    fixed(run.memory and run.memory.mean, ".0f"),
-                ]
-            )
-            table.csv_rows.append(
-                [
-                    run.run.request.method.name,
-                    run.processes,
-                    not run.crowded,
-                    run.nodes,
-                    run.unknowns,
-                    run.seconds,
-                    against,
-                    speed,
-                    speed and speed / run.processes,
-                    run.newton,
-                    run.linear,
-                    run.memory and run.memory.maximum,
-                    run.memory and run.memory.mean,
-                    run.run.folder.name,
-                ]
-            )
-    if any(run.crowded for runs in by_method for run in runs):
+    found = [Strong(run, alone(runs), reference) for runs, reference in zip(by_method, fast) for run in runs]
+    table = Table(stem, "The same mesh on more processes", STRONG, found)
+    if any(s.run.crowded for s in found):
         table.notes.append(
             "A dash in place of seconds: there were more processes than cores, so that they mean nothing; iterations, memory "
             "and counts do."
@@ -98,216 +85,144 @@ def strong_table(by_method: Sequence[Sequence[Measured]], fast: Sequence[Optiona
     return table
 
 
+class Weak(NamedTuple):
+    """A run, and that on one process."""
+
+    run: Measured
+    one: Optional[Measured]
+
+    @property
+    def efficiency(self) -> Optional[float]:
+        return None if self.run.crowded or self.one is None else weak_efficiency(self.one, self.run)
+
+
+WEAK: Sequence[Column[Weak]] = (
+    Column("method", "method", value=lambda w: w.run.method, text=lambda w: w.run.label, left=True),
+    Column("processes", "processes", value=lambda w: w.run.processes),
+    Column(csv="cores_suffice", value=lambda w: not w.run.crowded),
+    Column("nodes", "nodes", value=lambda w: w.run.nodes),
+    Column("nodes per process", value=lambda w: w.run.nodes / w.run.processes, format=".0f"),
+    Column(
+        "seconds per step",
+        "seconds_per_step",
+        value=lambda w: w.run.seconds,
+        text=lambda w: fixed(w.run.meaningful_seconds, ".3g"),
+    ),
+    Column("efficiency", "efficiency", value=lambda w: w.efficiency, format=".0%"),
+    Column("Newton", "newton_per_step", value=lambda w: w.run.newton, format=".2f", group="iterations per step"),
+    Column("linear", "linear_per_step", value=lambda w: w.run.linear, format=".1f", group="iterations per step"),
+    Column(
+        "largest memory per process in {unit}",
+        "memory_max",
+        "MiB",
+        value=lambda w: w.run.memory and w.run.memory.maximum,
+        format=".0f",
+    ),
+    Column(csv="folder", value=lambda w: w.run.run.folder.name),
+)
+
+
 def weak_table(by_method: Sequence[Sequence[Measured]]) -> Table:
-    table = Table(
-        stem="weak",
-        title="A mesh that grows with the processes",
-        columns=[
-            ("", "method"),
-            ("", "processes"),
-            ("", "nodes"),
-            ("", "nodes per process"),
-            ("", "seconds per step"),
-            ("", "efficiency"),
-            ("iterations per step", "Newton"),
-            ("iterations per step", "linear"),
-            ("", "largest memory per process in MiB"),
-        ],
-        csv_columns=[
-            "method",
-            "processes",
-            "cores_suffice",
-            "nodes",
-            "seconds_per_step",
-            "efficiency",
-            "newton_per_step",
-            "linear_per_step",
-            "memory_max_MiB",
-            "folder",
+    return Table(
+        "weak",
+        "A mesh that grows with the processes",
+        WEAK,
+        [Weak(run, alone(runs)) for runs in by_method for run in runs],
+        notes=[
+            "Efficiency: seconds of a step per node of a process, of the run on one process over these; meshes are not "
+            "exactly in the ratio of the processes."
         ],
     )
-    for runs in by_method:
-        one = alone(runs)
-        for run in runs:
-            efficiency = None if run.crowded or one is None else weak_efficiency(one, run)
-            table.rows.append(
-                [
-                    run.label,
-                    str(run.processes),
-                    str(run.nodes),
-                    f"{run.nodes / run.processes:.0f}",
-                    fixed(None if run.crowded else run.seconds, ".3g"),
-                    fixed(efficiency, ".0%"),
-                    f"{run.newton:.2f}",
-                    f"{run.linear:.1f}",
-                    fixed(run.memory and run.memory.maximum, ".0f"),
-                ]
-            )
-            table.csv_rows.append(
-                [
-                    run.run.request.method.name,
-                    run.processes,
-                    not run.crowded,
-                    run.nodes,
-                    run.seconds,
-                    efficiency,
-                    run.newton,
-                    run.linear,
-                    run.memory and run.memory.maximum,
-                    run.run.folder.name,
-                ]
-            )
-    table.notes.append(
-        "Efficiency: seconds of a step per node of a process, of the run on one process over these; meshes are not exactly "
-        "in the ratio of the processes."
-    )
-    return table
 
 
 def weak_efficiency(one: Measured, run: Measured) -> float:
     return (one.seconds / one.nodes) / (run.seconds * run.processes / run.nodes)
 
 
-def counts_table(by_method: Sequence[Sequence[Measured]]) -> Table:
-    quantities: List[Tuple[str, str, str, str]] = [  # attribute, group, name, of CSV
-        ("owned", "nodes of a process", "own", "owned_nodes"),
-        ("halo", "nodes of a process", "halo", "halo_nodes"),
-        ("neighbours", "", "neighbours", "neighbours"),
-        ("messages", "sent per step and process", "messages", "messages"),
-        ("megabytes", "sent per step and process", "MB", "megabytes"),
+def _spread(name: str, csv: str, group: str, value: Callable[[Measured], Spread]) -> List[Column[Measured]]:
+    """For people mean and largest; in the CSV the least, too."""
+    return [
+        Column(name, value=value, format=lambda spread: f"{spread.mean:.4g} ({spread.maximum:.4g})", group=group),
+        Column(csv=f"{csv}_min", value=lambda run: value(run).minimum),
+        Column(csv=f"{csv}_mean", value=lambda run: value(run).mean),
+        Column(csv=f"{csv}_max", value=lambda run: value(run).maximum),
     ]
-    table = Table(
-        stem="counts",
-        title="What each process holds and sends: mean, and the largest in brackets",
-        columns=[
-            ("", "method"),
-            ("", "mesh nodes"),
-            ("", "processes"),
-            ("", "linear iterations per step"),
-            *((group, name) for _, group, name, _ in quantities),
-            ("", "reductions per step"),
-        ],
-        csv_columns=[
-            "method",
-            "nodes",
-            "processes",
-            "linear_per_step",
-            *(f"{name}_{part}" for *_, name in quantities for part in ("min", "mean", "max")),
-            "reductions",
-            "solver_counted",
-        ],
-    )
-    for run in (run for runs in by_method for run in runs):
-        spreads: List[Spread] = [getattr(run, name) for name, *_ in quantities]
-        table.rows.append(
-            [
-                run.label,
-                str(run.nodes),
-                str(run.processes),
-                f"{run.linear:.1f}",
-                *(f"{s.mean:.4g} ({s.maximum:.4g})" for s in spreads),
-                f"{run.reductions:.0f}",
-            ]
-        )
-        table.csv_rows.append(
-            [
-                run.run.request.method.name,
-                run.nodes,
-                run.processes,
-                run.linear,
-                *(value for s in spreads for value in (s.minimum, s.mean, s.maximum)),
-                run.reductions,
-                run.solver_counted,
-            ]
-        )
-    if any(run.processes > 1 and not run.solver_counted for runs in by_method for run in runs):
+
+
+COUNTS: Sequence[Column[Measured]] = (
+    Column("method", "method", value=lambda run: run.method, text=lambda run: run.label, left=True),
+    Column("mesh nodes", "nodes", value=lambda run: run.nodes),
+    Column("processes", "processes", value=lambda run: run.processes),
+    Column("linear iterations per step", "linear_per_step", value=lambda run: run.linear, format=".1f"),
+    *_spread("own", "owned_nodes", "nodes of a process", lambda run: run.owned),
+    *_spread("halo", "halo_nodes", "nodes of a process", lambda run: run.halo),
+    *_spread("neighbours", "neighbours", "", lambda run: run.neighbours),
+    *_spread("messages", "messages", "sent per step and process", lambda run: run.messages),
+    *_spread("MB", "megabytes", "sent per step and process", lambda run: run.megabytes),
+    Column("reductions per step", "reductions", value=lambda run: run.reductions, format=".0f"),
+    Column(csv="solver_counted", value=lambda run: run.solver_counted),
+)
+
+
+def counts_table(by_method: Sequence[Sequence[Measured]]) -> Table:
+    found = [run for runs in by_method for run in runs]
+    table = Table("counts", "What each process holds and sends: mean, and the largest in brackets", COUNTS, found)
+    if any(run.processes > 1 and not run.solver_counted for run in found):
         table.notes.append("Messages, bytes and reductions within the linear solver's library are not among them.")
     return table
 
 
+class Modelled(NamedTuple):
+    method: str
+    one: Step  # on one process
+    step: Step
+
+    @property
+    def speed_up(self) -> float:
+        return self.one.seconds / self.step.seconds
+
+
+def _part(name: str, csv: str, value: Callable[[Step], float]) -> Column[Modelled]:
+    """Of a step's time: seconds in the CSV, for people milliseconds."""
+    return Column(
+        name,
+        csv,
+        "s",
+        value=lambda m: value(m.step),
+        format=lambda seconds: short(1e3 * seconds),
+        group="milliseconds per step",
+    )
+
+
+MODEL: Sequence[Column[Modelled]] = (
+    Column("method", "method", value=lambda m: m.method, left=True),
+    Column("mesh nodes", "nodes", value=lambda m: m.step.nodes),
+    Column("processes", "processes", value=lambda m: m.step.processes),
+    Column("own nodes", "own_nodes", value=lambda m: m.step.own, format=".0f"),
+    Column("halo", "halo_nodes", value=lambda m: m.step.halo, format=".0f"),
+    Column(csv="linear_per_step", value=lambda m: m.step.iterations),
+    _part("work", "work", lambda step: step.work),
+    _part("latency", "latency", lambda step: step.latency),
+    _part("transfer", "transfer", lambda step: step.transfer),
+    _part("reductions", "reductions", lambda step: step.reductions),
+    _part("output", "output", lambda step: step.output),
+    _part("in all", "step", lambda step: step.seconds),
+    Column("speed-up", "speed_up", value=lambda m: m.speed_up, format=short),
+    Column("efficiency", value=lambda m: m.speed_up / m.step.processes, format=".0%"),
+    Column(csv="messages", value=lambda m: m.step.messages),
+    Column(csv="megabytes", value=lambda m: m.step.megabytes),
+    Column(csv="reductions", value=lambda m: m.step.reduction_count),
+    Column("solving", "memory", "MiB", value=lambda m: m.step.memory, format=".0f", group="{unit} per process"),
+    Column("reading", "reading", "MiB", value=lambda m: m.step.reading, format=".0f", group="{unit} per process"),
+)
+
+
 def model_table(steps: Sequence[Tuple[str, Step, Step]]) -> Table:
     """(method, step on one process, step)."""
-    table = Table(
-        stem="model",
-        title="The model: seconds of a time step on processes that are not here",
-        columns=[
-            ("", "method"),
-            ("", "mesh nodes"),
-            ("", "processes"),
-            ("", "own nodes"),
-            ("", "halo"),
-            ("milliseconds per step", "work"),
-            ("milliseconds per step", "latency"),
-            ("milliseconds per step", "transfer"),
-            ("milliseconds per step", "reductions"),
-            ("milliseconds per step", "output"),
-            ("milliseconds per step", "in all"),
-            ("", "speed-up"),
-            ("", "efficiency"),
-            ("MiB per process", "solving"),
-            ("MiB per process", "reading"),
-        ],
-        csv_columns=[
-            "method",
-            "nodes",
-            "processes",
-            "own_nodes",
-            "halo_nodes",
-            "linear_per_step",
-            "work_s",
-            "latency_s",
-            "transfer_s",
-            "reductions_s",
-            "output_s",
-            "step_s",
-            "speed_up",
-            "messages",
-            "megabytes",
-            "reductions",
-            "memory_MiB",
-            "reading_MiB",
-        ],
+    return Table(
+        "model",
+        "The model: seconds of a time step on processes that are not here",
+        MODEL,
+        [Modelled(*one) for one in steps],
+        notes=["Reading: before each process lets go of what is not its part of the mesh."],
     )
-    for method, one, step in steps:
-        speed = one.seconds / step.seconds
-        table.rows.append(
-            [
-                method,
-                str(step.nodes),
-                str(step.processes),
-                f"{step.own:.0f}",
-                f"{step.halo:.0f}",
-                *(
-                    short(1e3 * value)
-                    for value in (step.work, step.latency, step.transfer, step.reductions, step.output, step.seconds)
-                ),
-                short(speed),
-                f"{speed / step.processes:.0%}",
-                fixed(step.memory, ".0f"),
-                fixed(step.reading, ".0f"),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                method,
-                step.nodes,
-                step.processes,
-                step.own,
-                step.halo,
-                step.iterations,
-                step.work,
-                step.latency,
-                step.transfer,
-                step.reductions,
-                step.output,
-                step.seconds,
-                speed,
-                step.messages,
-                step.megabytes,
-                step.reduction_count,
-                step.memory,
-                step.reading,
-            ]
-        )
-    table.notes.append("Reading: before each process lets go of what is not its part of the mesh.")
-    return table

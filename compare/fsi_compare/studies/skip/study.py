@@ -8,7 +8,8 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.suggestions import nearest
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, fixed
+from ...reporting.layout import Table
 from ...runs.differences import largest_difference
 from ..evidence.cross_check import waves_of
 from ..running.context import Context
@@ -121,6 +122,10 @@ class Measured:
     difference: Optional[float]  # of the two answers: largest over the time levels, relative to each level's largest
 
     @property
+    def request(self) -> Request:
+        return self.economy.on[0].request
+
+    @property
     def ratio(self) -> float:
         return self.off_s / self.on_s
 
@@ -201,84 +206,52 @@ def counter(run: StudyRun, name: str) -> Optional[float]:
     return float(phases.get(name, {}).get("calls", 0))
 
 
+COLUMNS: Sequence[Column[Measured]] = (
+    Column(csv="economy", value=lambda m: m.economy.name),
+    Column("economy", "label", value=lambda m: m.economy.label, left=True),
+    Column(
+        "with it",
+        "with",
+        value=lambda m: m.economy.on_label,
+        text=lambda m: f"{m.economy.on_label} ({m.request.method.label})",
+        left=True,
+    ),
+    Column("switched off", "switched_off", value=lambda m: m.economy.off_label, left=True),
+    Column(csv="case", value=lambda m: m.request.case),
+    Column(csv="method", value=lambda m: m.request.method.name),
+    Column("with", "with", "s", value=lambda m: m.on_s, format=".2f", group="seconds"),
+    Column("without", "without", "s", value=lambda m: m.off_s, format=".2f", group="seconds"),
+    Column(
+        "ratio",
+        "ratio",
+        value=lambda m: m.ratio,
+        text=lambda m: f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
+        group="seconds",
+    ),
+    Column("noise", "noise", value=lambda m: m.noise, format=".2f", group="seconds"),
+    Column(csv="in_noise", value=lambda m: m.in_noise),
+    Column("counted", "counter", value=lambda m: m.economy.counter),
+    Column("with", "with_count", value=lambda m: m.on_count, format=".4g", group="count"),
+    Column("without", "without_count", value=lambda m: m.off_count, format=".4g", group="count"),
+    Column(
+        "relative difference of the answers",
+        "largest_difference",
+        value=lambda m: m.difference,
+        text=lambda m: m.economy.differs or fixed(m.difference, ".1e"),
+    ),
+)
+
+
 def _table(measured: Sequence[Measured]) -> Table:
-    table = Table(
-        stem="skip",
-        title="The same scene with and without each economy",
-        left=3,
-        columns=[
-            ("", "economy"),
-            ("", "with it"),
-            ("", "switched off"),
-            ("seconds", "with"),
-            ("seconds", "without"),
-            ("seconds", "ratio"),
-            ("seconds", "noise"),
-            ("", "counted"),
-            ("count", "with"),
-            ("count", "without"),
-            ("", "relative difference of the answers"),
-        ],
-        csv_columns=[
-            "economy",
-            "label",
-            "with",
-            "switched_off",
-            "case",
-            "method",
-            "with_s",
-            "without_s",
-            "ratio",
-            "noise",
-            "in_noise",
-            "counter",
-            "with_count",
-            "without_count",
-            "largest_difference",
+    return Table(
+        "skip",
+        "The same scene with and without each economy",
+        COLUMNS,
+        measured,
+        notes=[
+            "Noise: the factor between the slowest and the quickest run of one form, here or in the median "
+            "row, whichever is larger; a ratio that is no further from 1 says nothing.",
+            "Counted: of `summary.json`; of a phase its calls. Difference: largest over all time "
+            "levels, relative to the largest pressure of the level.",
         ],
     )
-    for m in measured:
-        e, request = m.economy, m.economy.on[0].request
-        table.rows.append(
-            [
-                e.label,
-                f"{e.on_label} ({request.method.label})",
-                e.off_label,
-                fixed(m.on_s, ".2f"),
-                fixed(m.off_s, ".2f"),
-                f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
-                f"{m.noise:.2f}",
-                e.counter,
-                fixed(m.on_count, ".4g"),
-                fixed(m.off_count, ".4g"),
-                e.differs or fixed(m.difference, ".1e"),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                e.name,
-                e.label,
-                e.on_label,
-                e.off_label,
-                request.case,
-                request.method.name,
-                m.on_s,
-                m.off_s,
-                m.ratio,
-                m.noise,
-                m.in_noise,
-                e.counter,
-                m.on_count,
-                m.off_count,
-                m.difference,
-            ]
-        )
-    table.notes.append(
-        "Noise: the factor between the slowest and the quickest run of one form, here or in the median "
-        "row, whichever is larger; a ratio that is no further from 1 says nothing."
-    )
-    table.notes.append(
-        "Counted: of `summary.json`; of a phase its calls. Difference: largest over all time "
-        "levels, relative to the largest pressure of the level."
-    )
-    return table

@@ -1,9 +1,10 @@
 """What the runs make of loads that the wall cannot bear at rest: pictures, and a table without repetitions."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, Facts, fixed
+from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.cross_check import Cell, quantity
 from ..running.study_file import show
@@ -167,70 +168,79 @@ def _same_steps(runs: Sequence[Inflated]) -> str:
     return said + (": on a finer mesh the wall widens less, but does not bear more." if alike == len(shared) else ".")
 
 
+WIDENINGS = (("largest", "largest_widening"), ("half-way", "middle_widening"), ("long tube", "closed_form_widening"))
+
+
+def _widening(place: int, csv: str) -> Column[Inflated]:
+    return Column(csv=csv, value=lambda run: run.widenings[place])
+
+
+LOADS: Sequence[Column[Inflated]] = (
+    Column(csv="group", value=lambda run: run.cell.run.request.group),
+    Column(csv="value", value=lambda run: next(iter(run.cell.run.request.values.values()))),
+    Column(csv="load_kPa_or_pulse_ms", value=lambda run: run.load),
+    Column(csv="nodes", value=lambda run: run.cell.run.summary.get("mesh", {}).get("nodes")),
+    Column(csv="method", value=lambda run: run.cell.method),
+    Column(csv="outcome", value=lambda run: run.cell.outcome),
+    Column(csv="reached_time_ms_or_load_fraction", value=lambda run: run.reached),
+    *(_widening(place, csv) for place, (_, csv) in enumerate(WIDENINGS)),
+    Column(csv="message", value=lambda run: without_folder(run.cell.run.message)),
+)
+
+
+class Alike(NamedTuple):
+    """Methods that came equally far."""
+
+    load: str
+    mesh: str
+    methods: str
+    shown: Sequence[str]  # of all of them: see Inflated.shown
+
+
+def _shown_widening(place: int, head: str) -> Column[Alike]:
+    return Column(head, value=lambda row: row.shown[2 + place], group="inner radius over that at rest")
+
+
+ALIKE: Sequence[Column[Alike]] = (
+    Column("load", value=lambda row: row.load, left=True),
+    Column("nodes", value=lambda row: row.mesh, left=True),
+    Column("method", value=lambda row: row.methods, left=True),
+    Column("outcome", value=lambda row: row.shown[0], left=True),
+    Column("reached", value=lambda row: row.shown[1]),
+    *(_shown_widening(place, head) for place, (head, _) in enumerate(WIDENINGS)),
+)
+
+
 def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
     """Methods that came equally far share a row. Those with one pass a step say nothing about the wall."""
-    table = Table(
-        stem="limit_load",
-        title="How far the wall is inflated",
-        left=4,
-        columns=[
-            ("", "load"),
-            ("", "nodes"),
-            ("", "method"),
-            ("", "outcome"),
-            ("", "reached"),
-            ("inner radius over that at rest", "largest"),
-            ("inner radius over that at rest", "half-way"),
-            ("inner radius over that at rest", "long tube"),
-        ],
-        csv_columns=[
-            "group",
-            "value",
-            "load_kPa_or_pulse_ms",
-            "nodes",
-            "method",
-            "outcome",
-            "reached_time_ms_or_load_fraction",
-            "largest_widening",
-            "middle_widening",
-            "closed_form_widening",
-            "message",
-        ],
-    )
     loads: Dict[Tuple[str, str], List[Inflated]] = {}
     for run in runs:
         if run.cell.method not in settings.one_pass:
             loads.setdefault((run.label, run.mesh), []).append(run)
-        request = run.cell.run.request
-        table.csv_rows.append(
-            [
-                request.group,
-                next(iter(request.values.values())),
-                run.load,
-                run.cell.run.summary.get("mesh", {}).get("nodes"),
-                run.cell.method,
-                run.cell.outcome,
-                run.reached,
-                *run.widenings,
-                without_folder(run.cell.run.message),
-            ]
-        )
-    for (label, mesh), there in loads.items():
-        alike: Dict[Tuple[str, ...], List[Inflated]] = {}
-        for run in there:
-            alike.setdefault(tuple(run.shown), []).append(run)
-        for shown, own in alike.items():
-            methods = list(dict.fromkeys(run.cell.run.request.method.label for run in own))
-            table.rows.append([label, mesh, _methods(methods, len(alike)), *shown])
-    table.notes.append(
-        "Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
-        + (
-            f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other reasons."
-            if settings.one_pass
-            else ""
-        )
+    return Table(
+        "limit_load",
+        "How far the wall is inflated",
+        ALIKE,
+        [row for (label, mesh), there in loads.items() for row in _alike(label, mesh, there)],
+        Facts(LOADS, runs),
+        [
+            "Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
+            + (
+                f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other reasons."
+                if settings.one_pass
+                else ""
+            )
+        ],
     )
-    return table
+
+
+def _alike(label: str, mesh: str, there: Sequence[Inflated]) -> List[Alike]:
+    alike: Dict[Tuple[str, ...], List[str]] = {}
+    for run in there:
+        alike.setdefault(tuple(run.shown), []).append(run.cell.run.request.method.label)
+    return [
+        Alike(label, mesh, _methods(list(dict.fromkeys(labels)), len(alike)), shown) for shown, labels in alike.items()
+    ]
 
 
 def _methods(names: Sequence[str], rows: int) -> str:

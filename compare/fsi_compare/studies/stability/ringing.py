@@ -1,10 +1,11 @@
 """Runs whose pressure alternates from step to step: they converged, and the programs named it themselves."""
 
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Dict, Iterable, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
 from ...reporting.report import Report
 from ..evidence.cross_check import Cell, point_of, waves_of
 from ..running.study_file import show
@@ -39,39 +40,49 @@ def _largest(cell: Cell) -> Optional[float]:
     return None if waves is None else float(np.abs(waves.pressure).max())
 
 
+Point = Tuple[Tuple[str, str], Sequence[Cell]]  # quantity and value, and the methods that named one there
+
+CELLS: Sequence[Column[Cell]] = (
+    Column(csv="quantity", value=lambda cell: point_of(cell.run)[1]),
+    Column(csv="value", value=lambda cell: point_of(cell.run)[2]),
+    Column(csv="method", value=lambda cell: cell.method),
+    Column(csv="amplitude", unit="Pa", value=lambda cell: _amplitude(cell)),
+    Column(csv="largest_pressure", unit="Pa", value=lambda cell: _largest(cell)),
+)
+
+
+def _points(settings: Settings) -> List[Column[Point]]:
+    return [
+        Column("quantity", value=lambda point: settings.label(point[0][0]), left=True),
+        Column("value", value=lambda point: point[0][1], left=True),
+        Column("methods", value=lambda point: ", ".join(c.run.request.method.label for c in point[1]), left=True),
+        Column("amplitude in {unit}", unit="Pa", value=lambda point: _range(_known(map(_amplitude, point[1])))),
+        Column(
+            "largest pressure in {unit}",
+            unit="Pa",
+            value=lambda point: max(_known(map(_largest, point[1])), default=None),
+            format=".0f",
+        ),
+    ]
+
+
+def _known(values: Iterable[Optional[float]]) -> List[float]:
+    return [value for value in values if value is not None]
+
+
 def ringing_table(named: Sequence[Cell], settings: Settings) -> Table:
     """One row for each point; methods that name the same share it."""
-    table = Table(
-        stem="ringing",
-        title="Largest amplitude of the alternation that the programs named",
-        left=3,
-        columns=[
-            ("", "quantity"),
-            ("", "value"),
-            ("", "methods"),
-            ("", "amplitude in Pa"),
-            ("", "largest pressure in Pa"),
-        ],
-        csv_columns=["quantity", "value", "method", "amplitude_Pa", "largest_pressure_Pa"],
-    )
     points: Dict[Tuple[str, str], List[Cell]] = {}
     for cell in named:
         _, name, value = point_of(cell.run)
         points.setdefault((name, show(value)), []).append(cell)
-        table.csv_rows.append([name, value, cell.method, _amplitude(cell), _largest(cell)])
-    for (name, value), there in points.items():
-        amplitudes = [amplitude for amplitude in map(_amplitude, there) if amplitude is not None]
-        largest = [pressure for pressure in map(_largest, there) if pressure is not None]
-        table.rows.append(
-            [
-                settings.label(name),
-                value,
-                ", ".join(cell.run.request.method.label for cell in there),
-                _range(amplitudes),
-                fixed(max(largest, default=None), ".0f"),
-            ]
-        )
-    return table
+    return Table(
+        "ringing",
+        "Largest amplitude of the alternation that the programs named",
+        _points(settings),
+        list(points.items()),
+        Facts(CELLS, named),
+    )
 
 
 def _range(values: Sequence[float]) -> str:

@@ -3,17 +3,18 @@ how and with which message it ended. What a run says it solved is checked agains
 the bound is a fault, as are crashes and values that are not finite, and gives exit code 2."""
 
 import re
-from typing import Dict, List, Sequence, Tuple
+from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from ...base.progress import duration
-from ...reporting.layout import Table, fixed
+from ...reporting.column import Column
+from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity
 from ..running.commands import with_name
 from ..running.context import Context
 from ..running.study_file import Study, show
-from ..running.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED
+from ..running.study_run import NOT_CONVERGED, OUT_OF_TIME, REFUSED, known
 from .beyond_limit_load import beyond_limit_load
-from .messages import distinct, without_folder
+from .messages import Message, distinct, without_folder
 from .ringing import ringing
 from .settings import Settings, settings_of
 
@@ -79,30 +80,44 @@ def _detail(cell: Cell) -> str:
     return f": {without_folder(cell.run.message)}; `{command}`"
 
 
-def _by_method(context: Context, found: Sequence[Cell]) -> Table:
-    shown = [outcome for outcome in OUTCOMES if any(cell.outcome == outcome for cell in found)]
-    table = Table(
-        stem="by_method",
-        title="Outcomes by method",
-        columns=[
-            ("", "method"),
-            ("", "runs"),
-            *(("", o) for o in shown),
-            ("", "largest relative difference from the other driver"),
-        ],
-        csv_columns=["method", "runs", *(o.replace(", ", "_").replace(" ", "_") for o in shown), "largest_difference"],
+class Outcomes(NamedTuple):
+    """Of a method's runs."""
+
+    name: str
+    label: str
+    cells: Sequence[Cell]
+
+    @property
+    def worst(self) -> Optional[float]:
+        """Difference of those that agree."""
+        agreeing = [cell.difference for cell in self.cells if cell.outcome == AGREES and cell.difference is not None]
+        return max(agreeing, default=None)
+
+
+def _count(outcome: str) -> Column[Outcomes]:
+    return Column(
+        outcome,
+        outcome.replace(", ", "_").replace(" ", "_"),
+        value=lambda o: sum(cell.outcome == outcome for cell in o.cells),
+        format=lambda count: str(count or ""),
     )
-    for name, method in context.study.methods.items():
-        own = [cell for cell in found if cell.method == name]
-        if not own:
-            continue
-        counts = [sum(cell.outcome == outcome for cell in own) for outcome in shown]
-        worst = max(
-            (cell.difference for cell in own if cell.outcome == AGREES and cell.difference is not None), default=None
-        )
-        table.rows.append([method.label, str(len(own)), *(str(n) if n else "" for n in counts), fixed(worst, ".1e")])
-        table.csv_rows.append([name, len(own), *counts, worst])
-    return table
+
+
+def _by_method(context: Context, found: Sequence[Cell]) -> Table:
+    columns: List[Column[Outcomes]] = [
+        Column("method", "method", value=lambda o: o.name, text=lambda o: o.label, left=True),
+        Column("runs", "runs", value=lambda o: len(o.cells)),
+        *(_count(outcome) for outcome in OUTCOMES if any(cell.outcome == outcome for cell in found)),
+        Column(
+            "largest relative difference from the other driver",
+            "largest_difference",
+            value=lambda o: o.worst,
+            format=".1e",
+        ),
+    ]
+    methods = context.study.methods.items()
+    rows = [Outcomes(name, method.label, [c for c in found if c.method == name]) for name, method in methods]
+    return Table("by_method", "Outcomes by method", columns, [row for row in rows if row.cells])
 
 
 def _maps(context: Context, found: Sequence[Cell], settings: Settings) -> None:
@@ -147,42 +162,30 @@ def _in_words(there: Sequence[Cell]) -> str:
     )
 
 
+def _points(message: Message) -> List[str]:
+    return list(dict.fromkeys(_point_text(cell) for cell in message.cells))
+
+
+def _first_points(message: Message) -> str:
+    points = _points(message)
+    return ", ".join(points[:4]) + (f" and {len(points) - 4} more" if len(points) > 4 else "")
+
+
+MESSAGES: Sequence[Column[Message]] = (
+    Column(csv="message", value=lambda m: m.text),
+    Column("message, as the first run said it", "first_example", value=lambda m: m.example, left=True),
+    Column("outcome", "outcomes", value=lambda m: ", ".join(dict.fromkeys(c.outcome for c in m.cells)), left=True),
+    Column("methods", "methods", value=lambda m: ", ".join(m.methods), left=True),
+    Column("where", "points", value=lambda m: "; ".join(_points(m)), text=_first_points, left=True),
+    Column("runs", "runs", value=lambda m: len(m.cells)),
+)
+
+
 def _messages(context: Context, found: Sequence[Cell]) -> None:
-    report = context.report
-    report.section("Messages")
-    table = Table(
-        stem="messages",
-        title="What the programs say, numbers aside",
-        left=4,
-        columns=[
-            ("", "message, as the first run said it"),
-            ("", "outcome"),
-            ("", "methods"),
-            ("", "where"),
-            ("", "runs"),
-        ],
-        csv_columns=["message", "first_example", "outcomes", "methods", "points", "runs"],
-    )
-    for message in distinct(found):
-        outcomes = list(dict.fromkeys(cell.outcome for cell in message.cells))
-        points = list(dict.fromkeys(_point_text(cell) for cell in message.cells))
-        where = ", ".join(points[:4]) + (f" and {len(points) - 4} more" if len(points) > 4 else "")
-        table.rows.append(
-            [message.example, ", ".join(outcomes), ", ".join(message.methods), where, str(len(message.cells))]
-        )
-        table.csv_rows.append(
-            [
-                message.text,
-                message.example,
-                ", ".join(outcomes),
-                ", ".join(message.methods),
-                "; ".join(points),
-                len(message.cells),
-            ]
-        )
-    if not table.rows:
-        table.notes.append("Every run came to its end.")
-    report.table(table)
+    context.report.section("Messages")
+    messages = distinct(found)
+    notes = [] if messages else ["Every run came to its end."]
+    context.report.table(Table("messages", "What the programs say, numbers aside", MESSAGES, messages, notes=notes))
 
 
 def _point_text(cell: Cell) -> str:
@@ -190,81 +193,38 @@ def _point_text(cell: Cell) -> str:
     return f"{name.rsplit('.', 1)[-1]} {show(value)}"
 
 
-def _all_runs(found: Sequence[Cell], settings: Settings) -> Table:
+def _columns(settings: Settings) -> List[Column[Cell]]:
     """Quantities by their labels, which hold the units of their values; in the CSV by their keys."""
-    table = Table(
-        stem="runs",
-        title="All runs",
-        left=4,
-        columns=[
-            ("", "quantity"),
-            ("", "value"),
-            ("", "method"),
-            ("", "outcome"),
-            ("", "steps"),
-            ("", "iterations per step"),
-            ("", "relative difference"),
-            ("", "time"),
-        ],
-        csv_columns=[
-            "group",
-            "case",
-            "quantity",
-            "value",
-            "method",
-            "outcome",
-            "status",
-            "message",
-            "steps",
-            "iterations_per_step",
-            "largest_difference",
-            "compared_with",
-            "process_s",
-            "folder",
-            "command",
+    return [
+        Column(csv="group", value=lambda c: c.run.request.group),
+        Column(csv="case", value=lambda c: c.run.request.case),
+        Column("quantity", "quantity", value=lambda c: quantity(c.run), format=settings.label, left=True),
+        Column("value", "value", value=lambda c: c.run.request.values[quantity(c.run)], format=show, left=True),
+        Column("method", "method", value=lambda c: c.method, text=lambda c: c.run.request.method.label, left=True),
+        Column("outcome", "outcome", value=lambda c: c.outcome, left=True),
+        Column(csv="status", value=lambda c: c.run.status),
+        Column(csv="message", value=lambda c: without_folder(c.run.message)),
+        Column("steps", "steps", value=lambda c: c.levels),
+        Column("iterations per step", "iterations_per_step", value=lambda c: known(c.run.passes), format=".2f"),
+        Column("relative difference", "largest_difference", value=lambda c: c.difference, format=".1e"),
+        Column(csv="compared_with", value=lambda c: c.against and c.against.request.method.name),
+        Column("time", "process", "s", value=lambda c: c.run.seconds, format=duration),
+        Column(csv="folder", value=lambda c: c.run.folder.name),
+        Column(csv="command", value=lambda c: with_name(c.run.command)),
+    ]
+
+
+def _all_runs(found: Sequence[Cell], settings: Settings) -> Table:
+    return Table(
+        "runs",
+        "All runs",
+        _columns(settings),
+        found,
+        notes=[
+            "Difference: largest over the time levels in common with the other driver's run, relative to "
+            "the largest value of the level; of methods with one pass a step, of all levels."
         ],
     )
-    for cell in found:
-        run = cell.run
-        name = quantity(run)
-        value = run.request.values[name]
-        passes = run.passes if run.passes == run.passes else None
-        table.rows.append(
-            [
-                settings.label(name),
-                show(value),
-                run.request.method.label,
-                cell.outcome,
-                str(cell.levels),
-                fixed(passes, ".2f"),
-                fixed(cell.difference, ".1e"),
-                duration(run.seconds),
-            ]
-        )
-        table.csv_rows.append(
-            [
-                run.request.group,
-                run.request.case,
-                name,
-                value,
-                cell.method,
-                cell.outcome,
-                run.status,
-                without_folder(run.message),
-                cell.levels,
-                passes,
-                cell.difference,
-                cell.against.request.method.name if cell.against else None,
-                run.seconds,
-                run.folder.name,
-                with_name(run.command),
-            ]
-        )
-    table.notes.append(
-        "Difference: largest over the time levels in common with the other driver's run, relative to "
-        "the largest value of the level; of methods with one pass a step, of all levels."
-    )
-    return table
 
 
 def _lower(label: str) -> str:

@@ -1,0 +1,48 @@
+"""A column of a table, said once: its head for people, its name for scripts, and where its cells come from."""
+
+from dataclasses import dataclass, field
+from typing import Any, Callable, Generic, Sequence, TypeVar, Union
+
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Column(Generic[R]):
+    """Of a table whose rows are made of records R. Without `head` it is in the CSV only, without `csv` for people only."""
+
+    head: str = ""
+    csv: str = ""
+    unit: str = ""  # ends the name in the CSV, and stands where head or group have "{unit}"
+    value: Callable[[R], Any] = field(kw_only=True)  # what the CSV holds; None: there is none
+    format: Union[str, Callable[[Any], str]] = ""  # of the value, for people
+    group: str = ""  # head over the heads of neighbours that have the same
+    left: bool = False  # aligned to the left: words
+    text: Union[Callable[[R], str], None] = None  # what people read, where the value does not tell it
+    missing: str = "-"  # for people, where the value is None
+    behind: bool = False  # in the CSV behind all others: people script against the order
+
+    @property
+    def name(self) -> str:
+        """In the CSV: a unit of mm/ms makes it NAME_mm_per_ms."""
+        return "_".join(part for part in (self.csv, self.unit.replace("^", "").replace("/", "_per_")) if part)
+
+    def shown(self, record: R) -> str:
+        """The cell as people read it."""
+        if self.text is not None:
+            return self.text(record)
+        return fixed(self.value(record), self.format, self.missing)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the CSV of a table holds whose rows gather several facts each: a line for each fact."""
+
+    columns: Sequence[Column[Any]]
+    records: Sequence[Any]
+
+
+def fixed(value: Any, form: Union[str, Callable[[Any], str]], missing: str = "-") -> str:
+    """A value in the given format; a dash for what there is not."""
+    if value is None:
+        return missing
+    return format(value, form) if isinstance(form, str) else form(value)
