@@ -4,6 +4,7 @@
 # counts; `not_measured` is a pattern of what is mounted there from elsewhere. It calls `report_failure` when it ends.
 
 stage_now=""
+stage_last=""
 stage_rows=()
 
 # Processor seconds, in hundredths, of the children of this shell that have ended.
@@ -24,7 +25,7 @@ stage() {
   echo "== $name"
   echo "== $name" >>"$log"
   "$@" >>"$log" 2>&1
-  stage_now=""
+  stage_now="" stage_last=$name
   local end=$EPOCHREALTIME
   # EPOCHREALTIME has microseconds behind a point or a comma, as the locale wants it
   local tenths=$(((${end/[.,]/} - ${start/[.,]/}) / 100000))
@@ -32,6 +33,12 @@ stage() {
   used=$(($(used_kib) - used))
   stage_rows+=("$(printf '%-26s %8d.%d %12d.%d %10d' "$name" $((tenths / 10)) $((tenths % 10)) \
     $((processor / 10)) $((processor % 10)) $((used / 1024)))")
+}
+
+# Stages that the last one has printed itself, as scripts/quickstart.sh does: name and seconds.
+print_own_stages() {
+  tac "$log" | awk -v heading="== $stage_last" '$0 == heading { exit } 1' |
+    grep -E '^[^=].{23} +[0-9]+\.[0-9] s$' | tac | sed 's/^/  /' || true
 }
 
 print_table() {
