@@ -47,11 +47,16 @@ print_table() {
   [ ${#stage_rows[@]} -eq 0 ] || printf '%s\n' "${stage_rows[@]}"
 }
 
-# For the trap at the end: which stage it was, and the end of its output.
+# For the trap at the end: which stage it was, or what came after which, and the end of the output.
 report_failure() {
-  [ -n "$stage_now" ] || return 0
+  local code=$?
+  [ "$code" -ne 0 ] || return 0
   print_table
   echo
   tail -n 30 "$log"
-  echo "error: failed in the stage '$stage_now'" >&2
+  if [ -n "$stage_now" ]; then
+    echo "error: failed in the stage '$stage_now'" >&2
+  else
+    echo "error: failed after the stage '$stage_last'" >&2
+  fi
 }

@@ -154,6 +154,12 @@ while time.process_time() < 1: pass'
         self.assertRegex(said, r"(?m)^good  ")
         self.assertNotIn("never", said)
 
+    def test_what_fails_between_stages_is_no_silent_end(self):
+        code, _, errors, _ = self.run_stages("""
+            stage "good" true
+            false""")
+        self.assertEqual((code, errors), (1, "error: failed after the stage 'good'\n"))
+
 
 class Level(unittest.TestCase):
     LOADER = "/lib64/ld-linux-x86-64.so.2"
