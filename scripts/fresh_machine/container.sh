@@ -59,6 +59,7 @@ perform() {
 
 # As a user whom the container does not know, in a folder of the machine's own that is mounted over /work.
 in_container() {
+  echo "+ ${container_entry[*]} $*"
   in_root "$container_root" 12345:12345 "$container_folder" "${container_environment[@]}" "${container_entry[@]}" "$@"
 }
 run_case() {
@@ -67,14 +68,12 @@ run_case() {
   chown 12345:12345 "$fresh_folder/work"
   mount --bind "$fresh_folder/work" "$container_root/work"
   cp "$fresh_folder/context/meshes/artery/neo-hookean.toml" "$fresh_folder/work/case.toml"
-  local -
-  set -x
   in_container fsi-mesh artery "${mesh[@]}" -o artery.msh
   local of_case=(case.toml --set geometry=axisymmetric --set element=p2p1 --set mesh.file=artery.msh --set time.end=0.5)
   in_container fsi-monolithic "${of_case[@]}" -o monolithic
   in_container fsi-partitioned "${of_case[@]}" -o partitioned
   in_container mpirun -n 2 --oversubscribe fsi-monolithic "${of_case[@]}" --threads 1 -o two
-  in_container fsi-compare pressure monolithic partitioned two -o compared
+  in_container fsi-compare pressure monolithic partitioned two --times 0.5 -o compared
   [ -s "$fresh_folder/work/compared/pressure_waves.png" ]
   ! in_container no-such-program || return 1
 }

@@ -31,11 +31,6 @@ install_packages() {
   take_debs "$root"
 }
 
-# What scripts/quickstart.sh says of its own stages: from the last one in the log.
-own_stages() {
-  tac "$log" | awk '/^== quickstart/ { exit } /^.{24} +[0-9]+\.[0-9] s$/ { print "  " $0 }' | tac
-}
-
 # What the level has come to: registers in the programs, and the kernels that OpenBLAS has chosen.
 check_level() {
   local program count wide="512"
@@ -55,12 +50,12 @@ check_level() {
 try_clone() {
   stage "clone" make_clone
   stage "quickstart, as root" as_root scripts/quickstart.sh
-  own_stages
+  print_own_stages
   check_level
   [ "$fresh_tests" = no ] || stage "tests, as root" as_root CI=true scripts/test.sh
   give_to_user
   stage "quickstart, as user" as_user scripts/quickstart.sh
-  own_stages
+  print_own_stages
   [ "$fresh_tests" = no ] || stage "tests, as user" as_user scripts/test.sh
 }
 

@@ -4,6 +4,7 @@
 # counts; `not_measured` is a pattern of what is mounted there from elsewhere. It calls `report_failure` when it ends.
 
 stage_now=""
+stage_last=""
 stage_rows=()
 
 # Processor seconds, in hundredths, of the children of this shell that have ended.
@@ -24,7 +25,7 @@ stage() {
   echo "== $name"
   echo "== $name" >>"$log"
   "$@" >>"$log" 2>&1
-  stage_now=""
+  stage_now="" stage_last=$name
   local end=$EPOCHREALTIME
   # EPOCHREALTIME has microseconds behind a point or a comma, as the locale wants it
   local tenths=$(((${end/[.,]/} - ${start/[.,]/}) / 100000))
@@ -34,17 +35,28 @@ stage() {
     $((processor / 10)) $((processor % 10)) $((used / 1024)))")
 }
 
+# Stages that the last one has printed itself, as scripts/quickstart.sh does: name and seconds.
+print_own_stages() {
+  tac "$log" | awk -v heading="== $stage_last" '$0 == heading { exit } 1' |
+    grep -E '^[^=].{23} +[0-9]+\.[0-9] s$' | tac | sed 's/^/  /' || true
+}
+
 print_table() {
   echo
   printf '%-26s %10s %14s %10s\n' stage seconds "processor s" "disk MiB"
   [ ${#stage_rows[@]} -eq 0 ] || printf '%s\n' "${stage_rows[@]}"
 }
 
-# For the trap at the end: which stage it was, and the end of its output.
+# For the trap at the end: which stage it was, or what came after which, and the end of the output.
 report_failure() {
-  [ -n "$stage_now" ] || return 0
+  local code=$?
+  [ "$code" -ne 0 ] || return 0
   print_table
   echo
   tail -n 30 "$log"
-  echo "error: failed in the stage '$stage_now'" >&2
+  if [ -n "$stage_now" ]; then
+    echo "error: failed in the stage '$stage_now'" >&2
+  else
+    echo "error: failed after the stage '$stage_last'" >&2
+  fi
 }

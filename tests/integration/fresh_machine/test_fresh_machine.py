@@ -128,6 +128,20 @@ while time.process_time() < 1: pass'
         self.assertIn("some words", log)
         self.assertNotIn("some words", said)
 
+    def test_stages_of_a_script_within_the_last_one(self):
+        quickstart = (TOP / "scripts" / "quickstart.sh").read_text()
+        row = re.search(r"printf ('%-24s [^']*')", quickstart).group(1)
+        code, said, errors, _ = self.run_stages(
+            f"""
+            stage "before" printf {row}'\\n' "of another" 1 2
+            stage "now" bash -c "echo '== mesh'; printf {row}'\\n' packages 12 3 'monolithic run' 1234 5"
+            print_own_stages"""
+        )
+        self.assertEqual((code, errors), (0, ""))
+        expected = ["  packages                     12.3 s", "  monolithic run             1234.5 s"]
+        self.assertEqual(said.split("== now\n")[1].splitlines()[:2], expected)
+        self.assertNotIn("another", said)
+
     def test_a_stage_that_fails_is_named_with_the_end_of_its_output(self):
         code, said, errors, _ = self.run_stages(
             """
@@ -139,6 +153,12 @@ while time.process_time() < 1: pass'
         self.assertIn("the reason", said)
         self.assertRegex(said, r"(?m)^good  ")
         self.assertNotIn("never", said)
+
+    def test_what_fails_between_stages_is_no_silent_end(self):
+        code, _, errors, _ = self.run_stages("""
+            stage "good" true
+            false""")
+        self.assertEqual((code, errors), (1, "error: failed after the stage 'good'\n"))
 
 
 class Level(unittest.TestCase):
