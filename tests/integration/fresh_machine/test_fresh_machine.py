@@ -155,9 +155,11 @@ while time.process_time() < 1: pass'
         self.assertNotIn("never", said)
 
     def test_what_fails_between_stages_is_no_silent_end(self):
-        code, _, errors, _ = self.run_stages("""
+        code, _, errors, _ = self.run_stages(
+            """
             stage "good" true
-            false""")
+            false"""
+        )
         self.assertEqual((code, errors), (1, "error: failed after the stage 'good'\n"))
 
 
