@@ -27,6 +27,12 @@ class WorkUnits(FolderTest):
             for program in DRIVERS
         }
 
+    def test_memory_is_that_of_the_program_alone(self):
+        """What starts the run may hold more than the run does."""
+        launcher = b"x" * (400 << 20)
+        folder = run(MONOLITHIC, NEO_HOOKEAN, self.base / "launched", *SHORT, "output.every=0")
+        self.assertLess(summary(folder)["peak_memory_MiB"], len(launcher) / (1 << 20))
+
     def assertMeasured(self, folder, first=0):
         found = summary(folder)
         unit = found["work_unit"]
