@@ -7,9 +7,10 @@ from typing import Any, List, Sequence, Tuple
 from ..reporting.column import Column
 from ..reporting.layout import Table
 from ..reporting.report import Report
-from ..runs.work_units import NOTE, per_step, shown
+from ..runs.work_units import NOTE, per_step
 from .running import Outcome
 from .scene import Number, SceneRun
+from ..reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
 
@@ -98,14 +99,7 @@ COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
     Column("driver", "program", value=lambda r: r[0], format=driver, left=True),
     Column("unknowns", "unknowns", value=lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
     Column("steps", "steps", value=lambda r: total(r[1], "steps")),
-    Column(
-        "work units per step",
-        "work_units_per_step",
-        value=lambda r: per_step(r[1].summary),
-        format=shown,
-        missing="",
-        behind=True,
-    ),
+    work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
     Column("seconds", "seconds", value=lambda r: r[1].seconds, format=".2f"),
     Column("Newton iterations", "newton_iterations", value=lambda r: total(r[1], "newton_iterations")),
     Column("passes", "passes", value=lambda r: total(r[1], "outer_iterations") if r[0] == "fsi-partitioned" else None),

@@ -11,9 +11,10 @@ from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
-from ..runs.work_units import NOTE, about_machines, per_step, shown
+from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
 from .layout import Table, say_written, write_markdown
+from .work_column import work_column
 
 DESCRIPTION = """\
 Tabulates what finished runs took: work units, wall time, coupling iterations, solves of the whole system and of the
@@ -175,15 +176,7 @@ def _work_units(first: Cost) -> List[Column[Cost]]:
         return cost.work_units / first.work_units if cost.work_units and first.work_units else None
 
     return [
-        Column(
-            "per step",
-            "work_units_per_step",
-            value=lambda c: c.work_units,
-            format=shown,
-            group="work units",
-            missing="",
-            behind=True,
-        ),
+        work_column("per step", "work_units_per_step", lambda c: c.work_units, group="work units"),
         Column(
             "relative",
             "work_units_relative_to_first",

@@ -12,12 +12,13 @@ from ..results.run import RunResults, open_run
 from ..runs.differences import Difference
 from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
-from ..runs.work_units import NOTE, about_machines, per_step, shown
+from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
 from .samples import sample_differences, sample_table
+from .work_column import work_column
 
 if TYPE_CHECKING:
     from .report import Report
@@ -132,14 +133,7 @@ RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
     Column("processes", "processes", value=lambda r: r[1].processes, behind=True),
     Column("steps", "steps", value=lambda r: r[1].summary.get("totals", {}).get("steps"), format="g"),
     Column("end, {unit}", "end", "ms", value=lambda r: end_of(r[1]), format="g"),
-    Column(
-        "work units per step",
-        "work_units_per_step",
-        value=lambda r: per_step(r[1].summary),
-        format=shown,
-        missing="",
-        behind=True,
-    ),
+    work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
     Column("seconds", "wall", "s", value=lambda r: r[1].summary.get("totals", {}).get("wall_s"), format=".1f"),
 )
 

@@ -16,9 +16,10 @@ from ..reporting.pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
-from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all, shown
+from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all
 from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
 from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
+from ..reporting.work_column import work_column
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
@@ -198,7 +199,7 @@ RUNS: Sequence[Column[Accuracy]] = (
     Column("nodes", "nodes", value=lambda a: a.nodes),
     Column("step", "step", "ms", value=lambda a: a.step, format="g"),
     Column("steps", "steps", value=lambda a: a.steps),
-    Column("work units", "work_units", value=lambda a: in_all(a.summary), format=shown, missing="", behind=True),
+    work_column("work units", "work_units", lambda a: in_all(a.summary)),
     Column("seconds", "wall", "s", value=lambda a: a.seconds, format=".3g"),
 )
 

@@ -5,13 +5,14 @@ from typing import Callable, List, NamedTuple, Optional, Sequence
 from ...base.progress import duration
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
-from ...runs.work_units import NOTE_IN_ALL, shown
+from ...runs.work_units import NOTE_IN_ALL
 from ..evidence.waves import QUANTITIES, Quantity
 from ..running.study_run import known
 from .advice import percent
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
+from ...reporting.work_column import work_column
 
 SHORT = ("pressure", "averaged pressure", "displacement")  # of QUANTITIES, as heads of columns
 CSV = ("pressure", "averaged_pressure", "displacement")
@@ -32,7 +33,7 @@ def frontier_table(measured: Sequence[Measured], quantity: Quantity, name: str, 
         Column("equations", "equations", value=lambda p: p.run.equations, left=True),
         Column("solved by", "solved_by", value=lambda p: p.run.solving, left=True),
         Column("error", "relative_error", value=lambda p: p.run.total[quantity.column], format=percent),
-        Column("work units", "work_units", value=lambda p: p.run.work_units, format=shown, missing="", behind=True),
+        work_column("work units", "work_units", lambda p: p.run.work_units),
         Column("seconds", "seconds", value=lambda p: p.run.seconds, format=".1f"),
     ]
     return Table(
@@ -135,7 +136,7 @@ def algebraic_table(number: int, name: str, runs: Sequence[Measured]) -> Table:
         Column(csv="equations", value=lambda m: name),
         Column("solved by", "solved_by", value=lambda m: m.solving, left=True),
         *_errors("error", "error", _algebraic),
-        Column("work units", "work_units", value=lambda m: m.work_units, format=shown, missing="", behind=True),
+        work_column("work units", "work_units", lambda m: m.work_units),
         Column("seconds", "seconds", value=lambda m: m.seconds, format=".2f"),
         Column("iterations per step", "iterations_per_step", value=lambda m: known(m.run.passes), format=".1f"),
         Column("frontier", "on_frontier", value=lambda m: id(m) in places, text=lambda m: str(places.get(id(m), ""))),
@@ -161,7 +162,7 @@ SETTINGS: Sequence[Column[Measured]] = (
     Column("nodes", value=lambda m: m.nodes, format=","),
     *_errors("total error", "error", lambda m, q: m.total[q.column]),
     *_errors("solver's error", "solver_error", _algebraic),
-    Column("work units", "work_units", value=lambda m: m.work_units, format=shown, missing="", behind=True),
+    work_column("work units", "work_units", lambda m: m.work_units),
     Column("time", "seconds", value=lambda m: m.seconds, format=duration),
     Column(csv="process", unit="s", value=lambda m: m.run.seconds),
     Column(csv="folder", value=lambda m: m.run.folder.name),

@@ -5,9 +5,9 @@ from typing import Sequence
 from ...base.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ...runs.work_units import shown
 from ..running.study_file import show
 from ..running.study_run import StudyRun, known
+from ...reporting.work_column import work_column
 
 
 RUNS: Sequence[Column[StudyRun]] = (
@@ -31,14 +31,7 @@ RUNS: Sequence[Column[StudyRun]] = (
     Column(csv="message", value=lambda run: run.message),
     Column("steps", "steps", value=lambda run: run.steps),
     Column("iterations per step", "iterations_per_step", value=lambda run: known(run.passes), format=".2f"),
-    Column(
-        "work units per step",
-        "work_units_per_step",
-        value=lambda run: run.work_units_per_step,
-        format=shown,
-        missing="",
-        behind=True,
-    ),
+    work_column("work units per step", "work_units_per_step", lambda run: run.work_units_per_step),
     Column(csv="wall", unit="s", value=lambda run: known(run.wall_s)),
     Column("time", "process", "s", value=lambda run: run.seconds, format=duration),
     Column(csv="folder", value=lambda run: run.folder.name),

@@ -10,12 +10,13 @@ from ...linear.grid import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ...runs.work_units import NOTE, shown
+from ...runs.work_units import NOTE
 from ..running.repeats import spread
 from ..running.study_run import OUT_OF_TIME, StudyRun
 from .claims import NOT_COMPARABLE, Claim, unexamined, verdict
 from .linear import FIRST_SYSTEM
 from .runs import COST, FIXED_POINT, NEWTON, WAVES, PaperRuns, mesh_of
+from ...reporting.work_column import work_column
 
 PAPER_MONOLITHIC, FAST_MONOLITHIC, PAPER_PARTITIONED = "paper-monolithic", "monolithic", "fixed-point"
 RIVALS = (PAPER_PARTITIONED, "iqn-ils", "robin-neumann-iqn")
@@ -137,14 +138,7 @@ STEPS: Sequence[Column[StepCost]] = (
     Column("sub-problem solves", "sub_problem_solves", value=lambda c: c.solves, format=".0f"),
     Column("linear systems", "linear_systems", value=lambda c: c.systems, format=".1f"),
     Column("linear iterations", "linear_iterations", value=lambda c: c.linear, format=".0f"),
-    Column(
-        "work units",
-        "work_units_per_step",
-        value=lambda c: c.run.work_units_per_step,
-        format=shown,
-        missing="",
-        behind=True,
-    ),
+    work_column("work units", "work_units_per_step", lambda c: c.run.work_units_per_step),
     Column("seconds", "wall_s_per_step", value=lambda c: c.seconds, format=".3g"),
     Column(csv="steps", value=lambda c: c.run.steps),
     Column("timed", "timings", value=lambda c: max(1, len(c.run.timings)), text=lambda c: c.timing),

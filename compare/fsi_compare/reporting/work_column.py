@@ -1,0 +1,13 @@
+"""The column of work units: printed where the table wants it, before seconds; behind all others in CSV files."""
+
+from typing import Callable, Optional, TypeVar
+
+from ..runs.work_units import shown
+from .column import Column
+
+Record = TypeVar("Record")
+
+
+def work_column(head: str, csv: str, value: Callable[[Record], Optional[float]], group: str = "") -> Column[Record]:
+    """Empty for runs that did not measure the unit."""
+    return Column(head, csv, value=value, format=shown, group=group, missing="", behind=True)
