@@ -5,22 +5,8 @@ import re
 import unittest
 
 from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute, make_mesh, run
-from scenes import scene
+from scenes import FLUID, WALL, scene
 
-FLUID = """[fluid]
-density = 1.0
-viscosity = 3.5e-3
-"""
-WALL = """[structure]
-density = 1.2
-bulk_modulus = 1e5
-[structure.layers.media]
-material = "neo-hookean"
-c10 = 3.0
-[structure.layers.adventitia]
-material = "neo-hookean"
-c10 = 0.3
-"""
 OPENINGS = """[[opening]]
 surface = "inlet"
 flow_rate = [[0, 0], [1, 0.5]]

@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, energy, make_mesh, run
+from scenes import WALL
 
 FLUID = """element = "p2p1"
 geometry = "axisymmetric"
@@ -13,16 +14,6 @@ file = "tube.msh"
 [fluid]
 density = 1.0
 viscosity = 3.5e-3
-"""
-WALL = """[structure]
-density = 1.2
-bulk_modulus = 1e5
-[structure.layers.media]
-material = "neo-hookean"
-c10 = 3.0
-[structure.layers.adventitia]
-material = "neo-hookean"
-c10 = 0.3
 """
 INLET = '[[opening]]\nsurface = "inlet"\npressure = 0.5\n'
 TISSUE = '[[support]]\nsurface = "outer"\npressure = [[0, 0], [0.25, 0.05], [1, 0.05]]\n'

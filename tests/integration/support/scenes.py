@@ -8,6 +8,22 @@ ELEMENTS = {"p1": 1, "p2p1": 2}  # and the order of their meshes
 GEOMETRIES = ("3d", "axisymmetric", "plane")
 KINDS = [(element, geometry) for element in ELEMENTS for geometry in GEOMETRIES]
 
+# Sections of case files that several tests put together.
+FLUID = """[fluid]
+density = 1.0
+viscosity = 3.5e-3
+"""
+WALL = """[structure]
+density = 1.2
+bulk_modulus = 1e5
+[structure.layers.media]
+material = "neo-hookean"
+c10 = 3.0
+[structure.layers.adventitia]
+material = "neo-hookean"
+c10 = 0.3
+"""
+
 TUBE = ("--length", 3, "--lumen-cells", 2, "--media-cells", 1, "--adventitia-cells", 1)
 # A quarter between planes of symmetry, and half a section: some hundred nodes.
 TUBES = {
