@@ -12,7 +12,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from harness import DRIVERS, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh
+from harness import DRIVERS, EVERY, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh
 from results import contents, differences
 
 STEPS = 3
@@ -88,7 +88,13 @@ class Folders:
     def command(self, program, folder, *options, steps=STEPS, settings=()):
         words = [self.harness.program(program), NEO_HOOKEAN, "-q", "--threads", 1]
         words += [*options] if folder is None else ["-o", folder, *options]
-        for setting in (f"mesh.file={self.mesh}", f"time.end={0.125 * steps}", "partitioned.tolerance=1e-2", *settings):
+        for setting in (
+            f"mesh.file={self.mesh}",
+            f"time.end={0.125 * steps}",
+            "partitioned.tolerance=1e-2",
+            EVERY,
+            *settings,
+        ):
             words += ["--set", setting]
         return [str(word) for word in words]
 

@@ -13,14 +13,12 @@ import time
 from pathlib import Path
 from typing import Optional
 
-from harness import NEO_HOOKEAN, Harness, execute, tiny_mesh
+from harness import EVERY, NEO_HOOKEAN, Harness, execute, tiny_mesh
 from same_results import difference
 
 STEPS = 8
 MOST_KILLS = 3  # of one run and those that continue it
 LOCK = "run.lock"  # of a running program; a kill leaves it, and the next run removes it
-
-EVERY = "output.checkpoint_every=1"  # by time these short runs would have one at their end
 
 # Runs that differ in what they write and when.
 KINDS = {

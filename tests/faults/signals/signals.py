@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from harness import DRIVERS, NEO_HOOKEAN, Harness, summary, tiny_mesh
+from harness import DRIVERS, EVERY, NEO_HOOKEAN, Harness, summary, tiny_mesh
 from results import broken_tables, differences
 
 SIGNALS = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
@@ -31,7 +31,7 @@ class Signals:
 
     def command(self, program, folder, *options, steps=STEPS):
         words = [self.harness.program(program), NEO_HOOKEAN, "-q", "--threads", 1, "-o", folder, *options]
-        for setting in (f"mesh.file={self.mesh}", f"time.end={0.125 * steps}", "partitioned.tolerance=1e-2"):
+        for setting in (f"mesh.file={self.mesh}", f"time.end={0.125 * steps}", "partitioned.tolerance=1e-2", EVERY):
             words += ["--set", setting]
         return [str(word) for word in words]
 

@@ -22,7 +22,7 @@ from pathlib import Path
 import h5py
 
 from finished_results import difference
-from harness import DRIVERS, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh
+from harness import DRIVERS, EVERY, NEO_HOOKEAN, Harness, execute, is_one_message, summary, tiny_mesh
 
 STEP = 0.125
 STEPS = 12
@@ -53,7 +53,7 @@ def options(parser):
 
 def command(harness, program, folder, mesh, *settings):
     words = [harness.program(program), NEO_HOOKEAN, "-o", folder, "-q", "--threads", 1]
-    for setting in (f"mesh.file={mesh}", "output.every=1", *settings):
+    for setting in (f"mesh.file={mesh}", "output.every=1", EVERY, *settings):
         words += ["--set", setting]
     return [str(word) for word in words]
 

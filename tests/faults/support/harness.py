@@ -18,6 +18,8 @@ TOP = Path(__file__).resolve().parents[3]
 CASES = TOP / "meshes" / "artery"
 NEO_HOOKEAN = CASES / "neo-hookean.toml"
 DRIVERS = ("fsi-monolithic", "fsi-partitioned")
+# By time, runs as short as those of the harnesses have one checkpoint, at their end.
+EVERY = "output.checkpoint_every=1"
 
 
 class Harness:
