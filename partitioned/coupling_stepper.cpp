@@ -103,7 +103,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
       }
       if (keep_balances_) report_.balances.push_back({state.now, data});
       if (data.rates.last_stage)
-        accept_level(scene_, data, state);
+        report_.level = accept_level(scene_, data, state, spare_);
       else
         scene_.integrator->accept(state, data);
     }

@@ -120,6 +120,7 @@ class CouplingStepper : public Stepper {
   void accept(const std::vector<double>& x, const Pass& pass);
 
   Scene<n>& scene_;
+  State spare_;  ///< storage
   const Loads& loads_;
   PartitionedData options_;
   std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for

@@ -5,7 +5,9 @@
 
 #include "diagnostics/energy_record.hpp"
 #include "mesh/group_names.hpp"
+#include "scene/level_energy.hpp"
 #include "scene/scene.hpp"
+#include "time/stepper.hpp"
 
 namespace fsi {
 
@@ -19,8 +21,9 @@ class EnergyBalance {
  public:
   /// \param state  the one that the next step starts from
   EnergyBalance(const Scene<n>& scene, const State& state) : scene_(scene), quadratic_(parts_of(scene).quadratic) {
+    for (const auto& inflow : scene.inflows) given_.insert(given_.end(), inflow.nodes().begin(), inflow.nodes().end());
     keep(state);
-    EnergyRecord record = energies(state);
+    EnergyRecord record = energies(state, level_energy(scene, state));
     sum_over(scene_.processes(), record);
     energy_ = record.energy();
   }
@@ -38,9 +41,10 @@ class EnergyBalance {
   }
 
   /// The balance of energy of the step that led to `state`, the successor of the last one seen.
-  /// \param balances  that the step solved, in their order (StepReport::balances)
-  EnergyRecord step_to(const State& state, const std::vector<Balance>& balances) {
-    EnergyRecord record = energies(state);
+  /// \param report  of the step, with its balances
+  EnergyRecord step_to(const State& state, const StepReport& report) {
+    const std::vector<Balance>& balances = report.balances;
+    EnergyRecord record = energies(state, report.level);
     const StepRates& first = balances.front().data.rates;
     if (first.previous_weight != 0) add(state, again_.value(), first.previous_weight, first.step, nullptr, record);
     const std::vector<double>* wall_before = &wall_before_;
@@ -74,18 +78,15 @@ class EnergyBalance {
     again_ = scene_.integrator->balance_again(state);
   }
 
-  /// Energies of the last level, with pressures of the last balance: this process's part.
-  EnergyRecord energies(const State& state) const {
+  /// Energies of the last level: this process's part.
+  EnergyRecord energies(const State& state, const LevelEnergy& level) const {
     EnergyRecord record;
-    const Solution& level = state.before[0];
-    if (scene_.fluid) record.fluid_kinetic = scene_.fluid->kinetic_energy(level.mesh, level.fluid);
-    if (scene_.wall) {
-      const WallEnergy wall = scene_.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall);
-      record.wall_kinetic = wall.kinetic;
-      record.wall_isochoric = wall.isochoric;
-      record.wall_volumetric = wall.volumetric;
-      if (const auto* supports = scene_.wall->supports()) record.springs = supports->stored(level.wall);
-    }
+    record.fluid_kinetic = level.fluid_kinetic;
+    record.wall_kinetic = level.wall_kinetic;
+    record.wall_isochoric = level.wall_isochoric;
+    record.wall_volumetric = level.wall_volumetric;
+    if (const auto* supports = scene_.wall ? scene_.wall->supports() : nullptr)
+      record.springs = supports->stored(state.before[0].wall);
     return record;
   }
 
@@ -102,7 +103,7 @@ class EnergyBalance {
     const StepRates& rates = balance.data.rates;
     const Solution &start = state.before[1], &end = state.before[0];
     FluidStep in;
-    in.balance = scene_.fluid_input(balance.at, rates);
+    in.balance = scene_.fluid->projected(scene_.fluid_input(balance.at, rates));
     in.weight = weight;
     in.duration = weight * step;
     in.fluid_start = start.fluid.data();
@@ -132,29 +133,8 @@ class EnergyBalance {
       const double pressure = open[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in.balance);
       if (pressure != 0) record.inlet_work -= share * pressure * open[i].outflow(balance.at.mesh, balance.at.fluid);
     }
-    if (!scene_.inflows.empty()) record.inlet_work += in.duration * inflow_power(balance);
-  }
-
-  /// Of the forces that make the velocities at openings whose flow is given, at own nodes, uJ/ms: the rows of the
-  /// equations there are what these forces are.
-  double inflow_power(const Balance& balance) const {
-    std::vector<double> rows;
-    scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures, rows);
-    double power = 0;
-    for (const auto& inflow : scene_.inflows)
-      for (const int node : own_nodes(inflow))
-        for (int k = 0; k < n; ++k) {
-          const std::size_t at = MixedLayout<n>::vector(node, k);
-          power += rows[at] * balance.at.fluid[at];
-        }
-    return power;
-  }
-
-  std::vector<int> own_nodes(const PrescribedInflow<n>& inflow) const {
-    std::vector<int> own;
-    for (const int node : inflow.nodes())
-      if (scene_.fluid->nodes().owns(node)) own.push_back(node);
-    return own;
+    if (!scene_.inflows.empty())
+      record.inlet_work += in.duration * scene_.fluid->power_at(given_, in.balance, pressures);
   }
 
   void add_wall(const State& state, const Balance& balance, double weight, double step,
@@ -192,6 +172,7 @@ class EnergyBalance {
 
   const Scene<n>& scene_;
   bool quadratic_;
+  std::vector<int> given_;             ///< nodes of the openings whose flow is given
   double energy_ = 0;                  ///< at the last step's end
   std::vector<double> wall_before_;    ///< at the last balance
   std::vector<double> wall_velocity_;  ///< at the last step's end

@@ -328,7 +328,7 @@ class Run {
     total_.solver_error = std::max(total_.solver_error, record.solver_error);
     if (energy_) {
       const auto phase = scene_->profile.phase("energy balance");
-      folder.write_energy(record, energy_->step_to(state_, report.balances));
+      folder.write_energy(record, energy_->step_to(state_, report));
     }
     {
       const auto phase = scene_->profile.phase("output");

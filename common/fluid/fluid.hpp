@@ -57,7 +57,15 @@ class Fluid {
   /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p). Of the elements that sums count
   /// here, as work() is of these and of the openings' facets.
   virtual double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const = 0;
-  virtual FluidWork work(FluidStep step) const = 0;
+  virtual FluidWork work(const FluidStep& step) const = 0;
+  /// The input with the projected gradient of the stabilisation, where there is one: made once for several evaluations.
+  /// It stays until the next evaluation of another input.
+  virtual FluidInput projected(const FluidInput& in) = 0;
+  /// The residual's momentum rows of some nodes, as assemble() makes them, tested with the velocity, uJ/ms: the power of
+  /// the forces that give these nodes their velocity. Of the nodes that this process owns.
+  /// \param nodes  the same ones in every call
+  virtual double power_at(const std::vector<int>& nodes, const FluidInput& in,
+                          const std::vector<double>& pressures) = 0;
   /// Kinetic energy that flows out through an open boundary, uJ/ms, of the flow that an input points to.
   double kinetic_outflow(const OpenBoundary<n>& open, const FluidInput& in, const std::vector<double>& flow) const {
     return form().density * open.kinetic_outflow(nodes().nodes, in, flow);

@@ -1,5 +1,6 @@
 #include "fluid/fluid_problem.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -30,8 +31,14 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
   assert(pressures.size() <= open_.size());
   jacobian(derivatives);  // storage
   residual.assign(space_.mixed_size(), 0.0);
-  const auto result =
-      assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
+  const auto result = assemble_fluid(form_, packs_, projected(in), residual, derivatives, &jacobian_);
+  add_openings(in, pressures, residual, derivatives);
+  return result;
+}
+
+template <class Element>
+void FluidProblem<Element>::add_openings(const FluidInput& in, const std::vector<double>& pressures,
+                                         std::vector<double>& residual, FluidDerivatives derivatives) {
   for (std::size_t i = 0; i < open_.size(); ++i)
     open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), in.mesh, residual,
                           derivatives == FluidDerivatives::fluid_and_domain ? &jacobian_.shape_derivatives : nullptr);
@@ -39,7 +46,6 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
     facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);
   for (const auto& [open, beta] : moving_backflow_)
     open_[open].moving()->add_backflow(form_.density, beta, in, residual.data(), &jacobian_, derivatives);
-  return result;
 }
 
 template <class Element>
@@ -67,9 +73,7 @@ double FluidProblem<Element>::kinetic_energy(const std::vector<double>& mesh, co
 }
 
 template <class Element>
-FluidWork FluidProblem<Element>::work(FluidStep step) const {
-  PressureProjection<Element> projection(mirrored_);
-  step.balance = with_projection(step.balance, projection);
+FluidWork FluidProblem<Element>::work(const FluidStep& step) const {
   FluidWork work = fluid_work(form_, packs_, step);
   for (const auto& [open, facets] : backflow_)
     work.backflow += step.duration * facets.power(form_.density, step.balance.fluid);
@@ -79,10 +83,37 @@ FluidWork FluidProblem<Element>::work(FluidStep step) const {
 }
 
 template <class Element>
-FluidInput FluidProblem<Element>::with_projection(FluidInput in, PressureProjection<Element>& projection) const {
+FluidInput FluidProblem<Element>::projected(const FluidInput& in) {
+  FluidInput with = in;
   if constexpr (Element::stabilised)
-    if (form_.wave_speed > 0) in.projected_gradient = projection.of(in, packs_, part_).data();
-  return in;
+    if (form_.wave_speed > 0 && !in.projected_gradient)
+      with.projected_gradient = projection_.of(in, packs_, part_).data();
+  return with;
+}
+
+template <class Element>
+double FluidProblem<Element>::power_at(const std::vector<int>& nodes, const FluidInput& in,
+                                       const std::vector<double>& pressures) {
+  if (!packs_at_) {
+    std::vector<char> chosen(static_cast<std::size_t>(part_.node_count()), 0);
+    for (const int node : nodes) chosen[node] = 1;
+    std::vector<int> cells;
+    for (std::size_t c = 0; c < part_.cells.size(); ++c)
+      if (std::any_of(part_.cells[c].begin(), part_.cells[c].end(), [&](int node) { return chosen[node] != 0; }))
+        cells.push_back(static_cast<int>(c));
+    packs_at_.emplace(part_.nodes, part_.cells, cells, *space_.graph());
+  }
+  rows_.assign(space_.mixed_size(), 0.0);
+  assemble_fluid(form_, *packs_at_, projected(in), rows_);
+  add_openings(in, pressures, rows_, FluidDerivatives::none);
+  double power = 0;
+  for (const int node : nodes)
+    if (part_.owns(node))
+      for (int k = 0; k < n; ++k) {
+        const std::size_t at = MixedLayout<n>::vector(node, k);
+        power += rows_[at] * in.fluid[at];
+      }
+  return power;
 }
 
 template <class Element>

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "fem/element_packs.hpp"
@@ -38,23 +39,29 @@ class FluidProblem : public Fluid<Element::components> {
                           FluidDerivatives derivatives = FluidDerivatives::none) override;
   FluidJacobian<n>& jacobian(FluidDerivatives derivatives) override;
   double kinetic_energy(const std::vector<double>& mesh, const std::vector<double>& flow) const override;
-  FluidWork work(FluidStep step) const override;
+  FluidWork work(const FluidStep& step) const override;
+  FluidInput projected(const FluidInput& in) override;
+  double power_at(const std::vector<int>& nodes, const FluidInput& in, const std::vector<double>& pressures) override;
 
   std::size_t element_count() const override { return part_.cells.size(); }
   double volume() const override { return volume_; }
   std::vector<int> cell_vertices() const override;
 
  private:
-  FluidInput with_projection(FluidInput in, PressureProjection<Element>& projection) const;
+  /// Adds what the openings do to a residual and, if asked, its derivatives.
+  void add_openings(const FluidInput& in, const std::vector<double>& pressures, std::vector<double>& residual,
+                    FluidDerivatives derivatives);
 
   Part part_;
   AleFluid form_;
   FunctionSpace<n> space_;
   ElementPacks<Element> packs_;
+  std::optional<ElementPacks<Element>> packs_at_;  ///< the elements at the nodes of power_at()
   FluidJacobian<n> jacobian_;
   double volume_ = 0;  ///< of all processes' shares
   VanishingComponents<n> mirrored_;
   PressureProjection<Element> projection_;
+  std::vector<double> rows_;  ///< storage of power_at()
   std::vector<OpenBoundary<n>> open_;
   std::map<std::size_t, BackflowFacets<Element>> backflow_;  ///< by place among the open boundaries that stay
   std::map<std::size_t, double> moving_backflow_;            ///< beta, by place among those that move

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
+#include "scene/level_energy.hpp"
 #include "scene/scene.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
@@ -15,27 +17,27 @@ namespace fsi {
 /// Takes the solution of a step's last stage as TimeIntegrator::accept() does, unless the level that follows is none.
 /// With schemes that solve at a time within the step its end is extrapolated: elements of the wall that are sound in
 /// the solution can be folded there, and their energy is no number.
+/// \param spare  storage, for the state as it was
+/// \return  the energies of the level that follows, by which it was judged
 /// \throws ConvergenceError with step, time and field; the state is then as before
 template <int n>
-void accept_level(const Scene<n>& scene, const StepData& data, State& state) {
-  State before = state;
+LevelEnergy accept_level(const Scene<n>& scene, const StepData& data, State& state, State& spare) {
+  const auto phase = scene.profile.phase("level check");
+  spare = state;
   scene.integrator->accept(state, data);
-  const char* fault = nullptr;
-  const auto look_at = [&](double number, const char* field) {
-    if (fault == nullptr && scene.processes().any(!std::isfinite(number))) fault = field;
-  };
-  const Solution& level = state.before[0];
-  if (scene.fluid)
-    look_at(scene.fluid->kinetic_energy(level.mesh, level.fluid), "the fluid's velocity, by its kinetic energy,");
-  if (scene.wall) {
-    const auto energy = scene.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall);
-    look_at(energy.kinetic, "the wall's velocity, by its kinetic energy,");
-    look_at(energy.isochoric + energy.volumetric, "the wall's displacement, by its strain energy,");
-  }
-  if (fault == nullptr) return;
+  const LevelEnergy level = level_energy(scene, state);
+  std::array<double, 3> infinite{};
+  infinite[0] = !std::isfinite(level.fluid_kinetic);
+  infinite[1] = !std::isfinite(level.wall_kinetic);
+  infinite[2] = !std::isfinite(level.wall_isochoric + level.wall_volumetric);
+  scene.processes().sum(infinite.data(), infinite.size());
+  if (infinite == std::array<double, 3>{}) return level;
+  const char* fault = infinite[0] > 0   ? "the fluid's velocity, by its kinetic energy,"
+                      : infinite[1] > 0 ? "the wall's velocity, by its kinetic energy,"
+                                        : "the wall's displacement, by its strain energy,";
   const auto failure =
-      fmt::format("step {} (to t = {:g} ms): {} is not finite at the step's end", before.step + 1, data.time, fault);
-  state = std::move(before);
+      fmt::format("step {} (to t = {:g} ms): {} is not finite at the step's end", spare.step + 1, data.time, fault);
+  std::swap(state, spare);
   throw ConvergenceError(failure, "a smaller time.step or load, and look for a parameter that is out of proportion");
 }
 

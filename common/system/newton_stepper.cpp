@@ -81,7 +81,7 @@ StepReport NewtonStepper<n>::advance(State& state) {
     if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
     if (data.rates.last_stage)
-      accept_level(scene_, data, state);
+      report_.level = accept_level(scene_, data, state, spare_);
     else
       scene_.integrator->accept(state, data);
   }

@@ -45,6 +45,7 @@ class NewtonStepper : public Stepper {
   NewtonReport solve(State& state, const StepData& data, int predictor);
 
   Scene<n>& scene_;
+  State spare_;  ///< storage
   const Loads& loads_;
   NewtonOptions options_;
   System<n> system_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/finite.hpp"
+#include "time/level_energy.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -34,6 +35,7 @@ struct StepReport {
   std::vector<std::string> history;  ///< convergence history, for the log
   std::optional<CouplingReport> coupling;
   std::vector<Balance> balances;  ///< what was solved, where Stepper::keep_balances() asked for it
+  LevelEnergy level;              ///< of the level that it led to
   bool rejected = false;          ///< the judge refused the solution: the state has not advanced
 };
 

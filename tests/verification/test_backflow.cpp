@@ -109,7 +109,7 @@ Marched march(const SimplexMesh<2, Element::order>& mesh, double beta, double en
   const double at_start = scene->fluid->kinetic_energy({}, state.before[0].fluid);
   while (state.step < loads.steps()) {
     const StepReport report = stepper.advance(state);
-    const EnergyRecord e = balance.step_to(state, report.balances);
+    const EnergyRecord e = balance.step_to(state, report);
     result.entered -= e.outlet_kinetic;
     result.taken += e.backflow;
     result.remainder = std::max(result.remainder, std::abs(e.remainder) / e.fluid_kinetic);
@@ -189,7 +189,7 @@ void check_swinging_flow() {
   double taken = 0, largest = 0, off = 0;
   while (state.step < loads.steps()) {
     const StepReport report = stepper.advance(state);
-    const EnergyRecord e = balance.step_to(state, report.balances);
+    const EnergyRecord e = balance.step_to(state, report);
     bool in = false, out = false;
     for (std::size_t a = 0; a < nodes.size(); ++a)
       if (nodes[a][2] > 2 - 1e-9) {

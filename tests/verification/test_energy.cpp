@@ -87,7 +87,7 @@ class ArbitrarySteps {
   /// The balance of energy of a step of this length, ms.
   EnergyRecord advance(double step, bool ends_at_jump = false) {
     const TimeIntegrator& integrator = *scene_->integrator;
-    std::vector<Balance> balances;
+    StepReport report;
     tested_residual_ = 0;
     std::vector<double> wall_before = state_.last_balance().wall;
     const int stages = integrator.stages(state_);
@@ -104,10 +104,11 @@ class ArbitrarySteps {
       last_ = {state_.now, data};
       test(last_, data.rates.weight * step, &wall_before);
       wall_before = state_.now.wall;
-      balances.push_back(last_);
+      report.balances.push_back(last_);
       integrator.accept(state_, data);
     }
-    return energy_->step_to(state_, balances);
+    report.level = level_energy(*scene_, state_);
+    return energy_->step_to(state_, report);
   }
 
   /// The last step's residuals tested with what the balance is made by.
@@ -329,7 +330,7 @@ std::vector<EnergyRecord> march(const Case& setup, const SimplexMesh<3, Element:
   std::vector<EnergyRecord> records;
   while (state.step < loads.steps()) {
     const StepReport report = stepper.advance(state);
-    records.push_back(balance.step_to(state, report.balances));
+    records.push_back(balance.step_to(state, report));
   }
   return records;
 }

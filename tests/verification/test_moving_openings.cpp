@@ -283,7 +283,7 @@ std::unique_ptr<Scene<Element::components>> march(const Case& setup,
   EnergyBalance<n> energy(*scene, state);
   for (int i = 0; i < count; ++i) {
     const StepReport report = stepper.advance(state);
-    see(state, energy.step_to(state, report.balances));
+    see(state, energy.step_to(state, report));
   }
   return scene;
 }

@@ -142,9 +142,11 @@ std::vector<EnergyRecord> energies(const Twins<Element>& twins, Scene<3>& scene,
     data.support_loads = {0.8};
     state.now = fit(twins.level(static_cast<unsigned>(10 + 100 * step)));
     scene.impose_interface(state, data.rates);
-    const Balance balance{state.now, data};
+    StepReport report;
+    report.balances.push_back({state.now, data});
     scene.integrator->accept(state, data);
-    records.push_back(energy.step_to(state, {balance}));
+    report.level = level_energy(scene, state);
+    records.push_back(energy.step_to(state, report));
   }
   return records;
 }

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/scene.hpp"
+#include "time/level_energy.hpp"
+#include "time/state.hpp"
+
+namespace fsi {
+
+/// Of the latest finished level.
+template <int n>
+LevelEnergy level_energy(const Scene<n>& scene, const State& state) {
+  LevelEnergy energy;
+  const Solution& level = state.before[0];
+  if (scene.fluid) energy.fluid_kinetic = scene.fluid->kinetic_energy(level.mesh, level.fluid);
+  if (scene.wall) {
+    const WallEnergy wall = scene.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall);
+    energy.wall_kinetic = wall.kinetic;
+    energy.wall_isochoric = wall.isochoric;
+    energy.wall_volumetric = wall.volumetric;
+  }
+  return energy;
+}
+
+}  // namespace fsi
