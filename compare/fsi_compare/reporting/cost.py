@@ -3,10 +3,11 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual
 from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
@@ -68,37 +69,19 @@ class Cost:
         return self.seconds / self.steps
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    cost = commands.add_parser(
-        "cost",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="wall time, solves and iterations of finished runs",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "cost", cost, "wall time, solves and iterations of finished runs", DESCRIPTION, EXAMPLES
     )
-    cost.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    cost.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/cost"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    cost.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    cost.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
-    cost.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
-    )
-    cost.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    cost.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_folders(command)
+    add_output(command, "results/cost")
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    command.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
+    add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
 def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
     title = printable(options.title)

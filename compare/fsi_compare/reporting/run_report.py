@@ -1,11 +1,11 @@
 """`fsi-compare report`: finished runs beside each other in one HTML file through which the reader moves in time."""
 
 import argparse
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
@@ -35,38 +35,25 @@ OUTDIR: report.html, report.md, and every table and picture as a file of its own
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    report = commands.add_parser(
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands,
         "report",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        help="finished runs in one HTML file that plays",
-        description=DESCRIPTION,
-        epilog="example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
+        report,
+        "finished runs in one HTML file that plays",
+        DESCRIPTION,
+        "example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
     )
-    report.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    report.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/report"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    report.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
-    report.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
-    report.add_argument("--title", help="heading of the report (default: the runs' title)")
-    report.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; a report is quick on one thread"
-    )
-    report.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    report.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_folders(command)
+    add_output(command, "results/report")
+    command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
+    command.add_argument("--title", help="heading of the report (default: the runs' title)")
+    add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
 def report(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     if len(options.folders) > MOST_RUNS:
         raise InputError("", "DIR", f"{len(options.folders)} runs do not fit a report", f"give at most {MOST_RUNS}")
     times = read_times(options.times) if options.times is not None else []

@@ -18,15 +18,7 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
 from fsi_compare.studies.accuracy.trend import trend
-from fsi_compare.studies.evidence.waves import (
-    QUANTITIES,
-    WINDOW,
-    Waves,
-    averaged,
-    extrapolated,
-    read_waves,
-    relative_difference,
-)
+from fsi_compare.runs.waves import QUANTITIES, WINDOW, Waves, averaged, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 

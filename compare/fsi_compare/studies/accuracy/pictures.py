@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ...reporting.pictures import finish
-from ..evidence.waves import QUANTITIES, Quantity
+from ...runs.waves import QUANTITIES, Quantity
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured

@@ -6,8 +6,8 @@ from typing import Any, Callable, Dict, List, Mapping, Tuple
 from ...base.errors import InputError
 from ...base.files import absolute
 from ...base.suggestions import nearest
-from ..evidence.reference import WaveReference, read_reference
-from ..evidence.waves import WINDOW
+from ...runs.reference import WaveReference, read_reference
+from ...runs.waves import WINDOW
 from ..running.section import is_positive, report_of
 from ..running.study_file import Study
 

@@ -5,10 +5,10 @@ against the tight solution of the same discrete equations: what stopping early, 
 
 from typing import Dict, List, Sequence
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.report import Report
 from ..evidence.runs_table import runs_table
-from ..evidence.waves import JUDGED, QUANTITIES, Quantity
+from ...runs.waves import JUDGED, QUANTITIES, Quantity
 from ..running.context import Context
 from ..running.repeats import timing_words
 from ..running.study_file import Study

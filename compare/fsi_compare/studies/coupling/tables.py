@@ -2,7 +2,7 @@
 
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from ...reporting.cost import Cost

@@ -7,12 +7,12 @@ from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_toml
-from ...base.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS, MESHES
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..running.study_run import StudyRun
-from .reference import FILE, WaveReference, read_reference
-from .waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
+from ...runs.reference import FILE, WaveReference, read_reference
+from ...runs.waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
 
 REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 

@@ -2,7 +2,7 @@
 
 from typing import Sequence
 
-from ...base.progress import duration
+from ..starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..running.study_file import show

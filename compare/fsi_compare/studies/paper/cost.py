@@ -4,9 +4,9 @@ conclusion that it is the more robust one."""
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
-from ...base import paper
-from ...base.names import MATERIALS, MESHES
-from ...linear.grid import Grid
+from ..catalogue import paper
+from ..catalogue.names import MATERIALS, MESHES
+from ..linear.grid import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
 from ...reporting.column import Column
 from ...reporting.layout import Table

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.pictures import PANEL_INCHES, finish
@@ -238,7 +238,7 @@ def _resolved_note(levels: Sequence[str]) -> str:
 
 def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequence[str]) -> Figure:
     """Left the thick wall's dispersion; right a line of marks for each wall, so that their names have room."""
-    from ...linear.solver_pictures import MATERIAL_LINES
+    from ..linear.solver_pictures import MATERIAL_LINES
 
     width, height = 9.2, max(PANEL_INCHES[1] + 1.1, 0.9 + 0.36 * len(found))
     figure = Figure(figsize=(width, height))

@@ -7,13 +7,13 @@ paper.linear)."""
 from pathlib import Path
 from typing import Dict, List, Mapping, Sequence
 
-from ...base import paper
+from ..catalogue import paper
 from ...base.errors import InputError
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...base.suggestions import check_keys, nearest
-from ...linear import solver_pictures
-from ...linear.grid import Grid
-from ...linear.solver_tables import solver_tables
+from ..linear import solver_pictures
+from ..linear.grid import Grid
+from ..linear.solver_tables import solver_tables
 from ...reporting.report import Report
 from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table

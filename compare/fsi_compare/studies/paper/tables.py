@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence
 
-from ...base import paper
+from ..catalogue import paper
 from ...base.errors import InputError
 from ...base.files import read_toml
-from ...base.names import MATERIALS, MESHES
-from ...linear.grid import Grid
+from ..catalogue.names import MATERIALS, MESHES
+from ..linear.grid import Grid
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from .runs import WAVES, PaperRuns, mesh_of

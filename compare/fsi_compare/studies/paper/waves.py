@@ -7,7 +7,7 @@ from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...base.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS, MESHES
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.pictures import pressure_figure

@@ -9,10 +9,10 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import absolute, exists, is_file, read_toml
-from ...base.names import MESHES
+from ..catalogue.names import MESHES
 from ...base.suggestions import check_keys, nearest
-from ...gallery.scene import READY, Scene, read_scene, scene_names
-from ...runs.launch import usable_cores
+from ..gallery.scene import READY, Scene, read_scene, scene_names
+from ..starting.launch import usable_cores
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
-from ...runs.launch import usable_cores
+from ..starting.launch import usable_cores
 from ..evidence.runs_table import runs_table
 from ..running.context import Context
 from ..running.section import Section, report_of

@@ -5,7 +5,7 @@ the bound is a fault, as are crashes and values that are not finite, and gives e
 import re
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...base.progress import duration
+from ..starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity

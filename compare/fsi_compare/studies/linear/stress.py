@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
-from ..base.files import TEMPORARY, absolute, exists, make_folder
-from ..base.names import MATERIALS
-from ..reporting.column import Column, Facts
-from ..reporting.layout import Table
-from ..runs.processes import execute
-from ..runs.programs import Program, find_mesh_maker
+from ...base.files import TEMPORARY, absolute, exists, make_folder
+from ..catalogue.names import MATERIALS
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
+from ..starting.processes import execute
+from ..starting.programs import Program, find_mesh_maker
 from .results import NewtonSystem, Solve
 from .study import Outcome, Request
 

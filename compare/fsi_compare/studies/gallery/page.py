@@ -4,13 +4,13 @@ from os.path import normpath
 from pathlib import Path
 from typing import Any, List, Sequence, Tuple
 
-from ..reporting.column import Column
-from ..reporting.layout import Table
-from ..reporting.report import Report
-from ..runs.work_units import NOTE, per_step
+from ...reporting.column import Column
+from ...reporting.layout import Table
+from ...reporting.report import Report
+from ...runs.work_units import NOTE, per_step
 from .running import Outcome
 from .scene import Number, SceneRun
-from ..reporting.work_column import work_column
+from ...reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
 

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import Any, Callable, List, Optional
 
-from ..base.names import MATERIALS, MESHES
-from ..reporting.column import Column, fixed
-from ..reporting.layout import Table
+from ..catalogue.names import MATERIALS, MESHES
+from ...reporting.column import Column, fixed
+from ...reporting.layout import Table
 from .grid import Entry, Grid, suffix
 from .results import NewtonSystem, Solve, System
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Dict, Iterator
 
-from .errors import PROGRAM, InputError, say_note
+from ...base.errors import PROGRAM, InputError, say_note
 
 NAME = "run.lock"
 TRIES, PAUSE = 300, 0.01  # s; another study may be about to write its name, or to remove the file

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
 
-from ..base import interruption
+from ...base import interruption
 from .launch import without_chatter
 
 POLL = 0.1  # s

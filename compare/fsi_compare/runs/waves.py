@@ -7,8 +7,8 @@ from typing import Dict, Sequence, Union
 
 import numpy as np
 
-from ...base.errors import InputError
-from ...runs.columns import read_columns
+from ..base.errors import InputError
+from .columns import read_columns
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ..base import paper
-from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
-from ..reporting.pictures import finish, write_figure
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
+from ...reporting.pictures import finish, write_figure
 from .results import System
 from .grid import Grid, suffix
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Union
 
-from ..base.errors import InputError
-from ..base.files import read_json
+from ...base.errors import InputError
+from ...base.files import read_json
 
 FILE = "linear_solvers.json"
 System = Tuple[int, int]  # time step, Newton iteration; both from 1

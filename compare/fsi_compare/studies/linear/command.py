@@ -5,20 +5,21 @@ import math
 import os
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
+from typing import Dict, List, Optional, Sequence, Set, Tuple
 
-from ..base.errors import InputError, printable
-from ..base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
-from ..base.folder_lock import locked
-from ..base.names import MATERIALS, MESHES, METHODS, pick
-from ..reporting.layout import Table, say_written, write_markdown
-from ..reporting.matplotlib_loader import load_matplotlib
-from ..runs.programs import Program, find_monolithic, has_petsc
+from ...base.errors import InputError, printable
+from ...base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
+from ...base.options import Commands, add_command, add_output
+from ..starting.folder_lock import locked
+from ..catalogue.names import MATERIALS, MESHES, METHODS, pick
+from ...reporting.layout import Table, say_written, write_markdown
+from ...reporting.matplotlib_loader import load_matplotlib
+from ..starting.programs import Program, find_monolithic, has_petsc
 from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study
 
-CASES = Path(__file__).resolve().parents[3] / "meshes" / "artery"
+CASES = Path(__file__).resolve().parents[4] / "meshes" / "artery"
 STRESS_METHODS = "fast,amg_fgmres"
 STUDY_OWN = ("mesh.level", "mesh.file")  # chosen by --meshes
 
@@ -43,56 +44,44 @@ examples:
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str, version: str) -> None:
-    solvers = commands.add_parser(
-        "solvers",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="iterations and cost of the linear solvers",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "solvers", solvers, "iterations and cost of the linear solvers", DESCRIPTION, EXAMPLES
     )
-    solvers.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path(default_output),
-        help="folder for the files written (default: %(default)s)",
-    )
-    solvers.add_argument(
+    add_output(command, "results/solvers")
+    command.add_argument(
         "--methods", metavar="A,B,...", help=f"of {', '.join(METHODS)} (default: all; with --stress {STRESS_METHODS})"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--materials", metavar="A,B,...", help=f"of {', '.join(MATERIALS)} (default: all; with --stress neo-hookean)"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--meshes", metavar="A,B,...", help=f"of {', '.join(MESHES)} (default: all; with --stress coarse)"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--without",
         metavar="MESH:METHOD,...",
         help="leave a method out on a mesh, e.g. fine:direct where it does not fit into memory",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--systems",
         metavar="STEP:IT,...",
         help="time step and Newton iteration of each system (default: 1:1,12:2; with --stress 1:1)",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--tolerance",
         metavar="TOL",
         type=float,
         default=1e-9,
         help="of the true relative residual (default: %(default)g)",
     )
-    solvers.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
-    solvers.add_argument(
+    command.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
+    command.add_argument(
         "--stress",
         action="store_true",
         help="densities, time step, bulk modulus, viscosity and element shape far from the paper's",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--set",
         metavar="KEY=VALUE",
         action="append",
@@ -100,19 +89,19 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str,
         dest="settings",
         help="override an entry of the case files; may be repeated",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--case-dir",
         metavar="DIR",
         type=Path,
         default=CASES,
         help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of the sources)",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"
     )
-    solvers.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
-    solvers.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    solvers.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    command.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
+    command.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    command.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
 
 def solvers(options: argparse.Namespace) -> int:

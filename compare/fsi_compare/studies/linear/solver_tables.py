@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
-from ..base import paper
-from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, MULTILEVEL
-from ..reporting.column import Column, Facts, fixed
-from ..reporting.layout import Table
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, MULTILEVEL
+from ...reporting.column import Column, Facts, fixed
+from ...reporting.layout import Table
 from .cost_tables import cost_table
 from .counts import Count, Marks, count_columns, order_note
 from .grid import Entry, Grid, suffix

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
 
-from ..base.errors import InputError
-from ..base.files import absolute, exists, is_file, is_folder, read_bytes
+from ...base.errors import InputError
+from ...base.files import absolute, exists, is_file, is_folder, read_bytes
 from .processes import answer
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"

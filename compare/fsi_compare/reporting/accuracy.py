@@ -4,22 +4,23 @@ import argparse
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
-from ..reporting.column import Column, Facts
-from ..reporting.layout import Table, say_written, write_markdown
-from ..reporting.pressure import read_times
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from .column import Column, Facts
+from .layout import Table, say_written, write_markdown
+from .pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all
-from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
-from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
-from ..reporting.work_column import work_column
+from ..runs.reference import FILE as DESCRIPTION_FILE, read_reference
+from ..runs.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
+from .work_column import work_column
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
@@ -72,44 +73,26 @@ class Accuracy:
         return float(np.mean(self.errors[quantity.column]))
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    accuracy = commands.add_parser(
-        "accuracy",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="errors of finished runs against a reference",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "accuracy", accuracy, "errors of finished runs against a reference", DESCRIPTION, EXAMPLES
     )
-    accuracy.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
-    accuracy.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    accuracy.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/accuracy"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    accuracy.add_argument(
+    command.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
+    add_folders(command)
+    add_output(command, "results/accuracy")
+    command.add_argument(
         "--times",
         metavar="T,T,...",
         default=TIMES,
         help="times in ms; linear between time steps (default: %(default)s)",
     )
-    accuracy.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    accuracy.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
-    accuracy.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
-    )
-    accuracy.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    accuracy.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    command.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
+    add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
 def accuracy(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     times = read_times(options.times)
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     reference = read_any_reference(options.reference, times)
