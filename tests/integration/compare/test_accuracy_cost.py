@@ -119,7 +119,7 @@ class Errors(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "wall_displacement.csv"
             path.write_text("time_ms,z_mm,radial_mm\n1,0,1\n1,1,2\n2,0,3\n")
-            with self.assertRaisesRegex(InputError, "number of points"):
+            with self.assertRaisesRegex(InputError, "time_ms 2: has 1 of 2 points"):
                 read_waves(path, "radial_mm")
 
 
