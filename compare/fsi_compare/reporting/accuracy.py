@@ -176,14 +176,14 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
 
 
 RUNS: Sequence[Column[Accuracy]] = (
-    Column("run", "run", value=lambda a: a.label, left=True),
-    Column("element", "element", value=lambda a: a.element, left=True),
-    Column("geometry", "geometry", value=lambda a: a.geometry, left=True),
-    Column("nodes", "nodes", value=lambda a: a.nodes),
-    Column("step", "step", "ms", value=lambda a: a.step, format="g"),
-    Column("steps", "steps", value=lambda a: a.steps),
+    Column("run", "run", lambda a: a.label, left=True),
+    Column("element", "element", lambda a: a.element, left=True),
+    Column("geometry", "geometry", lambda a: a.geometry, left=True),
+    Column("nodes", "nodes", lambda a: a.nodes),
+    Column("step", "step", lambda a: a.step, "g", unit="ms"),
+    Column("steps", "steps", lambda a: a.steps),
     work_column("work units", "work_units", lambda a: in_all(a.summary)),
-    Column("seconds", "wall", "s", value=lambda a: a.seconds, format=".3g"),
+    Column("seconds", "wall", lambda a: a.seconds, ".3g", unit="s"),
 )
 
 

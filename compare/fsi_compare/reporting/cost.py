@@ -161,13 +161,7 @@ def _work_units(first: Cost) -> List[Column[Cost]]:
     return [
         work_column("per step", "work_units_per_step", lambda c: c.work_units, group="work units"),
         Column(
-            "relative",
-            "work_units_relative_to_first",
-            value=relative,
-            format=".2f",
-            group="work units",
-            missing="",
-            behind=True,
+            "relative", "work_units_relative_to_first", relative, ".2f", group="work units", missing="", behind=True
         ),
     ]
 
@@ -179,24 +173,18 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
     return [
-        Column("run", "run", value=lambda c: c.label, left=True),
-        Column("driver", "program", value=lambda c: c.program, left=True),
-        Column("mesh", "mesh", value=lambda c: c.mesh, left=True),
+        Column("run", "run", lambda c: c.label, left=True),
+        Column("driver", "program", lambda c: c.program, left=True),
+        Column("mesh", "mesh", lambda c: c.mesh, left=True),
         Column(csv="unknowns", value=lambda c: c.unknowns),
         Column(csv="threads", value=lambda c: c.threads),
-        Column("processes", "processes", value=lambda c: c.processes, behind=True),
-        Column("steps", "steps", value=lambda c: c.steps),
+        Column("processes", "processes", lambda c: c.processes, behind=True),
+        Column("steps", "steps", lambda c: c.steps),
         *_work_units(first),
         Column(csv="wall", unit="s", value=lambda c: c.seconds),
-        Column("seconds per step", "wall_s_per_step", value=lambda c: c.seconds_per_step, format=".3g"),
-        Column("relative time", "wall_relative_to_first", value=relative, format=".2f"),
-        Column(
-            "mean",
-            "coupling_iterations_mean",
-            value=lambda c: c.coupling_mean,
-            format=".2f",
-            group="coupling iterations",
-        ),
+        Column("seconds per step", "wall_s_per_step", lambda c: c.seconds_per_step, ".3g"),
+        Column("relative time", "wall_relative_to_first", relative, ".2f"),
+        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group="coupling iterations"),
         Column(
             "range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group="coupling iterations"
         ),
@@ -212,14 +200,12 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         Column(
             "displacement",
             "displacement_residual_max",
-            value=lambda c: c.displacement_residual,
-            format=".1e",
+            lambda c: c.displacement_residual,
+            ".1e",
             group="interface residual",
         ),
-        Column(
-            "force", "force_residual_max", value=lambda c: c.force_residual, format=".1e", group="interface residual"
-        ),
-        Column("memory in {unit}", "peak_memory", "MiB", value=lambda c: c.memory_mib, format=".0f"),
+        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group="interface residual"),
+        Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", unit="MiB"),
     ]
 
 
@@ -233,9 +219,8 @@ def cost_notes(costs: Sequence[Cost]) -> List[str]:
     if any(c.work_units is not None for c in costs):
         notes.append(NOTE)
     notes += [
-        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
-        "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
-        "preconditioner, in all steps.",
+        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) or of the "
+        "sub-problems (partitioned). Set-ups: factorisations, or set-ups of a preconditioner, in all steps.",
         "Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
         "up to Newton's tolerance.",
     ]

@@ -70,8 +70,7 @@ def pressure(options: argparse.Namespace) -> int:
         from . import pictures, pressure_tables as tables
 
         comparison = tables.compare_pressure(runs, labels, times)
-        written = [place / "pressure_waves.csv", place / "pressure_waves.json"]
-        tables.write_waves_csv(written[0], runs, labels, times)
+        written = [tables.waves_table(runs, labels, times).write_csv(place), place / "pressure_waves.json"]
         tables.write_json(written[1], comparison)
         written += pictures.write_pressure_waves(place, [run.pressure for run in runs], labels, times, title)
     if not options.quiet:

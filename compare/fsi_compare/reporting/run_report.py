@@ -105,23 +105,23 @@ def default_title(runs: Sequence[RunResults]) -> str:
 
 
 RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
-    Column("run", "run", value=lambda r: r[0], left=True),
-    Column("program", "program", value=lambda r: r[1].program, left=True),
-    Column("case", "title", value=lambda r: r[1].title, left=True),
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("program", "program", lambda r: r[1].program, left=True),
+    Column("case", "title", lambda r: r[1].title, left=True),
     Column(
         "element",
         "element",
-        value=lambda r: named(r[1], "element"),
+        lambda r: named(r[1], "element"),
         text=lambda r: ", ".join(part for part in (named(r[1], "element"), named(r[1], "geometry")) if part),
         left=True,
     ),
     Column(csv="geometry", value=lambda r: named(r[1], "geometry")),
-    Column("nodes", "nodes", value=lambda r: r[1].summary.get("mesh", {}).get("nodes"), format="d"),
-    Column("processes", "processes", value=lambda r: r[1].processes, behind=True),
-    Column("steps", "steps", value=lambda r: r[1].summary.get("totals", {}).get("steps"), format="g"),
-    Column("end, {unit}", "end", "ms", value=lambda r: end_of(r[1]), format="g"),
+    Column("nodes", "nodes", lambda r: r[1].summary.get("mesh", {}).get("nodes"), "d"),
+    Column("processes", "processes", lambda r: r[1].processes, behind=True),
+    Column("steps", "steps", lambda r: r[1].summary.get("totals", {}).get("steps"), "g"),
+    Column("end, {unit}", "end", lambda r: end_of(r[1]), "g", unit="ms"),
     work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
-    Column("seconds", "wall", "s", value=lambda r: r[1].summary.get("totals", {}).get("wall_s"), format=".1f"),
+    Column("seconds", "wall", lambda r: r[1].summary.get("totals", {}).get("wall_s"), ".1f", unit="s"),
 )
 
 
@@ -175,23 +175,13 @@ class Apart(NamedTuple):
 
 
 LINES: Sequence[Column[Apart]] = (
-    Column("run", "run", value=lambda a: a.run, left=True),
-    Column("quantity", "quantity", value=lambda a: a.quantity, left=True),
+    Column("run", "run", lambda a: a.run, left=True),
+    Column("quantity", "quantity", lambda a: a.quantity, left=True),
     Column(
-        "maximum norm",
-        "max_relative",
-        value=lambda a: a.difference and a.difference.max_relative,
-        format=".2e",
-        group="relative",
+        "maximum norm", "max_relative", lambda a: a.difference and a.difference.max_relative, ".2e", group="relative"
     ),
-    Column(
-        "L2 norm",
-        "l2_relative",
-        value=lambda a: a.difference and a.difference.l2_relative,
-        format=".2e",
-        group="relative",
-    ),
-    Column("levels", "levels", value=lambda a: a.levels, format="d"),
+    Column("L2 norm", "l2_relative", lambda a: a.difference and a.difference.l2_relative, ".2e", group="relative"),
+    Column("levels", "levels", lambda a: a.levels, "d"),
 )
 
 

@@ -50,13 +50,13 @@ def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
 
 
 COLUMNS: Sequence[Column[Tuple[str, Difference]]] = (
-    Column("run", "run", value=lambda r: r[0], left=True),
-    Column("table", "table", value=lambda r: r[1].table, left=True),
-    Column("sample", "sample", value=lambda r: r[1].sample, left=True),
-    Column("column", "column", value=lambda r: r[1].column, left=True),
-    Column("difference", "largest_difference", value=lambda r: r[1].largest, format=".3e"),
-    Column("of", "largest_value", value=lambda r: r[1].size, format=".3e"),
-    Column("times", "times", value=lambda r: r[1].levels),
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("table", "table", lambda r: r[1].table, left=True),
+    Column("sample", "sample", lambda r: r[1].sample, left=True),
+    Column("column", "column", lambda r: r[1].column, left=True),
+    Column("difference", "largest_difference", lambda r: r[1].largest, ".3e"),
+    Column("of", "largest_value", lambda r: r[1].size, ".3e"),
+    Column("times", "times", lambda r: r[1].levels),
 )
 
 

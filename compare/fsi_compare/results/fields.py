@@ -12,6 +12,7 @@ from ..base.suggestions import nearest
 
 FIRST = "fields.h5"
 AGAIN = "run it again"
+UNREADABLE = (OSError, RuntimeError, KeyError, TypeError, ValueError, AttributeError)  # of h5py, for damaged files
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ def read_fields(folder: Path) -> Dict[str, MediumFields]:
                     if not known or found.time > known[-1].time:  # a killed restart may have left one in two files
                         known.append(found)
                     units.setdefault(medium, {})[field] = unit
-            except (KeyError, TypeError, ValueError, AttributeError, OSError) as error:
+            except UNREADABLE as error:
                 raise InputError(path, "", f"cannot be read: {error}", AGAIN) from None
     return {name: MediumFields(name, parts[0], found, units[name]) for name, found in sorted(entries.items())}
 
@@ -158,5 +159,5 @@ def _dataset(path: Path, name: str) -> np.ndarray:
     with _opened(path) as h5:
         try:
             return np.asarray(h5[name][()])
-        except (KeyError, TypeError, AttributeError, OSError) as error:
+        except UNREADABLE as error:
             raise InputError(path, name, f"cannot be read: {error}", AGAIN) from None

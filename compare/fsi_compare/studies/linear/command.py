@@ -4,6 +4,7 @@ import argparse
 import math
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence, Set, Tuple
 
@@ -175,19 +176,10 @@ def solve(
         if not asked:
             raise InputError("", "--without", f"leaves no method on the {mesh} mesh", "leave the mesh out of --meshes")
         for material in materials:
+            case, level = options.case_dir / f"{material}.toml", (*settings, f"mesh.level={mesh}")
+            name = f"{material}-{mesh}"
             requests.append(
-                Request(
-                    name=f"{material}-{mesh}",
-                    case=options.case_dir / f"{material}.toml",
-                    material=material,
-                    mesh=mesh,
-                    settings=(*settings, f"mesh.level={mesh}"),
-                    solvers=asked,
-                    systems=base.systems,
-                    tolerance=base.tolerance,
-                    threads=base.threads,
-                    sub_problems=base.sub_problems,
-                )
+                replace(base, name=name, case=case, material=material, mesh=mesh, settings=level, solvers=asked)
             )
     outcomes = run_study(program, options.output / "runs", requests, options.quiet)
 

@@ -13,8 +13,8 @@ from ...base.errors import InputError
 from ..starting.launch import usable_cores
 from ..evidence.runs_table import runs_table
 from ..running.context import Context
-from ..running.section import Section, report_of
-from ..running.study_file import Study
+from ..running.section import Section
+from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step

@@ -6,8 +6,8 @@ from typing import Any, Mapping, Optional, Sequence
 from ...base.errors import InputError
 from ...base.suggestions import nearest
 from ..evidence.cross_check import BOUND
-from ..running.section import Section, report_of
-from ..running.study_file import Study
+from ..running.section import Section
+from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from .limit_load import TUBE_KEYS, Wall, read_wall
 
