@@ -53,6 +53,11 @@ def add_output(command: argparse.ArgumentParser, default: str) -> None:
     command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, default=Path(default), help=text)
 
 
+def add_times(command: argparse.ArgumentParser, default: str) -> None:
+    text = "times in ms; linear between time steps (default: %(default)s)"
+    command.add_argument("--times", metavar="T,T,...", default=default, help=text)
+
+
 def add_usual(command: argparse.ArgumentParser, version: str, threads: str) -> None:
     """Those that all programs end with; `threads` says what the number is of."""
     command.add_argument("--threads", metavar="N", type=positive("--threads"), help=threads)

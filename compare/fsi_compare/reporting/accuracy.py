@@ -10,9 +10,9 @@ import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.options import Commands, add_command, add_folders, add_output, add_times, add_usual
 from .column import Column, Facts
-from .layout import Table, say_written, write_markdown
+from .layout import Table, show_tables, write_tables
 from .pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
@@ -80,12 +80,7 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
     add_folders(command)
     add_output(command, "results/accuracy")
-    command.add_argument(
-        "--times",
-        metavar="T,T,...",
-        default=TIMES,
-        help="times in ms; linear between time steps (default: %(default)s)",
-    )
+    add_times(command, TIMES)
     command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
     command.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
@@ -100,10 +95,9 @@ def accuracy(options: argparse.Namespace) -> int:
     title = printable(options.title)
     table = accuracy_table(found, reference, times, title)
     with together(options.output) as place:
-        written = [table.write_csv(place), write_markdown(place / "accuracy.md", title, [table])]
+        written = write_tables(place, [table], "accuracy.md", title)
     if not options.quiet:
-        print(table.text())
-        say_written(options.output, written)
+        show_tables([table], options.output, written)
     return 0
 
 
@@ -122,12 +116,9 @@ def require_lines(folder: Path) -> None:
     """Raises InputError for a finished run of a vessel that bends or branches, or without fluid or wall."""
     for q in WRITTEN:
         if not exists(folder / q.file):
-            raise InputError(
-                folder / q.file,
-                "",
-                "is missing, though the run is finished: only straight tubes with fluid and wall have one",
-                "compare others by fsi-compare pressure or fsi-compare report",
-            )
+            problem = "is missing, though the run is finished: only straight tubes with fluid and wall have one"
+            remedy = "compare others by fsi-compare pressure or fsi-compare report"
+            raise InputError(folder / q.file, "", problem, remedy)
 
 
 def _step(waves: Dict[str, Waves]) -> float:
@@ -147,12 +138,8 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
         for where, one in ((reference.folder, exact), (folder, own)):
             outside = [time for time in times if not one.covers(time)]
             if outside:
-                raise InputError(
-                    where / q.file,
-                    "--times",
-                    f"{outside[0]:g} ms is outside of it",
-                    f"give times between {one.times[0]:g} and {one.times[-1]:g} ms",
-                )
+                remedy = f"give times between {one.times[0]:g} and {one.times[-1]:g} ms"
+                raise InputError(where / q.file, "--times", f"{outside[0]:g} ms is outside of it", remedy)
         if own.z[0] > exact.z[0] + 1e-6 or own.z[-1] < exact.z[-1] - 1e-6:
             raise InputError(
                 folder / q.file,
@@ -180,10 +167,10 @@ RUNS: Sequence[Column[Accuracy]] = (
     Column("element", "element", lambda a: a.element, left=True),
     Column("geometry", "geometry", lambda a: a.geometry, left=True),
     Column("nodes", "nodes", lambda a: a.nodes),
-    Column("step", "step", lambda a: a.step, "g", unit="ms"),
+    Column("step", "step", lambda a: a.step, "g", "ms"),
     Column("steps", "steps", lambda a: a.steps),
     work_column("work units", "work_units", lambda a: in_all(a.summary)),
-    Column("seconds", "wall", lambda a: a.seconds, ".3g", unit="s"),
+    Column("seconds", "wall", lambda a: a.seconds, ".3g", "s"),
 )
 
 

@@ -14,7 +14,7 @@ from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
-from .layout import Table, say_written, write_markdown
+from .layout import Table, show_tables, write_tables
 from .work_column import work_column
 
 DESCRIPTION = """\
@@ -87,10 +87,9 @@ def cost(options: argparse.Namespace) -> int:
     title = printable(options.title)
     table = cost_table(costs, title)
     with together(options.output) as place:
-        written = [table.write_csv(place), write_markdown(place / "cost.md", title, [table])]
+        written = write_tables(place, [table], "cost.md", title)
     if not options.quiet:
-        print(table.text())
-        say_written(options.output, written)
+        show_tables([table], options.output, written)
     return 0
 
 
@@ -205,7 +204,7 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
             group="interface residual",
         ),
         Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group="interface residual"),
-        Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", unit="MiB"),
+        Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", "MiB"),
     ]
 
 

@@ -102,12 +102,8 @@ def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optio
     wanted = [word.strip() for word in text.split(",")]
     for field in wanted:
         if field not in known:
-            raise InputError(
-                "",
-                "--fields",
-                f"'{field}' is not in this run",
-                f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}",
-            )
+            remedy = f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}"
+            raise InputError("", "--fields", f"'{field}' is not in this run", remedy)
     return wanted
 
 

@@ -108,17 +108,25 @@ class Table:
         return path
 
 
-def write_markdown(path: Path, heading: str, tables: Sequence[Table]) -> Path:
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
-    return path
-
-
 def _field(cell: Any) -> Any:
     """Of a CSV: what is no number is an empty field."""
     if not isinstance(cell, float):
         return cell
     return repr(float(cell)) if math.isfinite(cell) else None
+
+
+def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+    """Each as CSV, and all in one Markdown file of that name."""
+    with replacing(folder / markdown) as temporary:
+        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
+    return [*(table.write_csv(folder) for table in tables), folder / markdown]
+
+
+def show_tables(tables: Sequence[Table], folder: Path, written: Sequence[Path]) -> None:
+    """On the output; and which files were written, which by now are in `folder`."""
+    for table in tables:
+        print(table.text())
+    say_written(folder, written)
 
 
 def say_written(folder: Path, files: Sequence[Path]) -> None:

@@ -6,7 +6,7 @@ from typing import List, Sequence
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.options import Commands, add_command, add_folders, add_output, add_times, add_usual
 from ..runs.labels import default_labels, read_labels
 from ..runs.run_folder import Run, read_run
 from .layout import say_written
@@ -41,12 +41,7 @@ def add_parser(commands: Commands, version: str) -> None:
     )
     add_folders(command)
     add_output(command, "results/compare")
-    command.add_argument(
-        "--times",
-        metavar="T,T,...",
-        default=PAPER_TIMES,
-        help="times in ms; linear between time steps (default: %(default)s)",
-    )
+    add_times(command, PAPER_TIMES)
     command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: program, case or folder)")
     command.add_argument("--title", help="heading of the picture (default: the runs' title)")
     add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
@@ -106,20 +101,12 @@ def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
         path = run.folder / "centerline_pressure.csv"
         for time in times:
             if not waves.covers(time):
-                raise InputError(
-                    path,
-                    "--times",
-                    f"{time:g} ms is outside the run",
-                    f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms",
-                )
+                remedy = f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms"
+                raise InputError(path, "--times", f"{time:g} ms is outside the run", remedy)
         if not waves.covers_line(reference.pressure.z):
             z = reference.pressure.z
-            raise InputError(
-                path,
-                "z_mm",
-                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm",
-                "compare runs on the same geometry",
-            )
+            problem = f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm"
+            raise InputError(path, "z_mm", problem, "compare runs on the same geometry")
 
 
 def default_title(runs: Sequence[Run]) -> str:

@@ -119,9 +119,9 @@ RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
     Column("nodes", "nodes", lambda r: r[1].summary.get("mesh", {}).get("nodes"), "d"),
     Column("processes", "processes", lambda r: r[1].processes, behind=True),
     Column("steps", "steps", lambda r: r[1].summary.get("totals", {}).get("steps"), "g"),
-    Column("end, {unit}", "end", lambda r: end_of(r[1]), "g", unit="ms"),
+    Column("end, {unit}", "end", lambda r: end_of(r[1]), "g", "ms"),
     work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
-    Column("seconds", "wall", lambda r: r[1].summary.get("totals", {}).get("wall_s"), ".1f", unit="s"),
+    Column("seconds", "wall", lambda r: r[1].summary.get("totals", {}).get("wall_s"), ".1f", "s"),
 )
 
 

@@ -9,7 +9,7 @@ from ..base.files import exists, is_file, together
 from ..runs.run_folder import read_finished
 from ..runs.samples import CENTRE_LINE, LINES, PLANES, POINTS, Difference, differences_of_tables, read_samples
 from .column import Column
-from .layout import Table, say_written
+from .layout import Table, show_tables
 
 TABLES = ("flow.csv", "openings.csv", POINTS, LINES, PLANES)
 
@@ -38,8 +38,7 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
     with together(output) as place:
         written = [table.write_csv(place)]
     if not quiet:
-        print(table.text())
-        say_written(output, written)
+        show_tables([table], output, written)
     return 0
 
 

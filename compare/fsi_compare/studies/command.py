@@ -96,12 +96,9 @@ def study(options: argparse.Namespace) -> int:
         return list_ready(options)
     asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
     if not asked.requests:
-        raise InputError(
-            asked.path,
-            "runs",
-            "holds nothing to run" + (" in its quick form" if options.quick else ""),
-            "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""),
-        )
+        problem = "holds nothing to run" + (" in its quick form" if options.quick else "")
+        remedy = "add a section [runs.NAME]" + (" with quick = true" if options.quick else "")
+        raise InputError(asked.path, "runs", problem, remedy)
     kind = kinds.kind(asked.kind)
     kind.check(asked)
     programs = find_programs(options)
@@ -185,12 +182,8 @@ def study_path(text: str) -> Path:
         return path
     if text in ready():
         return READY / f"{text}.toml"
-    raise InputError(
-        "",
-        "STUDY",
-        f"'{text}' is neither a file nor a ready study",
-        f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}",
-    )
+    problem = f"'{text}' is neither a file nor a ready study"
+    raise InputError("", "STUDY", problem, f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
 
 
 def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:

@@ -47,7 +47,7 @@ class OneFile(FolderCase):
         report.text("Some **bold** text, 1 < 2 & so on.")
         columns = [
             Column("name", "name", lambda record: record[0], left=True),
-            Column("{unit}", "pressure", lambda record: record[1], ".1f", unit="Pa", group="pressure"),
+            Column("{unit}", "pressure", lambda record: record[1], ".1f", "Pa", "pressure"),
             Column("kPa", value=lambda record: "1e-3", group="pressure"),
         ]
         report.table(Table("numbers", "Numbers", columns, [("one <b>", 0.1 + 0.2)], notes=["a note"]))

@@ -133,7 +133,7 @@ class Found(NamedTuple):
 
 FOUND: Sequence[Column[Found]] = (
     Column("wall's stabilisation", "stabilisation", lambda f: f.stabilisation, "g", left=True),
-    Column("time step", "time_step", lambda f: f.step, lambda step: f"{step:g} ms", unit="ms", left=True),
+    Column("time step", "time_step", lambda f: f.step, lambda step: f"{step:g} ms", "ms", left=True),
     Column("measured", value=lambda f: text(f.bracket)),
 )
 RUNS: Column[Found] = Column("runs", "runs", lambda f: f.bracket.runs)

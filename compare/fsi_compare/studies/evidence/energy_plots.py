@@ -140,7 +140,7 @@ def _of_part(name: str) -> Column[Named]:
 ENERGY: Sequence[Column[Named]] = (
     Column("run", "run", lambda one: one[0], left=True),
     Column(csv="time", unit="ms", value=lambda one: float(one[1].times[-1])),
-    Column("supplied in {unit}", "supplied", lambda one: one[1].end("supplied"), ".4g", unit="uJ"),
+    Column("supplied in {unit}", "supplied", lambda one: one[1].end("supplied"), ".4g", "uJ"),
     *(_of_part(name) for name in PARTS[1:]),
     Column(
         "left over at most",

@@ -29,7 +29,7 @@ RUNS: Sequence[Column[StudyRun]] = (
     Column("iterations per step", "iterations_per_step", lambda run: known(run.passes), ".2f"),
     work_column("work units per step", "work_units_per_step", lambda run: run.work_units_per_step),
     Column(csv="wall", unit="s", value=lambda run: known(run.wall_s)),
-    Column("time", "process", lambda run: run.seconds, duration, unit="s"),
+    Column("time", "process", lambda run: run.seconds, duration, "s"),
     Column(csv="folder", value=lambda run: run.folder.name),
     Column(csv="command", value=lambda run: run.command),
 )

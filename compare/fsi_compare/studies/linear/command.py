@@ -13,7 +13,7 @@ from ...base.files import folder, is_file, is_folder, make_folder, output_folder
 from ...base.options import Commands, add_command, add_output
 from ..starting.folder_lock import locked
 from ..catalogue.names import MATERIALS, MESHES, METHODS, pick
-from ...reporting.layout import Table, say_written, write_markdown
+from ...reporting.layout import show_tables, write_tables
 from ...reporting.matplotlib_loader import load_matplotlib
 from ..starting.programs import Program, find_monolithic, has_petsc
 from . import stress as stress_study
@@ -189,9 +189,10 @@ def solve(
     grid = grids.Grid(outcomes)
     tables = solver_tables.solver_tables(grid)
     with together(options.output) as place:
-        written = write(place, tables, "solvers.md", "Linear solvers")
+        written = write_tables(place, tables, "solvers.md", "Linear solvers")
         written += solver_pictures.write_solver_pictures(place, grid)
-    report(options, tables, written)
+    if not options.quiet:
+        show_tables(tables, options.output, written)
     return exit_code(outcomes)
 
 
@@ -204,24 +205,14 @@ def stress(
     outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
     table = stress_study.stress_table(planned, outcomes, base.solvers)
     with together(options.output) as place:
-        written = write(place, [table], "stress.md", "Linear solvers under stress")
-    report(options, [table], written)
+        written = write_tables(place, [table], "stress.md", "Linear solvers under stress")
+    if not options.quiet:
+        show_tables([table], options.output, written)
     return exit_code(outcomes)
 
 
 def exit_code(outcomes: List[Outcome]) -> int:
     return 0 if all(outcome.converged for outcome in outcomes) else 2
-
-
-def write(place: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
-    return [*(table.write_csv(place) for table in tables), write_markdown(place / markdown, heading, tables)]
-
-
-def report(options: argparse.Namespace, tables: Sequence[Table], written: Sequence[Path]) -> None:
-    if not options.quiet:
-        for table in tables:
-            print(table.text())
-        say_written(options.output, written)
 
 
 def read_systems(text: str) -> List[System]:
@@ -231,12 +222,8 @@ def read_systems(text: str) -> List[System]:
         if len(words) != 2 or not all(
             word.isascii() and word.isdigit() and len(word) < 10 and int(word) > 0 for word in words
         ):
-            raise InputError(
-                "",
-                "--systems",
-                f"'{part.strip()}' is not a system",
-                "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2",
-            )
+            remedy = "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2"
+            raise InputError("", "--systems", f"'{part.strip()}' is not a system", remedy)
         system = (int(words[0]), int(words[1]))
         if system in systems:
             raise InputError("", "--systems", f"{part.strip()} is given twice", "give each system once")

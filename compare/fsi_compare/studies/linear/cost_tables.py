@@ -80,7 +80,7 @@ def _columns(key: System, with_direct: bool) -> List[Column[Spent]]:
         *(Column(name, f"{name}_cycles", _cycles(name), "d", group="cycles") for name in ("mesh", "flow", "wall")),
         Column("levels", "levels", _solved(lambda s: s.levels), "d"),
         Column("complexity", "operator_complexity", _solved(lambda s: s.operator_complexity), ".2f", group="operator"),
-        Column("{unit}", "memory", _solved(lambda s: s.memory_MiB), ".1f", unit="MiB", group="memory"),
+        Column("{unit}", "memory", _solved(lambda s: s.memory_MiB), ".1f", "MiB", "memory"),
         Column("residual", "relative_residual", _solved(lambda s: s.relative_residual), ".1e", group="true relative"),
         Column(
             "to direct" if with_direct else "",

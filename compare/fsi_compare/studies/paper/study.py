@@ -39,20 +39,12 @@ REPORT_KEYS = ("linear",)
 def check(study: Study) -> None:
     for case in study.cases:
         if case not in MATERIALS:
-            raise InputError(
-                study.path,
-                f"cases.{case}",
-                "is none of the paper's materials",
-                f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}",
-            )
+            remedy = f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}"
+            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials", remedy)
     for request in study.requests:
         if request.group not in GROUPS:
-            raise InputError(
-                study.path,
-                f"runs.{request.group}",
-                "is no group of this kind of study",
-                f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}",
-            )
+            remedy = f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}"
+            raise InputError(study.path, f"runs.{request.group}", "is no group of this kind of study", remedy)
     check_keys(study.path, "report", study.report, REPORT_KEYS)
     if not any(request.group == WAVES and request.method.name == MONOLITHIC for request in study.requests):
         raise InputError(

@@ -352,20 +352,14 @@ class _Reader:
             )
         self.scalar(key, value)
         if "." not in quantity:
-            raise self.wrong(
-                key,
-                "is neither 'mesh', 'processes' nor a key of the case file",
-                'give a key such as "time.step", or values { label, set }',
-            )
+            problem = "is neither 'mesh', 'processes' nor a key of the case file"
+            raise self.wrong(key, problem, 'give a key such as "time.step", or values { label, set }')
         return _Value(value, {quantity: value})
 
     def processes(self, key: str, value: Any) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
-            raise self.wrong(
-                key,
-                f"{show(value)} is no number of processes",
-                f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list',
-            )
+            remedy = f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list'
+            raise self.wrong(key, f"{show(value)} is no number of processes", remedy)
         return value
 
     def section(self, key: str, entry: Any, keys: Sequence[str]) -> Section:
@@ -373,11 +367,8 @@ class _Reader:
 
     def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
         if not isinstance(name, str) or name not in names:
-            raise self.wrong(
-                key,
-                f"'{name}' is unknown",
-                f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}",
-            )
+            remedy = f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}"
+            raise self.wrong(key, f"'{name}' is unknown", remedy)
         return name
 
     def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:

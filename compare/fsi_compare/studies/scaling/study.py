@@ -49,12 +49,8 @@ def check(study: Study) -> None:
     found = asked(study)
     groups = {request.group for request in study.requests}
     if found.groups["strong"] not in groups:
-        raise InputError(
-            study.path,
-            "report.scaling.strong",
-            f"'{found.groups['strong']}' is no group of runs",
-            "name the group in which processes are varied on one mesh",
-        )
+        remedy = "name the group in which processes are varied on one mesh"
+        raise InputError(study.path, "report.scaling.strong", f"'{found.groups['strong']}' is no group of runs", remedy)
     for request in study.requests:
         if request.group in (found.groups["strong"], found.groups["counts"]) and request.processes is None:
             raise InputError(

@@ -58,8 +58,8 @@ STRONG: Sequence[Column[Strong]] = (
     Column("efficiency", "efficiency", lambda s: s.efficiency, ".0%"),
     Column("Newton", "newton_per_step", lambda s: s.run.newton, ".2f", group="iterations per step"),
     Column("linear", "linear_per_step", lambda s: s.run.linear, ".1f", group="iterations per step"),
-    Column("largest", "memory_max", lambda s: s.run.memory and s.run.memory.maximum, ".0f", unit="MiB", group=MEMORY),
-    Column("mean", "memory_mean", lambda s: s.run.memory and s.run.memory.mean, ".0f", unit="MiB", group=MEMORY),
+    Column("largest", "memory_max", lambda s: s.run.memory and s.run.memory.maximum, ".0f", "MiB", MEMORY),
+    Column("mean", "memory_mean", lambda s: s.run.memory and s.run.memory.mean, ".0f", "MiB", MEMORY),
     Column(csv="folder", value=lambda s: s.run.run.folder.name),
 )
 
@@ -107,7 +107,7 @@ WEAK: Sequence[Column[Weak]] = (
         "memory_max",
         lambda w: w.run.memory and w.run.memory.maximum,
         ".0f",
-        unit="MiB",
+        "MiB",
     ),
     Column(csv="folder", value=lambda w: w.run.run.folder.name),
 )
@@ -176,12 +176,7 @@ class Modelled(NamedTuple):
 def _part(name: str, csv: str, value: Callable[[Step], float]) -> Column[Modelled]:
     """Of a step's time: seconds in the CSV, for people milliseconds."""
     return Column(
-        name,
-        csv,
-        lambda m: value(m.step),
-        lambda seconds: short(1e3 * seconds),
-        unit="s",
-        group="milliseconds per step",
+        name, csv, lambda m: value(m.step), lambda seconds: short(1e3 * seconds), "s", "milliseconds per step"
     )
 
 
@@ -203,8 +198,8 @@ MODEL: Sequence[Column[Modelled]] = (
     Column(csv="messages", value=lambda m: m.step.messages),
     Column(csv="megabytes", value=lambda m: m.step.megabytes),
     Column(csv="reductions", value=lambda m: m.step.reduction_count),
-    Column("solving", "memory", lambda m: m.step.memory, ".0f", unit="MiB", group="{unit} per process"),
-    Column("reading", "reading", lambda m: m.step.reading, ".0f", unit="MiB", group="{unit} per process"),
+    Column("solving", "memory", lambda m: m.step.memory, ".0f", "MiB", "{unit} per process"),
+    Column("reading", "reading", lambda m: m.step.reading, ".0f", "MiB", "{unit} per process"),
 )
 
 

@@ -79,20 +79,13 @@ def _economy(
     forms = list(groups[name].items())
     if "off" in entry:
         if entry["off"] not in groups:
-            raise InputError(
-                study.path,
-                f"report.economies.{name}.off",
-                f"'{entry['off']}' is no group of runs",
-                f"did you mean '{nearest(entry['off'], list(groups))}'?",
-            )
+            problem = f"'{entry['off']}' is no group of runs"
+            remedy = f"did you mean '{nearest(entry['off'], list(groups))}'?"
+            raise InputError(study.path, f"report.economies.{name}.off", problem, remedy)
         forms += list(groups[entry["off"]].items())
     if len(forms) != 2:
-        raise InputError(
-            study.path,
-            f"runs.{name}",
-            f"has {len(forms)} forms beside its repetitions",
-            "give two: first with the economy, then without",
-        )
+        problem = f"has {len(forms)} forms beside its repetitions"
+        raise InputError(study.path, f"runs.{name}", problem, "give two: first with the economy, then without")
 
     def label(items: Sequence[Any]) -> str:
         request = request_of(items[0])
@@ -219,8 +212,8 @@ COLUMNS: Sequence[Column[Measured]] = (
     Column("switched off", "switched_off", lambda m: m.economy.off_label, left=True),
     Column(csv="case", value=lambda m: m.request.case),
     Column(csv="method", value=lambda m: m.request.method.name),
-    Column("with", "with", lambda m: m.on_s, ".2f", unit="s", group="seconds"),
-    Column("without", "without", lambda m: m.off_s, ".2f", unit="s", group="seconds"),
+    Column("with", "with", lambda m: m.on_s, ".2f", "s", "seconds"),
+    Column("without", "without", lambda m: m.off_s, ".2f", "s", "seconds"),
     Column(
         "ratio",
         "ratio",

@@ -203,7 +203,7 @@ def _columns(settings: Settings) -> List[Column[Cell]]:
         Column("iterations per step", "iterations_per_step", lambda c: known(c.run.passes), ".2f"),
         Column("relative difference", "largest_difference", lambda c: c.difference, ".1e"),
         Column(csv="compared_with", value=lambda c: c.against and c.against.request.method.name),
-        Column("time", "process", lambda c: c.run.seconds, duration, unit="s"),
+        Column("time", "process", lambda c: c.run.seconds, duration, "s"),
         Column(csv="folder", value=lambda c: c.run.folder.name),
         Column(csv="command", value=lambda c: with_name(c.run.command)),
     ]
