@@ -98,6 +98,7 @@ def _turn(mesh: FoundMesh, groups: List[Group]) -> int:
 
 
 def _write(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
+    """Not by meshio's own writer: it knows a name once, and volumes and surfaces may share one."""
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
     number[used] = np.arange(1, len(used) + 1)
