@@ -25,8 +25,15 @@ from kept_tables import DATA, TOP, Row, read_table, write_table
 sys.path.insert(0, str(TOP / "compare"))
 
 from fsi_compare.base.errors import InputError  # noqa: E402
-from fsi_compare.base.names import MATERIALS  # noqa: E402
-from fsi_compare.gallery.scene import BOTH, Scene, SceneRun, SceneRuns, find_scenes, read_scene_run  # noqa: E402
+from fsi_compare.studies.catalogue.names import MATERIALS  # noqa: E402
+from fsi_compare.studies.gallery.scene import (
+    BOTH,
+    Scene,
+    SceneRun,
+    SceneRuns,
+    find_scenes,
+    read_scene_run,
+)  # noqa: E402
 
 TABLE = DATA / "drivers.csv"
 COLUMNS = (

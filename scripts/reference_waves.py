@@ -26,10 +26,10 @@ REFERENCES = TOP / "compare/studies/references"
 sys.path.insert(0, str(TOP / "compare"))
 
 from fsi_compare.base.errors import InputError, printable  # noqa: E402
-from fsi_compare.base.names import MATERIALS  # noqa: E402
+from fsi_compare.studies.catalogue.names import MATERIALS  # noqa: E402
 from fsi_compare.studies.accuracy.observed_order import self_convergence  # noqa: E402
 from fsi_compare.studies.evidence.mesh_error import physical  # noqa: E402
-from fsi_compare.studies.evidence.waves import QUANTITIES, Waves, extrapolated, norm, read_run  # noqa: E402
+from fsi_compare.runs.waves import QUANTITIES, Waves, extrapolated, norm, read_run  # noqa: E402
 
 
 class Run(NamedTuple):

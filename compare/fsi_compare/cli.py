@@ -4,15 +4,13 @@ import argparse
 from typing import NoReturn, Sequence
 
 from .base.errors import InputError
-from .gallery.command import add_parser as add_gallery, gallery
-from .linear.command import add_parser as add_solvers, solvers
-from .mesh_import.command import add_parser as add_convert_mesh, convert_mesh
-from .reporting.cost import add_parser as add_cost, cost
-from .reporting.export import add_parser as add_export, export
-from .reporting.pressure import add_parser as add_pressure, pressure
-from .reporting.run_report import add_parser as add_report, report
-from .studies.accuracy_of_runs import accuracy, add_parser as add_accuracy
-from .studies.command import add_parser as add_study, study
+from .mesh_import import command as mesh_import
+from .reporting import accuracy, cost, export, pressure, run_report
+from .studies import command as study
+from .studies.gallery import command as gallery
+from .studies.linear import command as linear
+
+COMMANDS = (pressure, run_report, cost, export, accuracy, linear, study, gallery, mesh_import)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -30,15 +28,8 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"fsi-compare {version}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
-    add_pressure(commands, version)
-    add_report(commands, version)
-    add_cost(commands, version)
-    add_export(commands, version)
-    add_accuracy(commands, version)
-    add_solvers(commands, "results/solvers", version)
-    add_study(commands, version)
-    add_gallery(commands, version)
-    add_convert_mesh(commands, version)
+    for command in COMMANDS:
+        command.add_parser(commands, version)
     return top
 
 
@@ -51,15 +42,4 @@ def run(arguments: Sequence[str], version: str) -> int:
         return int(end.code or 0)
     if options.command is None:
         top.error("no command")
-    command = {
-        "pressure": pressure,
-        "report": report,
-        "cost": cost,
-        "export": export,
-        "accuracy": accuracy,
-        "solvers": solvers,
-        "study": study,
-        "gallery": gallery,
-        "convert-mesh": convert_mesh,
-    }
-    return command[options.command](options)
+    return int(options.run(options))

@@ -10,7 +10,7 @@ The material is Saint Venant's and Kirchhoff's with Poisson's ratio 0.3. The sce
 import numpy as np
 from matplotlib.figure import Figure
 
-from fsi_compare.gallery.scene import Number
+from fsi_compare.studies.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set along=25 --set across=3 --set through=1"

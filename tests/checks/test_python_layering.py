@@ -6,10 +6,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from python_layering import FOLDER, cycles, main, wrong_imports
+from python_layering import FLOORS, FOLDER, cycles, main, wrong_imports
 
 CLEAN = {
-    "__init__.py": "",
+    "__init__.py": "def __getattr__(name):\n    from . import library\n\n    return getattr(library, name)\n",
+    "library.py": "from .runs.columns import np\n",
     "__main__.py": "import sys\n\nfrom .cli import main\n",
     "cli.py": "from .base.errors import InputError\nfrom .studies.command import study\n",
     "base/__init__.py": "",
@@ -86,6 +87,23 @@ class PythonLayering(unittest.TestCase):
     def test_sideways(self):
         self.write("studies/skip/study.py", "from ..paper.study import evaluate\n")
         self.assert_problem('studies/skip/study.py:1: from ..paper.study import evaluate from "studies.skip"')
+
+    def test_what_users_import_is_below_the_studies(self):
+        packages = [package for floor in FLOORS for package in floor if package]
+        below = [package for package in packages if package.partition(".")[0] != "studies"]
+        self.assertEqual(packages[: len(below)], below)
+
+    def test_library_from_the_studies(self):
+        self.write("library.py", "from .studies.evidence import LIMIT\n")
+        self.assert_problem("library.py:1: from .studies.evidence import LIMIT")
+
+    def test_library_from_the_command_line(self):
+        self.write("library.py", "def late():\n    from .cli import study\n")
+        self.assert_problem("library.py:2: from .cli import study")
+
+    def test_package_itself_from_the_studies(self):
+        self.write("__init__.py", "from .studies.kinds import kind\n")
+        self.assert_problem("__init__.py:1: from .studies.kinds import kind")
 
     def test_unknown_package(self):
         self.write("attic/old.py", "")

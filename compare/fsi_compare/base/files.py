@@ -2,11 +2,12 @@
 
 import json
 import os
+import shutil
 import socket
 import stat
 import tempfile
 import tomllib
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Dict, Iterator, List
 
@@ -143,11 +144,9 @@ def make_folder(folder: Path) -> List[Path]:
 
 def remove_empty(folders: List[Path]) -> None:
     """Those of `folders`, the innermost last, that hold nothing."""
-    for folder in reversed(folders):
-        try:
+    with suppress(OSError):
+        for folder in reversed(folders):
             folder.rmdir()
-        except OSError:
-            return
 
 
 @contextmanager
@@ -239,13 +238,10 @@ def sweep(folder: Path) -> None:
 
 
 def remove_tree(path: Path) -> None:
-    """A file, a link or a folder with all it holds, as far as that is possible."""
-    try:
+    """A file, a link or a folder with all it holds, as far as that is possible: what stays will be seen by whoever writes
+    there."""
+    with suppress(OSError):
         if path.is_dir() and not path.is_symlink():
-            for entry in os.listdir(path):
-                remove_tree(path / entry)
-            path.rmdir()
+            shutil.rmtree(path, ignore_errors=True)
         else:
             path.unlink(missing_ok=True)
-    except OSError:
-        pass  # what cannot be removed will be seen by whoever writes there

@@ -11,21 +11,23 @@ import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, replacing
+from ..base.options import Commands, add_command
 from .groups import KINDS, Block, FoundMesh, Group, choose_groups, dimensions_of, found_mesh
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    convert = commands.add_parser(
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands,
         "convert-mesh",
-        allow_abbrev=False,
-        help="a mesh that meshio reads as a gmsh file; use fsi-mesh import, which checks it, too",
-        description="Writes a mesh of simplices that meshio reads (VTU, MED, Exodus, ...) as gmsh 2.2 with named groups.",
+        convert_mesh,
+        "a mesh that meshio reads as a gmsh file; use fsi-mesh import, which checks it, too",
+        "Writes a mesh of simplices that meshio reads (VTU, MED, Exodus, ...) as gmsh 2.2 with named groups.",
     )
-    convert.add_argument("mesh", metavar="FILE", type=folder)
-    convert.add_argument("-o", "--output", metavar="FILE.msh", type=Path)
-    convert.add_argument("--group", metavar="NAME=PART", action="append", default=[])
-    convert.add_argument("--scale", metavar="FACTOR", type=float, default=1.0, help="from the file's unit to mm")
-    convert.add_argument("--list", action="store_true", help="say what parts the file has, and write nothing")
+    command.add_argument("mesh", metavar="FILE", type=folder)
+    command.add_argument("-o", "--output", metavar="FILE.msh", type=Path)
+    command.add_argument("--group", metavar="NAME=PART", action="append", default=[])
+    command.add_argument("--scale", metavar="FACTOR", type=float, default=1.0, help="from the file's unit to mm")
+    command.add_argument("--list", action="store_true", help="say what parts the file has, and write nothing")
 
 
 def convert_mesh(options: argparse.Namespace) -> int:
@@ -96,6 +98,7 @@ def _turn(mesh: FoundMesh, groups: List[Group]) -> int:
 
 
 def _write(out: TextIO, mesh: FoundMesh, groups: List[Group]) -> None:
+    """Not by meshio's own writer: it knows a name once, and volumes and surfaces may share one."""
     used = np.unique(np.concatenate([block.nodes.ravel() for group in groups for block in group.parts]))
     number = np.zeros(len(mesh.points), dtype=np.int64)
     number[used] = np.arange(1, len(used) + 1)

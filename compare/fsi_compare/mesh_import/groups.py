@@ -57,12 +57,8 @@ def found_mesh(file: str, mesh: Any, scale: float) -> FoundMesh:
     others = sorted({block.type for i, block in enumerate(mesh.cells) if i not in kept and block.type != "vertex"})
     blocks = [Block(mesh.cells[i].type, np.asarray(mesh.cells[i].data, dtype=np.int64)) for i in kept]
     if not blocks or max(block.dimension for block in blocks) < 2 or any(_is_solid(name) for name in others):
-        raise InputError(
-            file,
-            "",
-            f"holds {', '.join(others) or 'no elements'} in place of tetrahedra or triangles",
-            "mesh it by tetrahedra, or by triangles in two dimensions",
-        )
+        problem = f"holds {', '.join(others) or 'no elements'} in place of tetrahedra or triangles"
+        raise InputError(file, "", problem, "mesh it by tetrahedra, or by triangles in two dimensions")
     found = FoundMesh(points, blocks)
     for name, entries in mesh.cell_sets.items():
         masks = []

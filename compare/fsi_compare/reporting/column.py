@@ -1,6 +1,6 @@
 """A column of a table, said once: its head for people, its name for scripts, and where its cells come from."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Callable, Generic, Sequence, TypeVar, Union
 
 R = TypeVar("R")
@@ -12,9 +12,9 @@ class Column(Generic[R]):
 
     head: str = ""
     csv: str = ""
-    unit: str = ""  # ends the name in the CSV, and stands where head or group have "{unit}"
-    value: Callable[[R], Any] = field(kw_only=True)  # what the CSV holds; None: there is none
+    value: Callable[[R], Any] = lambda record: None  # what the CSV holds; None: there is none
     format: Union[str, Callable[[Any], str]] = ""  # of the value, for people
+    unit: str = ""  # ends the name in the CSV, and stands where head or group have "{unit}"
     group: str = ""  # head over the heads of neighbours that have the same
     left: bool = False  # aligned to the left: words
     text: Union[Callable[[R], str], None] = None  # what people read, where the value does not tell it

@@ -3,17 +3,18 @@
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual
 from ..runs.columns import read_columns, read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.summary import PROGRAMS
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
-from .layout import Table, say_written, write_markdown
+from .layout import Table, show_tables, write_tables
 from .work_column import work_column
 
 DESCRIPTION = """\
@@ -68,46 +69,27 @@ class Cost:
         return self.seconds / self.steps
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    cost = commands.add_parser(
-        "cost",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="wall time, solves and iterations of finished runs",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "cost", cost, "wall time, solves and iterations of finished runs", DESCRIPTION, EXAMPLES
     )
-    cost.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    cost.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/cost"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    cost.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    cost.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
-    cost.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
-    )
-    cost.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    cost.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_folders(command)
+    add_output(command, "results/cost")
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    command.add_argument("--title", default="Cost of the runs", help="heading of the table (default: %(default)s)")
+    add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
 def cost(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     costs = [read_cost(folder, label) for folder, label in zip(options.folders, labels)]
     title = printable(options.title)
     table = cost_table(costs, title)
     with together(options.output) as place:
-        written = [table.write_csv(place), write_markdown(place / "cost.md", title, [table])]
+        written = write_tables(place, [table], "cost.md", title)
     if not options.quiet:
-        print(table.text())
-        say_written(options.output, written)
+        show_tables([table], options.output, written)
     return 0
 
 
@@ -178,13 +160,7 @@ def _work_units(first: Cost) -> List[Column[Cost]]:
     return [
         work_column("per step", "work_units_per_step", lambda c: c.work_units, group="work units"),
         Column(
-            "relative",
-            "work_units_relative_to_first",
-            value=relative,
-            format=".2f",
-            group="work units",
-            missing="",
-            behind=True,
+            "relative", "work_units_relative_to_first", relative, ".2f", group="work units", missing="", behind=True
         ),
     ]
 
@@ -196,24 +172,18 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         return cost.seconds_per_step / first.seconds_per_step if first.seconds_per_step > 0 else None
 
     return [
-        Column("run", "run", value=lambda c: c.label, left=True),
-        Column("driver", "program", value=lambda c: c.program, left=True),
-        Column("mesh", "mesh", value=lambda c: c.mesh, left=True),
+        Column("run", "run", lambda c: c.label, left=True),
+        Column("driver", "program", lambda c: c.program, left=True),
+        Column("mesh", "mesh", lambda c: c.mesh, left=True),
         Column(csv="unknowns", value=lambda c: c.unknowns),
         Column(csv="threads", value=lambda c: c.threads),
-        Column("processes", "processes", value=lambda c: c.processes, behind=True),
-        Column("steps", "steps", value=lambda c: c.steps),
+        Column("processes", "processes", lambda c: c.processes, behind=True),
+        Column("steps", "steps", lambda c: c.steps),
         *_work_units(first),
         Column(csv="wall", unit="s", value=lambda c: c.seconds),
-        Column("seconds per step", "wall_s_per_step", value=lambda c: c.seconds_per_step, format=".3g"),
-        Column("relative time", "wall_relative_to_first", value=relative, format=".2f"),
-        Column(
-            "mean",
-            "coupling_iterations_mean",
-            value=lambda c: c.coupling_mean,
-            format=".2f",
-            group="coupling iterations",
-        ),
+        Column("seconds per step", "wall_s_per_step", lambda c: c.seconds_per_step, ".3g"),
+        Column("relative time", "wall_relative_to_first", relative, ".2f"),
+        Column("mean", "coupling_iterations_mean", lambda c: c.coupling_mean, ".2f", group="coupling iterations"),
         Column(
             "range", value=lambda c: c.coupling_range, format=lambda r: f"{r[0]}-{r[1]}", group="coupling iterations"
         ),
@@ -229,14 +199,12 @@ def cost_columns(first: Cost) -> List[Column[Cost]]:
         Column(
             "displacement",
             "displacement_residual_max",
-            value=lambda c: c.displacement_residual,
-            format=".1e",
+            lambda c: c.displacement_residual,
+            ".1e",
             group="interface residual",
         ),
-        Column(
-            "force", "force_residual_max", value=lambda c: c.force_residual, format=".1e", group="interface residual"
-        ),
-        Column("memory in {unit}", "peak_memory", "MiB", value=lambda c: c.memory_mib, format=".0f"),
+        Column("force", "force_residual_max", lambda c: c.force_residual, ".1e", group="interface residual"),
+        Column("memory in {unit}", "peak_memory", lambda c: c.memory_mib, ".0f", "MiB"),
     ]
 
 
@@ -250,9 +218,8 @@ def cost_notes(costs: Sequence[Cost]) -> List[str]:
     if any(c.work_units is not None for c in costs):
         notes.append(NOTE)
     notes += [
-        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) "
-        "or of the sub-problems (partitioned). Set-ups: factorisations, or set-ups of a "
-        "preconditioner, in all steps.",
+        "Relative time: seconds per step over the first run's. Solves: of the whole system (monolithic) or of the "
+        "sub-problems (partitioned). Set-ups: factorisations, or set-ups of a preconditioner, in all steps.",
         "Interface residual: relative, largest of the steps; zero by construction in a monolithic run, "
         "up to Newton's tolerance.",
     ]

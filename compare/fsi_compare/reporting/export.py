@@ -3,12 +3,13 @@ XDMF."""
 
 import argparse
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError
 from ..base.files import folder, together
+from ..base.options import Commands, add_command, add_usual
 from ..base.suggestions import nearest
 from ..results.fields import MediumFields
 from ..results.run import open_run
@@ -28,35 +29,22 @@ examples:
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    export = commands.add_parser(
-        "export",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="the fields of a run as VTU and PVD files",
-        description=DESCRIPTION,
-    )
-    export.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
-    export.add_argument("--to", choices=("pvd",), default="pvd", help="format of the series (default: %(default)s)")
-    export.add_argument("--fields", metavar="A,B,...", help="fields to write (default: all)")
-    export.add_argument(
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(commands, "export", export, "the fields of a run as VTU and PVD files", DESCRIPTION, EXAMPLES)
+    command.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
+    command.add_argument("--to", choices=("pvd",), default="pvd", help="format of the series (default: %(default)s)")
+    command.add_argument("--fields", metavar="A,B,...", help="fields to write (default: all)")
+    command.add_argument(
         "--times", metavar="T,T,...", help="times in ms; linear between those written (default: all that were written)"
     )
-    export.add_argument(
+    command.add_argument(
         "-o", "--output", metavar="OUTDIR", type=folder, help="folder for the files written (default: DIR/vtu)"
     )
-    export.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; one thread writes the files"
-    )
-    export.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    export.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_usual(command, version, "accepted as by all programs; one thread writes the files")
 
 
 def export(options: argparse.Namespace) -> int:
     """The command. Also of a run that has not ended well, whose fields are as good as they were. Raises InputError."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     media = open_run(options.folder, unfinished=True).fields
     if not media:
         raise InputError(options.folder, "", "holds no fields", "set output.every in the case and run it again")
@@ -114,12 +102,8 @@ def _wanted_fields(text: Optional[str], media: Dict[str, MediumFields]) -> Optio
     wanted = [word.strip() for word in text.split(",")]
     for field in wanted:
         if field not in known:
-            raise InputError(
-                "",
-                "--fields",
-                f"'{field}' is not in this run",
-                f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}",
-            )
+            remedy = f"did you mean '{nearest(field, known)}'? It has {', '.join(known)}"
+            raise InputError("", "--fields", f"'{field}' is not in this run", remedy)
     return wanted
 
 

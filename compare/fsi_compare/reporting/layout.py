@@ -35,6 +35,19 @@ class Table:
         return [tuple(t.replace("{unit}", c.unit) for t in (c.group, c.head)) for c in self.shown]  # type: ignore[misc]
 
     @cached_property
+    def spans(self) -> List[Tuple[str, int, int]]:
+        """(group, first column, end): neighbours of the same group are one span, those without are one each."""
+        found: List[Tuple[str, int, int]] = []
+        for i, (group, _) in enumerate(self.heads):
+            same = bool(found) and bool(group) and found[-1][0] == group
+            found.append((group, found.pop()[1] if same else i, i + 1))
+        return found
+
+    @property
+    def has_groups(self) -> bool:
+        return any(group for group, _ in self.heads)
+
+    @cached_property
     def rows(self) -> List[List[str]]:
         return [[column.shown(record) for column in self.shown] for record in self.records]
 
@@ -55,17 +68,11 @@ class Table:
     def text(self) -> str:
         names = [name for _, name in self.heads]
         widths = [max([len(name), *(len(row[i]) for row in self.rows)]) for i, name in enumerate(names)]
-        spans: List[Tuple[str, int, int]] = []  # group, first column, end
-        for i, (group, _) in enumerate(self.heads):
-            if spans and group and spans[-1][0] == group:
-                spans[-1] = (group, spans[-1][1], i + 1)
-            else:
-                spans.append((group, i, i + 1))
-        for group, first, end in spans:
+        for group, first, end in self.spans:
             widths[first] += max(0, len(group) - sum(widths[first:end]) - 2 * (end - first - 1))
         lines = [self.title]
-        if any(group for group, _, _ in spans):
-            cells = [group.center(sum(widths[first:end]) + 2 * (end - first - 1)) for group, first, end in spans]
+        if self.has_groups:
+            cells = [group.center(sum(widths[first:end]) + 2 * (end - first - 1)) for group, first, end in self.spans]
             lines.append("  " + "  ".join(cells))
         lines.append(self._line(names, widths))
         lines += [self._line(row, widths) for row in self.rows]
@@ -101,17 +108,25 @@ class Table:
         return path
 
 
-def write_markdown(path: Path, heading: str, tables: Sequence[Table]) -> Path:
-    with replacing(path) as temporary:
-        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
-    return path
-
-
 def _field(cell: Any) -> Any:
     """Of a CSV: what is no number is an empty field."""
     if not isinstance(cell, float):
         return cell
     return repr(float(cell)) if math.isfinite(cell) else None
+
+
+def write_tables(folder: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
+    """Each as CSV, and all in one Markdown file of that name."""
+    with replacing(folder / markdown) as temporary:
+        temporary.write_text("\n".join([f"# {heading}\n", *(table.markdown() for table in tables)]), encoding="utf-8")
+    return [*(table.write_csv(folder) for table in tables), folder / markdown]
+
+
+def show_tables(tables: Sequence[Table], folder: Path, written: Sequence[Path]) -> None:
+    """On the output; and which files were written, which by now are in `folder`."""
+    for table in tables:
+        print(table.text())
+    say_written(folder, written)
 
 
 def say_written(folder: Path, files: Sequence[Path]) -> None:

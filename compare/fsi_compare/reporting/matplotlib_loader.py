@@ -21,12 +21,9 @@ def load_matplotlib() -> None:
         import matplotlib.font_manager  # noqa: F401
         import matplotlib.figure  # noqa: F401
     except (OSError, ValueError, RuntimeError) as error:
-        raise InputError(
-            "matplotlib",
-            "",
-            f"cannot be loaded: {getattr(error, 'strerror', None) or error}",
-            "set MPLCONFIGDIR and TMPDIR to folders that can be written",
-        ) from None
+        problem = f"cannot be loaded: {getattr(error, 'strerror', None) or error}"
+        remedy = "set MPLCONFIGDIR and TMPDIR to folders that can be written"
+        raise InputError("matplotlib", "", problem, remedy) from None
     finally:
         os.fchdir(here)
         os.close(here)

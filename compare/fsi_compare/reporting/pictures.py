@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, List, Sequence, Tuple
+from typing import Callable, List, Optional, Sequence, Tuple
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -30,6 +30,19 @@ LINES = (
     {"linestyle": ":", "color": "#b02a5b", "linewidth": 1.8},
     {"linestyle": (0, (7, 2)), "color": "#5fa55a", "linewidth": 1.1},
     {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "color": "#6a4c93", "linewidth": 1.1},
+)
+
+# Points joined by lines, told apart without colour by marker, dash pattern and lightness.
+MARKED_LINES = (
+    {"linestyle": "-", "marker": "o", "color": "#000000"},
+    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
+    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
+    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
+    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
+    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
+    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
+    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
+    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
 )
 
 # Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
@@ -101,16 +114,20 @@ def pressure_figure(
         axes.set_ylabel(quantity)
     _share_scales(grid, len(times))
 
-    finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
-    return figure
+    return finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
 
 
 def finish(
-    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], title: str, panels: Tuple[float, float]
-) -> None:
-    """Puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
-    curve, and sets the figure's size; `panels` are width and height of the panels together, in inches."""
-    width, panels_inches = panels
+    figure: Figure,
+    handles: Sequence[Artist],
+    labels: Sequence[str],
+    title: str,
+    panels: Optional[Tuple[float, float]] = None,
+) -> Figure:
+    """The figure, done: puts the heading above the panels and the legend below them, each in a strip of its own so that it covers no
+    curve, and sets the figure's size; `panels` are width and height of the panels together, in inches: the
+    figure's own unless they are given."""
+    width, panels_inches = panels or figure.get_size_inches()
     legend_inches = _place_legend(figure, handles, labels, width)
     title = "\n".join(textwrap.wrap(_plain(title), int(14 * width)))
     title_inches = 0.14 + 0.18 * len(title.splitlines())
@@ -120,6 +137,7 @@ def finish(
     heading.set_in_layout(False)  # its strip is reserved by rect
     figure.tight_layout(rect=(0, legend_inches / height, 1, 1 - title_inches / height), h_pad=0.8, w_pad=1.2)
     figure.legends[0].set_bbox_to_anchor((0.5, 0.06 / height), transform=figure.transFigure)
+    return figure
 
 
 def time_text(time: float) -> str:

@@ -1,12 +1,9 @@
 """The part of a report that plays: the reader moves through time with a slider, switches runs on and off, reads values
-under the pointer and zooms. Data and program (player.js) are in the page; without JavaScript, and in print, it does not
+under the pointer and zooms. Data and program (templates/player.js) are in the page; without JavaScript, and in print, it does not
 show, and the pictures beside it stay."""
 
 import base64
-import html
-import json
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
@@ -22,24 +19,6 @@ NONE = 65535
 
 # matplotlib's dash patterns in units of the page.
 DASHES = {"-": "", "--": "7 4", "-.": "9 3 2 3", ":": "2 3"}
-
-STYLE = """
-.player { margin: 1.2rem 0; } .player .controls { position: sticky; top: 0; background: #fff; padding: .4rem 0;
-  display: flex; gap: 1rem; align-items: center; z-index: 1; }
-.player .controls label { flex: 1; display: flex; gap: .6rem; align-items: center; } .player input[type=range] { flex: 1; }
-.player output { min-width: 7.5em; } .player button { font: inherit; padding: .1rem .8rem; }
-.player .runs { border: none; padding: 0; margin: .2rem 0; display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; }
-.player .runs legend { float: left; padding: 0 1rem 0 0; } .player .runs label { font-size: .9rem; }
-.player .sample { width: 48px; height: 12px; margin: 0 .4rem; }
-.player .panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(25rem, 1fr)); gap: .6rem 1.2rem; }
-.player .panel { margin: 0; position: relative; } .player .panel > svg { width: 100%; touch-action: pan-y; cursor: crosshair; }
-.player figcaption { font-weight: bold; } .player .readout { font-size: .85rem; margin: 0; min-height: 2.6em; }
-.player .reset { position: absolute; top: 0; right: 0; } .player text { font-size: 12px; fill: #222; }
-.player .grid { stroke: #ddd; stroke-width: .6; } .player .frame { stroke: #333; fill: none; }
-.player .cursor { stroke: #333; stroke-width: .8; } .player .now { stroke: #777; stroke-dasharray: 1 3; }
-.player .box { fill: #88888833; stroke: #555; stroke-width: .6; width: 0; height: 0; pointer-events: none; }
-@media print { .player { display: none; } }
-"""
 
 
 @dataclass(frozen=True)
@@ -76,19 +55,17 @@ class Panel:
 class Player:
     runs: List[str]  # names
     panels: List[Panel]
-    notes: List[str] = field(default_factory=list)  # filled by html(): what was left out to keep the page small
 
-    def html(self) -> str:
-        """The element of the page, with its data."""
+    def values(self) -> Dict[str, Any]:
+        """Of the element of the page: its data, and what was left out to keep the page small."""
         panels = [panel for panel in self.panels if panel.lines or panel.series]
+        notes: List[str] = []
         content = {
             "times": _short(self._times(panels)),
             "runs": [{"name": name, **_style(i)} for i, name in enumerate(self.runs)],
-            "panels": [self._panel(panel, self._levels(panels)) for panel in panels],
+            "panels": [self._panel(panel, self._levels(panels), notes) for panel in panels],
         }
-        data = json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-        notes = "".join(f'<p class="note">{html.escape(note)}</p>' for note in dict.fromkeys(self.notes))
-        return f'<div class="player" hidden><script type="application/json">{data}</script>{notes}</div>'
+        return {"content": content, "notes": list(dict.fromkeys(notes))}
 
     def _levels(self, panels: Sequence[Panel]) -> int:
         """How many times of each line are kept."""
@@ -104,14 +81,12 @@ class Player:
         times = np.unique(np.round(np.concatenate([np.atleast_1d(t) for t in found] or [np.zeros(1)]), 9))
         return times if len(times) <= MOST_TIMES else np.linspace(times[0], times[-1], MOST_TIMES)
 
-    def _panel(self, panel: Panel, levels: int) -> Dict[str, Any]:
+    def _panel(self, panel: Panel, levels: int, notes: List[str]) -> Dict[str, Any]:
         curves = []
         for line in panel.lines:
             rows, points = thinned(len(line.times), levels), thinned(len(line.x), MOST_POINTS)
             if len(rows) < len(line.times):
-                self.notes.append(
-                    f"Of the time levels of {self.runs[line.run]} {len(rows)} of {len(line.times)} move here."
-                )
+                notes.append(f"Of the time levels of {self.runs[line.run]} {len(rows)} of {len(line.times)} move here.")
             curves.append(
                 {
                     "run": line.run,
@@ -132,12 +107,6 @@ class Player:
             "yUnit": panel.y[1],
             "curves": curves,
         }
-
-
-def program() -> str:
-    """The script that a page with players ends with."""
-    text = (Path(__file__).parent / "player.js").read_text(encoding="utf-8")
-    return f"<script>\n{text}</script>"
 
 
 def thinned(count: int, most: int) -> np.ndarray:

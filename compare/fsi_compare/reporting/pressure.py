@@ -2,11 +2,11 @@
 
 import argparse
 import math
-from pathlib import Path
-from typing import Any, List, Sequence
+from typing import List, Sequence
 
 from ..base.errors import InputError, printable, say_warning
 from ..base.files import folder, together
+from ..base.options import Commands, add_command, add_folders, add_output, add_times, add_usual
 from ..runs.labels import default_labels, read_labels
 from ..runs.run_folder import Run, read_run
 from .layout import say_written
@@ -23,14 +23,13 @@ examples:
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    pressure = commands.add_parser(
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands,
         "pressure",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="pressure waves along the centre line",
-        description="Compares the pressure along the centre line. The first run is the reference.\n"
+        pressure,
+        "pressure waves along the centre line",
+        "Compares the pressure along the centre line. The first run is the reference.\n"
         "Prints differences, peaks and peak speeds, and writes to OUTDIR:\n"
         "  pressure_waves.csv         all runs at the selected times\n"
         "  pressure_waves.png, .svg   one panel per time\n"
@@ -38,35 +37,18 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> Non
         "Runs whose meshes, time steps or lengths differ are compared with a warning.\n"
         "Of bent tubes the pressure is that along the centre line that was found, z being its arc length. Where a run\n"
         "has none, flows, points, lines and planes that all runs have are compared, in sample_differences.csv.",
+        EXAMPLES,
     )
-    pressure.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    pressure.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/compare"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    pressure.add_argument(
-        "--times",
-        metavar="T,T,...",
-        default=PAPER_TIMES,
-        help="times in ms; linear between time steps (default: %(default)s)",
-    )
-    pressure.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: program, case or folder)")
-    pressure.add_argument("--title", help="heading of the picture (default: the runs' title)")
-    pressure.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
-    )
-    pressure.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    pressure.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_folders(command)
+    add_output(command, "results/compare")
+    add_times(command, PAPER_TIMES)
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: program, case or folder)")
+    command.add_argument("--title", help="heading of the picture (default: the runs' title)")
+    add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
 def pressure(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     times = read_times(options.times)
     if len(times) > MOST_TIMES:
         raise InputError("", "--times", f"{len(times)} times do not fit a picture", f"give at most {MOST_TIMES}")
@@ -83,8 +65,7 @@ def pressure(options: argparse.Namespace) -> int:
         from . import pictures, pressure_tables as tables
 
         comparison = tables.compare_pressure(runs, labels, times)
-        written = [place / "pressure_waves.csv", place / "pressure_waves.json"]
-        tables.write_waves_csv(written[0], runs, labels, times)
+        written = [tables.waves_table(runs, labels, times).write_csv(place), place / "pressure_waves.json"]
         tables.write_json(written[1], comparison)
         written += pictures.write_pressure_waves(place, [run.pressure for run in runs], labels, times, title)
     if not options.quiet:
@@ -120,20 +101,12 @@ def check_comparable(runs: Sequence[Run], times: Sequence[float]) -> None:
         path = run.folder / "centerline_pressure.csv"
         for time in times:
             if not waves.covers(time):
-                raise InputError(
-                    path,
-                    "--times",
-                    f"{time:g} ms is outside the run",
-                    f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms",
-                )
+                remedy = f"give times between {waves.times[0]:g} and {waves.times[-1]:g} ms"
+                raise InputError(path, "--times", f"{time:g} ms is outside the run", remedy)
         if not waves.covers_line(reference.pressure.z):
             z = reference.pressure.z
-            raise InputError(
-                path,
-                "z_mm",
-                f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm",
-                "compare runs on the same geometry",
-            )
+            problem = f"runs from {waves.z[0]:g} to {waves.z[-1]:g} mm, the first run's from {z[0]:g} to {z[-1]:g} mm"
+            raise InputError(path, "z_mm", problem, "compare runs on the same geometry")
 
 
 def default_title(runs: Sequence[Run]) -> str:

@@ -1,10 +1,9 @@
 """What a comparison found, as text for people and as files for scripts."""
 
-import csv
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from ..base.errors import printable
 from ..base.files import replacing
@@ -12,6 +11,8 @@ from ..runs.conditions import Conditions, conditions, departures
 from ..runs.differences import Difference, OverTime, differences_at, largest_difference
 from ..runs.pressure_waves import SPEED_WINDOW_MS, Crest, crest_speed, peak
 from ..runs.run_folder import Run
+from .column import Column
+from .layout import Table
 
 
 @dataclass(frozen=True)
@@ -98,15 +99,20 @@ def _relative(value: Optional[float]) -> str:
     return "n/a" if value is None else f"{value:.2e}"
 
 
-def write_waves_csv(path: Path, runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> None:
-    """All runs at the selected times, each at its own points, in full precision."""
-    with replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("run", "time_ms", "z_mm", "pressure_Pa"))
-        for label, run in zip(labels, runs):
-            for time in times:
-                for z, pressure in zip(run.pressure.z, run.pressure.at(time)):
-                    writer.writerow((label, repr(float(time)), repr(float(z)), repr(float(pressure))))
+# Of (run's label, time, place, pressure).
+WAVES: Sequence[Column[Tuple[str, float, float, float]]] = (
+    Column(csv="run", value=lambda w: w[0]),
+    Column(csv="time", unit="ms", value=lambda w: float(w[1])),
+    Column(csv="z", unit="mm", value=lambda w: float(w[2])),
+    Column(csv="pressure", unit="Pa", value=lambda w: float(w[3])),
+)
+
+
+def waves_table(runs: Sequence[Run], labels: Sequence[str], times: Sequence[float]) -> Table:
+    """All runs at the selected times, each at its own points."""
+    waves = [(label, run.pressure, time) for label, run in zip(labels, runs) for time in times]
+    records = [(label, t, z, p) for label, pressure, t in waves for z, p in zip(pressure.z, pressure.at(t))]
+    return Table("pressure_waves", "Pressure along the centre line", WAVES, records)
 
 
 def write_json(path: Path, comparison: Comparison) -> None:
@@ -146,10 +152,5 @@ def write_json(path: Path, comparison: Comparison) -> None:
 
 
 def _named(difference: Difference) -> dict:
-    values = asdict(difference)
-    return {
-        "max_norm_Pa": values["max_norm"],
-        "max_relative": values["max_relative"],
-        "l2_norm_Pa_sqrt_mm": values["l2_norm"],
-        "l2_relative": values["l2_relative"],
-    }
+    units = {"max_norm": "max_norm_Pa", "l2_norm": "l2_norm_Pa_sqrt_mm"}
+    return {units.get(name, name): value for name, value in asdict(difference).items()}

@@ -148,8 +148,7 @@ def line_figure(panel: Panel, labels: Sequence[str], times: Sequence[float]) -> 
 def series_figure(shown: Sequence[Panel], labels: Sequence[str]) -> Figure:
     """Two diagrams a row."""
     rows = -(-len(shown) // 2)
-    width, height = 2 * PANEL_INCHES[0], rows * PANEL_INCHES[1]
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(2 * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
     FigureCanvasAgg(figure)
     grid: np.ndarray = figure.subplots(rows, 2, squeeze=False)
     for axes in grid.flat[len(shown) :]:
@@ -162,5 +161,4 @@ def series_figure(shown: Sequence[Panel], labels: Sequence[str]) -> Figure:
         axes.set_title(panel.title)
         axes.set_xlabel(f"{panel.x[0]} in {panel.x[1]}")
         axes.set_ylabel(f"{panel.y[0]} in {panel.y[1]}")
-    finish(figure, list(handles.values()), list(handles), "Over time", (width, height))
-    return figure
+    return finish(figure, list(handles.values()), list(handles), "Over time")

@@ -1,11 +1,11 @@
 """`fsi-compare report`: finished runs beside each other in one HTML file through which the reader moves in time."""
 
 import argparse
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
@@ -35,38 +35,25 @@ OUTDIR: report.html, report.md, and every table and picture as a file of its own
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    report = commands.add_parser(
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands,
         "report",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        help="finished runs in one HTML file that plays",
-        description=DESCRIPTION,
-        epilog="example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
+        report,
+        "finished runs in one HTML file that plays",
+        DESCRIPTION,
+        "example:\n  fsi-compare report results/monolithic results/partitioned -o results/report\n",
     )
-    report.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    report.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/report"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    report.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
-    report.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
-    report.add_argument("--title", help="heading of the report (default: the runs' title)")
-    report.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; a report is quick on one thread"
-    )
-    report.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    report.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_folders(command)
+    add_output(command, "results/report")
+    command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
+    command.add_argument("--title", help="heading of the report (default: the runs' title)")
+    add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
 def report(options: argparse.Namespace) -> int:
     """Reads all runs and checks everything before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     if len(options.folders) > MOST_RUNS:
         raise InputError("", "DIR", f"{len(options.folders)} runs do not fit a report", f"give at most {MOST_RUNS}")
     times = read_times(options.times) if options.times is not None else []
@@ -118,23 +105,23 @@ def default_title(runs: Sequence[RunResults]) -> str:
 
 
 RUNS: Sequence[Column[Tuple[str, RunResults]]] = (
-    Column("run", "run", value=lambda r: r[0], left=True),
-    Column("program", "program", value=lambda r: r[1].program, left=True),
-    Column("case", "title", value=lambda r: r[1].title, left=True),
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("program", "program", lambda r: r[1].program, left=True),
+    Column("case", "title", lambda r: r[1].title, left=True),
     Column(
         "element",
         "element",
-        value=lambda r: named(r[1], "element"),
+        lambda r: named(r[1], "element"),
         text=lambda r: ", ".join(part for part in (named(r[1], "element"), named(r[1], "geometry")) if part),
         left=True,
     ),
     Column(csv="geometry", value=lambda r: named(r[1], "geometry")),
-    Column("nodes", "nodes", value=lambda r: r[1].summary.get("mesh", {}).get("nodes"), format="d"),
-    Column("processes", "processes", value=lambda r: r[1].processes, behind=True),
-    Column("steps", "steps", value=lambda r: r[1].summary.get("totals", {}).get("steps"), format="g"),
-    Column("end, {unit}", "end", "ms", value=lambda r: end_of(r[1]), format="g"),
+    Column("nodes", "nodes", lambda r: r[1].summary.get("mesh", {}).get("nodes"), "d"),
+    Column("processes", "processes", lambda r: r[1].processes, behind=True),
+    Column("steps", "steps", lambda r: r[1].summary.get("totals", {}).get("steps"), "g"),
+    Column("end, {unit}", "end", lambda r: end_of(r[1]), "g", "ms"),
     work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
-    Column("seconds", "wall", "s", value=lambda r: r[1].summary.get("totals", {}).get("wall_s"), format=".1f"),
+    Column("seconds", "wall", lambda r: r[1].summary.get("totals", {}).get("wall_s"), ".1f", "s"),
 )
 
 
@@ -188,23 +175,13 @@ class Apart(NamedTuple):
 
 
 LINES: Sequence[Column[Apart]] = (
-    Column("run", "run", value=lambda a: a.run, left=True),
-    Column("quantity", "quantity", value=lambda a: a.quantity, left=True),
+    Column("run", "run", lambda a: a.run, left=True),
+    Column("quantity", "quantity", lambda a: a.quantity, left=True),
     Column(
-        "maximum norm",
-        "max_relative",
-        value=lambda a: a.difference and a.difference.max_relative,
-        format=".2e",
-        group="relative",
+        "maximum norm", "max_relative", lambda a: a.difference and a.difference.max_relative, ".2e", group="relative"
     ),
-    Column(
-        "L2 norm",
-        "l2_relative",
-        value=lambda a: a.difference and a.difference.l2_relative,
-        format=".2e",
-        group="relative",
-    ),
-    Column("levels", "levels", value=lambda a: a.levels, format="d"),
+    Column("L2 norm", "l2_relative", lambda a: a.difference and a.difference.l2_relative, ".2e", group="relative"),
+    Column("levels", "levels", lambda a: a.levels, "d"),
 )
 
 

@@ -9,7 +9,7 @@ from ..base.files import exists, is_file, together
 from ..runs.run_folder import read_finished
 from ..runs.samples import CENTRE_LINE, LINES, PLANES, POINTS, Difference, differences_of_tables, read_samples
 from .column import Column
-from .layout import Table, say_written
+from .layout import Table, show_tables
 
 TABLES = ("flow.csv", "openings.csv", POINTS, LINES, PLANES)
 
@@ -38,8 +38,7 @@ def compare_samples(folders: Sequence[Path], given_labels: Optional[Sequence[str
     with together(output) as place:
         written = [table.write_csv(place)]
     if not quiet:
-        print(table.text())
-        say_written(output, written)
+        show_tables([table], output, written)
     return 0
 
 
@@ -50,13 +49,13 @@ def sample_differences(folders: Sequence[Path]) -> List[List[Difference]]:
 
 
 COLUMNS: Sequence[Column[Tuple[str, Difference]]] = (
-    Column("run", "run", value=lambda r: r[0], left=True),
-    Column("table", "table", value=lambda r: r[1].table, left=True),
-    Column("sample", "sample", value=lambda r: r[1].sample, left=True),
-    Column("column", "column", value=lambda r: r[1].column, left=True),
-    Column("difference", "largest_difference", value=lambda r: r[1].largest, format=".3e"),
-    Column("of", "largest_value", value=lambda r: r[1].size, format=".3e"),
-    Column("times", "times", value=lambda r: r[1].levels),
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("table", "table", lambda r: r[1].table, left=True),
+    Column("sample", "sample", lambda r: r[1].sample, left=True),
+    Column("column", "column", lambda r: r[1].column, left=True),
+    Column("difference", "largest_difference", lambda r: r[1].largest, ".3e"),
+    Column("of", "largest_value", lambda r: r[1].size, ".3e"),
+    Column("times", "times", lambda r: r[1].levels),
 )
 
 

@@ -1,5 +1,5 @@
 """Unstructured grids as VTK's XML files (.vtu), and series of them by their times (.pvd): what VisIt, ParaView and meshio
-open. [Kitware's VTK file formats]"""
+open. [Kitware's VTK file formats] Not by meshio's own writer: it leaves out the time."""
 
 import base64
 import struct

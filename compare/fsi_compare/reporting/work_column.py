@@ -10,4 +10,4 @@ Record = TypeVar("Record")
 
 def work_column(head: str, csv: str, value: Callable[[Record], Optional[float]], group: str = "") -> Column[Record]:
     """Empty for runs that did not measure the unit."""
-    return Column(head, csv, value=value, format=shown, group=group, missing="", behind=True)
+    return Column(head, csv, value, shown, group=group, missing="", behind=True)

@@ -44,12 +44,8 @@ def difference(
     for one, found in ((line, waves), (reference, base)):
         for time in asked:
             if not found.covers(time):
-                raise InputError(
-                    "",
-                    f"line {one.name}",
-                    f"{time:g} ms is outside the run",
-                    f"give times between {found.times[0]:g} and {found.times[-1]:g} ms",
-                )
+                remedy = f"give times between {found.times[0]:g} and {found.times[-1]:g} ms"
+                raise InputError("", f"line {one.name}", f"{time:g} ms is outside the run", remedy)
     norms = differences_at(base, waves, asked)
 
     def column(name: str) -> np.ndarray:

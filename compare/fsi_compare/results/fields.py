@@ -12,6 +12,7 @@ from ..base.suggestions import nearest
 
 FIRST = "fields.h5"
 AGAIN = "run it again"
+UNREADABLE = (OSError, RuntimeError, KeyError, TypeError, ValueError, AttributeError)  # of h5py, for damaged files
 
 
 @dataclass(frozen=True)
@@ -79,12 +80,8 @@ class MediumFields:
         times = np.array([entry.time for entry in entries])
         tolerance = 1e-6 * (float(np.min(np.diff(times))) if len(times) > 1 else max(abs(float(times[0])), 1.0))
         if not times[0] - tolerance <= time <= times[-1] + tolerance:
-            raise InputError(
-                self._file,
-                f"{self.name}/{field}",
-                f"{time:g} ms is outside what was written",
-                f"give a time between {times[0]:g} and {times[-1]:g} ms",
-            )
+            remedy = f"give a time between {times[0]:g} and {times[-1]:g} ms"
+            raise InputError(self._file, f"{self.name}/{field}", f"{time:g} ms is outside what was written", remedy)
         nearest_entry = int(np.argmin(np.abs(times - time)))
         if abs(times[nearest_entry] - time) <= tolerance:
             return self._values(field, entries[nearest_entry])
@@ -94,12 +91,8 @@ class MediumFields:
 
     def _of(self, field: str) -> List[_Entry]:
         if field not in self._entries:
-            raise InputError(
-                self._file,
-                self.name,
-                f"has no field '{field}'",
-                f"did you mean '{nearest(field, self.names)}'? It has {', '.join(self.names)}",
-            )
+            remedy = f"did you mean '{nearest(field, self.names)}'? It has {', '.join(self.names)}"
+            raise InputError(self._file, self.name, f"has no field '{field}'", remedy)
         return self._entries[field]
 
     def _values(self, field: str, entry: _Entry) -> np.ndarray:
@@ -124,7 +117,7 @@ def read_fields(folder: Path) -> Dict[str, MediumFields]:
                     if not known or found.time > known[-1].time:  # a killed restart may have left one in two files
                         known.append(found)
                     units.setdefault(medium, {})[field] = unit
-            except (KeyError, TypeError, ValueError, AttributeError, OSError) as error:
+            except UNREADABLE as error:
                 raise InputError(path, "", f"cannot be read: {error}", AGAIN) from None
     return {name: MediumFields(name, parts[0], found, units[name]) for name, found in sorted(entries.items())}
 
@@ -158,5 +151,5 @@ def _dataset(path: Path, name: str) -> np.ndarray:
     with _opened(path) as h5:
         try:
             return np.asarray(h5[name][()])
-        except (KeyError, TypeError, AttributeError, OSError) as error:
+        except UNREADABLE as error:
             raise InputError(path, name, f"cannot be read: {error}", AGAIN) from None

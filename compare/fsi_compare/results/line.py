@@ -28,12 +28,8 @@ class Line:
         """(levels, points). Raises InputError."""
         if quantity not in self.values:
             known = list(self.values)
-            raise InputError(
-                "",
-                f"line {self.name}",
-                f"has no '{quantity}'",
-                f"did you mean '{nearest(quantity, known)}'? It has {', '.join(known)}",
-            )
+            remedy = f"did you mean '{nearest(quantity, known)}'? It has {', '.join(known)}"
+            raise InputError("", f"line {self.name}", f"has no '{quantity}'", remedy)
         return self.values[quantity]
 
     def __repr__(self) -> str:
@@ -58,12 +54,8 @@ class Line:
         """(points,) at a time in ms; linear between levels. Raises InputError for a time outside of the run."""
         waves = self.waves(quantity)
         if not waves.covers(time):
-            raise InputError(
-                "",
-                f"line {self.name}",
-                f"{time:g} ms is outside the run",
-                f"give a time between {self.times[0]:g} and {self.times[-1]:g} ms",
-            )
+            remedy = f"give a time between {self.times[0]:g} and {self.times[-1]:g} ms"
+            raise InputError("", f"line {self.name}", f"{time:g} ms is outside the run", remedy)
         return waves.at(time)
 
 

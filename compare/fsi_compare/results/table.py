@@ -1,20 +1,14 @@
 """Any table of a result folder: columns by name, with the units that its header states."""
 
-import io
-import math
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Sequence
+from typing import Any, Dict, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.files import read_text
 from ..base.suggestions import nearest
-from ..runs.columns import LARGEST, number
-from ..runs.summary import FINISHED
+from ..runs.columns import number, numbers, read_fields
 from .units import split_unit
-
-AGAIN = "run it again"
 
 
 class MissingColumn(InputError, KeyError):
@@ -100,62 +94,13 @@ class Table(Mapping[str, np.ndarray]):
 def read_table(path: Path, finished: bool = True) -> Table:
     """A CSV file with a line of headers. `finished`: of a run that has ended, so that a last line without end is a
     mistake; else it is left out. Raises InputError naming line and column."""
-    text = read_text(path, FINISHED, AGAIN)
-    if text and not text.endswith("\n"):
-        if finished:
-            raise InputError(path, f"line {len(text.splitlines())}", "is cut off", "the run was interrupted; " + AGAIN)
-        text = text[: text.rfind("\n") + 1]
-    lines = text.splitlines()
-    if not lines:
-        raise InputError(path, "", "is empty", AGAIN)
-    headers = [name.strip() for name in lines[0].split(",")]
-    for name in headers:
-        if not name or headers.count(name) > 1:
-            raise InputError(
-                path, "line 1", f"column '{name}' is there twice" if name else "a column has no name", AGAIN
-            )
-    return Table(path, _numbers(text, lines, headers) or _columns(path, lines, headers))
+    return Table(path, {name: _column(path, name, of) for name, of in read_fields(path, finished).items()})
 
 
-def _numbers(text: str, lines: Sequence[str], headers: Sequence[str]) -> Dict[str, np.ndarray]:
-    """All columns when each field is a finite number, else nothing: the common case, read at once."""
-    if len(lines) == 1 or "_" in text[len(lines[0]) :]:
-        return {}
-    try:
-        values = np.loadtxt(io.StringIO(text), delimiter=",", skiprows=1, ndmin=2, comments=None)
-    except ValueError:
-        return {}
-    if values.shape != (len(lines) - 1, len(headers)) or not np.all(np.abs(values) <= LARGEST):
-        return {}
-    return {name: np.ascontiguousarray(column) for name, column in zip(headers, values.T)}
-
-
-def _columns(path: Path, lines: Sequence[str], headers: Sequence[str]) -> Dict[str, np.ndarray]:
-    """The same field by field. A column whose first field says a word holds words."""
-    rows: List[List[str]] = []
-    for row, line in enumerate(lines[1:], 2):
-        fields = [field.strip() for field in line.split(",")]
-        if len(fields) != len(headers):
-            raise InputError(path, f"line {row}", f"has {len(fields)} values instead of {len(headers)}", AGAIN)
-        rows.append(fields)
-    columns: Dict[str, np.ndarray] = {}
-    for place, name in enumerate(headers):
-        fields = [row[place] for row in rows]
-        first = next((field for field in fields if field), "0")
-        if not _is_number(first):
-            columns[name] = np.array(fields)
-            continue
-        values = np.full(len(fields), np.nan)
-        for row, field in enumerate(fields):
-            if not field:
-                continue
-            if not _is_number(field):
-                raise InputError(path, f"line {row + 2}", f"{name} '{field}' is not a number", AGAIN)
-            values[row] = number(field)
-            if math.isinf(values[row]) or abs(values[row]) > LARGEST:
-                raise InputError(path, f"line {row + 2}", f"{name} {field} is too large", AGAIN)
-        columns[name] = values
-    return columns
+def _column(path: Path, name: str, fields: Sequence[str]) -> np.ndarray:
+    """One whose first field says a word holds words."""
+    first = next((field for field in fields if field), "0")
+    return numbers(path, name, fields) if _is_number(first) else np.array(fields)
 
 
 def _is_number(field: str) -> bool:

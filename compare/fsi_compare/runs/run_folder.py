@@ -4,20 +4,15 @@ The folder is checked before anything is computed from it: a run that was interr
 complete, and a comparison with it would be wrong without a sign.
 """
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from ..base.errors import InputError, printable
-from ..base.files import exists, is_file, is_folder, read_text
-from .columns import LARGEST, number
+from ..base.files import exists, is_file, is_folder
+from .levels import read_levels
 from .pressure_waves import PressureWaves
 from .samples import CENTRE_LINE, LINES, requested_line, waves_along
-from .summary import FILE, FINISHED, PROGRAMS, read_summary
-
-PRESSURE_COLUMNS = ("time_ms", "z_mm", "pressure_Pa")
+from .summary import FILE, PROGRAMS, read_summary
 
 
 @dataclass(frozen=True)
@@ -78,86 +73,5 @@ def read_pressure_line(folder: Path) -> PressureWaves:
 
 
 def read_pressure(path: Path) -> PressureWaves:
-    """`centerline_pressure.csv`: one block of lines per time level, the same points in each."""
-    text = read_text(path, FINISHED, "run it again")
-    if not text.strip():
-        raise InputError(path, "", "is empty", "the run wrote no time step; run it again")
-    lines = text.splitlines()
-    header = [name.strip() for name in lines[0].split(",")]
-    for name in PRESSURE_COLUMNS:
-        if name not in header:
-            raise InputError(
-                path, "line 1", f"column '{name}' is missing", f"the first line must read {','.join(PRESSURE_COLUMNS)}"
-            )
-    if not text.endswith("\n"):
-        raise InputError(
-            path, f"line {len(lines)}", "is cut off", "the run was interrupted while writing; run it again"
-        )
-    if len(lines) == 1:
-        raise InputError(path, "", "holds no time level", "the run wrote no time step; run it again")
-
-    columns = [header.index(name) for name in PRESSURE_COLUMNS]
-    values = np.empty((len(lines) - 1, 3))
-    for row, line in enumerate(lines[1:]):
-        fields = line.split(",")
-        if len(fields) != len(header):
-            raise InputError(
-                path,
-                f"line {row + 2}",
-                f"has {len(fields)} values instead of {len(header)}",
-                "the run was interrupted while writing; run it again",
-            )
-        for i, column in enumerate(columns):
-            try:
-                values[row, i] = number(fields[column])
-            except ValueError:
-                raise InputError(
-                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} '{fields[column]}' is not a number", "run it again"
-                ) from None
-            if abs(values[row, i]) > LARGEST and math.isfinite(values[row, i]):
-                raise InputError(
-                    path, f"line {row + 2}", f"{PRESSURE_COLUMNS[i]} {fields[column]} is too large", "run it again"
-                )
-            if not math.isfinite(values[row, i]):
-                raise InputError(
-                    path,
-                    f"line {row + 2}",
-                    f"{PRESSURE_COLUMNS[i]} is {fields[column].strip()}",
-                    "the run went wrong before this time; look at its run.log",
-                )
-    return _levels(path, *values.T)
-
-
-def _levels(path: Path, time: np.ndarray, z: np.ndarray, pressure: np.ndarray) -> PressureWaves:
-    """The lines cut into time levels, each checked against the first one."""
-    starts = np.array([0, *(np.flatnonzero(np.diff(time)) + 1), len(time)])
-    points = int(starts[1])
-    if points < 2:
-        raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
-    if np.any(np.diff(z[:points]) <= 0):
-        line = int(np.flatnonzero(np.diff(z[:points]) <= 0)[0]) + 3
-        raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the centre line")
-    for start, stop in zip(starts[1:-1], starts[2:]):
-        if time[start] < time[start - 1]:
-            raise InputError(
-                path,
-                f"line {start + 2}",
-                f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}",
-                "time levels must be ordered; run it again",
-            )
-        if stop - start != points:
-            raise InputError(
-                path,
-                f"time_ms {time[start]:g}",
-                f"has {stop - start} of {points} points",
-                "the run was interrupted while writing; run it again",
-            )
-        if np.any(z[start:stop] != z[:points]):
-            line = int(start + np.flatnonzero(z[start:stop] != z[:points])[0]) + 2
-            raise InputError(
-                path,
-                f"line {line}",
-                "z_mm differs from the first time level's",
-                "all time levels must hold the same points; run it again",
-            )
-    return PressureWaves(times=time[starts[:-1]], z=z[:points], pressure=pressure.reshape(-1, points))
+    """`centerline_pressure.csv`. Raises InputError."""
+    return PressureWaves(*read_levels(path, "pressure_Pa"))

@@ -4,7 +4,6 @@ A column of names says which point, line or plane a row belongs to; columns of c
 values, NaN where the file has an empty cell: no velocity in a wall.
 """
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Optional, Tuple
@@ -12,10 +11,9 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 
 from ..base.errors import InputError
-from ..base.files import is_file, read_text
-from .columns import LARGEST, number
+from ..base.files import is_file
+from .columns import AGAIN, numbers, read_fields
 from .pressure_waves import PressureWaves
-from .summary import FINISHED
 
 POINTS, LINES, PLANES = "points.csv", "lines.csv", "planes.csv"
 CENTRE_LINE = "centerline"  # the line that a tube gets which does not follow its axis
@@ -37,64 +35,34 @@ def read_samples(path: Path, finished: bool = True) -> Dict[str, Samples]:
     """The samples of a table by name, in the order in which they come; the whole of a table without a column of names is
     one sample "". `finished`: of a run that has ended; else what its last level lacks is left out with it. Raises
     InputError naming line and column unless each has the same places at each time."""
-    text = read_text(path, FINISHED, "run it again")
-    if not finished and not text.endswith("\n"):
-        text = text[: text.rfind("\n") + 1]
-    lines = text.splitlines()
-    if len(lines) < 2 or not text.endswith("\n"):
-        problem = "holds no time level" if len(lines) < 2 else "is cut off"
-        raise InputError(path, "", problem, "run it again")
-    header = lines[0].split(",")
-    if TIME not in header:
-        raise InputError(path, "line 1", f"column '{TIME}' is missing", "run it again")
-    name_column = next((i for i, name in enumerate(header) if name in NAMES), None)
-    rows: Dict[str, List[List[float]]] = {}
-    for row, line in enumerate(lines[1:], start=2):
-        cells = line.split(",")
-        if len(cells) != len(header):
-            raise InputError(path, f"line {row}", f"has {len(cells)} values instead of {len(header)}", "run it again")
-        name = "" if name_column is None else cells[name_column]
-        rows.setdefault(name, []).append(
-            [
-                math.nan if i == name_column else _number(path, row, column, cell)
-                for i, (column, cell) in enumerate(zip(header, cells))
-            ]
-        )
-    return {name: _by_level(path, name, header, np.array(of_name), finished) for name, of_name in rows.items()}
+    fields = read_fields(path, finished)
+    if TIME not in fields:
+        raise InputError(path, "line 1", f"column '{TIME}' is missing", AGAIN)
+    if not fields[TIME]:
+        raise InputError(path, "", "holds no time level", AGAIN)
+    label = next((name for name in fields if name in NAMES), None)
+    labels = np.array([""] * len(fields[TIME]) if label is None else fields.pop(label))
+    columns = {name: numbers(path, name, of, name not in (TIME, *PLACES), nan=False) for name, of in fields.items()}
+    return {
+        one: _by_level(path, one, {name: values[labels == one] for name, values in columns.items()}, finished)
+        for one in dict.fromkeys(labels.tolist())
+    }
 
 
-def _number(path: Path, row: int, column: str, cell: str) -> float:
-    if not cell and column not in (TIME, *PLACES):
-        return math.nan
-    try:
-        value = number(cell)
-    except ValueError:
-        raise InputError(path, f"line {row}", f"{column} '{cell}' is not a number", "run it again") from None
-    if not abs(value) <= LARGEST:
-        raise InputError(path, f"line {row}", f"{column} is {cell}", "the run went wrong; look at its run.log")
-    return value
-
-
-def _by_level(path: Path, name: str, header: List[str], rows: np.ndarray, finished: bool) -> Samples:
-    time = rows[:, header.index(TIME)]
+def _by_level(path: Path, name: str, columns: Dict[str, np.ndarray], finished: bool) -> Samples:
+    time = columns[TIME]
     points = int(np.argmax(time != time[0])) or len(time)
-    if not finished:
-        rows = rows[: len(rows) - len(rows) % points]
-        time = rows[:, header.index(TIME)]
-    if len(time) % points != 0 or np.any(np.diff(time.reshape(-1, points)) != 0):
-        raise InputError(path, name, "has not the same points at each time", "run it again")
-    times = time[::points]
+    whole = len(time) if finished else len(time) - len(time) % points
+    if whole % points != 0 or np.any(np.diff(time[:whole].reshape(-1, points)) != 0):
+        raise InputError(path, name, "has not the same points at each time", AGAIN)
+    levels = {column: values[:whole].reshape(-1, points) for column, values in columns.items()}
+    times = levels.pop(TIME)[:, 0]
     if np.any(np.diff(times) <= 0):
-        raise InputError(path, name, "its times do not increase", "run it again")
-    columns = {column: rows[:, i].reshape(-1, points) for i, column in enumerate(header)}
-    places = {column: columns[column] for column in PLACES if column in columns}
+        raise InputError(path, name, "its times do not increase", AGAIN)
+    places = {column: levels.pop(column) for column in PLACES if column in levels}
     if any(np.any(place != place[0]) for place in places.values()):
-        raise InputError(path, name, "has not the same points at each time", "run it again")
-    return Samples(
-        times,
-        {column: place[0] for column, place in places.items()},
-        {c: v for c, v in columns.items() if c not in (TIME, *PLACES, *NAMES)},
-    )
+        raise InputError(path, name, "has not the same points at each time", AGAIN)
+    return Samples(times, {column: place[0] for column, place in places.items()}, levels)
 
 
 def requested_line(path: Path) -> Optional[str]:
@@ -116,7 +84,7 @@ def waves_along(path: Path, name: str) -> PressureWaves:
     line = lines[name]
     pressure = line.values.get("pressure_Pa")
     if "s_mm" not in line.places or pressure is None or len(line.places["s_mm"]) < 2 or np.isnan(pressure).any():
-        raise InputError(path, name, "has no pressure along it", "run it again")
+        raise InputError(path, name, "has no pressure along it", AGAIN)
     return PressureWaves(line.times, line.places["s_mm"], pressure)
 
 

@@ -140,12 +140,8 @@ def _require_done(path: Path, summary: Mapping[str, Any]) -> None:
     if status == "interrupted":
         raise InputError(path, "status", "the run was interrupted", f"resume it with {resume}, or run it again")
     if status == "not converged":
-        raise InputError(
-            path,
-            "status",
-            "the run stopped without converging",
-            f"see {path.parent / 'run.log'}, change the solver's settings and run it again",
-        )
+        remedy = f"see {path.parent / 'run.log'}, change the solver's settings and run it again"
+        raise InputError(path, "status", "the run stopped without converging", remedy)
     if status == "failed":
         raise InputError(path, "status", "the run failed", f"see {path.parent / 'run.log'}")
     raise InputError(path, "status", f"'{status}' is unknown", "it must be 'done'")

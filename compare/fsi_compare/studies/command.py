@@ -9,10 +9,11 @@ from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
 from ..base.errors import InputError, ProgramError, printable, say_note, say_warning
 from ..base.files import absolute, folder, is_file, output_folder, together
-from ..base.folder_lock import locked
-from ..base.progress import duration
+from ..base.options import Commands, add_command, add_drivers, add_usual, positive
+from .starting.folder_lock import locked
+from .starting.progress import duration
 from ..base.suggestions import nearest
-from ..runs.programs import Program, find_mesh_maker, find_program
+from .starting.programs import Program, find_mesh_maker, find_program
 from . import kinds
 from .overview import default_output, overview
 from .running.runner import Runner, remove_runs, sweep_study
@@ -44,47 +45,40 @@ examples:
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    study = commands.add_parser(
-        "study",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="a whole study: runs what is missing, writes an HTML report",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "study", study, "a whole study: runs what is missing, writes an HTML report", DESCRIPTION, EXAMPLES
     )
-    study.add_argument(
+    command.add_argument(
         "study", metavar="STUDY", nargs="?", help=f"study file (TOML), or a ready one: {', '.join(ready())}"
     )
-    study.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
-    study.add_argument("--quick", action="store_true", help="the study's short form")
-    study.add_argument(
+    command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/studies/NAME")
+    command.add_argument("--quick", action="store_true", help="the study's short form")
+    command.add_argument(
         "--list",
         action="store_true",
         help="say what would be run, and run nothing; without STUDY: the ready studies and what each still has to run",
     )
-    study.add_argument(
+    command.add_argument(
         "--fresh",
         action="store_true",
         help="make finished runs anew: removes the study's runs in OUTDIR/runs; the linear systems in "
         "OUTDIR/linear stay, remove OUTDIR/linear/runs to make those anew",
     )
-    study.add_argument("--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)")
-    study.add_argument(
-        "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
-    )
-    study.add_argument("--threads", metavar="N", type=int, help="of each run (default: the study's)")
-    study.add_argument(
+    add_drivers(command)
+    command.add_argument(
         "--processes",
         metavar="N",
-        type=int,
+        type=positive("--processes"),
         help="of each run, by mpirun (default: the study's); groups that vary them keep their numbers",
     )
-    study.add_argument(
-        "--jobs", metavar="N", type=int, help="runs at once (default: the study's); more than one spoils the seconds"
+    command.add_argument(
+        "--jobs",
+        metavar="N",
+        type=positive("--jobs"),
+        help="runs at once (default: the study's); more than one spoils the seconds",
     )
-    study.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    study.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    add_usual(command, version, "of each run (default: the study's)")
 
 
 def ready() -> List[str]:
@@ -98,20 +92,13 @@ def ready() -> List[str]:
 
 def study(options: argparse.Namespace) -> int:
     """Checks everything before the first run."""
-    given = ((options.threads, "--threads"), (options.processes, "--processes"), (options.jobs, "--jobs"))
-    for value, name in given:
-        if value is not None and value < 1:
-            raise InputError("", name, f"{value} is not positive", "give 1 or more")
     if options.study is None:
         return list_ready(options)
     asked = read_study(study_path(options.study), kinds.NAMES, options.quick)
     if not asked.requests:
-        raise InputError(
-            asked.path,
-            "runs",
-            "holds nothing to run" + (" in its quick form" if options.quick else ""),
-            "add a section [runs.NAME]" + (" with quick = true" if options.quick else ""),
-        )
+        problem = "holds nothing to run" + (" in its quick form" if options.quick else "")
+        remedy = "add a section [runs.NAME]" + (" with quick = true" if options.quick else "")
+        raise InputError(asked.path, "runs", problem, remedy)
     kind = kinds.kind(asked.kind)
     kind.check(asked)
     programs = find_programs(options)
@@ -195,12 +182,8 @@ def study_path(text: str) -> Path:
         return path
     if text in ready():
         return READY / f"{text}.toml"
-    raise InputError(
-        "",
-        "STUDY",
-        f"'{text}' is neither a file nor a ready study",
-        f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}",
-    )
+    problem = f"'{text}' is neither a file nor a ready study"
+    raise InputError("", "STUDY", problem, f"did you mean '{nearest(text, ready())}'? Ready: {', '.join(ready())}")
 
 
 def about(report: "Report", asked: Study, runner: Runner, programs: Dict[str, Program]) -> None:

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ..runs.programs import Program
+from .starting.programs import Program
 from . import kinds
 from .running.runner import Runner, Standing
 from .running.study_file import read_study

@@ -6,8 +6,8 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tup
 
 from ..base.errors import InputError
 from ..base.files import read_toml
-from ..base.progress import duration
-from ..gallery.scene import Number, Scene, SceneRun, SceneRuns
+from .starting.progress import duration
+from .gallery.scene import Number, Scene, SceneRun, SceneRuns
 from ..reporting.column import Column, Facts, fixed
 from ..reporting.layout import Table
 from ..runs.columns import ITERATIONS

@@ -14,10 +14,10 @@ sys.path[:0] = [str(TOP / "compare"), str(TOP / "tests/integration/compare")]
 
 import fake_drivers  # noqa: E402
 from fsi_compare import start  # noqa: E402
-from fsi_compare.linear import command as linear_command, study as linear_study  # noqa: E402
+from fsi_compare.studies.linear import command as linear_command, study as linear_study  # noqa: E402
 from fsi_compare.reporting import matplotlib_loader  # noqa: E402
-from fsi_compare.runs.processes import End  # noqa: E402
-from fsi_compare.runs.programs import Program  # noqa: E402
+from fsi_compare.studies.starting.processes import End  # noqa: E402
+from fsi_compare.studies.starting.programs import Program  # noqa: E402
 from fsi_compare.studies import command as study_command  # noqa: E402
 from fsi_compare.studies.running import runner  # noqa: E402
 

@@ -18,15 +18,7 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.studies.accuracy.frontier import cheapest, frontier
 from fsi_compare.studies.accuracy.observed_order import self_convergence, slope
 from fsi_compare.studies.accuracy.trend import trend
-from fsi_compare.studies.evidence.waves import (
-    QUANTITIES,
-    WINDOW,
-    Waves,
-    averaged,
-    extrapolated,
-    read_waves,
-    relative_difference,
-)
+from fsi_compare.runs.waves import QUANTITIES, WINDOW, Waves, averaged, extrapolated, read_waves, relative_difference
 
 TIMES = np.array([1.5, 2.0, 2.5, 3.0])
 
@@ -127,7 +119,7 @@ class Errors(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "wall_displacement.csv"
             path.write_text("time_ms,z_mm,radial_mm\n1,0,1\n1,1,2\n2,0,3\n")
-            with self.assertRaisesRegex(InputError, "number of points"):
+            with self.assertRaisesRegex(InputError, "time_ms 2: has 1 of 2 points"):
                 read_waves(path, "radial_mm")
 
 

@@ -1,7 +1,10 @@
 """The library: units from headers, tables of any kind, what is absent, and what is wrong with a folder."""
 
 import json
+import subprocess
+import sys
 import unittest
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -232,6 +235,16 @@ class Comparison(FolderCase):
             self.assertTrue((getattr(fsi_compare, name).__doc__ or "").strip(), name)
         with self.assertRaises(AttributeError):
             fsi_compare.no_such_name
+
+    def test_library_without_the_studies(self):
+        script = (
+            "import sys, fsi_compare\n"
+            "found = [getattr(fsi_compare, name) for name in fsi_compare.__all__]\n"
+            "print([name for name in sys.modules if name.startswith(('fsi_compare.studies', 'fsi_compare.cli'))])\n"
+        )
+        place = str(Path(fsi_compare.__file__).parents[1])
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=place)
+        self.assertEqual((ended.returncode, ended.stdout), (0, "[]\n"), ended.stderr)
 
 
 if __name__ == "__main__":

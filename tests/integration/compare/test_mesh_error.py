@@ -6,10 +6,10 @@ import unittest
 
 from folder_case import FolderCase
 
-from fsi_compare.base.names import MATERIALS
+from fsi_compare.studies.catalogue.names import MATERIALS
 from fsi_compare.studies.command import READY
 from fsi_compare.studies.evidence.mesh_error import error_table, error_words, mesh_error, percent, physical, references
-from fsi_compare.studies.evidence.waves import WRITTEN
+from fsi_compare.runs.waves import WRITTEN
 from fsi_compare.studies.running.study_file import Method, Request, StudyMesh
 from fsi_compare.studies.running.study_run import DONE, StudyRun
 

@@ -13,15 +13,15 @@ from folder_case import FolderCase
 from study_case import StudyCase
 from test_report import outside_references
 
-from fsi_compare.base import paper
-from fsi_compare.runs.case_digest import case_digest
+from fsi_compare.studies.catalogue import paper
+from fsi_compare.studies.starting.case_digest import case_digest
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.evidence import energy_plots, phase_bars
 from fsi_compare.studies.evidence.fields import TETRAHEDRA
 from fsi_compare.studies import kinds
-from fsi_compare.base.names import MATERIALS
-from fsi_compare.linear.grid import Grid
-from fsi_compare.linear.study import Outcome, Request as LinearRequest
+from fsi_compare.studies.catalogue.names import MATERIALS
+from fsi_compare.studies.linear.grid import Grid
+from fsi_compare.studies.linear.study import Outcome, Request as LinearRequest
 from fsi_compare.studies.paper import cost as paper_cost
 from fsi_compare.studies.paper.claims import (
     FEWER,

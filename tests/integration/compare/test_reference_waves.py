@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import synthetic  # noqa: F401  (finds the package)
-from fsi_compare.studies.evidence.waves import PRESSURE, Waves
+from fsi_compare.runs.waves import PRESSURE, Waves
 
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/reference_waves.py"
 specification = importlib.util.spec_from_file_location("reference_waves", SCRIPT)

@@ -46,8 +46,8 @@ class OneFile(FolderCase):
         report.section("Numbers with `code`")
         report.text("Some **bold** text, 1 < 2 & so on.")
         columns = [
-            Column("name", "name", value=lambda record: record[0], left=True),
-            Column("{unit}", "pressure", "Pa", value=lambda record: record[1], format=".1f", group="pressure"),
+            Column("name", "name", lambda record: record[0], left=True),
+            Column("{unit}", "pressure", lambda record: record[1], ".1f", "Pa", "pressure"),
             Column("kPa", value=lambda record: "1e-3", group="pressure"),
         ]
         report.table(Table("numbers", "Numbers", columns, [("one <b>", 0.1 + 0.2)], notes=["a note"]))

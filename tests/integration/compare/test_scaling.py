@@ -14,8 +14,8 @@ from study_case import StudyCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.runs.launch import launched, without_chatter
-from fsi_compare.runs.processes import execute, message_of
+from fsi_compare.studies.starting.launch import launched, without_chatter
+from fsi_compare.studies.starting.processes import execute, message_of
 from fsi_compare.studies.running.fingerprint import fingerprint
 from fsi_compare.studies.running.study_file import Method, Request
 from fsi_compare.studies.running.study_run import DONE, StudyRun
@@ -23,7 +23,7 @@ from fsi_compare.studies.scaling import model, study as scaling
 from fsi_compare.studies.scaling.measured import Spread, measure
 from fsi_compare.studies.scaling.model import Counted, Growth, Machine, counted, growth, step
 from fsi_compare.studies.scaling.tables import weak_efficiency
-from fsi_compare.runs.programs import Program
+from fsi_compare.studies.starting.programs import Program
 
 TUBE = Counted(
     nodes=8000,

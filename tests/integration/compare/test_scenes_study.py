@@ -12,8 +12,8 @@ from folder_case import FolderCase
 from synthetic import parabola, write_run
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.gallery.scene import READY, SceneRun, SceneRuns
-from fsi_compare.gallery.turek_hron import Benchmark, Known
+from fsi_compare.studies.gallery.scene import READY, SceneRun, SceneRuns
+from fsi_compare.studies.gallery.turek_hron import Benchmark, Known
 from fsi_compare.reporting.report import Report
 from fsi_compare.studies import scenes
 from fsi_compare.studies.running.context import Context

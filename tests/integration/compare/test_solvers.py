@@ -13,9 +13,9 @@ from fake_monolithic import behave, calls, install
 from folder_case import FolderCase
 
 from fsi_compare import cli
-from fsi_compare.base import paper
-from fsi_compare.base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
-from fsi_compare.linear.command import CASES
+from fsi_compare.studies.catalogue import paper
+from fsi_compare.studies.catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, METHODS, MULTILEVEL
+from fsi_compare.studies.linear.command import CASES
 
 SMALL = ("--materials", "neo-hookean", "--meshes", "coarse", "--methods", "amg,amg_fgmres,direct", "--systems", "1:1")
 
@@ -25,7 +25,7 @@ class StudyTest(FolderCase):
 
     def setUp(self):
         if not self.draw:
-            patch = mock.patch("fsi_compare.linear.solver_pictures.write_solver_pictures", return_value=[])
+            patch = mock.patch("fsi_compare.studies.linear.solver_pictures.write_solver_pictures", return_value=[])
             patch.start()
             self.addCleanup(patch.stop)
         super().setUp()
@@ -71,10 +71,10 @@ class WithPictures(StudyTest):
     draw = True
 
     def test_legend_covers_no_panel(self):
-        from fsi_compare.linear.solver_pictures import cost_figure, iterations_figure
+        from fsi_compare.studies.linear.solver_pictures import cost_figure, iterations_figure
 
         with mock.patch(
-            "fsi_compare.linear.solver_pictures.write_solver_pictures",
+            "fsi_compare.studies.linear.solver_pictures.write_solver_pictures",
             side_effect=lambda folder, grid: grids.append(grid) or [],
         ):
             for arguments in (SMALL, ("--systems", "1:1")):
@@ -113,7 +113,7 @@ class WithPictures(StudyTest):
         self.assertEqual([path.suffix for path in self.out.iterdir() if path.suffix in (".png", ".svg")], [])
 
     def test_names_differ_in_grey(self):
-        from fsi_compare.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
+        from fsi_compare.studies.linear.solver_pictures import MATERIAL_LINES, MESH_MARKS
 
         for lines in (MATERIAL_LINES, MESH_MARKS):
             self.assertEqual(len({line["marker"] for line in lines.values()}), len(lines))

@@ -68,7 +68,7 @@ class Packages(unittest.TestCase):
 
     def test_programs_depend_on_what_they_need(self):
         depends = {re.split(r"[ (]", word.strip())[0] for word in self.field(self.programs, "Depends").split(",")}
-        modules = ("", "-matplotlib", "-numpy", "-h5py", "-meshio", "-netcdf4")
+        modules = ("", "-matplotlib", "-numpy", "-h5py", "-jinja2", "-meshio", "-netcdf4")
         self.assertLessEqual({f"python3{module}" for module in modules}, depends)
         # Found by dpkg-shlibdeps, under names that carry a version.
         libraries = ["libc6", "libgmsh", "libhdf5", "libumfpack", "libopenblas", "libspdlog", "libfmt"]
@@ -97,6 +97,7 @@ class Packages(unittest.TestCase):
                 "/usr/lib/python3/dist-packages/fsi-duo.pth",
                 "/usr/share/fsi-duo/compare/fsi_compare/py.typed",
                 "/usr/share/fsi-duo/compare/fsi_compare/cli.py",
+                "/usr/share/fsi-duo/compare/fsi_compare/reporting/templates/report.html.j2",
                 "/usr/share/fsi-duo/compare/studies/paper.toml",
                 "/usr/share/fsi-duo/slurm/fsi-duo.sbatch",
                 "/usr/share/fsi-duo/meshes/artery/neo-hookean.toml",

@@ -2,8 +2,8 @@
 
 from typing import List, Optional, Sequence, Tuple
 
-from ...base.progress import duration
-from ..evidence.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
+from ..starting.progress import duration
+from ...runs.waves import JUDGED, PRESSURE, QUANTITIES, Quantity
 from .convergence import SPACE, TIME, Series
 from .frontier import cheapest
 from .measured import GAIN, Measured

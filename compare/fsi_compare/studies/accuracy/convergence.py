@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from ..evidence.waves import QUANTITIES, relative_difference
+from ...runs.waves import QUANTITIES, relative_difference
 from .measured import STEP, Measured
 from .observed_order import SelfConvergence, self_convergence, slope
 from .plan import Plan

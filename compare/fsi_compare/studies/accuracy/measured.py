@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
-from ..evidence.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
+from ...runs.waves import JUDGED, QUANTITIES, Waves, read_run, relative_difference
 from ..running.study_file import Request, show
 from ..running.study_run import StudyRun
 from .plan import Plan

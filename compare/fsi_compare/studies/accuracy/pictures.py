@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ...reporting.pictures import finish
-from ..evidence.waves import QUANTITIES, Quantity
+from ...runs.waves import QUANTITIES, Quantity
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
@@ -50,8 +50,7 @@ def work_precision(measured: Sequence[Measured], title: str) -> Figure:
             )
         )
         labels.append(f"step {step:g} ms")
-    _finish(figure, handles, labels, measured, title)
-    return figure
+    return _finish(figure, handles, labels, measured, title)
 
 
 def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
@@ -82,8 +81,7 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity:
         )
         for label, marker in methods.items()
     ]
-    _finish(figure, handles, list(methods), everyone, title, drivers=False)
-    return figure
+    return _finish(figure, handles, list(methods), everyone, title, drivers=False)
 
 
 def orders(series: Sequence[Series], what: str, title: str) -> Figure:
@@ -107,7 +105,7 @@ def orders(series: Sequence[Series], what: str, title: str) -> Figure:
         axes.set_title(quantity.name)
         axes.set_ylabel("difference from the next finer in %")
         _log(axes, "element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step in ms")
-    _finish(
+    return _finish(
         figure,
         handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s) for s in (":", "--")],
         [one.fixed for one in series] + ["first order", "second order"],
@@ -115,7 +113,6 @@ def orders(series: Sequence[Series], what: str, title: str) -> Figure:
         title,
         drivers=False,
     )
-    return figure
 
 
 def _size(one: Series, j: int) -> float:
@@ -203,7 +200,7 @@ def _finish(
     measured: Sequence[Measured],
     title: str,
     drivers: bool = True,
-) -> None:
+) -> Figure:
     if drivers:
         handles.append(Line2D([], [], color=ON_FRONTIER, linewidth=1.0, marker="o", markersize=5))
         labels.append("on the frontier")
@@ -222,8 +219,7 @@ def _finish(
                 )
             )
             labels.append("hollow: partitioned")
-    width, height = figure.get_size_inches()
-    finish(figure, handles, labels, title, (width, height))
+    return finish(figure, handles, labels, title)
 
 
 def _log(axes: Axes, name: str) -> None:

@@ -6,10 +6,10 @@ from typing import Any, Callable, Dict, List, Mapping, Tuple
 from ...base.errors import InputError
 from ...base.files import absolute
 from ...base.suggestions import nearest
-from ..evidence.reference import WaveReference, read_reference
-from ..evidence.waves import WINDOW
-from ..running.section import is_positive, report_of
-from ..running.study_file import Study
+from ...runs.reference import WaveReference, read_reference
+from ...runs.waves import WINDOW
+from ..running.section import is_positive
+from ..running.study_file import Study, report_of
 
 Wrong = Callable[[str, str, str], InputError]  # of key, problem and remedy
 
@@ -86,16 +86,9 @@ def _check_runs(study: Study, plan: Plan, wrong: Wrong) -> None:
         step: Any = request.settings.get("time.step")
         end: Any = request.settings.get("time.end")
         if not is_positive(step) or not is_positive(end):
-            raise InputError(
-                study.path,
-                f"runs.{request.group}",
-                "does not say time.step and time.end",
-                "give both in [set] or in the group: errors depend on them",
-            )
+            remedy = "give both in [set] or in the group: errors depend on them"
+            raise InputError(study.path, f"runs.{request.group}", "does not say time.step and time.end", remedy)
         if end < high + 0.5 * WINDOW - 1e-6:
-            raise InputError(
-                study.path,
-                f"runs.{request.group}",
-                f"ends at {end:g} ms, before report.times and half of the {WINDOW:g} ms of a mean",
-                f"run to {high + 0.5 * WINDOW:g} ms or longer, or shorten report.times",
-            )
+            problem = f"ends at {end:g} ms, before report.times and half of the {WINDOW:g} ms of a mean"
+            remedy = f"run to {high + 0.5 * WINDOW:g} ms or longer, or shorten report.times"
+            raise InputError(study.path, f"runs.{request.group}", problem, remedy)

@@ -5,10 +5,10 @@ against the tight solution of the same discrete equations: what stopping early, 
 
 from typing import Dict, List, Sequence
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.report import Report
 from ..evidence.runs_table import runs_table
-from ..evidence.waves import JUDGED, QUANTITIES, Quantity
+from ...runs.waves import JUDGED, QUANTITIES, Quantity
 from ..running.context import Context
 from ..running.repeats import timing_words
 from ..running.study_file import Study
@@ -127,9 +127,8 @@ def _method(report: Report, plan: Plan, cases: Sequence[str], timing: str) -> No
         "**Total error**: against the reference; from mesh, time step and solver together. **Solver's error**: "
         "against the solution of the same discrete equations with tightly converged steps; from tolerances and "
         "schemes alone. The two must not be confused: a tolerance can be changed for nothing, a mesh cannot.",
-        "**Frontier**: no other setting is both faster and more accurate; of total errors, a gain of less "
-        f"than {percent(GAIN)} of the error does not count. {timing} Neighbours of the frontier are as good as "
-        "those on it.",
+        "**Frontier**: no other setting is both faster and more accurate; of total errors, a gain of less than "
+        f"{percent(GAIN)} of the error does not count. {timing} Neighbours of the frontier are as good as those on it.",
         "**Observed order**: from the differences of three successive solutions, whatever the ratio of their "
         "sizes; it needs no reference. The last column gives the slope against the reference instead.",
     )

@@ -2,11 +2,11 @@
 
 from typing import Callable, List, NamedTuple, Optional, Sequence
 
-from ...base.progress import duration
+from ..starting.progress import duration
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...runs.work_units import NOTE_IN_ALL
-from ..evidence.waves import QUANTITIES, Quantity
+from ...runs.waves import QUANTITIES, Quantity
 from ..running.study_run import known
 from .advice import percent
 from .convergence import SPACE, Series
@@ -29,12 +29,12 @@ def frontier_table(measured: Sequence[Measured], quantity: Quantity, name: str, 
     """`name`, `stem`: what title and file say of the case."""
     best = frontier([(m.seconds, m.total[quantity.column]) for m in measured], GAIN)
     columns: List[Column[Place]] = [
-        Column("number", "number", value=lambda p: p.number, left=True),
-        Column("equations", "equations", value=lambda p: p.run.equations, left=True),
-        Column("solved by", "solved_by", value=lambda p: p.run.solving, left=True),
-        Column("error", "relative_error", value=lambda p: p.run.total[quantity.column], format=percent),
+        Column("number", "number", lambda p: p.number, left=True),
+        Column("equations", "equations", lambda p: p.run.equations, left=True),
+        Column("solved by", "solved_by", lambda p: p.run.solving, left=True),
+        Column("error", "relative_error", lambda p: p.run.total[quantity.column], percent),
         work_column("work units", "work_units", lambda p: p.run.work_units),
-        Column("seconds", "seconds", value=lambda p: p.run.seconds, format=".1f"),
+        Column("seconds", "seconds", lambda p: p.run.seconds, ".1f"),
     ]
     return Table(
         f"frontier_{quantity.file.split('.')[0]}{stem}",
@@ -75,9 +75,9 @@ class OneOrder(NamedTuple):
 
 
 THREES: Sequence[Column[Three]] = (
-    Column("refined", "refined", value=lambda t: t.series.what, left=True),
-    Column("all else", "fixed", value=lambda t: t.series.fixed, left=True),
-    Column("sizes", "sizes", value=lambda t: t.sizes, left=True),
+    Column("refined", "refined", lambda t: t.series.what, left=True),
+    Column("all else", "fixed", lambda t: t.series.fixed, left=True),
+    Column("sizes", "sizes", lambda t: t.sizes, left=True),
 )
 
 
@@ -123,7 +123,7 @@ def _errors(group: str, kind: str, error: Callable[[Measured, Quantity], Optiona
     """Of each quantity, in the CSV as NAME_KIND."""
 
     def column(q: Quantity, head: str, csv: str) -> Column[Measured]:
-        return Column(head, f"{csv}_{kind}", value=lambda m: error(m, q), format=percent, group=group)
+        return Column(head, f"{csv}_{kind}", lambda m: error(m, q), percent, group=group)
 
     return [column(*one) for one in zip(QUANTITIES, SHORT, CSV)]
 
@@ -134,12 +134,12 @@ def algebraic_table(number: int, name: str, runs: Sequence[Measured]) -> Table:
     places = {id(runs[j]): place for place, j in enumerate(best, 1)}
     columns: List[Column[Measured]] = [
         Column(csv="equations", value=lambda m: name),
-        Column("solved by", "solved_by", value=lambda m: m.solving, left=True),
+        Column("solved by", "solved_by", lambda m: m.solving, left=True),
         *_errors("error", "error", _algebraic),
         work_column("work units", "work_units", lambda m: m.work_units),
-        Column("seconds", "seconds", value=lambda m: m.seconds, format=".2f"),
-        Column("iterations per step", "iterations_per_step", value=lambda m: known(m.run.passes), format=".1f"),
-        Column("frontier", "on_frontier", value=lambda m: id(m) in places, text=lambda m: str(places.get(id(m), ""))),
+        Column("seconds", "seconds", lambda m: m.seconds, ".2f"),
+        Column("iterations per step", "iterations_per_step", lambda m: known(m.run.passes), ".1f"),
+        Column("frontier", "on_frontier", lambda m: id(m) in places, text=lambda m: str(places.get(id(m), ""))),
     ]
     return Table(
         f"algebraic_{number}",
@@ -151,19 +151,19 @@ def algebraic_table(number: int, name: str, runs: Sequence[Measured]) -> Table:
 
 
 SETTINGS: Sequence[Column[Measured]] = (
-    Column("case", "case", value=lambda m: m.run.request.case, left=True),
+    Column("case", "case", lambda m: m.run.request.case, left=True),
     Column(csv="mesh", value=lambda m: m.mesh),
     Column(csv="nodes", value=lambda m: m.nodes),
     Column(csv="step", unit="ms", value=lambda m: m.step),
-    Column("equations", "equations", value=lambda m: m.equations, left=True),
-    Column("solved by", "solved_by", value=lambda m: m.solving, left=True),
+    Column("equations", "equations", lambda m: m.equations, left=True),
+    Column("solved by", "solved_by", lambda m: m.solving, left=True),
     Column(csv="driver", value=lambda m: m.run.request.method.program),
-    Column("group", "group", value=lambda m: m.run.request.group, left=True),
+    Column("group", "group", lambda m: m.run.request.group, left=True),
     Column("nodes", value=lambda m: m.nodes, format=","),
     *_errors("total error", "error", lambda m, q: m.total[q.column]),
     *_errors("solver's error", "solver_error", _algebraic),
     work_column("work units", "work_units", lambda m: m.work_units),
-    Column("time", "seconds", value=lambda m: m.seconds, format=duration),
+    Column("time", "seconds", lambda m: m.seconds, duration),
     Column(csv="process", unit="s", value=lambda m: m.run.seconds),
     Column(csv="folder", value=lambda m: m.run.folder.name),
 )

@@ -132,11 +132,11 @@ class Found(NamedTuple):
 
 
 FOUND: Sequence[Column[Found]] = (
-    Column("wall's stabilisation", "stabilisation", value=lambda f: f.stabilisation, format="g", left=True),
-    Column("time step", "time_step", "ms", value=lambda f: f.step, format=lambda step: f"{step:g} ms", left=True),
+    Column("wall's stabilisation", "stabilisation", lambda f: f.stabilisation, "g", left=True),
+    Column("time step", "time_step", lambda f: f.step, lambda step: f"{step:g} ms", "ms", left=True),
     Column("measured", value=lambda f: text(f.bracket)),
 )
-RUNS: Column[Found] = Column("runs", "runs", value=lambda f: f.bracket.runs)
+RUNS: Column[Found] = Column("runs", "runs", lambda f: f.bracket.runs)
 
 
 def search_all(context: Context, name: str, entry: Search) -> List[Found]:
@@ -153,20 +153,8 @@ def explicit(context: Context, entry: Search) -> List[Bracket]:
         *FOUND,
         Column(csv="unstable_at", value=lambda f: f.bracket.fails),
         Column(csv="stable_at", value=lambda f: f.bracket.holds),
-        Column(
-            "as published",
-            "theory_published",
-            value=lambda f: theory.critical_density_ratio(),
-            format=".0f",
-            group="theory",
-        ),
-        Column(
-            "for this scheme",
-            "theory_this_scheme",
-            value=lambda f: theory.explicit_limit(1),
-            format=".0f",
-            group="theory",
-        ),
+        Column("as published", "theory_published", lambda f: theory.critical_density_ratio(), ".0f", group="theory"),
+        Column("for this scheme", "theory_this_scheme", lambda f: theory.explicit_limit(1), ".0f", group="theory"),
         RUNS,
     ]
     table = Table(
@@ -193,7 +181,7 @@ def constant(context: Context, entry: Search) -> List[Bracket]:
         *FOUND,
         Column(csv="converges_at", value=lambda f: f.bracket.holds),
         Column(csv="diverges_at", value=lambda f: f.bracket.fails),
-        Column("theory 2/(1 + |G|)", "theory", value=lambda f: theory.largest_factor(f.step), format=".4f"),
+        Column("theory 2/(1 + |G|)", "theory", lambda f: theory.largest_factor(f.step), ".4f"),
         RUNS,
     ]
     table = Table(

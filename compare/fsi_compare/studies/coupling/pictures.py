@@ -5,20 +5,8 @@ from typing import Any, List, Mapping, Optional, Sequence
 
 from matplotlib.figure import Figure
 
-from ...reporting.pictures import finish
+from ...reporting.pictures import MARKED_LINES, finish
 
-# Told apart without colour by marker, dash pattern and lightness.
-STYLES = (
-    {"linestyle": "-", "marker": "o", "color": "#000000"},
-    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
-    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
-    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
-    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
-    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
-    {"linestyle": (0, (1, 3)), "marker": "X", "color": "#555555"},
-    {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
-    {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
-)
 OFF = {"linestyle": "none", "marker": "x", "color": "#000000", "markersize": 15, "markeredgewidth": 2.5, "zorder": 1.5}
 
 
@@ -33,12 +21,11 @@ class Series:
 def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, Any], bound: float) -> Figure:
     """Two logarithmic axes; above them a strip with a row per scheme that marks where it failed. Answers further than
     `bound` from the monolithic ones are crossed out."""
-    width, height = 7.4, 5.4
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(7.4, 5.4))
     strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 3])
     handles = []
     for i, line in enumerate(all_series):
-        style = dict(STYLES[i % len(STYLES)], markersize=5, linewidth=1.3, label=line.label)
+        style = dict(MARKED_LINES[i % len(MARKED_LINES)], markersize=5, linewidth=1.3, label=line.label)
         y = [float("nan") if value is None else value for value in line.passes]
         handles += axes.plot(line.x, y, **style)
         failed = [x for x, value in zip(line.x, line.passes) if value is None]
@@ -64,5 +51,4 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
     strip.set_yticks(range(len(all_series)), [line.label for line in all_series], fontsize=6.5)
     strip.set_title("failed", loc="left")
     tolerance = settings.get("partitioned.tolerance", 1e-6)
-    finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}", (width, height))
-    return figure
+    return finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}")

@@ -12,7 +12,7 @@ from collections import Counter
 from typing import Dict, List, Sequence
 
 from ...base.errors import InputError
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.cost import Cost, cost_table, read_cost
 from ..evidence.cross_check import WRONG, Cell
 from ..running.context import Context

@@ -10,8 +10,7 @@ from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
 from ..running.commands import with_name
-from ..running.section import report_of
-from ..running.study_file import Study
+from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from . import added_mass_runs
 from .pictures import Series

@@ -2,7 +2,7 @@
 
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from ...reporting.cost import Cost
@@ -111,22 +111,16 @@ def growth_table(runs: Sequence[StudyRun]) -> Table:
         Column(
             "scheme",
             "scheme",
-            value=lambda g: g.run.request.method.name,
+            lambda g: g.run.request.method.name,
             text=lambda g: g.run.request.method.label,
             left=True,
         ),
-        Column(
-            "material",
-            "case",
-            value=lambda g: g.run.request.case,
-            format=lambda case: MATERIALS.get(case, case),
-            left=True,
-        ),
-        Column("mesh", "mesh", value=lambda g: mesh_name(g.run), left=True),
-        Column("steps", "steps", value=lambda g: g.steps),
-        Column(f"mean, {coarsest}", "mean_coarsest", value=lambda g: g.coarsest, format=".1f"),
-        Column("mean here", "mean", value=lambda g: g.mean, format=".1f"),
-        Column("ratio", "ratio", value=lambda g: g.mean / g.coarsest, format=".2f"),
+        Column("material", "case", lambda g: g.run.request.case, lambda case: MATERIALS.get(case, case), left=True),
+        Column("mesh", "mesh", lambda g: mesh_name(g.run), left=True),
+        Column("steps", "steps", lambda g: g.steps),
+        Column(f"mean, {coarsest}", "mean_coarsest", lambda g: g.coarsest, ".1f"),
+        Column("mean here", "mean", lambda g: g.mean, ".1f"),
+        Column("ratio", "ratio", lambda g: g.mean / g.coarsest, ".2f"),
     ]
     of_coarsest = {(r.request.method.name, r.request.case): r for r in reversed(done) if mesh_name(r) == coarsest}
     found = []
@@ -243,10 +237,10 @@ def percent(value: float) -> str:
 
 SAVED = "saved by the monolithic driver, %"
 SAVINGS: Sequence[Column[Saving]] = (
-    Column("scheme", "scheme", value=lambda s: s.cost.label, left=True),
-    Column("seconds", "seconds_saved", value=lambda s: s.seconds, format=percent, group=SAVED),
-    Column("linear solves", "linear_solves_saved", value=lambda s: s.solves, format=percent, group=SAVED),
-    Column("linear iterations", "linear_iterations_saved", value=lambda s: s.linear, format=percent, group=SAVED),
+    Column("scheme", "scheme", lambda s: s.cost.label, left=True),
+    Column("seconds", "seconds_saved", lambda s: s.seconds, percent, group=SAVED),
+    Column("linear solves", "linear_solves_saved", lambda s: s.solves, percent, group=SAVED),
+    Column("linear iterations", "linear_iterations_saved", lambda s: s.linear, percent, group=SAVED),
 )
 
 

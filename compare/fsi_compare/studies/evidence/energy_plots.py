@@ -93,8 +93,9 @@ def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str
     """A panel per run, on one logarithmic scale: most parts are small beside what was supplied and lost."""
     columns = min(len(balances), 3)
     rows = -(-len(balances) // columns)
-    width, panels = columns * (PANEL_INCHES[0] - 0.7) + (2 if columns == 1 else 0), rows * (PANEL_INCHES[1] + 0.5)
-    figure = Figure(figsize=(width, panels))
+    figure = Figure(
+        figsize=(columns * (PANEL_INCHES[0] - 0.7) + (2 if columns == 1 else 0), rows * (PANEL_INCHES[1] + 0.5))
+    )
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for axes in grid.flat[len(balances) :]:
         axes.set_visible(False)
@@ -120,8 +121,7 @@ def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str
         grid[0, 0].set_ylim(SHOWN * most, 1.6 * most)  # shared by all
     for row in grid:
         row[0].set_ylabel("energy in uJ")
-    finish(figure, handles, list(LINES), title, (width, panels))
-    return figure
+    return finish(figure, handles, list(LINES), title)
 
 
 Named = Tuple[str, Balance]  # label of the run
@@ -134,19 +134,19 @@ def _of_part(name: str) -> Column[Named]:
         share = 100 * one[1].end(name) / one[1].end("supplied")
         return f"{share:.1e}" if name == REMAINDER else f"{share:.2f}"
 
-    return Column(name, name.replace(", ", "_").replace(" ", "_"), "uJ", value=lambda one: one[1].end(name), text=text)
+    return Column(name, name.replace(", ", "_").replace(" ", "_"), lambda one: one[1].end(name), unit="uJ", text=text)
 
 
 ENERGY: Sequence[Column[Named]] = (
-    Column("run", "run", value=lambda one: one[0], left=True),
+    Column("run", "run", lambda one: one[0], left=True),
     Column(csv="time", unit="ms", value=lambda one: float(one[1].times[-1])),
-    Column("supplied in {unit}", "supplied", "uJ", value=lambda one: one[1].end("supplied"), format=".4g"),
+    Column("supplied in {unit}", "supplied", lambda one: one[1].end("supplied"), ".4g", "uJ"),
     *(_of_part(name) for name in PARTS[1:]),
     Column(
         "left over at most",
         "largest_remainder_relative",
-        value=lambda one: one[1].largest_remainder,
-        format=lambda share: f"{100 * share:.1e}",
+        lambda one: one[1].largest_remainder,
+        lambda share: f"{100 * share:.1e}",
     ),
 )
 
@@ -177,10 +177,9 @@ def energy_section(
     report.figure(
         stem,
         lambda: energy_figure(balances, names, "Energy balance"),
-        "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less "
-        "what flows out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and "
-        f"volumetric. Logarithmic, down to {SHOWN:g} of the most that was supplied; what is left over is far "
-        "below.",
+        "Energy over time. Supplied: work of the inlet's pressure and kinetic energy that flows in, less what flows "
+        "out at the outlet; supplied and lost are summed from the start. Elastic: isochoric and volumetric. "
+        f"Logarithmic, down to {SHOWN:g} of the most that was supplied; what is left over is far below.",
     )
     report.table(energy_table(balances, names, stem))
     return balances

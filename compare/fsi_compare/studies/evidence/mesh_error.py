@@ -7,12 +7,13 @@ from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_toml
-from ...base.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS, MESHES
 from ...reporting.column import Column
 from ...reporting.layout import Table
+from ..running.section import flat
 from ..running.study_run import StudyRun
-from .reference import FILE, WaveReference, read_reference
-from .waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
+from ...runs.reference import FILE, WaveReference, read_reference
+from ...runs.waves import DISPLACEMENT, PRESSURE, WRITTEN, read_waves, relative_difference
 
 REFERENCES = Path(__file__).resolve().parents[3] / "studies" / "references"
 
@@ -57,17 +58,7 @@ def percent(value: float) -> str:
 
 def physical(case: Mapping[str, Any], settings: Optional[Mapping[str, Any]] = None) -> Dict[str, Any]:
     """What of a case file's entries, and of settings over them, states the continuous problem: dotted key -> value."""
-    entries: Dict[str, Any] = {}
-
-    def walk(prefix: str, table: Mapping[str, Any]) -> None:
-        for key, value in table.items():
-            if isinstance(value, dict):
-                walk(f"{prefix}{key}.", value)
-            else:
-                entries[f"{prefix}{key}"] = value
-
-    walk("", case)
-    entries.update(settings or {})
+    entries = {**dict(flat(case)), **(settings or {})}
     return {
         key: value
         for key, value in entries.items()
@@ -141,9 +132,7 @@ Wave = Tuple[StudyRun, MeshError]
 
 
 def _error(name: str, csv: str, group: str, value: Callable[[MeshError], Optional[float]]) -> Column[Wave]:
-    return Column(
-        name, csv, value=lambda w: value(w[1]), format=lambda e: f"{100 * e:.2g}", group=group, missing="unknown"
-    )
+    return Column(name, csv, lambda w: value(w[1]), lambda e: f"{100 * e:.2g}", group=group, missing="unknown")
 
 
 def _mesh_words(run: StudyRun) -> str:
@@ -156,18 +145,12 @@ ERRORS: Sequence[Column[Wave]] = (
     Column(
         "case",
         "case",
-        value=lambda w: w[0].request.case,
+        lambda w: w[0].request.case,
         text=lambda w: MATERIALS.get(w[0].request.case, w[0].request.case),
         left=True,
     ),
-    Column("mesh", "mesh", value=lambda w: _mesh_words(w[0]), left=True),
-    Column(
-        "method",
-        "method",
-        value=lambda w: w[0].request.method.name,
-        text=lambda w: w[0].request.method.label,
-        left=True,
-    ),
+    Column("mesh", "mesh", lambda w: _mesh_words(w[0]), left=True),
+    Column("method", "method", lambda w: w[0].request.method.name, text=lambda w: w[0].request.method.label, left=True),
     _error("error", "pressure_relative_L2", PRESSURE_HEAD, lambda e: e.pressure),
     _error("reference's own", "pressure_reference_own", PRESSURE_HEAD, lambda e: e.own_pressure),
     _error("error", "radial_relative_L2", RADIAL_HEAD, lambda e: e.displacement),

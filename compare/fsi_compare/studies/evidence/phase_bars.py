@@ -72,15 +72,15 @@ class Phases(NamedTuple):
 
 def _of_part(part: str) -> Column[Phases]:
     return Column(
-        part, part.replace("-", "_"), "s", value=lambda p: p.parts[part], text=lambda p: p.per_step(p.parts[part])
+        part, part.replace("-", "_"), lambda p: p.parts[part], unit="s", text=lambda p: p.per_step(p.parts[part])
     )
 
 
 PHASES: Sequence[Column[Phases]] = (
-    Column("run", "run", value=lambda p: p.label, left=True),
+    Column("run", "run", lambda p: p.label, left=True),
     Column(csv="steps", value=lambda p: p.run.steps),
     *(_of_part(part) for part in PARTS),
-    Column("all", "wall", "s", value=lambda p: p.run.wall_s, text=lambda p: p.per_step(p.run.wall_s)),
+    Column("all", "wall", lambda p: p.run.wall_s, unit="s", text=lambda p: p.per_step(p.run.wall_s)),
 )
 
 
@@ -121,14 +121,13 @@ def phase_figure(runs: Sequence[StudyRun], labels: Sequence[str], title: str) ->
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ms of wall time per time step")
     handles = [Patch(edgecolor="#000000", linewidth=0.6, **style) for style in PARTS.values()]
-    finish(
+    return finish(
         figure,
         handles,
         [_legend(part, [bar[part] for bar in lengths], longest) for part in PARTS],
         title,
         (width, height),
     )
-    return figure
 
 
 def _legend(part: str, lengths: Sequence[float], longest: float) -> str:

@@ -2,7 +2,7 @@
 
 from typing import Sequence
 
-from ...base.progress import duration
+from ..starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..running.study_file import show
@@ -11,29 +11,25 @@ from ...reporting.work_column import work_column
 
 
 RUNS: Sequence[Column[StudyRun]] = (
-    Column("group", "group", value=lambda run: run.request.group, left=True),
-    Column("case", "case", value=lambda run: run.request.case, left=True),
+    Column("group", "group", lambda run: run.request.group, left=True),
+    Column("case", "case", lambda run: run.request.case, left=True),
     Column(
-        "method",
-        "method",
-        value=lambda run: run.request.method.name,
-        text=lambda run: run.request.method.label,
-        left=True,
+        "method", "method", lambda run: run.request.method.name, text=lambda run: run.request.method.label, left=True
     ),
-    Column("values", "values", value=lambda run: values_of(run), left=True),
+    Column("values", "values", lambda run: values_of(run), left=True),
     Column(
         "outcome",
         "status",
-        value=lambda run: run.status,
+        lambda run: run.status,
         text=lambda run: run.status if run.done else f"{run.status}: {run.message}",
         left=True,
     ),
     Column(csv="message", value=lambda run: run.message),
-    Column("steps", "steps", value=lambda run: run.steps),
-    Column("iterations per step", "iterations_per_step", value=lambda run: known(run.passes), format=".2f"),
+    Column("steps", "steps", lambda run: run.steps),
+    Column("iterations per step", "iterations_per_step", lambda run: known(run.passes), ".2f"),
     work_column("work units per step", "work_units_per_step", lambda run: run.work_units_per_step),
     Column(csv="wall", unit="s", value=lambda run: known(run.wall_s)),
-    Column("time", "process", "s", value=lambda run: run.seconds, format=duration),
+    Column("time", "process", lambda run: run.seconds, duration, "s"),
     Column(csv="folder", value=lambda run: run.folder.name),
     Column(csv="command", value=lambda run: run.command),
 )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Sequence
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...runs.work_units import shown
 from ..evidence.mesh_error import MeshError, percent
 from .claims import NOT_REPRODUCED, Claim, tally

@@ -50,17 +50,17 @@ def tally(claims: Sequence[Claim]) -> str:
 
 
 CLAIM: Sequence[Column[Claim]] = (
-    Column("section", "section", value=lambda c: c.section, left=True),
-    Column("the paper", "claim", value=lambda c: c.claim, left=True),
+    Column("section", "section", lambda c: c.section, left=True),
+    Column("the paper", "claim", lambda c: c.claim, left=True),
 )
 VERDICTS: Sequence[Column[Claim]] = (
     *CLAIM,
-    Column("here", "verdict", value=lambda c: c.verdict, left=True),
-    Column("our numbers", "ours", value=lambda c: c.ours, left=True),
-    Column("why", "why", value=lambda c: c.why, left=True),
+    Column("here", "verdict", lambda c: c.verdict, left=True),
+    Column("our numbers", "ours", lambda c: c.ours, left=True),
+    Column("why", "why", lambda c: c.why, left=True),
     Column(csv="rule", value=lambda c: c.rule),
 )
-RULES: Sequence[Column[Claim]] = (*CLAIM, Column("rule", "rule", value=lambda c: c.rule, left=True))
+RULES: Sequence[Column[Claim]] = (*CLAIM, Column("rule", "rule", lambda c: c.rule, left=True))
 
 
 def claims_table(claims: Sequence[Claim]) -> Table:

@@ -4,9 +4,9 @@ conclusion that it is the more robust one."""
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
-from ...base import paper
-from ...base.names import MATERIALS, MESHES
-from ...linear.grid import Grid
+from ..catalogue import paper
+from ..catalogue.names import MATERIALS, MESHES
+from ..linear.grid import Grid
 from ...reporting.cost import COUPLED, FLUID, WALL, calls
 from ...reporting.column import Column
 from ...reporting.layout import Table
@@ -130,18 +130,18 @@ TIMED = (
 
 
 STEPS: Sequence[Column[StepCost]] = (
-    Column("mesh", "mesh", value=lambda c: mesh_of(c.run), left=True),
-    Column("method", "method", value=lambda c: c.method, text=lambda c: c.label, left=True),
-    Column("coupling iterations", "coupling_iterations", value=lambda c: c.passes, format=".1f"),
-    Column("Newton iterations", "newton_iterations", value=lambda c: c.newton, format=".1f"),
-    Column("rounds as the paper counts", "rounds", value=lambda c: c.rounds, format=".0f"),
-    Column("sub-problem solves", "sub_problem_solves", value=lambda c: c.solves, format=".0f"),
-    Column("linear systems", "linear_systems", value=lambda c: c.systems, format=".1f"),
-    Column("linear iterations", "linear_iterations", value=lambda c: c.linear, format=".0f"),
+    Column("mesh", "mesh", lambda c: mesh_of(c.run), left=True),
+    Column("method", "method", lambda c: c.method, text=lambda c: c.label, left=True),
+    Column("coupling iterations", "coupling_iterations", lambda c: c.passes, ".1f"),
+    Column("Newton iterations", "newton_iterations", lambda c: c.newton, ".1f"),
+    Column("rounds as the paper counts", "rounds", lambda c: c.rounds, ".0f"),
+    Column("sub-problem solves", "sub_problem_solves", lambda c: c.solves, ".0f"),
+    Column("linear systems", "linear_systems", lambda c: c.systems, ".1f"),
+    Column("linear iterations", "linear_iterations", lambda c: c.linear, ".0f"),
     work_column("work units", "work_units_per_step", lambda c: c.run.work_units_per_step),
-    Column("seconds", "wall_s_per_step", value=lambda c: c.seconds, format=".3g"),
+    Column("seconds", "wall_s_per_step", lambda c: c.seconds, ".3g"),
     Column(csv="steps", value=lambda c: c.run.steps),
-    Column("timed", "timings", value=lambda c: max(1, len(c.run.timings)), text=lambda c: c.timing),
+    Column("timed", "timings", lambda c: max(1, len(c.run.timings)), text=lambda c: c.timing),
 )
 
 
@@ -153,12 +153,11 @@ def cost_table(found: Sequence[StepCost]) -> Table:
         STEPS,
         found,
         notes=[
-            "Means over the same steps. Rounds: coupled linear iterations, or Newton iterations of a sub-problem "
-            "(half of those of fluid and wall together); the paper sets each equal to one use of the sub-problems' "
-            "solvers. Sub-problem solves: what these uses are, cycles of a sub-problem's AMG in the coupled "
-            "iterations (AMG_FGMRES), iterations of the coupled solver (`fast`), or iterations of a sub-problem's "
-            "own solver, a factorised one counting once. Linear systems: of the whole, or of fluid and wall. Seconds "
-            "without output.",
+            "Means over the same steps. Rounds: coupled linear iterations, or Newton iterations of a sub-problem (half "
+            "of those of fluid and wall together); the paper sets each equal to one use of the sub-problems' solvers. "
+            "Sub-problem solves: what these uses are, cycles of a sub-problem's AMG in the coupled iterations "
+            "(AMG_FGMRES), iterations of the coupled solver (`fast`), or iterations of a sub-problem's own solver, a "
+            "factorised one counting once. Linear systems: of the whole, or of fluid and wall. Seconds without output.",
             TIMED,
             *notes,
         ],
@@ -200,15 +199,13 @@ def _saved(quantity: str, head: str) -> Column[Saving]:
     def text(saving: Saving) -> str:
         return f"{100 * saving.of(quantity):.0f}" + "~" * (quantity == "seconds" and saving.within_noise)
 
-    return Column(head, f"saved_{quantity}", value=lambda s: s.of(quantity), text=text, group="saved in")
+    return Column(head, f"saved_{quantity}", lambda s: s.of(quantity), text=text, group="saved in")
 
 
 SAVINGS: Sequence[Column[Saving]] = (
-    Column("mesh", "mesh", value=lambda s: s.mesh, left=True),
-    Column(
-        "monolithic", "monolithic", value=lambda s: s.monolithic.method, text=lambda s: s.monolithic.label, left=True
-    ),
-    Column("over", "partitioned", value=lambda s: s.partitioned.method, text=lambda s: s.partitioned.label, left=True),
+    Column("mesh", "mesh", lambda s: s.mesh, left=True),
+    Column("monolithic", "monolithic", lambda s: s.monolithic.method, text=lambda s: s.monolithic.label, left=True),
+    Column("over", "partitioned", lambda s: s.partitioned.method, text=lambda s: s.partitioned.label, left=True),
     _saved("rounds", "rounds as the paper counts"),
     _saved("solves", "sub-problem solves"),
     _saved("seconds", "seconds"),

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Dict, List, Sequence, Tuple
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report
@@ -62,11 +62,11 @@ def remainders(balances: Sequence[Tuple[StudyRun, Balance]]) -> List[Remainder]:
 
 
 REMAINDERS: Sequence[Column[Remainder]] = (
-    Column("runs of", "group", value=lambda r: r.group, left=True),
-    Column("approach", "approach", value=lambda r: r.approach, left=True),
-    Column("wall", "wall", value=lambda r: r.wall, left=True),
-    Column("runs", "runs", value=lambda r: r.runs),
-    Column("left over at most", "largest_remainder_relative", value=lambda r: r.worst, format=".1e"),
+    Column("runs of", "group", lambda r: r.group, left=True),
+    Column("approach", "approach", lambda r: r.approach, left=True),
+    Column("wall", "wall", lambda r: r.wall, left=True),
+    Column("runs", "runs", lambda r: r.runs),
+    Column("left over at most", "largest_remainder_relative", lambda r: r.worst, ".1e"),
     Column(csv="run", value=lambda r: r.run),
 )
 
@@ -78,9 +78,8 @@ def remainder_table(found: Sequence[Remainder]) -> Table:
         REMAINDERS,
         found,
         notes=[
-            "Partitioned runs leave over what their tolerance lets the interface mismatch. Fibres tighten "
-            "at a kink of the stress: the balance integrates it with an error where that falls within a "
-            "step."
+            "Partitioned runs leave over what their tolerance lets the interface mismatch. Fibres tighten at a kink of "
+            "the stress: the balance integrates it with an error where that falls within a step."
         ],
     )
 

@@ -7,12 +7,12 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import make_folder
-from ...base.names import MATERIALS, MESHES, METHODS
+from ..catalogue.names import MATERIALS, MESHES, METHODS
 from ...base.suggestions import check_keys, nearest
-from ...linear.results import System
-from ...linear.grid import Grid
-from ...linear.study import Request, finished, run_study
-from ...runs.programs import require_linear_systems
+from ..linear.results import System
+from ..linear.grid import Grid
+from ..linear.study import Request, finished, run_study
+from ..starting.programs import require_linear_systems
 from ..running.builds import Builds
 from ..running.context import Context
 from ..running.runner import Runner, Standing

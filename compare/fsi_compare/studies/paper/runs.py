@@ -2,7 +2,7 @@
 
 from typing import List, Optional, Sequence
 
-from ...base.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS, MESHES
 from ..running.study_run import StudyRun
 
 MONOLITHIC, PARTITIONED = "monolithic", "robin-neumann-iqn"

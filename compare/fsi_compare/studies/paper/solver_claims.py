@@ -5,9 +5,9 @@ import math
 import sys
 from typing import Callable, Collection, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
-from ...base import paper
-from ...base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
-from ...linear.grid import Grid
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES, MULTILEVEL
+from ..linear.grid import Grid
 from .claims import Claim, compared, unexamined, verdict
 from .linear import FIRST_SYSTEM
 

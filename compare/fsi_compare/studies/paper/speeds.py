@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.pictures import PANEL_INCHES, finish
@@ -238,10 +238,9 @@ def _resolved_note(levels: Sequence[str]) -> str:
 
 def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequence[str]) -> Figure:
     """Left the thick wall's dispersion; right a line of marks for each wall, so that their names have room."""
-    from ...linear.solver_pictures import MATERIAL_LINES
+    from ..linear.solver_pictures import MATERIAL_LINES
 
-    width, height = 9.2, max(PANEL_INCHES[1] + 1.1, 0.9 + 0.36 * len(found))
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(9.2, max(PANEL_INCHES[1] + 1.1, 0.9 + 0.36 * len(found))))
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.45])
     handles, labels = [], []
     products = np.linspace(0.02, 3, 60)
@@ -292,8 +291,7 @@ def speed_figure(found: Sequence[Speeds], tubes: Dict[str, Tube], levels: Sequen
     right.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
     right.set_xlabel("speed in mm/ms")
     right.set_title("theory and runs")
-    finish(figure, handles, labels, "Speed of the pressure wave", (width, height))
-    return figure
+    return finish(figure, handles, labels, "Speed of the pressure wave")
 
 
 def _crest(level: int, color: str) -> dict:

@@ -7,13 +7,13 @@ paper.linear)."""
 from pathlib import Path
 from typing import Dict, List, Mapping, Sequence
 
-from ...base import paper
+from ..catalogue import paper
 from ...base.errors import InputError
-from ...base.names import MATERIALS
+from ..catalogue.names import MATERIALS
 from ...base.suggestions import check_keys, nearest
-from ...linear import solver_pictures
-from ...linear.grid import Grid
-from ...linear.solver_tables import solver_tables
+from ..linear import solver_pictures
+from ..linear.grid import Grid
+from ..linear.solver_tables import solver_tables
 from ...reporting.report import Report
 from ..evidence.mesh_error import MeshError, error_words
 from ..evidence.phase_bars import MEANING, phase_figure, phase_table
@@ -39,20 +39,12 @@ REPORT_KEYS = ("linear",)
 def check(study: Study) -> None:
     for case in study.cases:
         if case not in MATERIALS:
-            raise InputError(
-                study.path,
-                f"cases.{case}",
-                "is none of the paper's materials",
-                f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}",
-            )
+            remedy = f"did you mean '{nearest(case, list(MATERIALS))}'? There are {', '.join(MATERIALS)}"
+            raise InputError(study.path, f"cases.{case}", "is none of the paper's materials", remedy)
     for request in study.requests:
         if request.group not in GROUPS:
-            raise InputError(
-                study.path,
-                f"runs.{request.group}",
-                "is no group of this kind of study",
-                f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}",
-            )
+            remedy = f"did you mean '{nearest(request.group, GROUPS)}'? There are {', '.join(GROUPS)}"
+            raise InputError(study.path, f"runs.{request.group}", "is no group of this kind of study", remedy)
     check_keys(study.path, "report", study.report, REPORT_KEYS)
     if not any(request.group == WAVES and request.method.name == MONOLITHIC for request in study.requests):
         raise InputError(
@@ -194,10 +186,9 @@ def _cost(report: Report, costs: Sequence[paper_cost.StepCost]) -> None:
     report.section("Cost")
     own = paper_cost.paper_rounds()
     report.text(
-        f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned "
-        f"approach (50 to 55 fixed-point iterations of 4 to 5 Newton iterations) and {own['monolithic']:.0f} "
-        "for the monolithic one (4 Newton iterations of 10 coupled iterations), and states a saving of "
-        "almost 50 %. It gives no seconds."
+        f"The paper counts {own['partitioned']:.0f} rounds of sub-problem solves a step for the partitioned approach "
+        f"(50 to 55 fixed-point iterations of 4 to 5 Newton iterations) and {own['monolithic']:.0f} for the monolithic "
+        "one (4 Newton iterations of 10 coupled iterations), and states a saving of almost 50 %. It gives no seconds."
     )
     report.table(paper_cost.cost_table(costs))
     saved = paper_cost.savings(costs)

@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence
 
-from ...base import paper
+from ..catalogue import paper
 from ...base.errors import InputError
 from ...base.files import read_toml
-from ...base.names import MATERIALS, MESHES
-from ...linear.grid import Grid
+from ..catalogue.names import MATERIALS, MESHES
+from ..linear.grid import Grid
 from ...reporting.column import Column, Facts, fixed
 from ...reporting.layout import Table
 from .runs import WAVES, PaperRuns, mesh_of
@@ -40,14 +40,12 @@ class Parameter(NamedTuple):
 
 
 PARAMETERS: Sequence[Column[Parameter]] = (
-    Column(
-        "material", "material", value=lambda p: p.material, text=lambda p: p.first * MATERIALS[p.material], left=True
-    ),
-    Column("layer", "layer", value=lambda p: p.layer, left=True),
-    Column("parameter", "parameter", value=lambda p: p.name, format=lambda name: name.replace("_", " "), left=True),
+    Column("material", "material", lambda p: p.material, text=lambda p: p.first * MATERIALS[p.material], left=True),
+    Column("layer", "layer", lambda p: p.layer, left=True),
+    Column("parameter", "parameter", lambda p: p.name, lambda name: name.replace("_", " "), left=True),
     Column(csv="unit", value=lambda p: p.unit),
-    Column("ours", "ours", value=lambda p: p.ours, text=lambda p: p.shown(p.ours) + ("" if p.same else " !")),
-    Column("paper", "paper", value=lambda p: p.theirs, text=lambda p: p.shown(p.theirs)),
+    Column("ours", "ours", lambda p: p.ours, text=lambda p: p.shown(p.ours) + ("" if p.same else " !")),
+    Column("paper", "paper", lambda p: p.theirs, text=lambda p: p.shown(p.theirs)),
     Column(csv="same", value=lambda p: "yes" if p.same else "no"),
 )
 

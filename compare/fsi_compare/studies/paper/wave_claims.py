@@ -2,8 +2,8 @@
 
 from typing import List, Optional, Sequence
 
-from ...base import paper
-from ...base.names import MATERIALS
+from ..catalogue import paper
+from ..catalogue.names import MATERIALS
 from .claims import Claim, unexamined, verdict
 from .runs import PARTITIONED, TIMES
 from .speeds import Measured, Speeds, finest_common, with_error

@@ -7,7 +7,7 @@ from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...base.names import MATERIALS, MESHES
+from ..catalogue.names import MATERIALS, MESHES
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
 from ...reporting.pictures import pressure_figure
@@ -142,10 +142,10 @@ def _largest(reference: PressureWaves, other: PressureWaves, until: float = np.i
 
 
 AGREEMENTS: Sequence[Column[Agreement]] = (
-    Column("material", "material", value=lambda a: a.material, format=MATERIALS.__getitem__, left=True),
-    Column("mesh", "mesh", value=lambda a: a.mesh, left=True),
-    Column("until 1.5 ms", "max_relative_until_1_5_ms", value=lambda a: a.start, format=".1e"),
-    Column("all levels", "max_relative", value=lambda a: a.all, format=".1e"),
+    Column("material", "material", lambda a: a.material, MATERIALS.__getitem__, left=True),
+    Column("mesh", "mesh", lambda a: a.mesh, left=True),
+    Column("until 1.5 ms", "max_relative_until_1_5_ms", lambda a: a.start, ".1e"),
+    Column("all levels", "max_relative", lambda a: a.all, ".1e"),
 )
 
 
@@ -286,7 +286,7 @@ def tube_picture(report: Report, runs: PaperRuns, errors: Mapping[Path, MeshErro
     report.figure(
         "tube_8ms",
         lambda: tube_pictures.tube_figure(cuts, names, PICTURE_TIME, factor),
-        f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.xdmf` of the "
+        f"Cut along the axis at {PICTURE_TIME:g} ms, {runs.finest} mesh, from `fields.h5` of the "
         f"monolithic runs: deformed wall, displacement magnified {factor:g} times (largest: {shown}), speed "
         f"of the fluid by shade, its velocity by arrows, their scale above the first panel. {error_words(own)}",
     )

@@ -3,7 +3,7 @@ recognised by its version, which a program built anew may keep."""
 
 from typing import List
 
-from ...runs.programs import Program
+from ..starting.programs import Program
 
 
 class Builds:

@@ -7,8 +7,8 @@ from typing import Any, List, Optional
 
 from ...base.errors import InputError
 from ...base.files import is_file, read_bytes, read_toml
-from ...runs.case_digest import case_digest
-from ...runs.programs import Program
+from ..starting.case_digest import case_digest
+from ..starting.programs import Program
 from .study_file import Request
 
 UNREADABLE = "give a file that can be read"

@@ -25,9 +25,9 @@ from ...base.files import (
     remove_tree,
     replacing,
 )
-from ...runs.launch import launched
-from ...runs.processes import End, Job, execute, run_jobs
-from ...runs.programs import Program
+from ..starting.launch import launched
+from ..starting.processes import End, Job, execute, run_jobs
+from ..starting.programs import Program
 from ...runs.summary import FILE, read_summary
 from ...runs.work_units import about_machines
 from . import repeats

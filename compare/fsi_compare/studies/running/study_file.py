@@ -9,10 +9,11 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import absolute, exists, is_file, read_toml
-from ...base.names import MESHES
-from ...base.suggestions import check_keys, nearest
-from ...gallery.scene import READY, Scene, read_scene, scene_names
-from ...runs.launch import usable_cores
+from ..catalogue.names import MESHES
+from ...base.suggestions import nearest
+from ..gallery.scene import READY, Scene, read_scene, scene_names
+from ..starting.launch import usable_cores
+from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
 
 PROGRAMS = ("fsi-monolithic", "fsi-partitioned")
 MESH = "mesh"  # among what is varied: a level or a section of [meshes]
@@ -21,8 +22,6 @@ CORES = "cores"  # for 1, 2, 4, ... up to the cores that may be used, the last n
 
 LONGEST_NAME = 200  # characters of a key
 MOST_RUNS = 100_000
-LARGEST_COUNT = 10_000  # threads, processes, runs at once, repetitions
-LARGEST_NUMBER = 10**15
 FILE_NAME = re.compile(r"[^/.][^/]{0,59}")
 
 TOP_KEYS = (
@@ -139,6 +138,10 @@ def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
     return StudyMesh(scene.name + ("-quick" if quick else ""), "", places, command)
 
 
+def report_of(study: Study, known: Sequence[str]) -> Section:
+    return Section(study.path, "report", study.report, known)
+
+
 def show(value: Any) -> str:
     return format(value, "g") if isinstance(value, float) else str(value)
 
@@ -191,40 +194,40 @@ class _Reader:
         return InputError(self.path, key, problem, remedy)
 
     def study(self, data: Dict[str, Any], kinds: Sequence[str]) -> Study:
-        self.known("", data, TOP_KEYS)
-        kind = self.one_of("kind", self.text(data, "kind"), kinds)
-        limit = self.number(data, "time_limit", 3600.0)
-        entries = self.table(data, "cases", True)
+        top = self.section("", data, TOP_KEYS)
+        kind = self.one_of("kind", top.text("kind"), kinds)
+        limit = top.number("time_limit", 3600.0)
+        entries = top.table("cases", True)
         cases = {name: self.case(name, entry) for name, entry in entries.items()}
         of_case = {
-            name: {**self.of_scene(name), **self.settings(entry, "set", f"cases.{name}")}
+            name: {**self.of_scene(name), **self.section(f"cases.{name}", entry, CASE_KEYS).settings("set")}
             for name, entry in entries.items()
             if isinstance(entry, dict)
         }
-        methods = {name: self.method(name, entry) for name, entry in self.table(data, "methods", True).items()}
+        methods = {name: self.method(name, entry) for name, entry in top.table("methods", True).items()}
         meshes = {level: StudyMesh(level, level, ()) for level in MESHES}
-        for name, entry in self.table(data, "meshes").items():
+        for name, entry in top.table("meshes").items():
             meshes[name] = self.mesh(name, entry)
-        settings = self.settings(data, "set")
-        repeats = self.count(data, "repeats", 1)
+        settings = top.settings("set")
+        repeats = top.count("repeats", 1)
         requests: List[Request] = []
-        for name, group in self.table(data, "runs").items():
+        for name, group in top.table("runs").items():
             requests += self.group(name, group, cases, methods, meshes, settings, of_case, limit)
         return Study(
             path=self.path,
-            title=self.text(data, "title"),
+            title=top.text("title"),
             kind=kind,
-            threads=self.count(data, "threads", 1),
-            processes=self.count(data, "processes", 1),
-            jobs=self.count(data, "jobs", 1),
+            threads=top.count("threads", 1),
+            processes=top.count("processes", 1),
+            jobs=top.count("jobs", 1),
             time_limit=limit,
             repeats=1 if self.quick else repeats,
-            repeat_below=self.number(data, "repeat_below", 60.0),
+            repeat_below=top.number("repeat_below", 60.0),
             cases=cases,
             methods=methods,
             meshes=meshes,
             requests=requests,
-            report=self.table(data, "report"),
+            report=top.table("report"),
             quick=self.quick,
             settings=settings,
             case_settings=of_case,
@@ -235,7 +238,7 @@ class _Reader:
         """A file name, or a section with `set` and either `file` or `scene`, the name of a scene of the gallery."""
         file = entry
         if isinstance(entry, dict):
-            self.known(f"cases.{name}", entry, CASE_KEYS)
+            self.section(f"cases.{name}", entry, CASE_KEYS)
             if "scene" in entry:
                 return self.scene(name, entry)
             file = entry.get("file")
@@ -258,14 +261,13 @@ class _Reader:
         return dict(self.scenes[name].quick) if self.quick and name in self.scenes else {}
 
     def method(self, name: str, entry: Any) -> Method:
-        key = f"methods.{name}"
-        self.known(key, entry, METHOD_KEYS)
-        program = self.one_of(f"{key}.program", self.text(entry, "program", key), PROGRAMS)
-        return Method(name, self.label(entry, name, key), program, self.settings(entry, "set", key))
+        section = self.section(f"methods.{name}", entry, METHOD_KEYS)
+        program = self.one_of(section.key_of("program"), section.text("program"), PROGRAMS)
+        return Method(name, section.text("label", name), program, section.settings("set"))
 
     def mesh(self, name: str, entry: Any) -> StudyMesh:
         key = f"meshes.{name}"
-        self.known(key, entry, MESH_KEYS)
+        section = self.section(key, entry, MESH_KEYS)
         if name in MESHES:
             raise self.wrong(key, "is a level's name already", "choose another name")
         options = entry.get("options")
@@ -275,7 +277,7 @@ class _Reader:
             )
         if not FILE_NAME.fullmatch(name):
             raise self.wrong(key, "is no name for a file", "choose a short one without '/'")
-        return StudyMesh(name, self.label(entry, name, key), tuple(options))
+        return StudyMesh(name, section.text("label", name), tuple(options))
 
     def group(
         self,
@@ -289,10 +291,10 @@ class _Reader:
         limit: float,
     ) -> List[Request]:
         key = f"runs.{name}"
-        self.known(key, group, GROUP_KEYS)
+        self.section(key, group, GROUP_KEYS)
         quick = group.get("quick", False)
         if not isinstance(quick, bool):
-            self.known(f"{key}.quick", quick, GROUP_KEYS[:-1])
+            self.section(f"{key}.quick", quick, GROUP_KEYS[:-1])
         if self.quick:
             if quick is False:
                 return []
@@ -300,8 +302,8 @@ class _Reader:
                 group = {**group, **quick}
         names = self.names(group, "cases", cases, key)
         chosen = [methods[method] for method in self.names(group, "methods", methods, key)]
-        own = self.settings(group, "set", key)
-        vary = self.table(group, "vary", False, key)
+        section = self.section(key, group, GROUP_KEYS)
+        own, vary = section.settings("set"), section.table("vary")
         axes = [
             [(quantity, self.value(f"{key}.vary.{quantity}", quantity, value, meshes)) for value in points]
             for quantity, points in ((name, self.points(f"{key}.vary.{name}", name, vary[name])) for name in vary)
@@ -338,46 +340,35 @@ class _Reader:
         if quantity == PROCESSES:
             return _Value(value, processes=self.processes(key, value))
         if isinstance(value, dict):
-            self.known(key, value, VALUE_KEYS)
+            section = self.section(key, value, VALUE_KEYS)
             if "label" not in value:
                 raise self.wrong(key, "a value with settings has no label", 'write { label = "...", set = { ... } }')
             self.scalar(f"{key}.label", value["label"])
             return _Value(
                 value["label"],
-                self.settings(value, "set", key),
+                section.settings("set"),
                 meshes[self.one_of(f"{key}.mesh", value["mesh"], meshes)] if "mesh" in value else None,
                 self.processes(f"{key}.processes", value["processes"]) if "processes" in value else None,
             )
         self.scalar(key, value)
         if "." not in quantity:
-            raise self.wrong(
-                key,
-                "is neither 'mesh', 'processes' nor a key of the case file",
-                'give a key such as "time.step", or values { label, set }',
-            )
+            problem = "is neither 'mesh', 'processes' nor a key of the case file"
+            raise self.wrong(key, problem, 'give a key such as "time.step", or values { label, set }')
         return _Value(value, {quantity: value})
 
     def processes(self, key: str, value: Any) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
-            raise self.wrong(
-                key,
-                f"{show(value)} is no number of processes",
-                f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list',
-            )
+            remedy = f'give whole numbers from 1 to {LARGEST_COUNT}, or "{CORES}" in place of the list'
+            raise self.wrong(key, f"{show(value)} is no number of processes", remedy)
         return value
 
-    def known(self, key: str, entry: Any, keys: Sequence[str]) -> None:
-        if not isinstance(entry, dict):
-            raise self.wrong(key, "is not a section", f"its keys are {', '.join(keys)}")
-        check_keys(self.path, key, entry, keys)
+    def section(self, key: str, entry: Any, keys: Sequence[str]) -> Section:
+        return Section(self.path, key, entry, keys)
 
     def one_of(self, key: str, name: Any, names: Iterable[str]) -> str:
         if not isinstance(name, str) or name not in names:
-            raise self.wrong(
-                key,
-                f"'{name}' is unknown",
-                f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}",
-            )
+            remedy = f"did you mean '{nearest(str(name), list(names))}'? There are {', '.join(names)}"
+            raise self.wrong(key, f"'{name}' is unknown", remedy)
         return name
 
     def names(self, group: Dict[str, Any], name: str, known: Mapping[str, Any], section: str) -> List[str]:
@@ -388,57 +379,13 @@ class _Reader:
         chosen = [self.one_of(f"{section}.{name}", entry, known) for entry in given]
         return list(dict.fromkeys(chosen))
 
-    def label(self, entry: Dict[str, Any], name: str, section: str) -> str:
-        return self.text(entry, "label", section) if "label" in entry else name
-
     def scalar(self, key: str, value: Any) -> None:
         if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > LARGEST_NUMBER):
             raise self.wrong(
                 key, f"{show(value)} is no number or text", "write { label = ..., set = { ... } } for others"
             )
 
-    def text(self, entry: Dict[str, Any], name: str, section: str = "") -> str:
-        key = f"{section}.{name}".lstrip(".")
-        if not isinstance(entry.get(name), str) or not entry[name].strip():
-            raise self.wrong(key, "is missing" if name not in entry else "is not a text", "give it in quotes")
-        return " ".join(entry[name].split())
-
-    def table(self, entry: Dict[str, Any], name: str, needed: bool = False, section: str = "") -> Dict[str, Any]:
-        found = entry.get(name, {})
-        if not isinstance(found, dict) or (needed and not found):
-            key = f"{section}.{name}".lstrip(".")
-            raise self.wrong(key, "is missing" if name not in entry else "is not a section", f"write a section [{key}]")
-        return found
-
-    def settings(self, entry: Dict[str, Any], name: str, section: str = "") -> Dict[str, Any]:
-        """Case-file entries, keys in quotes ("time.step" = 0.1) or nested (time.step = 0.1)."""
-        found = {}
-
-        def walk(prefix: str, table: Dict[str, Any]) -> None:
-            for key, value in table.items():
-                if isinstance(value, dict):
-                    walk(f"{prefix}{key}.", value)
-                else:
-                    found[f"{prefix}{key}"] = value
-
-        walk("", self.table(entry, name, False, section))
-        return found
-
     def list(self, key: str, values: Any) -> List[Any]:
         if not isinstance(values, list) or not values:
             raise self.wrong(key, "is not a list of values", "write [a, b, ...]")
         return values
-
-    def number(self, entry: Dict[str, Any], name: str, default: float) -> float:
-        value = entry.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value <= LARGEST_NUMBER:
-            raise self.wrong(name, f"{value} is not a positive number", f"leave it out for {default:g}")
-        return float(value)
-
-    def count(self, entry: Dict[str, Any], name: str, default: int) -> int:
-        value = entry.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
-            raise self.wrong(
-                name, f"{value} is not a whole number from 1 to {LARGEST_COUNT}", f"leave it out for {default}"
-            )
-        return value

@@ -4,8 +4,8 @@ import sys
 import time
 from typing import Any, Dict, List, Sequence, Tuple
 
-from ...base.names import MESH_NODES
-from ...base.progress import duration
+from ..catalogue.names import MESH_NODES
+from ..starting.progress import duration
 from .study_file import Request
 from .study_run import StudyRun
 

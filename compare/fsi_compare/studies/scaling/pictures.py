@@ -7,20 +7,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
 
-from ...reporting.pictures import finish
+from ...reporting.pictures import MARKED_LINES, finish
 from .measured import Measured
 from .model import Step
 from .tables import alone, weak_efficiency
 
-# Told apart without colour by marker, dash pattern and lightness.
-STYLES = (
-    {"linestyle": "-", "marker": "o", "color": "#000000"},
-    {"linestyle": "--", "marker": "s", "color": "#e8871e"},
-    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
-    {"linestyle": ":", "marker": "D", "color": "#b02a5b"},
-    {"linestyle": (0, (7, 2)), "marker": "v", "color": "#3d8338"},
-    {"linestyle": (0, (4, 1, 1, 1, 1, 1)), "marker": "P", "color": "#6a4c93"},
-)
 IDEAL = {"linestyle": "-", "color": "#aaaaaa", "linewidth": 2.5, "zorder": 1}
 PARTS = {  # of a modelled step, told apart in grey by lightness and hatch
     "work": {"facecolor": "#2c4a6e", "hatch": ""},
@@ -36,8 +27,7 @@ Lines = Sequence[Sequence[Measured]]  # of each method, by processes
 def times_figure(strong: Lines, weak: Lines) -> Figure:
     """Speed-up on one mesh and, where there are such runs, efficiency on a growing one; runs whose seconds mean something."""
     panels = 2 if any(_shown(runs) for runs in weak) else 1
-    width, height = 4.2 * panels + (1.4 if panels == 1 else 0), 3.1
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(4.2 * panels + (1.4 if panels == 1 else 0), 3.1))
     grid = figure.subplots(1, panels, squeeze=False)[0]
     handles: List[Any] = []
     labels: List[str] = []
@@ -68,14 +58,12 @@ def times_figure(strong: Lines, weak: Lines) -> Figure:
         grid[1].set_title("a mesh that grows with the processes", loc="left")
     for axes in grid:
         _processes(axes, counts)
-    finish(figure, handles, labels, "Time steps on more processes", (width, height))
-    return figure
+    return finish(figure, handles, labels, "Time steps on more processes")
 
 
 def counts_figure(lines: Lines) -> Figure:
     """Iterations, halo and messages over processes; counts do not mind how many cores there are."""
-    width, height = 9.6, 2.9
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(9.6, 2.9))
     grid = figure.subplots(1, 3)
     handles, labels = [], []
     counts = sorted({run.processes for runs in lines for run in runs})
@@ -91,8 +79,7 @@ def counts_figure(lines: Lines) -> Figure:
         axes.set_ylabel(name)
         axes.set_ylim(0, max(1.08 * axes.get_ylim()[1], 1e-9))
         _processes(axes, counts)
-    finish(figure, handles, labels, "What is counted, per time step", (width, height))
-    return figure
+    return finish(figure, handles, labels, "What is counted, per time step")
 
 
 def model_figure(rows: Sequence[Tuple[str, Step]]) -> Figure:
@@ -115,8 +102,7 @@ def model_figure(rows: Sequence[Tuple[str, Step]]) -> Figure:
     axes.grid(axis="y", visible=False)
     axes.set_axisbelow(True)
     handles = [Patch(edgecolor="#222222", linewidth=0.5, **look) for look in PARTS.values()]
-    finish(figure, handles, list(PARTS), "The model: where a time step goes", (width, height))
-    return figure
+    return finish(figure, handles, list(PARTS), "The model: where a time step goes", (width, height))
 
 
 def _shown(runs: Sequence[Measured]) -> List[Measured]:
@@ -124,7 +110,7 @@ def _shown(runs: Sequence[Measured]) -> List[Measured]:
 
 
 def _style(i: int) -> Any:
-    return dict(STYLES[i % len(STYLES)], markersize=5, linewidth=1.3, zorder=2)
+    return dict(MARKED_LINES[i % len(MARKED_LINES)], markersize=5, linewidth=1.3, zorder=2)
 
 
 def _place(strong: Lines, runs: Sequence[Measured], otherwise: int) -> int:

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
-from ...runs.launch import usable_cores
+from ..starting.launch import usable_cores
 from ..evidence.runs_table import runs_table
 from ..running.context import Context
-from ..running.section import Section, report_of
-from ..running.study_file import Study
+from ..running.section import Section
+from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from .measured import Measured, measure
 from .model import Counted, Machine, Step, assumptions, counted, step
@@ -49,12 +49,8 @@ def check(study: Study) -> None:
     found = asked(study)
     groups = {request.group for request in study.requests}
     if found.groups["strong"] not in groups:
-        raise InputError(
-            study.path,
-            "report.scaling.strong",
-            f"'{found.groups['strong']}' is no group of runs",
-            "name the group in which processes are varied on one mesh",
-        )
+        remedy = "name the group in which processes are varied on one mesh"
+        raise InputError(study.path, "report.scaling.strong", f"'{found.groups['strong']}' is no group of runs", remedy)
     for request in study.requests:
         if request.group in (found.groups["strong"], found.groups["counts"]) and request.processes is None:
             raise InputError(

@@ -35,40 +35,31 @@ class Strong(NamedTuple):
 
 MEMORY = "memory per process in {unit}"
 STRONG: Sequence[Column[Strong]] = (
-    Column("method", "method", value=lambda s: s.run.method, text=lambda s: s.run.label, left=True),
-    Column("processes", "processes", value=lambda s: s.run.processes),
+    Column("method", "method", lambda s: s.run.method, text=lambda s: s.run.label, left=True),
+    Column("processes", "processes", lambda s: s.run.processes),
     Column(csv="cores_suffice", value=lambda s: not s.run.crowded),
     Column(csv="nodes", value=lambda s: s.run.nodes),
     Column(csv="unknowns", value=lambda s: s.run.unknowns),
     Column(
         "measured",
         "seconds_per_step",
-        value=lambda s: s.run.seconds,
+        lambda s: s.run.seconds,
         text=lambda s: fixed(s.run.meaningful_seconds, ".3g"),
         group="seconds per step",
     ),
     Column(
         "of `fast` on one",
         "fast_seconds_per_step",
-        value=lambda s: s.reference and s.reference.seconds,
-        format=".3g",
+        lambda s: s.reference and s.reference.seconds,
+        ".3g",
         group="seconds per step",
     ),
-    Column("speed-up", "speed_up", value=lambda s: s.speed_up, format=".2f"),
-    Column("efficiency", "efficiency", value=lambda s: s.efficiency, format=".0%"),
-    Column("Newton", "newton_per_step", value=lambda s: s.run.newton, format=".2f", group="iterations per step"),
-    Column("linear", "linear_per_step", value=lambda s: s.run.linear, format=".1f", group="iterations per step"),
-    Column(
-        "largest",
-        "memory_max",
-        "MiB",
-        value=lambda s: s.run.memory and s.run.memory.maximum,
-        format=".0f",
-        group=MEMORY,
-    ),
-    Column(
-        "mean", "memory_mean", "MiB", value=lambda s: s.run.memory and s.run.memory.mean, format=".0f", group=MEMORY
-    ),
+    Column("speed-up", "speed_up", lambda s: s.speed_up, ".2f"),
+    Column("efficiency", "efficiency", lambda s: s.efficiency, ".0%"),
+    Column("Newton", "newton_per_step", lambda s: s.run.newton, ".2f", group="iterations per step"),
+    Column("linear", "linear_per_step", lambda s: s.run.linear, ".1f", group="iterations per step"),
+    Column("largest", "memory_max", lambda s: s.run.memory and s.run.memory.maximum, ".0f", "MiB", MEMORY),
+    Column("mean", "memory_mean", lambda s: s.run.memory and s.run.memory.mean, ".0f", "MiB", MEMORY),
     Column(csv="folder", value=lambda s: s.run.run.folder.name),
 )
 
@@ -97,26 +88,26 @@ class Weak(NamedTuple):
 
 
 WEAK: Sequence[Column[Weak]] = (
-    Column("method", "method", value=lambda w: w.run.method, text=lambda w: w.run.label, left=True),
-    Column("processes", "processes", value=lambda w: w.run.processes),
+    Column("method", "method", lambda w: w.run.method, text=lambda w: w.run.label, left=True),
+    Column("processes", "processes", lambda w: w.run.processes),
     Column(csv="cores_suffice", value=lambda w: not w.run.crowded),
-    Column("nodes", "nodes", value=lambda w: w.run.nodes),
+    Column("nodes", "nodes", lambda w: w.run.nodes),
     Column("nodes per process", value=lambda w: w.run.nodes / w.run.processes, format=".0f"),
     Column(
         "seconds per step",
         "seconds_per_step",
-        value=lambda w: w.run.seconds,
+        lambda w: w.run.seconds,
         text=lambda w: fixed(w.run.meaningful_seconds, ".3g"),
     ),
-    Column("efficiency", "efficiency", value=lambda w: w.efficiency, format=".0%"),
-    Column("Newton", "newton_per_step", value=lambda w: w.run.newton, format=".2f", group="iterations per step"),
-    Column("linear", "linear_per_step", value=lambda w: w.run.linear, format=".1f", group="iterations per step"),
+    Column("efficiency", "efficiency", lambda w: w.efficiency, ".0%"),
+    Column("Newton", "newton_per_step", lambda w: w.run.newton, ".2f", group="iterations per step"),
+    Column("linear", "linear_per_step", lambda w: w.run.linear, ".1f", group="iterations per step"),
     Column(
         "largest memory per process in {unit}",
         "memory_max",
+        lambda w: w.run.memory and w.run.memory.maximum,
+        ".0f",
         "MiB",
-        value=lambda w: w.run.memory and w.run.memory.maximum,
-        format=".0f",
     ),
     Column(csv="folder", value=lambda w: w.run.run.folder.name),
 )
@@ -150,16 +141,16 @@ def _spread(name: str, csv: str, group: str, value: Callable[[Measured], Spread]
 
 
 COUNTS: Sequence[Column[Measured]] = (
-    Column("method", "method", value=lambda run: run.method, text=lambda run: run.label, left=True),
-    Column("mesh nodes", "nodes", value=lambda run: run.nodes),
-    Column("processes", "processes", value=lambda run: run.processes),
-    Column("linear iterations per step", "linear_per_step", value=lambda run: run.linear, format=".1f"),
+    Column("method", "method", lambda run: run.method, text=lambda run: run.label, left=True),
+    Column("mesh nodes", "nodes", lambda run: run.nodes),
+    Column("processes", "processes", lambda run: run.processes),
+    Column("linear iterations per step", "linear_per_step", lambda run: run.linear, ".1f"),
     *_spread("own", "owned_nodes", "nodes of a process", lambda run: run.owned),
     *_spread("halo", "halo_nodes", "nodes of a process", lambda run: run.halo),
     *_spread("neighbours", "neighbours", "", lambda run: run.neighbours),
     *_spread("messages", "messages", "sent per step and process", lambda run: run.messages),
     *_spread("MB", "megabytes", "sent per step and process", lambda run: run.megabytes),
-    Column("reductions per step", "reductions", value=lambda run: run.reductions, format=".0f"),
+    Column("reductions per step", "reductions", lambda run: run.reductions, ".0f"),
     Column(csv="solver_counted", value=lambda run: run.solver_counted),
 )
 
@@ -185,21 +176,16 @@ class Modelled(NamedTuple):
 def _part(name: str, csv: str, value: Callable[[Step], float]) -> Column[Modelled]:
     """Of a step's time: seconds in the CSV, for people milliseconds."""
     return Column(
-        name,
-        csv,
-        "s",
-        value=lambda m: value(m.step),
-        format=lambda seconds: short(1e3 * seconds),
-        group="milliseconds per step",
+        name, csv, lambda m: value(m.step), lambda seconds: short(1e3 * seconds), "s", "milliseconds per step"
     )
 
 
 MODEL: Sequence[Column[Modelled]] = (
-    Column("method", "method", value=lambda m: m.method, left=True),
-    Column("mesh nodes", "nodes", value=lambda m: m.step.nodes),
-    Column("processes", "processes", value=lambda m: m.step.processes),
-    Column("own nodes", "own_nodes", value=lambda m: m.step.own, format=".0f"),
-    Column("halo", "halo_nodes", value=lambda m: m.step.halo, format=".0f"),
+    Column("method", "method", lambda m: m.method, left=True),
+    Column("mesh nodes", "nodes", lambda m: m.step.nodes),
+    Column("processes", "processes", lambda m: m.step.processes),
+    Column("own nodes", "own_nodes", lambda m: m.step.own, ".0f"),
+    Column("halo", "halo_nodes", lambda m: m.step.halo, ".0f"),
     Column(csv="linear_per_step", value=lambda m: m.step.iterations),
     _part("work", "work", lambda step: step.work),
     _part("latency", "latency", lambda step: step.latency),
@@ -207,13 +193,13 @@ MODEL: Sequence[Column[Modelled]] = (
     _part("reductions", "reductions", lambda step: step.reductions),
     _part("output", "output", lambda step: step.output),
     _part("in all", "step", lambda step: step.seconds),
-    Column("speed-up", "speed_up", value=lambda m: m.speed_up, format=short),
+    Column("speed-up", "speed_up", lambda m: m.speed_up, short),
     Column("efficiency", value=lambda m: m.speed_up / m.step.processes, format=".0%"),
     Column(csv="messages", value=lambda m: m.step.messages),
     Column(csv="megabytes", value=lambda m: m.step.megabytes),
     Column(csv="reductions", value=lambda m: m.step.reduction_count),
-    Column("solving", "memory", "MiB", value=lambda m: m.step.memory, format=".0f", group="{unit} per process"),
-    Column("reading", "reading", "MiB", value=lambda m: m.step.reading, format=".0f", group="{unit} per process"),
+    Column("solving", "memory", lambda m: m.step.memory, ".0f", "MiB", "{unit} per process"),
+    Column("reading", "reading", lambda m: m.step.reading, ".0f", "MiB", "{unit} per process"),
 )
 
 

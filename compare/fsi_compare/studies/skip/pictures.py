@@ -22,8 +22,7 @@ BAR = 0.36  # of a row
 
 def bars_figure(measured: Sequence) -> Figure:
     """Left seconds, those that differ by noise alone in grey, right counts; `measured` from top to bottom."""
-    size = (9.4, 0.7 + 0.52 * len(measured))
-    figure = Figure(figsize=size)
+    figure = Figure(figsize=(9.4, 0.7 + 0.52 * len(measured)))
     left, right = figure.subplots(1, 2, sharey=True)
     _bars(left, [(m.on_s, m.off_s) for m in measured], [m.in_noise for m in measured])
     _bars(right, [(m.on_count or 0, m.off_count or 0) for m in measured], [False] * len(measured))
@@ -39,8 +38,7 @@ def bars_figure(measured: Sequence) -> Figure:
     if any(m.in_noise for m in measured):
         handles += [Patch(**look) for look in NOISE]
         names += ["with, ratio in the noise", "switched off, ratio in the noise"]
-    finish(figure, handles, names, "The same scenes with and without each economy", size)
-    return figure
+    return finish(figure, handles, names, "The same scenes with and without each economy")
 
 
 def _bars(axes: Axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:

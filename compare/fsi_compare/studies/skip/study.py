@@ -13,8 +13,8 @@ from ...reporting.layout import Table
 from ...runs.differences import largest_difference
 from ..evidence.cross_check import waves_of
 from ..running.context import Context
-from ..running.section import Section, report_of
-from ..running.study_file import Request, Study, show
+from ..running.section import Section
+from ..running.study_file import Request, Study, show, report_of
 from ..running.study_run import StudyRun
 
 REPORT_KEYS = ("repeat", "economies")
@@ -79,20 +79,13 @@ def _economy(
     forms = list(groups[name].items())
     if "off" in entry:
         if entry["off"] not in groups:
-            raise InputError(
-                study.path,
-                f"report.economies.{name}.off",
-                f"'{entry['off']}' is no group of runs",
-                f"did you mean '{nearest(entry['off'], list(groups))}'?",
-            )
+            problem = f"'{entry['off']}' is no group of runs"
+            remedy = f"did you mean '{nearest(entry['off'], list(groups))}'?"
+            raise InputError(study.path, f"report.economies.{name}.off", problem, remedy)
         forms += list(groups[entry["off"]].items())
     if len(forms) != 2:
-        raise InputError(
-            study.path,
-            f"runs.{name}",
-            f"has {len(forms)} forms beside its repetitions",
-            "give two: first with the economy, then without",
-        )
+        problem = f"has {len(forms)} forms beside its repetitions"
+        raise InputError(study.path, f"runs.{name}", problem, "give two: first with the economy, then without")
 
     def label(items: Sequence[Any]) -> str:
         request = request_of(items[0])
@@ -208,35 +201,35 @@ def counter(run: StudyRun, name: str) -> Optional[float]:
 
 COLUMNS: Sequence[Column[Measured]] = (
     Column(csv="economy", value=lambda m: m.economy.name),
-    Column("economy", "label", value=lambda m: m.economy.label, left=True),
+    Column("economy", "label", lambda m: m.economy.label, left=True),
     Column(
         "with it",
         "with",
-        value=lambda m: m.economy.on_label,
+        lambda m: m.economy.on_label,
         text=lambda m: f"{m.economy.on_label} ({m.request.method.label})",
         left=True,
     ),
-    Column("switched off", "switched_off", value=lambda m: m.economy.off_label, left=True),
+    Column("switched off", "switched_off", lambda m: m.economy.off_label, left=True),
     Column(csv="case", value=lambda m: m.request.case),
     Column(csv="method", value=lambda m: m.request.method.name),
-    Column("with", "with", "s", value=lambda m: m.on_s, format=".2f", group="seconds"),
-    Column("without", "without", "s", value=lambda m: m.off_s, format=".2f", group="seconds"),
+    Column("with", "with", lambda m: m.on_s, ".2f", "s", "seconds"),
+    Column("without", "without", lambda m: m.off_s, ".2f", "s", "seconds"),
     Column(
         "ratio",
         "ratio",
-        value=lambda m: m.ratio,
+        lambda m: m.ratio,
         text=lambda m: f"{m.ratio:.2f} (in the noise)" if m.in_noise else f"{m.ratio:.2f}",
         group="seconds",
     ),
-    Column("noise", "noise", value=lambda m: m.noise, format=".2f", group="seconds"),
+    Column("noise", "noise", lambda m: m.noise, ".2f", group="seconds"),
     Column(csv="in_noise", value=lambda m: m.in_noise),
-    Column("counted", "counter", value=lambda m: m.economy.counter),
-    Column("with", "with_count", value=lambda m: m.on_count, format=".4g", group="count"),
-    Column("without", "without_count", value=lambda m: m.off_count, format=".4g", group="count"),
+    Column("counted", "counter", lambda m: m.economy.counter),
+    Column("with", "with_count", lambda m: m.on_count, ".4g", group="count"),
+    Column("without", "without_count", lambda m: m.off_count, ".4g", group="count"),
     Column(
         "relative difference of the answers",
         "largest_difference",
-        value=lambda m: m.difference,
+        lambda m: m.difference,
         text=lambda m: m.economy.differs or fixed(m.difference, ".1e"),
     ),
 )

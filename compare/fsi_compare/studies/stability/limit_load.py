@@ -147,8 +147,7 @@ class Curve:
 
 def static_figure(runs: Sequence[Curve], wall: Wall) -> Figure:
     """The curves end where the run does."""
-    size = (6.4, 3.6)
-    figure = Figure(figsize=size)
+    figure = Figure(figsize=(6.4, 3.6))
     axes = figure.subplots()
     bulge = wall.bulge
     largest = max([1.5, bulge or 0, *(1 + float(run.levels.largest[-1]) / wall.radius for run in runs)]) * 1.03
@@ -184,15 +183,13 @@ def static_figure(runs: Sequence[Curve], wall: Wall) -> Figure:
     axes.set_ylim(0, 1.08 * max([wall.limit, *(run.load * float(run.levels.times[-1]) for run in runs)]))
     axes.set_xlabel("largest inner radius over that at rest")
     axes.set_ylabel("pressure in kPa")
-    finish(figure, handles, labels, "Static inflation until no further solution is found", size)
-    return figure
+    return finish(figure, handles, labels, "Static inflation until no further solution is found")
 
 
 def pulse_figure(runs: Sequence[Curve], title: str) -> Figure:
     """Each curve is named at its end; the longest pulse lies broad and dark beneath the others, which coincide with it
     while they last."""
-    size = (6.4, 3.6)
-    figure = Figure(figsize=size)
+    figure = Figure(figsize=(6.4, 3.6))
     axes = figure.subplots()
     runs = sorted(runs, key=lambda run: -run.load)
     handles, labels = [], []
@@ -212,8 +209,7 @@ def pulse_figure(runs: Sequence[Curve], title: str) -> Figure:
             labels.append(label)
     axes.set_xlabel("t in ms")
     axes.set_ylabel("largest radial displacement in mm")
-    finish(figure, handles, labels, title, size)
-    return figure
+    return finish(figure, handles, labels, title)
 
 
 def end_marker(done: bool) -> Dict[str, Any]:

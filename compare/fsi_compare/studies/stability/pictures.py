@@ -59,8 +59,7 @@ def map_figure(
     for side in axes.spines.values():
         side.set_visible(False)
     handles, labels = _legend({cell.outcome for cell in cells})
-    finish(figure, handles, labels, title, (width, height))
-    return figure
+    return finish(figure, handles, labels, title, (width, height))
 
 
 def _head(value: Any) -> str:

@@ -6,8 +6,8 @@ from typing import Any, Mapping, Optional, Sequence
 from ...base.errors import InputError
 from ...base.suggestions import nearest
 from ..evidence.cross_check import BOUND
-from ..running.section import Section, report_of
-from ..running.study_file import Study
+from ..running.section import Section
+from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from .limit_load import TUBE_KEYS, Wall, read_wall
 
@@ -42,12 +42,8 @@ def settings_of(study: Study) -> Settings:
     report = report_of(study, REPORT_KEYS)
     for request in study.requests:
         if len(request.values) != 1:
-            raise InputError(
-                study.path,
-                f"runs.{request.group}.vary",
-                f"varies {len(request.values)} quantities",
-                "vary one in each group",
-            )
+            problem = f"varies {len(request.values)} quantities"
+            raise InputError(study.path, f"runs.{request.group}.vary", problem, "vary one in each group")
     varied = list(dict.fromkeys(next(iter(request.values)) for request in study.requests))
     named = report.table("quantities")
     for name in named:

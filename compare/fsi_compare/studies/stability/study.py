@@ -5,7 +5,7 @@ the bound is a fault, as are crashes and values that are not finite, and gives e
 import re
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
-from ...base.progress import duration
+from ..starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity
@@ -98,22 +98,17 @@ def _count(outcome: str) -> Column[Outcomes]:
     return Column(
         outcome,
         outcome.replace(", ", "_").replace(" ", "_"),
-        value=lambda o: sum(cell.outcome == outcome for cell in o.cells),
-        format=lambda count: str(count or ""),
+        lambda o: sum(cell.outcome == outcome for cell in o.cells),
+        lambda count: str(count or ""),
     )
 
 
 def _by_method(context: Context, found: Sequence[Cell]) -> Table:
     columns: List[Column[Outcomes]] = [
-        Column("method", "method", value=lambda o: o.name, text=lambda o: o.label, left=True),
-        Column("runs", "runs", value=lambda o: len(o.cells)),
+        Column("method", "method", lambda o: o.name, text=lambda o: o.label, left=True),
+        Column("runs", "runs", lambda o: len(o.cells)),
         *(_count(outcome) for outcome in OUTCOMES if any(cell.outcome == outcome for cell in found)),
-        Column(
-            "largest relative difference from the other driver",
-            "largest_difference",
-            value=lambda o: o.worst,
-            format=".1e",
-        ),
+        Column("largest relative difference from the other driver", "largest_difference", lambda o: o.worst, ".1e"),
     ]
     methods = context.study.methods.items()
     rows = [Outcomes(name, method.label, [c for c in found if c.method == name]) for name, method in methods]
@@ -173,11 +168,11 @@ def _first_points(message: Message) -> str:
 
 MESSAGES: Sequence[Column[Message]] = (
     Column(csv="message", value=lambda m: m.text),
-    Column("message, as the first run said it", "first_example", value=lambda m: m.example, left=True),
-    Column("outcome", "outcomes", value=lambda m: ", ".join(dict.fromkeys(c.outcome for c in m.cells)), left=True),
-    Column("methods", "methods", value=lambda m: ", ".join(m.methods), left=True),
-    Column("where", "points", value=lambda m: "; ".join(_points(m)), text=_first_points, left=True),
-    Column("runs", "runs", value=lambda m: len(m.cells)),
+    Column("message, as the first run said it", "first_example", lambda m: m.example, left=True),
+    Column("outcome", "outcomes", lambda m: ", ".join(dict.fromkeys(c.outcome for c in m.cells)), left=True),
+    Column("methods", "methods", lambda m: ", ".join(m.methods), left=True),
+    Column("where", "points", lambda m: "; ".join(_points(m)), text=_first_points, left=True),
+    Column("runs", "runs", lambda m: len(m.cells)),
 )
 
 
@@ -198,17 +193,17 @@ def _columns(settings: Settings) -> List[Column[Cell]]:
     return [
         Column(csv="group", value=lambda c: c.run.request.group),
         Column(csv="case", value=lambda c: c.run.request.case),
-        Column("quantity", "quantity", value=lambda c: quantity(c.run), format=settings.label, left=True),
-        Column("value", "value", value=lambda c: c.run.request.values[quantity(c.run)], format=show, left=True),
-        Column("method", "method", value=lambda c: c.method, text=lambda c: c.run.request.method.label, left=True),
-        Column("outcome", "outcome", value=lambda c: c.outcome, left=True),
+        Column("quantity", "quantity", lambda c: quantity(c.run), settings.label, left=True),
+        Column("value", "value", lambda c: c.run.request.values[quantity(c.run)], show, left=True),
+        Column("method", "method", lambda c: c.method, text=lambda c: c.run.request.method.label, left=True),
+        Column("outcome", "outcome", lambda c: c.outcome, left=True),
         Column(csv="status", value=lambda c: c.run.status),
         Column(csv="message", value=lambda c: without_folder(c.run.message)),
-        Column("steps", "steps", value=lambda c: c.levels),
-        Column("iterations per step", "iterations_per_step", value=lambda c: known(c.run.passes), format=".2f"),
-        Column("relative difference", "largest_difference", value=lambda c: c.difference, format=".1e"),
+        Column("steps", "steps", lambda c: c.levels),
+        Column("iterations per step", "iterations_per_step", lambda c: known(c.run.passes), ".2f"),
+        Column("relative difference", "largest_difference", lambda c: c.difference, ".1e"),
         Column(csv="compared_with", value=lambda c: c.against and c.against.request.method.name),
-        Column("time", "process", "s", value=lambda c: c.run.seconds, format=duration),
+        Column("time", "process", lambda c: c.run.seconds, duration, "s"),
         Column(csv="folder", value=lambda c: c.run.folder.name),
         Column(csv="command", value=lambda c: with_name(c.run.command)),
     ]

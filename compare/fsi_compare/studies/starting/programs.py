@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
 
-from ..base.errors import InputError
-from ..base.files import absolute, exists, is_file, is_folder, read_bytes
+from ...base.errors import InputError
+from ...base.files import absolute, exists, is_file, is_folder, read_bytes
 from .processes import answer
 
 BUILD = "build it with cmake --build --preset release, or name it with --program"
@@ -37,12 +37,8 @@ def find_monolithic(named: Optional[Path]) -> Program:
 def require_linear_systems(program: Program) -> None:
     """Raises InputError unless fsi-monolithic knows how to solve single systems."""
     if "--linear-systems" not in _answer(program.path, "--help"):
-        raise InputError(
-            program.path,
-            "--program",
-            f"version {program.version} does not know --linear-systems",
-            "take the program built from the same sources as fsi-compare",
-        )
+        remedy = "take the program built from the same sources as fsi-compare"
+        raise InputError(program.path, "--program", f"version {program.version} does not know --linear-systems", remedy)
 
 
 def has_petsc(program: Program) -> bool:

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import Any, Callable, List, Optional
 
-from ..base.names import MATERIALS, MESHES
-from ..reporting.column import Column, fixed
-from ..reporting.layout import Table
+from ..catalogue.names import MATERIALS, MESHES
+from ...reporting.column import Column, fixed
+from ...reporting.layout import Table
 from .grid import Entry, Grid, suffix
 from .results import NewtonSystem, Solve, System
 
@@ -52,18 +52,12 @@ def _columns(key: System, with_direct: bool) -> List[Column[Spent]]:
         Column(csv="step", value=lambda s: key[0]),
         Column(csv="newton_iteration", value=lambda s: key[1]),
         Column(csv="time", unit="ms", value=lambda s: s.system.time_ms if s.system else None),
-        Column(
-            "material",
-            "material",
-            value=lambda s: s.material,
-            text=lambda s: s.first * MATERIALS[s.material],
-            left=True,
-        ),
-        Column("mesh", "mesh", value=lambda s: s.mesh, text=lambda s: s.first * s.mesh, left=True),
+        Column("material", "material", lambda s: s.material, text=lambda s: s.first * MATERIALS[s.material], left=True),
+        Column("mesh", "mesh", lambda s: s.mesh, text=lambda s: s.first * s.mesh, left=True),
         Column(
             "unknowns",
             "unknowns",
-            value=lambda s: s.unknowns("total"),
+            lambda s: s.unknowns("total"),
             text=lambda s: s.first * fixed(s.unknowns("total"), ",d"),
             left=True,
         ),
@@ -72,41 +66,26 @@ def _columns(key: System, with_direct: bool) -> List[Column[Spent]]:
         Column(csv="wall_unknowns", value=lambda s: s.unknowns("wall")),
         Column(csv="threads", value=lambda s: s.threads),
         Column(csv="product_seconds", value=lambda s: s.system.product_seconds if s.system else None),
-        Column("method", "method", value=lambda s: s.method, left=True),
+        Column("method", "method", lambda s: s.method, left=True),
         Column(csv="status", value=lambda s: s.entry.status),
         Column(
             "#it",
             "iterations",
-            value=_solved(lambda s: s.iterations),
+            _solved(lambda s: s.iterations),
             text=lambda s: fixed(s.entry.iterations, "d") if s.entry.solve else s.entry.short,
         ),
-        Column("set-up", "set_up_seconds", value=_solved(lambda s: s.set_up_seconds), format=".3g", group="seconds"),
-        Column("solve", "solve_seconds", value=_solved(lambda s: s.solve_seconds), format=".3g", group="seconds"),
-        Column("work units", "work_units", value=_solved(lambda s: s.work_units), format=".1f"),
-        *(
-            Column(name, f"{name}_cycles", value=_cycles(name), format="d", group="cycles")
-            for name in ("mesh", "flow", "wall")
-        ),
-        Column("levels", "levels", value=_solved(lambda s: s.levels), format="d"),
-        Column(
-            "complexity",
-            "operator_complexity",
-            value=_solved(lambda s: s.operator_complexity),
-            format=".2f",
-            group="operator",
-        ),
-        Column("{unit}", "memory", "MiB", value=_solved(lambda s: s.memory_MiB), format=".1f", group="memory"),
-        Column(
-            "residual",
-            "relative_residual",
-            value=_solved(lambda s: s.relative_residual),
-            format=".1e",
-            group="true relative",
-        ),
+        Column("set-up", "set_up_seconds", _solved(lambda s: s.set_up_seconds), ".3g", group="seconds"),
+        Column("solve", "solve_seconds", _solved(lambda s: s.solve_seconds), ".3g", group="seconds"),
+        Column("work units", "work_units", _solved(lambda s: s.work_units), ".1f"),
+        *(Column(name, f"{name}_cycles", _cycles(name), "d", group="cycles") for name in ("mesh", "flow", "wall")),
+        Column("levels", "levels", _solved(lambda s: s.levels), "d"),
+        Column("complexity", "operator_complexity", _solved(lambda s: s.operator_complexity), ".2f", group="operator"),
+        Column("{unit}", "memory", _solved(lambda s: s.memory_MiB), ".1f", "MiB", "memory"),
+        Column("residual", "relative_residual", _solved(lambda s: s.relative_residual), ".1e", group="true relative"),
         Column(
             "to direct" if with_direct else "",
             "difference_to_direct",
-            value=_solved(lambda s: s.difference),
+            _solved(lambda s: s.difference),
             text=lambda s: fixed(_solved(lambda s: s.difference)(s), ".1e") + s.apart * "!",
             group="relative difference",
         ),

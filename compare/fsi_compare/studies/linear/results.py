@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, List, NoReturn, Optional, Tuple, Union
 
-from ..base.errors import InputError
-from ..base.files import read_json
+from ...base.errors import InputError
+from ...base.files import read_json
 
 FILE = "linear_solvers.json"
 System = Tuple[int, int]  # time step, Newton iteration; both from 1
 # A residual that is met to the last digit may be printed a rounding above the tolerance.
 RESIDUAL_SLACK = 1 + 1e-6
+MEASURED = ("set_up_seconds", "solve_seconds", "work_units", "operator_complexity", "memory_MiB", "difference")
 
 
 @dataclass(frozen=True)
@@ -210,30 +211,21 @@ def _solve(entry: _Object, tolerance: float) -> Solve:
             converged = False
             shown = "not finite" if residual is None else f"{residual:.1e}, above {tolerance:g}"
             message = f"true residual is {shown}" + (f"; {message}" if message else "")
-    cycles = entry.object("cycles").values if entry.values.get("cycles") else {}
+    cycles = entry.object("cycles") if entry.values.get("cycles") else None
     return Solve(
         name=entry.text("name"),
         converged=converged,
         message=message or ("" if converged else "no reason given"),
-        iterations=entry.optional("iterations", entry.count),
         relative_residual=residual,
-        set_up_seconds=entry.optional("set_up_seconds"),
-        solve_seconds=entry.optional("solve_seconds"),
-        work_units=entry.optional("work_units"),
-        cycles={name: entry.object("cycles").count(name) for name in cycles},
-        operator_complexity=entry.optional("operator_complexity"),
-        levels=entry.optional("levels", entry.count),
-        memory_MiB=entry.optional("memory_MiB"),
-        difference=entry.optional("difference"),
+        cycles={name: cycles.count(name) for name in cycles.values} if cycles else {},
+        **{name: entry.optional(name, entry.count) for name in ("iterations", "levels")},
+        **{name: entry.optional(name) for name in MEASURED},
     )
 
 
 def _sub_problem(entry: _Object) -> SubProblem:
     return SubProblem(
-        problem=entry.text("problem"),
-        coarsening=entry.text("coarsening"),
-        smoother=entry.text("smoother"),
-        cycle=entry.text("cycle"),
+        **{name: entry.text(name) for name in ("problem", "coarsening", "smoother", "cycle")},
         levels=entry.count("levels"),
         factor=entry.optional("factor"),
         iterations=entry.optional("iterations", entry.count),

@@ -2,17 +2,14 @@
 
 import argparse
 import sys
-from pathlib import Path
-from typing import Any
 
-from ..base.errors import InputError, printable, say_error
-from ..base.files import folder, make_folder
-from ..base.folder_lock import locked
-from ..runs.programs import find_mesh_maker, find_program
+from ...base.errors import InputError, printable, say_error
+from ...base.files import folder, make_folder
+from ...base.options import Commands, add_command, add_drivers, add_output, add_usual, positive
+from ..starting.folder_lock import locked
+from ..starting.programs import find_mesh_maker, find_program
 from .running import Programs, make_runs
 from .scene import BOTH, READY, Number, find_scenes
-
-DEFAULT_OUTPUT = "results/gallery"
 
 DESCRIPTION = """\
 Runs scenes of the gallery with both drivers, holds what they compute against what is known, and writes to OUTDIR:
@@ -22,36 +19,28 @@ Runs scenes of the gallery with both drivers, holds what they compute against wh
 Exit code 2: a run failed, or a number is further from what is known than it may be."""
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    gallery = commands.add_parser(
-        "gallery",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        help="runs the scenes of the gallery and makes its page",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "gallery", gallery, "runs the scenes of the gallery and makes its page", DESCRIPTION
     )
-    gallery.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all but the long ones)")
-    gallery.add_argument(
-        "-o", "--output", metavar="OUTDIR", type=folder, default=Path(DEFAULT_OUTPUT), help=f"default: {DEFAULT_OUTPUT}"
-    )
-    gallery.add_argument(
+    command.add_argument("scenes", metavar="SCENE", nargs="*", help="names of scenes (default: all but the long ones)")
+    add_output(command, "results/gallery")
+    command.add_argument(
         "--from", metavar="FOLDER", type=folder, dest="source", default=READY, help="a gallery of your own"
     )
-    gallery.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
-    gallery.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
-    gallery.add_argument("--list", action="store_true", help="say what there is, and run nothing")
-    gallery.add_argument("--jobs", metavar="N", type=int, default=2, help="runs at once (default: 2)")
-    gallery.add_argument(
-        "--processes", metavar="N", type=int, default=1, help="of each run, by mpirun (default: 1, without mpirun)"
+    command.add_argument("--long", action="store_true", help="all scenes, those that take minutes, too")
+    command.add_argument("--quick", action="store_true", help="the short forms, a second or two each")
+    command.add_argument("--list", action="store_true", help="say what there is, and run nothing")
+    command.add_argument("--jobs", metavar="N", type=positive("--jobs"), default=2, help="runs at once (default: 2)")
+    command.add_argument(
+        "--processes",
+        metavar="N",
+        type=positive("--processes"),
+        default=1,
+        help="of each run, by mpirun (default: 1, without mpirun)",
     )
-    gallery.add_argument(
-        "--monolithic", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program)"
-    )
-    gallery.add_argument(
-        "--partitioned", metavar="PATH", type=Path, help="fsi-partitioned (default: beside this program)"
-    )
-    gallery.add_argument("--threads", metavar="N", type=int, help="accepted as by all programs; a run has one thread")
-    gallery.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    add_drivers(command)
+    add_usual(command, version, "accepted as by all programs; a run has one thread")
 
 
 def gallery(options: argparse.Namespace) -> int:
@@ -63,9 +52,6 @@ def gallery(options: argparse.Namespace) -> int:
         return 0
     if not options.scenes and not options.long:
         scenes = [scene for scene in scenes if not scene.long]
-    for value, name in ((options.jobs, "--jobs"), (options.processes, "--processes")):
-        if value < 1:
-            raise InputError("", name, f"{value} is too few", "give 1 or more")
     named = {"fsi-monolithic": options.monolithic, "fsi-partitioned": options.partitioned}
     drivers = {name: find_program(name, named[name], "--" + name.removeprefix("fsi-")) for name in BOTH}
     mesh_maker = find_mesh_maker(drivers["fsi-monolithic"])

@@ -7,8 +7,7 @@ from typing import Dict, Sequence, Union
 
 import numpy as np
 
-from ...base.errors import InputError
-from ...runs.columns import read_columns
+from .levels import read_levels
 
 
 @dataclass(frozen=True)
@@ -55,20 +54,8 @@ class Waves:
 
 
 def read_waves(path: Path, column: str) -> Waves:
-    """Of a CSV with `time_ms`, `z_mm` and the column, all points of a level together. Raises InputError."""
-    columns = read_columns(path, ("time_ms", "z_mm", column))
-    times = columns["time_ms"]
-    starts = np.flatnonzero(np.concatenate([[True], np.diff(times) != 0])) if len(times) else np.array([], int)
-    points = len(times) // len(starts) if len(starts) else 0
-    if not points or len(times) != points * len(starts) or np.any(np.diff(starts) != points):
-        raise InputError(path, "time_ms", "levels differ in their number of points", "run it again")
-    if points < 2:
-        raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
-    if np.any(np.diff(times[starts]) <= 0) or np.any(np.diff(columns["z_mm"][:points]) <= 0):
-        raise InputError(path, "time_ms", "times or points do not increase", "run it again")
-    if np.any(columns["z_mm"].reshape(len(starts), points) != columns["z_mm"][:points]):
-        raise InputError(path, "z_mm", "is not the same at all time levels", "run it again")
-    return Waves(times[starts], columns["z_mm"][:points], columns[column].reshape(len(starts), points))
+    """Of a table of a line. Raises InputError."""
+    return Waves(*read_levels(path, column))
 
 
 def averaged(waves: Waves, times: Sequence[float], window: float = WINDOW) -> Waves:

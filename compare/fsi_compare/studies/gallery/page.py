@@ -4,13 +4,13 @@ from os.path import normpath
 from pathlib import Path
 from typing import Any, List, Sequence, Tuple
 
-from ..reporting.column import Column
-from ..reporting.layout import Table
-from ..reporting.report import Report
-from ..runs.work_units import NOTE, per_step
+from ...reporting.column import Column
+from ...reporting.layout import Table
+from ...reporting.report import Report
+from ...runs.work_units import NOTE, per_step
 from .running import Outcome
 from .scene import Number, SceneRun
-from ..reporting.work_column import work_column
+from ...reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
 
@@ -74,33 +74,26 @@ def total(run: SceneRun, name: str) -> Any:
 
 NUMBERS: Sequence[Column[Number]] = (
     Column(
-        "quantity",
-        "quantity",
-        value=lambda n: n.what,
-        text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""),
-        left=True,
+        "quantity", "quantity", lambda n: n.what, text=lambda n: n.what + (f" [{n.unit}]" if n.unit else ""), left=True
     ),
     Column(csv="unit", value=lambda n: n.unit),
-    Column("driver", "program", value=lambda n: n.program, format=driver, left=True),
-    Column("known from", "source", value=lambda n: n.source, left=True),
-    Column("value", "value", value=lambda n: n.value, format=".5g"),
-    Column("known", "reference", value=lambda n: n.reference, format=".5g"),
+    Column("driver", "program", lambda n: n.program, driver, left=True),
+    Column("known from", "source", lambda n: n.source, left=True),
+    Column("value", "value", lambda n: n.value, ".5g"),
+    Column("known", "reference", lambda n: n.reference, ".5g"),
     Column(
-        "differs by",
-        "relative_error",
-        value=lambda n: n.error,
-        text=lambda n: percent(n.error) + ("" if n.holds else " (!)"),
+        "differs by", "relative_error", lambda n: n.error, text=lambda n: percent(n.error) + ("" if n.holds else " (!)")
     ),
-    Column("may by", "tolerance", value=lambda n: n.tolerance, format=percent),
+    Column("may by", "tolerance", lambda n: n.tolerance, percent),
 )
 
 # Of (program, its run).
 COSTS: Sequence[Column[Tuple[str, SceneRun]]] = (
-    Column("driver", "program", value=lambda r: r[0], format=driver, left=True),
-    Column("unknowns", "unknowns", value=lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
-    Column("steps", "steps", value=lambda r: total(r[1], "steps")),
+    Column("driver", "program", lambda r: r[0], driver, left=True),
+    Column("unknowns", "unknowns", lambda r: r[1].summary.get("unknowns", {}).get("coupled")),
+    Column("steps", "steps", lambda r: total(r[1], "steps")),
     work_column("work units per step", "work_units_per_step", lambda r: per_step(r[1].summary)),
-    Column("seconds", "seconds", value=lambda r: r[1].seconds, format=".2f"),
-    Column("Newton iterations", "newton_iterations", value=lambda r: total(r[1], "newton_iterations")),
-    Column("passes", "passes", value=lambda r: total(r[1], "outer_iterations") if r[0] == "fsi-partitioned" else None),
+    Column("seconds", "seconds", lambda r: r[1].seconds, ".2f"),
+    Column("Newton iterations", "newton_iterations", lambda r: total(r[1], "newton_iterations")),
+    Column("passes", "passes", lambda r: total(r[1], "outer_iterations") if r[0] == "fsi-partitioned" else None),
 )

@@ -3,9 +3,9 @@
 from dataclasses import dataclass, replace
 from typing import List, Optional, Tuple
 
-from ..base import paper
-from ..base.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES
-from ..reporting.column import Column
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, MATERIALS, MESHES
+from ...reporting.column import Column
 from .grid import Entry, Grid
 from .results import NewtonSystem, System
 

@@ -19,15 +19,15 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
-from ..base.errors import InputError
-from ..base.files import exists, is_file, is_folder, listed, read_text
-from ..base.suggestions import nearest
-from ..results.run import RunResults, open_run
-from ..results.table import Table
-from ..runs.run_folder import read_finished
+from ...base.errors import InputError
+from ...base.files import exists, is_file, is_folder, listed, read_text
+from ...base.suggestions import nearest
+from ...results.run import RunResults, open_run
+from ...results.table import Table
+from ...runs.run_folder import read_finished
 
 BOTH = ("fsi-monolithic", "fsi-partitioned")
-READY = Path(__file__).resolve().parents[3] / "gallery"
+READY = Path(__file__).resolve().parents[4] / "gallery"
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def read_scene(folder: Path) -> Scene:
         raise InputError(path, "", f"cannot be loaded: {type(error).__name__}: {error}", "mend the scene") from None
     for needed in ("numbers", "draw"):
         if not hasattr(module, needed):
-            raise InputError(path, needed, "is missing", "see fsi_compare/gallery/scene.py")
+            raise InputError(path, needed, "is missing", "see fsi_compare/studies/gallery/scene.py")
     if not is_file(scene.case):
         raise InputError(scene.case, "", "no such file", "a scene's case is named after its folder")
     return scene

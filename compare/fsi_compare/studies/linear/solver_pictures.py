@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ..base import paper
-from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
-from ..reporting.pictures import finish, write_figure
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
+from ...reporting.pictures import finish, write_figure
 from .results import System
 from .grid import Grid, suffix
 
@@ -68,14 +68,13 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     for material in grid.materials:
         handles += [Line2D([], [], **MATERIAL_LINES[material]), Line2D([], [], **_paper_line(material))]
         labels += [MATERIALS[material], f"{MATERIALS[material]}, paper{'' if key == (1, 1) else ' (first system)'}"]
-    finish(
+    return finish(
         figure,
         handles,
         labels,
         f"Iterations, {grid.heading(key)}",
         (max(columns * PANEL_INCHES[0], 4.5), rows * PANEL_INCHES[1]),
     )
-    return figure
 
 
 def cost_figure(grid: Grid, key: System) -> Figure:
@@ -84,8 +83,7 @@ def cost_figure(grid: Grid, key: System) -> Figure:
     methods = [method for method in grid.methods if method not in EXACT.values()]
     quantities = (("work_units", "work units of the solve"), ("total_seconds", "set-up and solve in s"))
     columns = len(grid.materials)
-    width, height = columns * PANEL_INCHES[0] + 1.2, len(quantities) * (0.8 + 0.2 * len(methods))
-    figure = Figure(figsize=(width, height))
+    figure = Figure(figsize=(columns * PANEL_INCHES[0] + 1.2, len(quantities) * (0.8 + 0.2 * len(methods))))
     panels = figure.subplots(len(quantities), columns, squeeze=False, sharex="row", sharey=True)
     for row, (quantity, name) in zip(panels, quantities):
         for axes, material in zip(row, grid.materials):
@@ -102,8 +100,7 @@ def cost_figure(grid: Grid, key: System) -> Figure:
     for axes, material in zip(panels[0], grid.materials):
         axes.set_title(MATERIALS[material])
     handles = [Line2D([], [], linestyle="none", **_mesh_mark(mesh)) for mesh in grid.meshes]
-    finish(figure, handles, [f"{mesh} mesh" for mesh in grid.meshes], f"Cost, {grid.heading(key)}", (width, height))
-    return figure
+    return finish(figure, handles, [f"{mesh} mesh" for mesh in grid.meshes], f"Cost, {grid.heading(key)}")
 
 
 def _mesh_mark(mesh: str) -> dict:

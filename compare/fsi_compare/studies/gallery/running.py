@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Sequence
 
-from ..base.errors import InputError, ProgramError
-from ..base.files import absolute, make_folder, remove_tree
-from ..runs.launch import launched
-from ..runs.processes import End, Job, execute, run_jobs
-from ..runs.programs import Program
+from ...base.errors import InputError, ProgramError
+from ...base.files import absolute, make_folder, remove_tree
+from ..starting.launch import launched
+from ..starting.processes import End, Job, execute, run_jobs
+from ..starting.programs import Program
 from .scene import Scene, SceneRun, SceneRuns, read_scene_run
 
 

@@ -1,16 +1,16 @@
 """How far the methods carry: the first Newton system of the paper's case with one quantity at a time far from it."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
-from ..base.files import TEMPORARY, absolute, exists, make_folder
-from ..base.names import MATERIALS
-from ..reporting.column import Column, Facts
-from ..reporting.layout import Table
-from ..runs.processes import execute
-from ..runs.programs import Program, find_mesh_maker
+from ...base.files import TEMPORARY, absolute, exists, make_folder
+from ..catalogue.names import MATERIALS
+from ...reporting.column import Column, Facts
+from ...reporting.layout import Table
+from ..starting.processes import execute
+from ..starting.programs import Program, find_mesh_maker
 from .results import NewtonSystem, Solve
 from .study import Outcome, Request
 
@@ -89,24 +89,17 @@ def plan(
                     file = folder / "runs" / "meshes" / f"{mesh}-{row.axial_stretch:g}.msh"
                     failure = make_stretched_mesh(program, file, mesh, row.axial_stretch)
                     settings, files = (f"mesh.file={absolute(file)}",), () if failure else (file,)
-                planned.append(
-                    Planned(
-                        row,
-                        Request(
-                            name=f"stress-{material}-{mesh}-{row.folder}",
-                            case=cases / f"{material}.toml",
-                            material=material,
-                            mesh=mesh,
-                            settings=(*template.settings, *row.settings, *settings),
-                            solvers=template.solvers,
-                            systems=(SYSTEM,),
-                            tolerance=template.tolerance,
-                            threads=template.threads,
-                            files=files,
-                        ),
-                        failure,
-                    )
+                request = replace(
+                    template,
+                    name=f"stress-{material}-{mesh}-{row.folder}",
+                    case=cases / f"{material}.toml",
+                    material=material,
+                    mesh=mesh,
+                    settings=(*template.settings, *row.settings, *settings),
+                    systems=(SYSTEM,),
+                    files=files,
                 )
+                planned.append(Planned(row, request, failure))
     return planned
 
 
@@ -121,23 +114,8 @@ def make_stretched_mesh(program: Program, file: Path, mesh: str, stretch: float)
     make_folder(file.parent)
     axial = stretch * CROSS_SIZE[mesh]
     unfinished = file.with_name(f".{file.stem}{TEMPORARY}.msh")
-    ended = execute(
-        (
-            maker,
-            "artery",
-            "--size",
-            CROSS_SIZE[mesh],
-            "--axial-size",
-            axial,
-            "--length",
-            axial * STATIONS[mesh],
-            "--format",
-            "2.2",
-            "-q",
-            "-o",
-            unfinished,
-        )
-    )
+    size = ("--size", CROSS_SIZE[mesh], "--axial-size", axial, "--length", axial * STATIONS[mesh])
+    ended = execute((maker, "artery", *size, "--format", "2.2", "-q", "-o", unfinished))
     if ended.code != 0:
         return f"fsi-mesh: {ended.message}"
     os.replace(unfinished, file)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Iterable, List, Optional, Sequence
 
-from ..base.names import MATERIALS, MESHES, METHODS
+from ..catalogue.names import MATERIALS, MESHES, METHODS
 from .results import NewtonSystem, Solve, System
 from .study import Outcome
 

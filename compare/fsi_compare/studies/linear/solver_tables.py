@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
-from ..base import paper
-from ..base.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, MULTILEVEL
-from ..reporting.column import Column, Facts, fixed
-from ..reporting.layout import Table
+from ..catalogue import paper
+from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MESHES, MULTILEVEL
+from ...reporting.column import Column, Facts, fixed
+from ...reporting.layout import Table
 from .cost_tables import cost_table
 from .counts import Count, Marks, count_columns, order_note
 from .grid import Entry, Grid, suffix
@@ -270,19 +270,17 @@ class Alone(NamedTuple):
 
 
 SUB_PROBLEMS: Sequence[Column[Alone]] = (
-    Column("material", "material", value=lambda a: a.material, format=MATERIALS.__getitem__, left=True),
-    Column("mesh", "mesh", value=lambda a: a.mesh, left=True),
+    Column("material", "material", lambda a: a.material, MATERIALS.__getitem__, left=True),
+    Column("mesh", "mesh", lambda a: a.mesh, left=True),
     Column(csv="nodes", value=lambda a: a.results.mesh.get("nodes")),
-    Column("problem", "problem", value=lambda a: a.p.problem, left=True),
-    Column("coarsening", "coarsening", value=lambda a: a.p.coarsening, left=True),
-    Column("smoother", "smoother", value=lambda a: a.p.smoother, left=True),
-    Column("cycle", "cycle", value=lambda a: a.p.cycle, left=True),
-    Column("levels", "levels", value=lambda a: a.p.levels),
-    Column(
-        "factor", "convergence_factor", value=lambda a: a.p.factor if a.good else None, format=".3f", missing="n.c."
-    ),
-    Column("#it", "iterations", value=lambda a: a.p.iterations if a.good else None, format="d"),
-    Column("complexity", "operator_complexity", value=lambda a: a.p.operator_complexity, format=".2f"),
+    Column("problem", "problem", lambda a: a.p.problem, left=True),
+    Column("coarsening", "coarsening", lambda a: a.p.coarsening, left=True),
+    Column("smoother", "smoother", lambda a: a.p.smoother, left=True),
+    Column("cycle", "cycle", lambda a: a.p.cycle, left=True),
+    Column("levels", "levels", lambda a: a.p.levels),
+    Column("factor", "convergence_factor", lambda a: a.p.factor if a.good else None, ".3f", missing="n.c."),
+    Column("#it", "iterations", lambda a: a.p.iterations if a.good else None, "d"),
+    Column("complexity", "operator_complexity", lambda a: a.p.operator_complexity, ".2f"),
 )
 
 

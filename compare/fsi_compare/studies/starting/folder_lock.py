@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Dict, Iterator
 
-from .errors import PROGRAM, InputError, say_note
+from ...base.errors import PROGRAM, InputError, say_note
 
 NAME = "run.lock"
 TRIES, PAUSE = 300, 0.01  # s; another study may be about to write its name, or to remove the file
@@ -75,12 +75,8 @@ def _take(handle: int, folder: Path, path: Path) -> bool:
         raise _nameless(folder, path)
     if holder:
         if holder["host"] != socket.gethostname():
-            raise InputError(
-                folder,
-                "",
-                f"is locked by {_name(holder)}; from here it cannot be seen whether that still runs",
-                f"if it does not, remove {path}",
-            )
+            problem = f"is locked by {_name(holder)}; from here it cannot be seen whether that still runs"
+            raise InputError(folder, "", problem, f"if it does not, remove {path}")
         if _runs(holder):  # on a file system whose locks are known to one host only
             raise InputError(folder, "", f"a run works in it ({_name(holder)})", WAIT)
         say_note(f"{folder}: took over the lock of {_name(holder)}, which has ended")

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Optional
 
-from ...base.errors import InputError, printable
-from ...base.files import read_object
+from ..base.errors import InputError, printable
+from ..base.files import read_object
 from .waves import QUANTITIES, Quantity, Waves, read_waves
 
 FILE = "reference.json"

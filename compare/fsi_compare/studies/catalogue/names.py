@@ -2,8 +2,8 @@
 
 from typing import List, Sequence
 
-from .errors import InputError
-from .suggestions import nearest
+from ...base.errors import InputError
+from ...base.suggestions import nearest
 
 MATERIALS = {"neo-hookean": "neo-Hookean", "mooney-rivlin": "Mooney-Rivlin", "artery": "artery"}
 MESHES = {"coarse": "C", "intermediate": "I", "fine": "F"}

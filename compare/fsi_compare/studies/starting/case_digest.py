@@ -5,8 +5,8 @@ import json
 from pathlib import Path
 from typing import Sequence
 
-from ..base.errors import InputError
-from ..base.files import read_bytes, read_toml
+from ...base.errors import InputError
+from ...base.files import read_bytes, read_toml
 
 MISSING = "give a case file that can be read"
 

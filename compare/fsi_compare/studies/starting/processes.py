@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, IO, Iterable, Iterator, List, Optional, Sequence
 
-from ..base import interruption
+from ...base import interruption
 from .launch import without_chatter
 
 POLL = 0.1  # s
@@ -104,18 +104,17 @@ def run_jobs(
 def _start(job: Job) -> _Running:
     said = os.fdopen(os.memfd_create("error output"), "w+b")
     try:
-        process = subprocess.Popen(
-            [str(word) for word in job.command],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=said,
-            process_group=0,  # Ctrl-C comes to fsi-compare alone, which passes it on
-            preexec_fn=_die_with(os.getpid()),
-        )
+        return _Running(job, _process(job.command, stdout=subprocess.DEVNULL, stderr=said), said, time.monotonic())
     except BaseException:
         said.close()
         raise
-    return _Running(job, process, said, time.monotonic())
+
+
+def _process(command: Sequence, **streams: Any) -> subprocess.Popen:
+    """In a process group of its own: Ctrl-C comes to fsi-compare alone, which passes it on."""
+    words = [str(word) for word in command]
+    ended_with_us = _die_with(os.getpid())
+    return subprocess.Popen(words, stdin=subprocess.DEVNULL, process_group=0, preexec_fn=ended_with_us, **streams)
 
 
 def _die_with(parent: int) -> Callable[[], None]:
@@ -184,14 +183,7 @@ def _stopped_together(running: Dict[int, _Running]) -> Iterator[None]:
 def answer(command: Sequence, time_limit: float) -> str:
     """What a program says on its output. Raises OSError where it cannot be started or gives none in time."""
     with os.fdopen(os.memfd_create("output"), "w+b") as said:
-        process = subprocess.Popen(
-            [str(word) for word in command],
-            stdin=subprocess.DEVNULL,
-            stdout=said,
-            stderr=subprocess.DEVNULL,
-            process_group=0,
-            preexec_fn=_die_with(os.getpid()),
-        )
+        process = _process(command, stdout=said, stderr=subprocess.DEVNULL)
         latest = time.monotonic() + time_limit
         try:
             while process.poll() is None:

@@ -4,22 +4,23 @@ import argparse
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..base.errors import InputError, printable
 from ..base.files import exists, folder, together
-from ..reporting.column import Column, Facts
-from ..reporting.layout import Table, say_written, write_markdown
-from ..reporting.pressure import read_times
+from ..base.options import Commands, add_command, add_folders, add_output, add_times, add_usual
+from .column import Column, Facts
+from .layout import Table, show_tables, write_tables
+from .pressure import read_times
 from ..runs.columns import read_iterations
 from ..runs.labels import folder_labels, read_labels
 from ..runs.run_folder import read_finished
 from ..runs.work_units import NOTE_IN_ALL, about_machines, in_all
-from .evidence.reference import FILE as DESCRIPTION_FILE, read_reference
-from .evidence.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
-from ..reporting.work_column import work_column
+from ..runs.reference import FILE as DESCRIPTION_FILE, read_reference
+from ..runs.waves import PRESSURE, QUANTITIES, WINDOW, WRITTEN, Quantity, Waves, read_run, relative_difference
+from .work_column import work_column
 
 TIMES = "1.5,3,4.5,6"
 SAME_STEP = 1e-6  # relative
@@ -72,44 +73,21 @@ class Accuracy:
         return float(np.mean(self.errors[quantity.column]))
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", version: str) -> None:
-    accuracy = commands.add_parser(
-        "accuracy",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="errors of finished runs against a reference",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "accuracy", accuracy, "errors of finished runs against a reference", DESCRIPTION, EXAMPLES
     )
-    accuracy.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
-    accuracy.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder of a finished run")
-    accuracy.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path("results/accuracy"),
-        help="folder for the files written (default: %(default)s)",
-    )
-    accuracy.add_argument(
-        "--times",
-        metavar="T,T,...",
-        default=TIMES,
-        help="times in ms; linear between time steps (default: %(default)s)",
-    )
-    accuracy.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
-    accuracy.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
-    accuracy.add_argument(
-        "--threads", metavar="N", type=int, help="accepted as by all programs; this comparison is quick on one thread"
-    )
-    accuracy.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    accuracy.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    command.add_argument("reference", metavar="REFERENCE", type=Path, help="result folder, or a kept reference")
+    add_folders(command)
+    add_output(command, "results/accuracy")
+    add_times(command, TIMES)
+    command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders)")
+    command.add_argument("--title", default="Accuracy of the runs", help="heading of the table (default: %(default)s)")
+    add_usual(command, version, "accepted as by all programs; this comparison is quick on one thread")
 
 
 def accuracy(options: argparse.Namespace) -> int:
     """Reads all runs before the first file is written."""
-    if options.threads is not None and options.threads < 1:
-        raise InputError("", "--threads", f"{options.threads} is not positive", "give 1 or more")
     times = read_times(options.times)
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     reference = read_any_reference(options.reference, times)
@@ -117,10 +95,9 @@ def accuracy(options: argparse.Namespace) -> int:
     title = printable(options.title)
     table = accuracy_table(found, reference, times, title)
     with together(options.output) as place:
-        written = [table.write_csv(place), write_markdown(place / "accuracy.md", title, [table])]
+        written = write_tables(place, [table], "accuracy.md", title)
     if not options.quiet:
-        print(table.text())
-        say_written(options.output, written)
+        show_tables([table], options.output, written)
     return 0
 
 
@@ -139,12 +116,9 @@ def require_lines(folder: Path) -> None:
     """Raises InputError for a finished run of a vessel that bends or branches, or without fluid or wall."""
     for q in WRITTEN:
         if not exists(folder / q.file):
-            raise InputError(
-                folder / q.file,
-                "",
-                "is missing, though the run is finished: only straight tubes with fluid and wall have one",
-                "compare others by fsi-compare pressure or fsi-compare report",
-            )
+            problem = "is missing, though the run is finished: only straight tubes with fluid and wall have one"
+            remedy = "compare others by fsi-compare pressure or fsi-compare report"
+            raise InputError(folder / q.file, "", problem, remedy)
 
 
 def _step(waves: Dict[str, Waves]) -> float:
@@ -164,12 +138,8 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
         for where, one in ((reference.folder, exact), (folder, own)):
             outside = [time for time in times if not one.covers(time)]
             if outside:
-                raise InputError(
-                    where / q.file,
-                    "--times",
-                    f"{outside[0]:g} ms is outside of it",
-                    f"give times between {one.times[0]:g} and {one.times[-1]:g} ms",
-                )
+                remedy = f"give times between {one.times[0]:g} and {one.times[-1]:g} ms"
+                raise InputError(where / q.file, "--times", f"{outside[0]:g} ms is outside of it", remedy)
         if own.z[0] > exact.z[0] + 1e-6 or own.z[-1] < exact.z[-1] - 1e-6:
             raise InputError(
                 folder / q.file,
@@ -193,14 +163,14 @@ def read_accuracy(folder: Path, label: str, reference: Reference, times: Sequenc
 
 
 RUNS: Sequence[Column[Accuracy]] = (
-    Column("run", "run", value=lambda a: a.label, left=True),
-    Column("element", "element", value=lambda a: a.element, left=True),
-    Column("geometry", "geometry", value=lambda a: a.geometry, left=True),
-    Column("nodes", "nodes", value=lambda a: a.nodes),
-    Column("step", "step", "ms", value=lambda a: a.step, format="g"),
-    Column("steps", "steps", value=lambda a: a.steps),
+    Column("run", "run", lambda a: a.label, left=True),
+    Column("element", "element", lambda a: a.element, left=True),
+    Column("geometry", "geometry", lambda a: a.geometry, left=True),
+    Column("nodes", "nodes", lambda a: a.nodes),
+    Column("step", "step", lambda a: a.step, "g", "ms"),
+    Column("steps", "steps", lambda a: a.steps),
     work_column("work units", "work_units", lambda a: in_all(a.summary)),
-    Column("seconds", "wall", "s", value=lambda a: a.seconds, format=".3g"),
+    Column("seconds", "wall", lambda a: a.seconds, ".3g", "s"),
 )
 
 

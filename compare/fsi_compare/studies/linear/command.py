@@ -4,21 +4,23 @@ import argparse
 import math
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
+from typing import Dict, List, Optional, Sequence, Set, Tuple
 
-from ..base.errors import InputError, printable
-from ..base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
-from ..base.folder_lock import locked
-from ..base.names import MATERIALS, MESHES, METHODS, pick
-from ..reporting.layout import Table, say_written, write_markdown
-from ..reporting.matplotlib_loader import load_matplotlib
-from ..runs.programs import Program, find_monolithic, has_petsc
+from ...base.errors import InputError, printable
+from ...base.files import folder, is_file, is_folder, make_folder, output_folder, replacing, together
+from ...base.options import Commands, add_command, add_output
+from ..starting.folder_lock import locked
+from ..catalogue.names import MATERIALS, MESHES, METHODS, pick
+from ...reporting.layout import show_tables, write_tables
+from ...reporting.matplotlib_loader import load_matplotlib
+from ..starting.programs import Program, find_monolithic, has_petsc
 from . import stress as stress_study
 from .results import System
 from .study import Outcome, Request, run_study
 
-CASES = Path(__file__).resolve().parents[3] / "meshes" / "artery"
+CASES = Path(__file__).resolve().parents[4] / "meshes" / "artery"
 STRESS_METHODS = "fast,amg_fgmres"
 STUDY_OWN = ("mesh.level", "mesh.file")  # chosen by --meshes
 
@@ -43,56 +45,44 @@ examples:
 """
 
 
-def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str, version: str) -> None:
-    solvers = commands.add_parser(
-        "solvers",
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog=EXAMPLES,
-        help="iterations and cost of the linear solvers",
-        description=DESCRIPTION,
+def add_parser(commands: Commands, version: str) -> None:
+    command = add_command(
+        commands, "solvers", solvers, "iterations and cost of the linear solvers", DESCRIPTION, EXAMPLES
     )
-    solvers.add_argument(
-        "-o",
-        "--output",
-        metavar="OUTDIR",
-        type=folder,
-        default=Path(default_output),
-        help="folder for the files written (default: %(default)s)",
-    )
-    solvers.add_argument(
+    add_output(command, "results/solvers")
+    command.add_argument(
         "--methods", metavar="A,B,...", help=f"of {', '.join(METHODS)} (default: all; with --stress {STRESS_METHODS})"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--materials", metavar="A,B,...", help=f"of {', '.join(MATERIALS)} (default: all; with --stress neo-hookean)"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--meshes", metavar="A,B,...", help=f"of {', '.join(MESHES)} (default: all; with --stress coarse)"
     )
-    solvers.add_argument(
+    command.add_argument(
         "--without",
         metavar="MESH:METHOD,...",
         help="leave a method out on a mesh, e.g. fine:direct where it does not fit into memory",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--systems",
         metavar="STEP:IT,...",
         help="time step and Newton iteration of each system (default: 1:1,12:2; with --stress 1:1)",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--tolerance",
         metavar="TOL",
         type=float,
         default=1e-9,
         help="of the true relative residual (default: %(default)g)",
     )
-    solvers.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
-    solvers.add_argument(
+    command.add_argument("--sub-problems", action="store_true", help="convergence factors of the sub-problems' AMG too")
+    command.add_argument(
         "--stress",
         action="store_true",
         help="densities, time step, bulk modulus, viscosity and element shape far from the paper's",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--set",
         metavar="KEY=VALUE",
         action="append",
@@ -100,19 +90,19 @@ def add_parser(commands: "argparse._SubParsersAction[Any]", default_output: str,
         dest="settings",
         help="override an entry of the case files; may be repeated",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--case-dir",
         metavar="DIR",
         type=Path,
         default=CASES,
         help="folder with a case file per material, e.g. neo-hookean.toml (default: meshes/artery of the sources)",
     )
-    solvers.add_argument(
+    command.add_argument(
         "--program", metavar="PATH", type=Path, help="fsi-monolithic (default: beside this program, else on the path)"
     )
-    solvers.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
-    solvers.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-    solvers.add_argument("--version", action="version", version=f"fsi-compare {version}")
+    command.add_argument("--threads", metavar="N", type=int, help="of fsi-monolithic; 0: one per core (its default)")
+    command.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+    command.add_argument("--version", action="version", version=f"fsi-compare {version}")
 
 
 def solvers(options: argparse.Namespace) -> int:
@@ -186,19 +176,10 @@ def solve(
         if not asked:
             raise InputError("", "--without", f"leaves no method on the {mesh} mesh", "leave the mesh out of --meshes")
         for material in materials:
+            case, level = options.case_dir / f"{material}.toml", (*settings, f"mesh.level={mesh}")
+            name = f"{material}-{mesh}"
             requests.append(
-                Request(
-                    name=f"{material}-{mesh}",
-                    case=options.case_dir / f"{material}.toml",
-                    material=material,
-                    mesh=mesh,
-                    settings=(*settings, f"mesh.level={mesh}"),
-                    solvers=asked,
-                    systems=base.systems,
-                    tolerance=base.tolerance,
-                    threads=base.threads,
-                    sub_problems=base.sub_problems,
-                )
+                replace(base, name=name, case=case, material=material, mesh=mesh, settings=level, solvers=asked)
             )
     outcomes = run_study(program, options.output / "runs", requests, options.quiet)
 
@@ -208,9 +189,10 @@ def solve(
     grid = grids.Grid(outcomes)
     tables = solver_tables.solver_tables(grid)
     with together(options.output) as place:
-        written = write(place, tables, "solvers.md", "Linear solvers")
+        written = write_tables(place, tables, "solvers.md", "Linear solvers")
         written += solver_pictures.write_solver_pictures(place, grid)
-    report(options, tables, written)
+    if not options.quiet:
+        show_tables(tables, options.output, written)
     return exit_code(outcomes)
 
 
@@ -223,24 +205,14 @@ def stress(
     outcomes = [Outcome(p.request, None, p.failure) if p.failure else next(runs) for p in planned]
     table = stress_study.stress_table(planned, outcomes, base.solvers)
     with together(options.output) as place:
-        written = write(place, [table], "stress.md", "Linear solvers under stress")
-    report(options, [table], written)
+        written = write_tables(place, [table], "stress.md", "Linear solvers under stress")
+    if not options.quiet:
+        show_tables([table], options.output, written)
     return exit_code(outcomes)
 
 
 def exit_code(outcomes: List[Outcome]) -> int:
     return 0 if all(outcome.converged for outcome in outcomes) else 2
-
-
-def write(place: Path, tables: Sequence[Table], markdown: str, heading: str) -> List[Path]:
-    return [*(table.write_csv(place) for table in tables), write_markdown(place / markdown, heading, tables)]
-
-
-def report(options: argparse.Namespace, tables: Sequence[Table], written: Sequence[Path]) -> None:
-    if not options.quiet:
-        for table in tables:
-            print(table.text())
-        say_written(options.output, written)
 
 
 def read_systems(text: str) -> List[System]:
@@ -250,12 +222,8 @@ def read_systems(text: str) -> List[System]:
         if len(words) != 2 or not all(
             word.isascii() and word.isdigit() and len(word) < 10 and int(word) > 0 for word in words
         ):
-            raise InputError(
-                "",
-                "--systems",
-                f"'{part.strip()}' is not a system",
-                "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2",
-            )
+            remedy = "give STEP:ITERATION, both from 1, separated by commas, e.g. 1:1,12:2"
+            raise InputError("", "--systems", f"'{part.strip()}' is not a system", remedy)
         system = (int(words[0]), int(words[1]))
         if system in systems:
             raise InputError("", "--systems", f"{part.strip()} is given twice", "give each system once")

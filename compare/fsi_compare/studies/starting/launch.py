@@ -4,7 +4,7 @@ import os
 import shutil
 from typing import List, Sequence
 
-from ..base.errors import InputError
+from ...base.errors import InputError
 
 
 def usable_cores() -> int:

@@ -1,0 +1,42 @@
+"""Values along a line over time, as tables hold them: a block of lines for each time level, the same points in each."""
+
+from pathlib import Path
+from typing import Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from .columns import INTERRUPTED, numbers, read_fields
+
+
+def read_levels(path: Path, column: str) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times (levels,), places z (points,) and values (levels, points) of a CSV with `time_ms`, `z_mm` and the column.
+    Raises InputError."""
+    wanted = ("time_ms", "z_mm", column)
+    fields = read_fields(path)
+    for name in wanted:
+        if name not in fields:
+            remedy = f"the first line must read {','.join(wanted)}"
+            raise InputError(path, "line 1", f"column '{name}' is missing", remedy)
+    if not fields[column]:
+        raise InputError(path, "", "holds no time level", "the run wrote no time step; run it again")
+    time, z, values = (numbers(path, name, fields[name], gaps=False, nan=False) for name in wanted)
+    starts = np.array([0, *(np.flatnonzero(np.diff(time)) + 1), len(time)])
+    points = int(starts[1])
+    if points < 2:
+        raise InputError(path, "line 2", "the first time level has a single point", "two or more are needed")
+    if np.any(np.diff(z[:points]) <= 0):
+        line = int(np.flatnonzero(np.diff(z[:points]) <= 0)[0]) + 3
+        raise InputError(path, f"line {line}", "z_mm does not increase", "points must be ordered along the line")
+    for start, stop in zip(starts[1:-1], starts[2:]):
+        if time[start] < time[start - 1]:
+            problem = f"time_ms goes back from {time[start - 1]:g} to {time[start]:g}"
+            raise InputError(path, f"line {start + 2}", problem, "time levels must be ordered; run it again")
+        if stop - start != points:
+            problem = f"has {stop - start} of {points} points"
+            raise InputError(path, f"time_ms {time[start]:g}", problem, INTERRUPTED)
+        if np.any(z[start:stop] != z[:points]):
+            line = int(start + np.flatnonzero(z[start:stop] != z[:points])[0]) + 2
+            remedy = "all time levels must hold the same points; run it again"
+            raise InputError(path, f"line {line}", "z_mm differs from the first time level's", remedy)
+    return time[starts[:-1]], z[:points], values.reshape(-1, points)
