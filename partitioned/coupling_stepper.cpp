@@ -8,6 +8,7 @@
 
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
+#include "base/names.hpp"
 #include "fem/dimensions.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
@@ -15,6 +16,7 @@
 #include "scene/time_scheme.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi {
 
@@ -36,13 +38,15 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
         setup.path.string(), "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
         "use 1 or 2");
-  if (const auto time_scheme = setup.time ? time_scheme_of(setup, scene) : TimeScheme::euler;
-      scheme_.one_pass && (time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2))
+  if (scheme_.one_pass && !scene.integrator->bears_one_pass()) {
+    std::vector<std::string> others;
+    for (const std::string& name : schemes_for_one_pass()) others.push_back("\"" + name + "\"");
     throw InputError(setup.path.string(), "time.scheme",
                      fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
                                  "comes back with every step, and the pressure is wrong",
-                                 time_schemes().name_of(time_scheme), scheme_.name),
-                     "use \"euler\", \"generalised-alpha\" or \"bdf2\", or a coupling scheme that iterates");
+                                 time_scheme_of(setup, scene), scheme_.name),
+                     "use " + one_of(others) + ", or a coupling scheme that iterates");
+  }
   if (!scheme_.robin && scene.coupled() && scene.has_flow_only())
     throw InputError(setup.path.string(), "partitioned.scheme",
                      fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "

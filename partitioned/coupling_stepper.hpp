@@ -11,7 +11,7 @@
 #include "partitioned/scheme_choice.hpp"
 #include "partitioned/schemes.hpp"
 #include "scene/scene.hpp"
-#include "time/loads.hpp"
+#include "scene/loads.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {

@@ -17,7 +17,7 @@ Case example() {
   scene.structure.emplace();
   scene.structure->layers["media"] = {"neo-hookean", {{"c10", 3.0}}};
   scene.inlet = PressureTable{{{0, 1.332}}};
-  scene.time = TimeData{0.125, 12.0, 1, 1, 1};
+  scene.time = TimeData{0.125, 12.0, 1};
   return scene;
 }
 
@@ -48,7 +48,7 @@ TEST(CaseHash, NoticesWhatChangesTheEquations) {
   EXPECT_TRUE(changed([](Case& c) { c.structure->layers["media"].values["c10"] = 3.1; }));
   EXPECT_TRUE(changed([](Case& c) { c.structure->layers["adventitia"] = c.structure->layers["media"]; }));
   EXPECT_TRUE(changed([](Case& c) { c.inlet->points[0].second = 1; }));
-  EXPECT_TRUE(changed([](Case& c) { c.time->newmark_gamma = 0.5; }));
+  EXPECT_TRUE(changed([](Case& c) { c.time->scheme_values["newmark_gamma"] = 0.5; }));
   EXPECT_TRUE(changed([](Case& c) {
     c.time.reset();
     c.static_load = StaticData{};
