@@ -52,6 +52,14 @@ class InterfaceProblem {
     wall_.work_on(state, data);
     if (mesh_motion_) mesh_motion_->start();
   }
+  /// The same from all fields extrapolated by `order`.
+  void start_from_prediction(State& state, StepData& data, int order) {
+    scene_.integrator->predict(state, order, data);
+    scene_.impose_conditions(state.now);
+    scene_.impose_inflows(state, data);
+    scene_.impose_interface(state, data.rates);
+    start(state, data);
+  }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) const = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure
