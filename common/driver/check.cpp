@@ -24,7 +24,7 @@
 #include "driver/process_threads.hpp"
 #include "driver/program.hpp"
 #include "fem/dimensions.hpp"
-#include "petsc_solver/general_solvers.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "scene/time_scheme.hpp"
 
 namespace fsi {

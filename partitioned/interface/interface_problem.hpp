@@ -9,10 +9,10 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
-#include "petsc_solver/general_solvers.hpp"
 #include "scene/scene.hpp"
 #include "system/system.hpp"
 #include "time/stepper.hpp"

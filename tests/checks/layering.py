@@ -28,6 +28,7 @@ FLOORS = (
     ("common/system",),
     ("common/condensed_solver",),
     ("common/petsc_solver",),
+    ("common/linear_solvers",),
     ("common/diagnostics",),
     ("common/derived",),
     ("common/io",),
