@@ -403,10 +403,6 @@ std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dim
   return regions;
 }
 
-std::vector<std::string> gmsh_volumes(const std::filesystem::path& path) {
-  return gmsh_regions(path, 3);
-}
-
 int gmsh_dimension(const std::filesystem::path& path) {
   int highest = 0;
   for (const auto& name : parse_gmsh(path).names) highest = std::max(highest, name.dimension);

@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "case/case_reader.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 
@@ -181,14 +180,6 @@ TEST(Hash, HasThePublishedValues) {
   EXPECT_EQ(empty.hex(), "cbf29ce484222325");
   EXPECT_EQ(a.hex(), "af63dc4c8601ec8c");
   EXPECT_EQ(foobar.hex(), "85944171f73967e8");
-}
-
-class FileHash : public FolderTest {};
-
-TEST_F(FileHash, IsThatOfTheBytes) {
-  write_text(folder_ / "file", "foobar");
-  EXPECT_EQ(hash_of_file(folder_ / "file"), "85944171f73967e8");
-  EXPECT_THROW(hash_of_file(folder_ / "missing"), InputError);
 }
 
 }  // namespace
