@@ -15,7 +15,6 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
-#include "support/without_mid_edge_nodes.hpp"
 
 // What the gmsh library itself loses when it writes curved or physical entities is not ours to free.
 extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)

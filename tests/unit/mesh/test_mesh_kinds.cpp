@@ -17,7 +17,6 @@
 #include "mesh/symmetry_planes.hpp"
 #include "meshes.hpp"
 #include "support/meshes.hpp"
-#include "support/without_mid_edge_nodes.hpp"
 
 namespace fsi {
 namespace {
