@@ -5,8 +5,8 @@
 #include "benchmarks/artery_case.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "monolithic/coupled_numbering.hpp"
+#include "scene/loads.hpp"
 #include "system/system.hpp"
-#include "time/loads.hpp"
 
 namespace {
 

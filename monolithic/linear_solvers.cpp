@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "monolithic/coupled_linear_solver.hpp"
-#include "petsc_solver/general_solvers.hpp"
 
 namespace fsi {
 

@@ -1,6 +1,7 @@
 #include "partitioned/coupling_stepper.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,10 +10,10 @@
 #include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
+#include "partitioned/added_mass.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
-#include "partitioned/interface/wetted_sides.hpp"
-#include "scene/time_scheme.hpp"
+#include "partitioned/scheme_checks.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
 
@@ -23,6 +24,7 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
     : scene_(scene),
       loads_(loads),
       options_(setup.partitioned),
+      agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
       choice_(chosen_scheme(setup, scene)),
       scheme_(coupling_scheme(choice_.name)),
@@ -30,50 +32,12 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
       wall_volumes_(owned_volumes<n>(scene.wall->space(), scene.wall->nodes())),
       accelerator_(scheme_.make_accelerator(options_, space_)),
-      velocity_gap_(options_.velocity_gap) {
-  if (scheme_.one_pass && first_order() == 0)
-    throw InputError(
-        setup.path.string(), "time.predictor",
-        fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme_.name),
-        "use 1 or 2");
-  if (const auto time_scheme = setup.time ? time_scheme_of(setup, scene) : TimeScheme::euler;
-      scheme_.one_pass && (time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2))
-    throw InputError(setup.path.string(), "time.scheme",
-                     fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
-                                 "comes back with every step, and the pressure is wrong",
-                                 time_schemes().name_of(time_scheme), scheme_.name),
-                     "use \"euler\", \"generalised-alpha\" or \"bdf2\", or a coupling scheme that iterates");
-  if (!scheme_.robin && scene.coupled() && scene.has_flow_only())
-    throw InputError(setup.path.string(), "partitioned.scheme",
-                     fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "
-                                 "opening: its pressure is not determined",
-                                 scheme_.name),
-                     "use a scheme that begins with robin-neumann, or give one opening a pressure, a resistance or a "
-                     "windkessel");
-  if (scheme_.robin && wetted_sides_of(scene).stands_in_the_fluid())
-    scene.notices.push_back(fmt::format(
-        "{}: partitioned.scheme: \"{}\" takes the wall for a tube around the fluid, and this one stands in the fluid, "
-        "so that steps may find no solution; {}",
-        setup.path.string(), scheme_.name,
-        scene.has_flow_only() ? "give one opening a pressure, a resistance or a windkessel, and name \"iqn-ils\""
-                              : "name \"iqn-ils\""));
-  else if (scheme_.robin)
-    note_long_steps(setup);
+      march_(scheme_, options_.velocity_gap) {
+  check_scheme(scheme_, setup, first_order(), scene);
   if (scheme_.robin)
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   else
     problem_ = std::make_unique<DirichletNeumann<n>>(scene, options_);
-}
-
-template <int n>
-void CouplingStepper<n>::note_long_steps(const Case& setup) {
-  constexpr double long_step = 3.5;  // in answer times of the wall; from 2 to 3 both cost the same (docs/coupling.md)
-  const auto steps = steps_over_answer(setup, scene_);
-  if (!steps || steps->adaptive || scene_.has_flow_only() || !(steps->answers > long_step)) return;
-  scene_.notices.push_back(fmt::format(
-      "{}: partitioned.scheme: a step of {:g} ms is, as its time scheme solves it, {:.2g} times as long as the "
-      "wall takes to answer, and \"{}\" takes many passes in such steps; \"iqn-ils\" takes fewer",
-      setup.path.string(), steps->length, steps->answers, scheme_.name));
 }
 
 template <int n>
@@ -82,14 +46,10 @@ StepReport CouplingStepper<n>::advance(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
-  const bool started_far = starts_far_;
-  const AlternationMonitor march = march_;
-  const VelocityGapMonitor velocity_gap = velocity_gap_;
-  const auto take_back = [&] {
+  const auto take_back = [this, started_far = starts_far_, march = march_] {
     accelerator_->abandon();
     starts_far_ = started_far;
     march_ = march;
-    velocity_gap_ = velocity_gap;
   };
   const int stages = scene_.integrator->stages(state);
   try {
@@ -112,62 +72,71 @@ StepReport CouplingStepper<n>::advance(State& state) {
     throw;
   }
   problem_->finish_step();
-  steps_ = state.step;
+  march_.finish(state.step);
   return report_;
 }
 
 template <int n>
 void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
-  order_ = first_order();
-  if (scheme_.one_pass && state.step == 0 && data.rates.stage == 0) check_added_mass(state, data);
-  start(state, data);
-  note_period(data.rates.interface.period);
-  accelerator_->start();
-  monitor_.start();
-  std::vector<double> x = problem_->first_guess(order_);
+  std::vector<double> x = start_stage(state, data);
   GoodPass good;
-  PassAccuracy accuracy{first_tolerance(), starts_far_};
-  if (scheme_.one_pass) accuracy = {final_tolerance(), false};
+  PassAccuracy accuracy{agreement_.first_tolerance(coupling_), starts_far_};
+  if (scheme_.one_pass) accuracy = {agreement_.final_tolerance(coupling_), false};
   bool first = true;
   for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
     ++report_.outer_iterations;
     Pass pass;
     try {
-      pass = problem_->pass(x, accuracy);
-      measure(pass);
-      if (!scheme_.one_pass && agrees() &&
-          (accuracy.tolerance > std::max(0.1 * demand(), final_tolerance()) || accuracy.linearised_wall)) {
-        // Agreement cannot be better than the sub-problems' own accuracy.
-        pass = problem_->refine({final_tolerance(), false});
-        measure(pass);
-      }
+      pass = measured_pass(x, accuracy);
     } catch (const PassFailure& failure) {
       retreat(failure, state, data, x, good);
       continue;
     }
     log_pass();
-    if (first) starts_far_ = coupling_.displacement_residual > far;
-    first = false;
-    if (scheme_.one_pass) check_march(state, data);
-    if (agrees() || scheme_.one_pass) {
+    if (std::exchange(first, false)) starts_far_ = coupling_.displacement_residual > far;
+    if (scheme_.one_pass) march_.check(state.step + 1, data.time, coupling_, problem_->movement());
+    if (scheme_.one_pass || agreement_.met_by(coupling_)) {
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
       accept(x, pass);
       return;
     }
     if (monitor_.diverges(coupling_.displacement_gap)) give_up(state, data, "diverges");
-    good.found = true;
-    good.x = x;
-    good.fields = state.now;
-    good.gap = coupling_.displacement_gap;
-    accuracy.tolerance =
-        std::clamp(sub_problem_share * coupling_.displacement_residual, final_tolerance(), first_tolerance());
-    const Stopwatch watch(coupling_.algebra_seconds);
-    accelerator_->aim(demand() * space_.norm(pass.displacement));
-    accelerator_->correct(x, pass.residual);
-    if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
+    good = {true, x, state.now, coupling_.displacement_gap};
+    correct(pass, x, accuracy);
   }
   --passes_;
   give_up(state, data, "did not converge");
+}
+
+template <int n>
+std::vector<double> CouplingStepper<n>::start_stage(State& state, StepData& data) {
+  order_ = first_order();
+  if (scheme_.one_pass && state.step == 0 && data.rates.stage == 0) check_added_mass(state, data);
+  problem_->start_from_prediction(state, data, order_);
+  note_period(data.rates.interface.period);
+  accelerator_->start();
+  monitor_.start();
+  return problem_->first_guess(order_);
+}
+
+template <int n>
+Pass CouplingStepper<n>::measured_pass(const std::vector<double>& x, const PassAccuracy& accuracy) {
+  Pass pass = problem_->pass(x, accuracy);
+  measure(pass);
+  if (scheme_.one_pass || !agreement_.met_by(coupling_)) return pass;
+  if (!accuracy.linearised_wall && !agreement_.needs_tighter(accuracy.tolerance, coupling_)) return pass;
+  pass = problem_->refine({agreement_.final_tolerance(coupling_), false});
+  measure(pass);
+  return pass;
+}
+
+template <int n>
+void CouplingStepper<n>::correct(const Pass& pass, std::vector<double>& x, PassAccuracy& accuracy) {
+  accuracy.tolerance = agreement_.next_tolerance(coupling_);
+  const Stopwatch watch(coupling_.algebra_seconds);
+  accelerator_->aim(agreement_.demand(coupling_) * space_.norm(pass.displacement));
+  accelerator_->correct(x, pass.residual);
+  if (accelerator_->allows_change()) accuracy.linearised_wall = coupling_.displacement_residual > far;
 }
 
 template <int n>
@@ -176,13 +145,7 @@ Memory CouplingStepper<n>::memory() const {
   accelerator_->remember(memory);
   memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
   memory.numbers["interface_period"] = period_;
-  if (scheme_.one_pass) {
-    memory.numbers["steps"] = steps_;
-    memory.numbers["alternating_steps"] = march_.steps();
-    memory.numbers["last_gap"] = march_.last_gap();
-    memory.numbers["steps_apart"] = velocity_gap_.steps();
-    memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
-  }
+  if (scheme_.one_pass) march_.remember(memory);
   return memory;
 }
 
@@ -190,15 +153,10 @@ template <int n>
 void CouplingStepper<n>::recall(const Memory& memory) {
   problem_->recall(memory);
   accelerator_->recall(memory);
-  const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
-    const auto found = memory.numbers.find(name);
-    return found == memory.numbers.end() ? 0.0 : found->second;
-  };
-  period_ = number("interface_period");
-  if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
-  if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
-  steps_ = static_cast<int>(number("steps"));
-  velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
+  march_.recall(memory);
+  const auto& numbers = memory.numbers;
+  if (const auto found = numbers.find("interface_period"); found != numbers.end()) period_ = found->second;
+  if (const auto found = numbers.find("starts_far"); found != numbers.end()) starts_far_ = found->second != 0;
 }
 
 template <int n>
@@ -206,30 +164,12 @@ void CouplingStepper<n>::note_period(double period) {
   if (period_ > 0 && period <= likeness * period_ && period_ <= likeness * period) return;
   if (period_ > 0) accelerator_->change(period > period_);
   period_ = period;
-  if (!weighs_pressure()) return;
+  if (!agreement_.weighs_pressure()) return;
   report_.history.push_back(
       fmt::format("interface: velocities over {:g} ms, where a gap between fluid and wall is worth {:.4g} kPa/mm; "
                   "tolerance {:g} of "
                   "the pressure and of the displacement",
                   period, problem_->pressure_per_gap(), options_.tolerance));
-}
-
-template <int n>
-double CouplingStepper<n>::demand() const {
-  double demand = options_.tolerance;
-  if (options_.force_tolerance > 0) demand = std::min(demand, options_.force_tolerance);
-  if (weighs_pressure() && coupling_.pressure_residual > coupling_.displacement_residual)
-    demand = std::min(demand, options_.tolerance * coupling_.displacement_residual / coupling_.pressure_residual);
-  return demand;
-}
-
-template <int n>
-void CouplingStepper<n>::start(State& state, StepData& data) {
-  scene_.integrator->predict(state, order_, data);
-  scene_.impose_conditions(state.now);
-  scene_.impose_inflows(state, data);
-  scene_.impose_interface(state, data.rates);
-  problem_->start(state, data);
 }
 
 template <int n>
@@ -245,15 +185,6 @@ void CouplingStepper<n>::measure(const Pass& pass) {
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
   coupling_.force_residual = problem_->force_residual();
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
-}
-
-template <int n>
-bool CouplingStepper<n>::agrees() const {
-  const double residual = weighs_pressure() ? std::max(coupling_.displacement_residual, coupling_.pressure_residual)
-                                            : coupling_.displacement_residual;
-  return (residual <= options_.tolerance || coupling_.displacement_residual <= displacement_rounding ||
-          coupling_.displacement_gap <= options_.absolute_tolerance) &&
-         (options_.force_tolerance == 0 || coupling_.force_residual <= options_.force_tolerance);
 }
 
 template <int n>
@@ -275,103 +206,18 @@ void CouplingStepper<n>::give_up(const State& state, const StepData& data, const
                   "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
                   state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
                   options_.tolerance, coupling_.pressure_residual,
-                  weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "", coupling_.force_residual,
+                  agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "",
+                  coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);
 }
 
 template <int n>
-double CouplingStepper<n>::added_mass(const State& state, const StepData& data) {
-  constexpr int passes = 5;           // modes are few and far apart: the longest wave's counts
-  constexpr double amplitude = 1e-6;  // of the wall's thickness: the answer is linear
-  constexpr PassAccuracy accuracy{1e-4, false};
-  State rest = state;
-  StepData push = data;
-  push.wall_pressure = 0;
-  push.opening_flows.clear();
-  // What stands behind an opening without flow is taken off: the answer to the push alone counts.
-  const auto push_all = [&](double pressure) {
-    const auto& open = scene_.fluid->open_boundaries();
-    for (std::size_t i = 0; i < push.opening_pressures.size(); ++i) {
-      const OutflowLaw* law = open[i].law();
-      const double reference = law != nullptr && law->stores() ? push.rates.windkessel_reference[open[i].place()] : 0;
-      push.opening_pressures[i] =
-          pressure - (law != nullptr ? law->pressure(push.rates.fluid_factor, reference, 0) : 0);
-    }
-  };
-  const double at_rest = scene_.initial_load ? scene_.initial_load->pressure : 0.0;
-  if (scene_.initial_load)
-    push.support_loads = scene_.initial_load->support_loads;
-  else
-    std::fill(push.support_loads.begin(), push.support_loads.end(), 0.0);
-  double growth = 0;
-  try {
-    // Pushed by one pressure at all openings the wall moves outward everywhere, as its supports allow.
-    start(rest, push);
-    push_all(at_rest + amplitude * problem_->pressure_of_thickness());
-    std::vector<double> x = problem_->first_guess(0);
-    set_zero(x);
-    Pass pass = problem_->pass(x, accuracy);
-    push_all(at_rest);
-    for (int k = 0; k < passes; ++k) {
-      const double before = space_.norm(x), length = space_.norm(pass.displacement);
-      if (!(length > 0)) break;
-      if (k > 0) growth = length / before;
-      x = pass.displacement;
-      if (k > 0) scale(before / length, x);
-      pass = problem_->pass(x, accuracy);
-    }
-  } catch (const PassFailure&) {
-    growth = 0;
-  }
-  problem_->cost = {};
-  return growth;
-}
-
-template <int n>
 void CouplingStepper<n>::check_added_mass(const State& state, const StepData& data) {
   if (data.rates.is_static()) return;
-  const double ratio = added_mass(state, data), limit = std::pow(3, 1 - first_order());
+  const double ratio = added_mass(scene_, *problem_, space_, order_, state, data);
   report_.history.push_back(fmt::format("added mass over the wall's answer: {:.3g}", ratio));
-  if (!(ratio > limit)) return;
-  throw ConvergenceError(
-      fmt::format(
-          "step 1 (to t = {:g} ms): the {} coupling is unstable: the fluid's added mass is {:.3g} times what the "
-          "wall answers with, more than {:.3g}",
-          data.time, scheme_.name, ratio, limit),
-      scheme_.advice);
-}
-
-template <int n>
-std::string CouplingStepper<n>::unchecked() const {
-  if (!scheme_.one_pass) return {};
-  const int apart = std::max(velocity_gap_.steps(), march_.steps());
-  if (steps_ >= VelocityGapMonitor::most_steps && apart == 0) return {};
-  const std::string seen = apart > 0 ? fmt::format("; in the last {} of them fluid and wall came apart", apart) : "";
-  return fmt::format(
-      "the {} coupling claims nothing of {} steps{}: whether fluid and wall hold together shows after {}; "
-      "compare with partitioned.scheme = \"iqn-ils\"",
-      scheme_.name, steps_, seen, VelocityGapMonitor::most_steps);
-}
-
-template <int n>
-void CouplingStepper<n>::check_march(const State& state, const StepData& data) {
-  const auto give_up = [&](const std::string& what) {
-    throw ConvergenceError(
-        fmt::format("step {} (to t = {:g} ms): the {} coupling {}", state.step + 1, data.time, scheme_.name, what),
-        scheme_.advice);
-  };
-  if (march_.alternates(coupling_.displacement_gap, coupling_.displacement_residual))
-    give_up(
-        fmt::format("is unstable: {} steps running the wall has missed the extrapolated displacement by more than "
-                    "its own, and further each time (now {:.2e} times)",
-                    march_.steps(), coupling_.displacement_residual));
-  if (velocity_gap_.comes_apart(coupling_.displacement_gap, problem_->movement()))
-    give_up(
-        fmt::format("does not hold fluid and wall together, and its pressure is wrong: {} steps running their "
-                    "velocities on the interface differ by more than {:g} times the largest so far (now {:.2f} "
-                    "times)",
-                    velocity_gap_.steps(), options_.velocity_gap, velocity_gap_.last()));
+  march_.require_small(ratio, order_, data.time);
 }
 
 template <int n>
@@ -391,7 +237,7 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
   }
   if (extrapolated || stiffened) {
     order_ = 0;  // the extrapolated start can be the culprit, after a jump of the load for example
-    start(state, data);
+    problem_->start_from_prediction(state, data, order_);
     x = problem_->first_guess(order_);
     return;
   }

@@ -70,6 +70,7 @@ class VelocityGapMonitor {
     return steps_ >= most_steps;
   }
 
+  double bound() const { return bound_; }
   /// Of the last step, over the largest velocity so far.
   double last() const { return last_; }
   int steps() const { return steps_; }

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace fsi {
@@ -18,8 +17,5 @@ class Fnv1a {
  private:
   std::uint64_t value_ = 14695981039346656037ull;
 };
-
-/// Hash of a file's bytes, 16 hexadecimal digits. \throws InputError when the file cannot be read
-std::string hash_of_file(const std::filesystem::path& file);
 
 }  // namespace fsi

@@ -81,16 +81,14 @@ struct StructureData {
 
 /// [time]; absent in a static case
 struct TimeData {
-  double step = 0;  ///< ms; 0: adaptive
-  double end = 0;   ///< ms
-  double newmark_beta = 1;
-  double newmark_gamma = 1;
+  double step = 0;               ///< ms; 0: adaptive
+  double end = 0;                ///< ms
   std::optional<int> predictor;  ///< order of the extrapolated start of each step: 0, 1 or 2; empty: the driver chooses
-  std::optional<TimeScheme> scheme{};  ///< empty: from the scene and the step (scene/time_scheme.hpp)
-  std::optional<double> damping{};     ///< 1/ms, of the midpoint rule's shift; empty: from the scene
-  double spectral_radius = 0.5;        ///< of generalised-alpha, at infinite frequency
-  bool adaptive = false;               ///< steps by an estimate of their error
-  double tolerance = 0.01;             ///< of adaptive steps, relative to the solution
+  /// A name of time_schemes(); empty: from the scene and the step (scene/time_scheme.hpp).
+  std::optional<std::string> scheme{};
+  std::map<std::string, double> scheme_values{};  ///< the scheme's parameters, as far as they are given
+  bool adaptive = false;                          ///< steps by an estimate of their error
+  double tolerance = 0.01;                        ///< of adaptive steps, relative to the solution
   std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
   int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
 

@@ -64,7 +64,7 @@ std::string value_text(const toml::node& node) {
 
 }  // namespace
 
-std::string printable(std::string text) {
+std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20u || c == 0x7f) c = ' ';
   return text;
@@ -84,7 +84,7 @@ std::string CaseSource::place(const std::string& key, const toml::source_region&
 void CaseEntry::refuse(const std::string& problem, const std::string& remedy) const {
   // The whole file begins in line 1, which would say nothing.
   const std::string place = key_.empty() ? source_->file : source_->place(key_, node_->source());
-  throw InputError(place, printable(key_), printable(problem), printable(remedy));
+  throw InputError(place, one_line(key_), one_line(problem), one_line(remedy));
 }
 
 void CaseEntry::refuse_value(const std::string& problem, const std::string& remedy) const {
@@ -102,7 +102,7 @@ void CaseEntry::refuse_type(const std::string& expected) const {
 
 void CaseEntry::refuse_missing(const std::string& name, const std::string& remedy) const {
   const std::string place = key_.empty() ? source_->file : source_->place(key_, node_->source());
-  throw InputError(place, printable(path_of(name)), "missing", remedy);
+  throw InputError(place, one_line(path_of(name)), "missing", remedy);
 }
 
 double CaseEntry::number() const {
@@ -128,11 +128,11 @@ double CaseEntry::number(const Quantity& quantity) const {
 
 void CaseEntry::warn(const std::string& problem, const std::string& remedy) const {
   source_->warnings.emplace_back(
-      InputError(source_->place(key_, node_->source()), printable(key_), problem, remedy).what());
+      InputError(source_->place(key_, node_->source()), one_line(key_), problem, remedy).what());
 }
 
 void CaseEntry::remark(const std::string& text) const {
-  source_->remarks.push_back(printable(key_ + ": " + text));
+  source_->remarks.push_back(one_line(key_ + ": " + text));
 }
 
 bool CaseEntry::warn_of_unit(const Quantity& quantity, double value) const {
@@ -166,7 +166,7 @@ std::string CaseEntry::text() const {
 std::string CaseEntry::line() const {
   constexpr std::size_t longest = 1000;
   auto given = text();
-  if (printable(given) != given) refuse_value("holds control characters", "give one line of printable text");
+  if (one_line(given) != given) refuse_value("holds control characters", "give one line of printable text");
   if (given.size() > longest)
     refuse_value(fmt::format("is {} bytes long", given.size()), fmt::format("give at most {}", longest));
   return given;

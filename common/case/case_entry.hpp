@@ -13,7 +13,7 @@
 namespace fsi {
 
 /// Text from the user as part of a one-line message: without line breaks and other control characters.
-std::string printable(std::string text);
+std::string one_line(std::string text);
 
 /// Sizes of numbers in any unit that anyone measures in. Beyond them squares and quotients are not numbers any more.
 constexpr double smallest_size = 1e-100, largest_size = 1e100;

@@ -37,10 +37,10 @@ std::vector<std::string> parts_of(const std::string& key, const std::string& ove
   }
   for (const auto& part : parts)
     if (part.empty())
-      throw InputError("--set", printable(override_text), "has no key", "write --set key=value, e.g. time.end=6.0");
+      throw InputError("--set", one_line(override_text), "has no key", "write --set key=value, e.g. time.end=6.0");
   if (parts.size() > deepest_key)
-    throw InputError("--set", printable(override_text.substr(0, 60)),
-                     fmt::format("has a key of {} parts", parts.size()), "see --help-keys for valid keys");
+    throw InputError("--set", one_line(override_text.substr(0, 60)), fmt::format("has a key of {} parts", parts.size()),
+                     "see --help-keys for valid keys");
   return parts;
 }
 
@@ -62,7 +62,7 @@ void apply_overrides(const std::vector<std::string>& overrides, toml::table& doc
   for (const auto& text : overrides) {
     const auto equals = text.find('=');
     if (equals == std::string::npos)
-      throw InputError("--set", printable(text), "has no '='", "write --set key=value, e.g. time.end=6.0");
+      throw InputError("--set", one_line(text), "has no '='", "write --set key=value, e.g. time.end=6.0");
     const auto parts = parts_of(text.substr(0, equals), text);
     const auto value = parsed_value(text.substr(equals + 1));
     const auto& node = *value.get("value");
@@ -77,8 +77,7 @@ void apply_overrides(const std::vector<std::string>& overrides, toml::table& doc
       }
       table = table->get(parts[i])->as_table();
       if (table == nullptr)
-        throw InputError("--set", printable(text), printable(path) + " is no section",
-                         "see --help-keys for valid keys");
+        throw InputError("--set", one_line(text), one_line(path) + " is no section", "see --help-keys for valid keys");
     }
     path += (path.empty() ? "" : ".") + parts.back();
     table->insert_or_assign(parts.back(), node);

@@ -16,6 +16,7 @@
 #include "case/opening_keys.hpp"
 #include "case/support_keys.hpp"
 #include "case/windkessel_units.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi {
 
@@ -128,7 +129,8 @@ void warn_of_stabilisation(const CaseEntry& whole_case, const Case& scene) {
 void warn_of_damped_mesh(const CaseEntry& whole_case, const Case& scene) {
   constexpr double short_step = 0.1;  // ms: the table's two kinds are for 1/8 and for 1/32 or less
   if (scene.mesh.error == 0 || scene.mesh.waves != Waves::damped || !scene.time) return;
-  if (scene.time->scheme == TimeScheme::euler || (!scene.time->adaptive && scene.time->step > short_step)) return;
+  if (scene.time->scheme && prototype(*scene.time->scheme)->error_terms().order == 1) return;
+  if (!scene.time->adaptive && scene.time->step > short_step) return;
   whole_case.child("mesh").child("error").warn(
       "holds for backward Euler with 1/8 ms; shorter steps of second order keep waves that this mesh does not resolve",
       "add waves = \"resolved\" for a mesh that does");

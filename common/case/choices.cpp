@@ -56,16 +56,6 @@ const NameTable<InflowProfile>& inflow_profiles() {
   return table;
 }
 
-const NameTable<TimeScheme>& time_schemes() {
-  static const NameTable<TimeScheme> table{"time.scheme",
-                                           {{"euler", TimeScheme::euler},
-                                            {"midpoint", TimeScheme::midpoint},
-                                            {"bdf2", TimeScheme::bdf2},
-                                            {"generalised-alpha", TimeScheme::generalised_alpha},
-                                            {"tr-bdf2", TimeScheme::tr_bdf2}}};
-  return table;
-}
-
 const NameTable<ToleranceOf>& tolerance_kinds() {
   static const NameTable<ToleranceOf> table{
       "partitioned.tolerance_of", {{"pressure", ToleranceOf::pressure}, {"displacement", ToleranceOf::displacement}}};

@@ -14,7 +14,7 @@ namespace fsi {
 // meaning are checked against them when they are compiled, see names_match().
 
 /// partitioned.linear_solver, and the first of monolithic.linear_solver: solvers for any scene and sub-problem. Their
-/// factories: petsc_solver/general_solvers.hpp.
+/// factories: linear_solvers/general_solvers.hpp.
 inline constexpr std::array<std::string_view, 3> general_solver_list{"fast", "direct", "petsc"};
 
 /// The other names of monolithic.linear_solver, for scenes of fluid and wall. Their table:
@@ -54,16 +54,11 @@ enum class FibreFrame {
   laplace    ///< of potentials between the wall's surfaces, for a wall of any shape
 };
 
-/// time.scheme (docs/theory.md, section 8). Checkpoints hold their numbers: append.
-enum class TimeScheme { euler, midpoint, bdf2, generalised_alpha, tr_bdf2 };
-
 /// partitioned.tolerance_of: what the tolerance of the interface is meant for (docs/coupling.md).
 enum class ToleranceOf {
   displacement,  ///< the gap between fluid and wall, relative to the displacement, as the paper has it
   pressure       ///< besides, the pressure that the gap is worth in one step, relative to that between them
 };
-
-const NameTable<TimeScheme>& time_schemes();
 
 /// The velocity over an opening whose flow is given.
 enum class InflowProfile { plug, parabolic, womersley };

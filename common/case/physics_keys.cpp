@@ -15,6 +15,7 @@
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
 #include "mesh/group_names.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi {
 
@@ -110,6 +111,19 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
   };
 }
 
+/// Reads one of the parameters that materials and time schemes list, to its place in a map of them.
+template <class Row, class Data>
+KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data::*values) {
+  KeyValue<Data> value;
+  value.read = [p, values](const CaseEntry& entry, Data& data) {
+    const double given = entry.number();
+    if (!p.bounds.contains(given)) entry.refuse_value(p.bounds.problem(), p.bounds.remedy());
+    entry.warn_of_unit(*p.quantity, given);
+    (data.*values)[p.name] = given;
+  };
+  return value;
+}
+
 // [structure].
 
 std::string about(const Parameter& parameter) {
@@ -123,13 +137,7 @@ std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
   std::vector<CaseKey<MaterialData>> keys = {
       leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
   for (const auto& p : kind.parameters) {
-    KeyValue<MaterialData> value;
-    value.read = [p](const CaseEntry& entry, MaterialData& layer) {
-      const double given = entry.number();
-      if (!p.bounds.contains(given)) entry.refuse_value(p.bounds.problem(), p.bounds.remedy());
-      entry.warn_of_unit(*p.quantity, given);
-      layer.values[p.name] = given;
-    };
+    KeyValue<MaterialData> value = parameter_value(p, &MaterialData::values);
     value.write = [p](const MaterialData& layer) {
       const auto found = layer.values.find(p.name);
       if (p.of_a_set && found == layer.values.end()) return std::string("not given");
@@ -312,18 +320,15 @@ void check_adaptive(const CaseEntry& entry, const TimeData& time) {
 }
 
 void check_time(const CaseEntry& entry, TimeData& time) {
-  const auto require_scheme = [&](const char* key, TimeScheme scheme) {
-    if (!entry.has(key) || time.scheme == scheme) return;
-    const std::string found =
-        time.scheme ? fmt::format("this run has \"{}\"", time_schemes().name_of(*time.scheme)) : "this case names none";
-    entry.child(key).refuse(fmt::format("belongs to the scheme \"{}\", and {}", time_schemes().name_of(scheme), found),
-                            fmt::format("remove it, or set time.scheme = \"{}\"", time_schemes().name_of(scheme)));
-  };
-  if (!time.scheme && entry.has("damping")) time.scheme = TimeScheme::midpoint;  // its shift: nothing is left to choose
-  require_scheme("newmark_beta", TimeScheme::euler);
-  require_scheme("newmark_gamma", TimeScheme::euler);
-  require_scheme("damping", TimeScheme::midpoint);
-  require_scheme("spectral_radius", TimeScheme::generalised_alpha);
+  if (!time.scheme && entry.has("damping")) time.scheme = "midpoint";  // its shift: nothing is left to choose
+  for (const auto& [scheme, row] : time_schemes().rows())
+    for (const SchemeParameter& parameter : row.parameters) {
+      if (!entry.has(parameter.name) || time.scheme == scheme) continue;
+      const std::string found = time.scheme ? fmt::format("this run has \"{}\"", *time.scheme) : "this case names none";
+      entry.child(parameter.name)
+          .refuse(fmt::format("belongs to the scheme \"{}\", and {}", scheme, found),
+                  fmt::format("remove it, or set time.scheme = \"{}\"", scheme));
+    }
   const auto end = entry.child("end");
   if (time.adaptive) {
     check_adaptive(entry, time);
@@ -341,9 +346,21 @@ void check_time(const CaseEntry& entry, TimeData& time) {
                                fmt::format("give a step that takes at most {}", most_steps));
 }
 
+/// A parameter of one of the schemes.
+CaseKey<TimeData> scheme_key(const SchemeParameter& p) {
+  KeyValue<TimeData> value = parameter_value(p, &TimeData::scheme_values);
+  value.write = [p](const TimeData& time) {
+    const auto found = time.scheme_values.find(p.name);
+    if (found == time.scheme_values.end() && !p.standard) return std::string("chosen");
+    return fmt::format("{}", found == time.scheme_values.end() ? *p.standard : found->second);
+  };
+  if (p.standard) value.standard = text_for_people(*p.standard);
+  value.unit = p.quantity->unit;
+  return leaf(p.name, optional, p.about, value);
+}
+
 std::vector<CaseKey<TimeData>> time_keys() {
-  constexpr Bounds newmark{0, 1, false, true};
-  return {
+  std::vector<CaseKey<TimeData>> keys = {
       leaf<TimeData>(
           "step", required, "time step in {unit}, or \"adaptive\"",
           {read_step, [](const TimeData& time) { return time.adaptive ? "adaptive" : fmt::format("{}", time.step); },
@@ -366,21 +383,14 @@ std::vector<CaseKey<TimeData>> time_keys() {
            number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
       leaf("scheme", optional,
            "time scheme: {}; without it midpoint, or tr-bdf2 where steps are long against the scene's time",
-           name_from(at(&TimeData::scheme), time_schemes())),
-      leaf("damping", optional,
-           "rate in {unit} of the shift of the midpoint rule towards the step's end; without it found from the scene",
-           number(at(&TimeData::damping), Bounds{0, 1e6, true, true}, quantity::rate())),
-      leaf("spectral_radius", optional,
-           "of generalised-alpha at infinite frequency, default {}; more than 0.5 lets pressures ring",
-           number(at(&TimeData::spectral_radius), Bounds{0, 1, true, true})),
-      leaf("newmark_beta", optional, "Newmark's beta of the wall, default {}",
-           number(at(&TimeData::newmark_beta), newmark)),
-      leaf("newmark_gamma", optional, "Newmark's gamma of the wall, default {}",
-           number(at(&TimeData::newmark_gamma), newmark)),
+           name_from(at(&TimeData::scheme), time_schemes().names())),
       leaf("predictor", optional,
            "order of the extrapolated start of each step, default 2; euler of fsi-monolithic and explicit coupling 1",
            whole(at(&TimeData::predictor), 0, 2), KeyRole::running),
   };
+  for (const auto& [scheme, row] : time_schemes().rows())
+    for (const SchemeParameter& parameter : row.parameters) keys.push_back(scheme_key(parameter));
+  return keys;
 }
 
 std::vector<CaseKey<StaticData>> static_keys() {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "scene/loads.hpp"
 #include "scene/scene.hpp"
-#include "time/loads.hpp"
 
 namespace fsi {
 

@@ -116,13 +116,12 @@ void describe_supports(const Case& setup, const std::vector<std::string>& surfac
     lines.push_back({"support " + surface, text_of_support(support)});
 }
 
-void describe_time(const Case& setup, TimeScheme in_time, Description& lines) {
+void describe_time(const Case& setup, const std::string& scheme, Description& lines) {
   if (setup.static_load) {
     lines.push_back({"steps", fmt::format("{} steps of the load, at rest", setup.static_load->load_steps)});
     return;
   }
   const TimeData& time = setup.time.value();
-  const std::string scheme = time_schemes().name_of(in_time);
   lines.push_back(
       {"steps", time.adaptive
                     ? fmt::format("adaptive to {:g} ms, tolerance {:g}, {}", time.end, time.tolerance, scheme)

@@ -28,7 +28,7 @@ void describe_openings(const Case& setup, const std::vector<std::string>& surfac
 /// What holds and loads the wall. \param surfaces  of the mesh
 void describe_supports(const Case& setup, const std::vector<std::string>& surfaces, Description& lines);
 /// \param scheme  of a case in time
-void describe_time(const Case& setup, TimeScheme scheme, Description& lines);
+void describe_time(const Case& setup, const std::string& scheme, Description& lines);
 
 /// One text: heads in a column of their own.
 std::string text_of(const Description& lines);

@@ -24,7 +24,7 @@
 #include "driver/process_threads.hpp"
 #include "driver/program.hpp"
 #include "fem/dimensions.hpp"
-#include "petsc_solver/general_solvers.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "scene/time_scheme.hpp"
 
 namespace fsi {
@@ -160,7 +160,7 @@ int check_case(const std::string& program, const CommandLine& line, const Case& 
   describe_scene(setup, loaded, size, lines);
   const bool as_a_run_begins = bring_under_prestress(setup, size, loading, loaded, lines);
   loading.end();
-  describe_time(setup, setup.time ? time_scheme_of(setup, *loaded.scene) : TimeScheme::euler, lines);
+  describe_time(setup, setup.time ? time_scheme_of(setup, *loaded.scene) : "", lines);
   Loads loads(setup);
   const auto stepper = make_stepper.make(scene, loads, setup);
   require_resolvable(setup, scene);

@@ -29,7 +29,6 @@ class Console {
   /// errno of the write that ended the output; 0: none failed.
   int error() const { return error_; }
 
-  bool is_quiet() const { return style_ == Style::quiet; }
   /// Whether the cursor may stand behind a line that is rewritten.
   bool rewrites() const { return style_ == Style::terminal; }
 

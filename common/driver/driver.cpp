@@ -55,12 +55,13 @@
 #include "io/run_log.hpp"
 #include "io/summary.hpp"
 #include "io/write_error.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "parallel/communicator.hpp"
-#include "petsc_solver/general_solvers.hpp"
 #include "petsc_solver/petsc_options.hpp"
 #include "scene/time_scheme.hpp"
 #include "system/work_unit.hpp"
 #include "time/balance.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi {
 
@@ -466,7 +467,7 @@ class Run {
     ringing_amplitude_ = *amplitude;
     const std::string said =
         said_of({*amplitude, state_.time, largest_pressure_, std::max(total_.solver_error, report.solver_error),
-                 report.coupling.has_value(), scheme_},
+                 report.coupling.has_value(), scene_->integrator->against_ringing()},
                 setup_);
     summary_["ringing"] = {{"amplitude_Pa", 1e3 * *amplitude}, {"time_ms", state_.time}, {"said", said}};
     if (!first) return;
@@ -572,7 +573,7 @@ class Run {
     if (const double last = loads_.axis().shorter_last_steps(); last > 0)
       log.info(fmt::format("the last steps have {:.6g} ms in place of {:g} ms: the run ends at {:.12g} ms", last, step,
                            setup_.time->end));
-    if (const std::string said = lost_order(setup_, *scene_, scheme_); !said.empty()) {
+    if (const std::string said = lost_order(*setup_.time, *scene_->integrator); !said.empty()) {
       log.warning(said);
       warn(program_, said);
     }
@@ -596,7 +597,7 @@ class Run {
       for (const auto& [name, numbers] : loaded_.derived.statistics->memory())
         checkpoint.arrays[statistics_prefix + name] = numbers;
     store(digests_, checkpoint);
-    if (!scene_->is_static()) checkpoint.integers[scheme_name] = static_cast<std::int64_t>(scheme_);
+    if (!scene_->is_static()) checkpoint.integers[scheme_name] = time_schemes().at(scheme_).number;
     if (field_entries_ > 0) checkpoint.integers[field_entries_name] = field_entries_;
     require_kinds(checkpoint);
     return checkpoint;
@@ -627,12 +628,12 @@ class Run {
   void keep_scheme(const Checkpoint& checkpoint) {
     if (scene_->is_static() || setup_.time->scheme) return;
     const auto found = checkpoint.integers.find(scheme_name);
-    if (found == checkpoint.integers.end() || found->second == static_cast<std::int64_t>(scheme_)) return;
-    for (const TimeScheme chosen : {TimeScheme::midpoint, TimeScheme::tr_bdf2})
-      if (found->second == static_cast<std::int64_t>(chosen)) scheme_ = chosen;
+    if (found == checkpoint.integers.end() || found->second == time_schemes().at(scheme_).number) return;
+    for (const auto chosen : {scheme_for_short_steps, scheme_for_long_steps})
+      if (found->second == time_schemes().at(chosen).number) scheme_ = chosen;
     scene_->integrator = make_time_scheme(setup_, *scene_, scheme_);
     state_ = scene_->at_rest();
-    march_.keep_scheme(scheme_);
+    march_.keep_scheme();
   }
 
   /// Takes over what the run in line_.restart has left, if it can be believed: its checkpoint, and the tables, which are
@@ -772,7 +773,7 @@ class Run {
   RunLog* log_ = nullptr;  ///< once there is one
   bool console_failed_ = false;
   std::optional<RingingMonitor> ringing_;
-  TimeScheme scheme_ = TimeScheme::midpoint;
+  std::string scheme_;                           ///< in time; empty in statics
   double shortest_step_ = 0, longest_step_ = 0;  ///< ms, of this run so far
   double ringing_amplitude_ = 0;                 ///< kPa, the largest so far
   double largest_pressure_ = 0;                  ///< kPa, on the centre line so far

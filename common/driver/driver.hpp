@@ -8,8 +8,8 @@
 
 #include "case/case.hpp"
 #include "driver/command_line.hpp"
+#include "scene/loads.hpp"
 #include "scene/scene.hpp"
-#include "time/loads.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {

@@ -10,7 +10,7 @@
 #include "driver/grid_share.hpp"
 #include "io/fields_writer.hpp"
 #include "scene/scene.hpp"
-#include "time/time_axis.hpp"
+#include "scene/time_axis.hpp"
 
 namespace fsi {
 

@@ -18,32 +18,7 @@ namespace {
 constexpr double first_share = 1.0 / 32, largest_share = 1;
 constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
 
-/// docs/theory.md, section 8, has the constants.
-ErrorTerms error_terms(const TimeData& time, TimeScheme scheme, double damping) {
-  switch (scheme) {
-    case TimeScheme::euler:
-      return {1, 0.5, 0};
-    case TimeScheme::midpoint:
-      return {2, 1.0 / 12, time.damping.value_or(damping), largest_midpoint_theta(time) - 0.5};
-    case TimeScheme::bdf2:
-      return {2, 1.0 / 3, 0};
-    case TimeScheme::generalised_alpha: {
-      const double r = (1 - time.spectral_radius) / (1 + time.spectral_radius);
-      return {2, 1.0 / 12 + 0.25 * r * r, 0};
-    }
-    case TimeScheme::tr_bdf2:
-      return {2, 0.0404, 0};
-  }
-  return {};
-}
-
 }  // namespace
-
-template <int n>
-double scene_time(const Case& setup, const Scene<n>& scene) {
-  const double rate = midpoint_damping(setup, scene);
-  return rate > 0 ? midpoint_share / rate : setup.time.value().end;
-}
 
 // Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
 template <int n>
@@ -62,18 +37,18 @@ March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Load
                 std::function<void(const std::string&)> say)
     : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)) {
   if (!loads.axis().is_adaptive()) return;
-  keep_scheme(time_scheme_of(setup, scene));
+  keep_scheme();
   stepper_.judge_by(this);
 }
 
 template <int n>
-void March<n>::keep_scheme(TimeScheme scheme) {
+void March<n>::keep_scheme() {
   if (!loads_.axis().is_adaptive()) return;
   const TimeData& time = *setup_.time;
   const double swing = scene_time(setup_, scene_);
   StepLimits limits;
   limits.largest = time.largest_step.value_or(largest_share * swing);
-  const ErrorTerms terms = error_terms(time, scheme, midpoint_damping(setup_, scene_));
+  const ErrorTerms terms = scene_.integrator->error_terms();
   const double first = first_share * swing * std::pow(time.tolerance / its_tolerance, 1.0 / terms.order);
   limits.first = time.first_step.value_or(std::min(first, limits.largest));
   limits.smallest = time.smallest_step.value_or(limits.first);
@@ -176,7 +151,6 @@ void March<n>::recall(const std::map<std::string, std::vector<double>>& memory) 
 }
 
 #define FSI_INSTANTIATE(n)                                           \
-  template double scene_time<n>(const Case&, const Scene<n>&);       \
   template void require_resolvable<n>(const Case&, const Scene<n>&); \
   template class March<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)

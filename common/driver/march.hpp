@@ -7,19 +7,13 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "scene/loads.hpp"
 #include "scene/scene.hpp"
 #include "time/error_estimate.hpp"
-#include "time/loads.hpp"
 #include "time/step_controller.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {
-
-/// The inverse of the scene's frequency that the midpoint rule's damping is a share of (scene/time_scheme.hpp), ms: of
-/// fluid and wall the time in which a wave goes as far as the radius. It does not depend on the end of the run, which may
-/// be put off.
-template <int n>
-double scene_time(const Case& setup, const Scene<n>& scene);
 
 /// \throws InputError for steps so short that rounding is all that a run would see of them
 template <int n>
@@ -52,8 +46,8 @@ class March : private StepJudge {
   /// Of the last step; nothing where steps are not adaptive.
   const std::optional<StepErrors>& errors() const { return errors_; }
 
-  /// The run goes on with the scheme that it began with, where the case would now be given another.
-  void keep_scheme(TimeScheme scheme);
+  /// The run goes on with the scheme that the scene has got since: the one that it began with.
+  void keep_scheme();
   /// What adaptive steps know of those before, for a restart.
   std::map<std::string, std::vector<double>> memory() const;
   void recall(const std::map<std::string, std::vector<double>>& memory);

@@ -13,6 +13,7 @@
 #include "mesh/group_names.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/sampling.hpp"
+#include "mesh/wall_sampling.hpp"
 
 namespace fsi {
 

@@ -12,7 +12,7 @@
 #include "case/support_loads.hpp"
 #include "driver/checkpoint_arrays.hpp"
 #include "fem/dimensions.hpp"
-#include "petsc_solver/general_solvers.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "system/prestress.hpp"
 
 namespace fsi {

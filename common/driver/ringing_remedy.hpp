@@ -8,12 +8,12 @@ namespace fsi {
 
 /// A pressure that alternates from step to step, as RingingMonitor finds it.
 struct Ringing {
-  double amplitude = 0;                      ///< kPa
-  double time = 0;                           ///< ms
-  double largest_pressure = 0;               ///< kPa, of the run so far, at the places that are looked at
-  double solver_error = 0;                   ///< the largest of the run's steps so far (StepReport)
-  bool coupled = false;                      ///< the steps' error is that of a partitioned coupling
-  TimeScheme scheme = TimeScheme::midpoint;  ///< of the run
+  double amplitude = 0;         ///< kPa
+  double time = 0;              ///< ms
+  double largest_pressure = 0;  ///< kPa, of the run so far, at the places that are looked at
+  double solver_error = 0;      ///< the largest of the run's steps so far (StepReport)
+  bool coupled = false;         ///< the steps' error is that of a partitioned coupling
+  std::string by_scheme;        ///< what the run's time scheme offers (TimeIntegrator::against_ringing)
 };
 
 /// Whether the solver can have left the sawtooth. What it leaves of a displacement comes back in the pressures of the

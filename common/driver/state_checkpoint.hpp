@@ -6,9 +6,9 @@
 #include "driver/checkpoint_arrays.hpp"
 #include "io/checkpoint.hpp"
 #include "io/table_digest.hpp"
+#include "scene/time_axis.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
-#include "time/time_axis.hpp"
 
 namespace fsi {
 

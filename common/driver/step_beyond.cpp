@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "fem/dimensions.hpp"
-#include "time/time_axis.hpp"
+#include "scene/time_axis.hpp"
 
 namespace fsi {
 

@@ -2,7 +2,7 @@
 
 #include "case/case.hpp"
 #include "driver/march.hpp"
-#include "time/loads.hpp"
+#include "scene/loads.hpp"
 #include "time/state.hpp"
 #include "time/stepper.hpp"
 

@@ -56,7 +56,7 @@ void require_contents(const fs::path& temporary, std::string_view contents, cons
 
 /// The last steps for a temporary file that is synchronised already.
 void rename_temporary(const fs::path& file) {
-  require_regular_or_absent(file);
+  require_still_regular(file);
   if (std::rename(temporary_name(file).c_str(), file.c_str()) != 0) throw WriteError(file, errno);
 }
 

@@ -51,13 +51,13 @@ int open_descriptor(const fs::path& file, int flags, const fs::path& shown_as) {
 
 /// Opens a regular file for writing at its end. A pipe without a reader does not hold the program up.
 int open_regular(const fs::path& file) {
-  require_regular_or_absent(file);
+  require_still_regular(file);
   return open_descriptor(file, O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK, file);
 }
 
 }  // namespace
 
-void require_regular_or_absent(const fs::path& file) {
+void require_still_regular(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) refuse_irregular(file);
 }

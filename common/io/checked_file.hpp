@@ -55,6 +55,6 @@ class CheckedFile {
 void synchronise_folder(const std::filesystem::path& folder);
 
 /// \throws WriteError when something stands under the name that is no regular file, such as a device
-void require_regular_or_absent(const std::filesystem::path& file);
+void require_still_regular(const std::filesystem::path& file);
 
 }  // namespace fsi

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -17,6 +16,8 @@
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
 #include "mesh/gmsh_file.hpp"
+#include "mesh/gmsh_node_index.hpp"
+#include "mesh/gmsh_plane.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/point_math.hpp"
@@ -41,33 +42,6 @@ constexpr int place_in_file(int dim, int node) {
   return dim == 3 && node == 8 ? 9 : dim == 3 && node == 9 ? 8 : node;
 }
 
-/// The way from a node's tag to its place in the file.
-class NodeIndex {
- public:
-  NodeIndex(const GmshFile& gmsh, const std::string& file) {
-    entries_.reserve(gmsh.node_tags.size());
-    for (std::size_t i = 0; i < gmsh.node_tags.size(); ++i)
-      entries_.emplace_back(gmsh.node_tags[i], static_cast<int>(i));
-    std::sort(entries_.begin(), entries_.end());
-    for (std::size_t i = 1; i < entries_.size(); ++i)
-      if (entries_[i].first == entries_[i - 1].first)
-        throw InputError(file, "$Nodes", fmt::format("node tag {} appears twice", entries_[i].first),
-                         "give every node a tag of its own");
-  }
-
-  /// -1 for a tag that no node has.
-  int find(std::int64_t tag) const {
-    // Tags mostly run from 1 without gaps; then the place is known without a search.
-    if (tag >= 1 && tag <= static_cast<std::int64_t>(entries_.size()) && entries_[tag - 1].first == tag)
-      return entries_[tag - 1].second;
-    const auto found = std::lower_bound(entries_.begin(), entries_.end(), std::make_pair(tag, 0));
-    return found != entries_.end() && found->first == tag ? found->second : -1;
-  }
-
- private:
-  std::vector<std::pair<std::int64_t, int>> entries_;
-};
-
 /// Turns a parsed file into a mesh, step by step. The order of the mesh is at most that of the file's cells.
 template <int Dim, int Order>
 class Reader {
@@ -88,8 +62,8 @@ class Reader {
     resolve_node_tags();
     collect_cells();
     if constexpr (Dim == 2) {
-      lay_into_plane();
-      turn_counter_clockwise();
+      lay_into_plane<Order>(file_, gmsh_, mesh_.cells, geometry_);
+      turn_counter_clockwise<Order>(gmsh_.nodes, mesh_.cells);
     }
     check_shapes();
     check_listed_twice();
@@ -229,60 +203,6 @@ class Reader {
            fmt::format("element {} is of {} order, element {} of {}: the mesh mixes both", block.tags[0],
                        order == 1 ? "first" : "second", first_block_->tags[0], order == 1 ? "second" : "first"),
            "save all of them with one Mesh.ElementOrder, 1 or 2");
-  }
-
-  /// Moves triangles to where meshes of their geometry lie; what is zero to rounding becomes zero.
-  void lay_into_plane() {
-    std::vector<char> used(gmsh_.nodes.size(), 0);
-    for (const auto& cell : mesh_.cells)
-      for (const int node : cell) used[node] = 1;
-    Point most{0, 0, 0}, low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t n = 0; n < used.size(); ++n)
-      if (used[n])
-        for (int d = 0; d < 3; ++d) {
-          most[d] = std::max(most[d], std::abs(gmsh_.nodes[n][d]));
-          low[d] = std::min(low[d], gmsh_.nodes[n][d]);
-          high[d] = std::max(high[d], gmsh_.nodes[n][d]);
-        }
-    const double rounding = 1e-9 * distance(low, high);
-    const bool axisymmetric = geometry_ == TriangleGeometry::axisymmetric;
-    if (axisymmetric && most[1] > rounding && most[2] <= rounding) {  // drawn with the axis along y
-      for (auto& x : gmsh_.nodes) std::swap(x[1], x[2]);
-      std::swap(most[1], most[2]);
-    }
-    const int across = axisymmetric ? 1 : 2;
-    if (most[across] > rounding) {
-      const auto off = [&](std::size_t n) { return used[n] && std::abs(gmsh_.nodes[n][across]) > rounding; };
-      std::size_t first = 0;
-      while (!off(first)) ++first;
-      const Point& x = gmsh_.nodes[first];
-      fail(fmt::format("node {}", gmsh_.node_tags[first]),
-           fmt::format("({:.6g}, {:.6g}, {:.6g}) is out of the plane of the mesh", x[0], x[1], x[2]),
-           axisymmetric
-               ? "an axisymmetric mesh lies in the plane y = 0 (r along x, axis along z) or in the plane z = 0 "
-                 "(r along x, axis along y)"
-               : "a plane mesh lies in the plane z = 0");
-    }
-    for (std::size_t n = 0; n < used.size(); ++n) {
-      if (!used[n]) continue;
-      Point& x = gmsh_.nodes[n];
-      x[across] = 0;
-      if (!axisymmetric) continue;
-      if (x[0] < -rounding)
-        fail(fmt::format("node {}", gmsh_.node_tags[n]), fmt::format("its radius is negative, r = x = {:.6g} mm", x[0]),
-             "draw the half of the section with x >= 0; or choose geometry = \"plane\"");
-      if (x[0] <= rounding) x[0] = 0;
-    }
-  }
-
-  void turn_counter_clockwise() {
-    for (auto& cell : mesh_.cells) {
-      if (triangle_area(gmsh_.nodes[cell[0]], gmsh_.nodes[cell[1]], gmsh_.nodes[cell[2]]) >= 0) continue;
-      std::swap(cell[1], cell[2]);
-      if constexpr (Order == 2) std::swap(cell[3], cell[5]);
-    }
   }
 
   void check_shapes() const {
@@ -481,10 +401,6 @@ std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dim
   for (const auto& name : parse_gmsh(path).names)
     if (name.dimension == dimension) regions.push_back(name.name);
   return regions;
-}
-
-std::vector<std::string> gmsh_volumes(const std::filesystem::path& path) {
-  return gmsh_regions(path, 3);
 }
 
 int gmsh_dimension(const std::filesystem::path& path) {

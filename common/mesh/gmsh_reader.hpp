@@ -39,9 +39,6 @@ SimplexMesh<Dim, Order> read_gmsh(const std::filesystem::path& path, const std::
 /// materials to are the volumes (3) of a three-dimensional mesh, the surfaces (2) of a two-dimensional one.
 std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dimension);
 
-/// gmsh_regions() of dimension 3.
-std::vector<std::string> gmsh_volumes(const std::filesystem::path& path);
-
 /// Highest dimension of the file's physical groups, 0 when it names none: 3 for a mesh of volumes, 2 for one of
 /// surfaces.
 int gmsh_dimension(const std::filesystem::path& path);

@@ -24,7 +24,7 @@ bool is_space(char c) {
 }
 
 /// Text for a message: short, and without bytes that upset a terminal.
-std::string printable(std::string text) {
+std::string excerpt(std::string text) {
   constexpr std::size_t longest = 32;
   if (text.size() > longest) text = text.substr(0, longest) + "...";
   for (char& c : text)
@@ -73,7 +73,7 @@ std::string GmshScanner::begin_section() {
   const std::string name = word();
   if (name.size() < 2 || name[0] != '$' || name.compare(0, 4, "$End") == 0) {
     position_ = begin;
-    fail(fmt::format("expected the begin of a section at {}, found '{}'", place(), printable(name)));
+    fail(fmt::format("expected the begin of a section at {}, found '{}'", place(), excerpt(name)));
   }
   section_ = name;
   end_line();
@@ -91,7 +91,7 @@ void GmshScanner::end_section() {
   const std::string at = place();
   fail(position_ == data_.size()
            ? fmt::format("the file ends before {}", expected)
-           : fmt::format("expected {} at {}, found '{}'", expected, at, printable(data_.substr(position_, 24))));
+           : fmt::format("expected {} at {}, found '{}'", expected, at, excerpt(data_.substr(position_, 24))));
 }
 
 void GmshScanner::skip_section() {
@@ -159,7 +159,7 @@ void GmshScanner::end_line() {
   const std::size_t stop = end == std::string::npos ? data_.size() : end;
   if (!std::all_of(data_.begin() + static_cast<long>(position_), data_.begin() + static_cast<long>(stop), is_space))
     fail(fmt::format("expected the end of the line at {}, found '{}'", place(),
-                     printable(data_.substr(position_, std::min<std::size_t>(stop - position_, 40)))));
+                     excerpt(data_.substr(position_, std::min<std::size_t>(stop - position_, 40)))));
   position_ = std::min(stop + 1, data_.size());
 }
 
@@ -195,7 +195,7 @@ T GmshScanner::text(const char* what) {
     }
   if (failure != std::errc() || (stop != end && !is_space(*stop))) {
     const std::string at = place();
-    fail(fmt::format("expected a {} at {}, found '{}'", what, at, printable(word())));
+    fail(fmt::format("expected a {} at {}, found '{}'", what, at, excerpt(word())));
   }
   position_ += static_cast<std::size_t>(stop - begin);
   return value;

@@ -192,6 +192,88 @@ void add_prism(std::array<int, 3> below, std::array<int, 3> above, std::vector<T
   cells.push_back({a, e, f, d});
 }
 
+/// The wall's nodes in levels above those of the lumen.
+struct Levels {
+  std::vector<std::map<int, int>> nodes;  ///< of each level, by the lumen's node below
+  std::vector<int> region;                ///< of the cells between a level and the next
+};
+
+/// Adds the nodes level by level, so that a level's numbers are in the order of the level below.
+Levels raise_levels(const std::vector<GrownLayer>& layers, const std::map<int, Point>& normals, TetrahedralMesh& mesh) {
+  Levels levels;
+  levels.nodes.emplace_back();
+  for (const auto& [node, normal] : normals) levels.nodes[0][node] = node;
+  double height = 0;
+  for (const auto& layer : layers) {
+    mesh.regions.push_back(layer.name);
+    for (int e = 1; e <= layer.elements; ++e) {
+      const double at = height + layer.thickness * e / layer.elements;
+      levels.nodes.emplace_back();
+      for (const auto& [node, normal] : normals) {
+        levels.nodes.back()[node] = static_cast<int>(mesh.nodes.size());
+        mesh.nodes.push_back(mesh.nodes[node] + at * normal);
+      }
+      levels.region.push_back(static_cast<int>(mesh.regions.size()) - 1);
+    }
+    height += layer.thickness;
+  }
+  return levels;
+}
+
+void fill_with_prisms(const std::vector<Facet>& facets, const Levels& levels, TetrahedralMesh& mesh) {
+  for (std::size_t step = 0; step < levels.region.size(); ++step)
+    for (const auto& facet : facets) {
+      std::array<int, 3> below{}, above{};
+      for (int k = 0; k < 3; ++k) {
+        below[k] = levels.nodes[step].at(facet[k]);
+        above[k] = levels.nodes[step + 1].at(facet[k]);
+      }
+      add_prism(below, above, mesh.cells);
+      mesh.cell_region.insert(mesh.cell_region.end(), 3, levels.region[step]);
+    }
+}
+
+/// Sides of prisms at the rims: the boundary's facets between two levels, found from the cells.
+std::vector<Facet> ends_of_wall(const TetrahedralMesh& mesh, const std::vector<Edge>& rim, const Levels& levels) {
+  std::set<int> rim_columns;
+  for (const auto& [a, b] : rim) rim_columns.insert({a, b});
+  std::map<int, int> column;
+  for (const auto& nodes : levels.nodes)
+    for (const auto& [bottom, node] : nodes)
+      if (rim_columns.count(bottom) > 0) column[node] = bottom;
+  std::vector<int> wall_regions = levels.region;
+  wall_regions.erase(std::unique(wall_regions.begin(), wall_regions.end()), wall_regions.end());
+  std::set<Edge> rim_edges;
+  for (const auto& [a, b] : rim) rim_edges.insert(std::minmax(a, b));
+  std::vector<Facet> ends;
+  for (const auto& facet : boundary_facets(mesh, wall_regions)) {
+    std::set<int> bottoms;
+    bool on_rim = true;
+    for (const int node : facet.nodes) {
+      const auto found = column.find(node);
+      on_rim = on_rim && found != column.end();
+      if (on_rim) bottoms.insert(found->second);
+    }
+    if (on_rim && bottoms.size() == 2 && rim_edges.count({*bottoms.begin(), *bottoms.rbegin()}) > 0)
+      ends.push_back(facet.nodes);
+  }
+  return ends;
+}
+
+/// \param first  of the wall's cells
+void require_no_folds(const TetrahedralMesh& mesh, std::size_t first) {
+  for (std::size_t c = first; c < mesh.cells.size(); ++c) {
+    std::array<Point, 4> corners;
+    for (int a = 0; a < 4; ++a) corners[a] = mesh.nodes[mesh.cells[c][a]];
+    if (mean_ratio(corners) > 0) continue;
+    throw InputError(
+        "fsi-mesh", "--layer",
+        fmt::format("the wall folds near ({:.4g}, {:.4g}, {:.4g}) mm, where the surface is hollow or rough",
+                    corners[0][0], corners[0][1], corners[0][2]),
+        "give thinner layers, a smoother surface, or more --smoothing");
+  }
+}
+
 }  // namespace
 
 TetrahedralMesh grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth) {
@@ -206,77 +288,18 @@ TetrahedralMesh grow_wall(const TetrahedralMesh& lumen, const WallGrowth& growth
   mesh.facet_groups.clear();
   for (const auto& group : lumen.facet_groups)
     if (group.name != growth.on) mesh.facet_groups.push_back(group);
+  const Levels levels = raise_levels(growth.layers, normals, mesh);
+  fill_with_prisms(facets, levels, mesh);
 
-  // Nodes level by level, so that a level's numbers are in the order of the level below.
-  std::vector<std::map<int, int>> level(1);
-  for (const auto& [node, normal] : normals) level[0][node] = node;
-  std::vector<int> region_of_step;
-  double height = 0;
-  for (const auto& layer : growth.layers) {
-    mesh.regions.push_back(layer.name);
-    for (int e = 1; e <= layer.elements; ++e) {
-      const double at = height + layer.thickness * e / layer.elements;
-      level.emplace_back();
-      for (const auto& [node, normal] : normals) {
-        level.back()[node] = static_cast<int>(mesh.nodes.size());
-        mesh.nodes.push_back(lumen.nodes[node] + at * normal);
-      }
-      region_of_step.push_back(static_cast<int>(mesh.regions.size()) - 1);
-    }
-    height += layer.thickness;
-  }
-
-  for (std::size_t step = 0; step < region_of_step.size(); ++step)
-    for (const auto& facet : facets) {
-      std::array<int, 3> below{}, above{};
-      for (int k = 0; k < 3; ++k) {
-        below[k] = level[step].at(facet[k]);
-        above[k] = level[step + 1].at(facet[k]);
-      }
-      add_prism(below, above, mesh.cells);
-      mesh.cell_region.insert(mesh.cell_region.end(), 3, region_of_step[step]);
-    }
-
-  TetrahedralMesh::FacetGroup outer{group::outer, {}}, ends{group::wall_ends, {}};
+  TetrahedralMesh::FacetGroup outer{group::outer, {}};
   for (auto facet : facets) {
-    for (int& node : facet) node = level.back().at(node);
+    for (int& node : facet) node = levels.nodes.back().at(node);
     outer.facets.push_back(facet);
   }
-  // Sides of prisms at the rims: the boundary's facets between two levels, found from the cells.
-  std::set<int> rim_columns;
-  for (const auto& [a, b] : rim) rim_columns.insert({a, b});
-  std::map<int, int> column;
-  for (const auto& nodes : level)
-    for (const auto& [bottom, node] : nodes)
-      if (rim_columns.count(bottom) > 0) column[node] = bottom;
-  std::vector<int> wall_regions(region_of_step.begin(), region_of_step.end());
-  wall_regions.erase(std::unique(wall_regions.begin(), wall_regions.end()), wall_regions.end());
-  std::set<Edge> rim_edges;
-  for (const auto& [a, b] : rim) rim_edges.insert(std::minmax(a, b));
-  for (const auto& facet : boundary_facets(mesh, wall_regions)) {
-    std::set<int> bottoms;
-    bool on_rim = true;
-    for (const int node : facet.nodes) {
-      const auto found = column.find(node);
-      on_rim = on_rim && found != column.end();
-      if (on_rim) bottoms.insert(found->second);
-    }
-    if (on_rim && bottoms.size() == 2 && rim_edges.count({*bottoms.begin(), *bottoms.rbegin()}) > 0)
-      ends.facets.push_back(facet.nodes);
-  }
   mesh.facet_groups.push_back(std::move(outer));
-  if (!ends.facets.empty()) mesh.facet_groups.push_back(std::move(ends));
-
-  for (std::size_t c = lumen.cells.size(); c < mesh.cells.size(); ++c) {
-    std::array<Point, 4> corners;
-    for (int a = 0; a < 4; ++a) corners[a] = mesh.nodes[mesh.cells[c][a]];
-    if (mean_ratio(corners) > 0) continue;
-    throw InputError(
-        "fsi-mesh", "--layer",
-        fmt::format("the wall folds near ({:.4g}, {:.4g}, {:.4g}) mm, where the surface is hollow or rough",
-                    corners[0][0], corners[0][1], corners[0][2]),
-        "give thinner layers, a smoother surface, or more --smoothing");
-  }
+  if (auto ends = ends_of_wall(mesh, rim, levels); !ends.empty())
+    mesh.facet_groups.push_back({group::wall_ends, std::move(ends)});
+  require_no_folds(mesh, lumen.cells.size());
   return mesh;
 }
 

@@ -242,9 +242,8 @@ std::unique_ptr<Scene<Element::components>> build_scene(const Case& setup, const
   if (!setup.supports.empty()) require_common_frames(setup, *scene);
 
   if (setup.time) {
-    const TimeScheme scheme = time_scheme_of(setup, *scene);
-    scene->integrator = make_time_scheme(setup, *scene, scheme);
-    scene->predictor = setup.time->predictor.value_or(scheme == TimeScheme::euler ? 1 : 2);
+    scene->integrator = make_time_scheme(setup, *scene, time_scheme_of(setup, *scene));
+    scene->predictor = setup.time->predictor.value_or(std::min(scene->integrator->error_terms().order, 2));
   }
   if (scene->coupled() && setup.stabilisation == Stabilisation::projected) stabilise_for_waves(*scene);
   if (!setup.supports.empty()) require_no_rigid_motion(setup, *scene);

@@ -6,23 +6,18 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 #include "case/openings.hpp"
 #include "fem/dimensions.hpp"
 #include "scene/wave_speed.hpp"
-#include "time/bdf2.hpp"
-#include "time/euler_newmark.hpp"
-#include "time/generalised_alpha.hpp"
 #include "time/shifted_midpoint.hpp"
-#include "time/tr_bdf2.hpp"
+#include "time/time_rounding.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi {
 
 namespace {
-
-constexpr double rounding = 1e-9;  // that the product of a step and a rate may have
 
 /// Largest distance of nodes from an axis, mm: the same for a tube and a sector of it.
 double largest_radius(const PartNodes& part, const Point& origin, const Point& axis) {
@@ -67,13 +62,18 @@ double shortest_pulse(const Case& setup) {
   return shortest;
 }
 
+/// The longest steps that the midpoint rule is chosen for, ms.
+double longest_midpoint_step(const TimeData& time, double scene_time) {
+  return time.adaptive ? scene_time : (midpoint_bound - 0.5) / midpoint_share * scene_time;
+}
+
 }  // namespace
 
 template <int n>
-double midpoint_damping(const Case& setup, const Scene<n>& scene) {
+double scene_frequency(const Case& setup, const Scene<n>& scene) {
   if (scene.coupled()) {
     const double area = scene.interface_area();
-    return midpoint_share * wave_speed(scene) * area / (2 * scene.fluid->volume());
+    return wave_speed(scene) * area / (2 * scene.fluid->volume());
   }
   if (scene.wall) {
     double stiffness = 0, volume = 0;
@@ -81,88 +81,69 @@ double midpoint_damping(const Case& setup, const Scene<n>& scene) {
       stiffness += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * layer.volume;
       volume += layer.volume;
     }
-    return midpoint_share * std::sqrt(stiffness / volume / scene.wall->constants().density) /
+    return std::sqrt(stiffness / volume / scene.wall->constants().density) /
            largest_radius(scene.wall->nodes(), setup.structure->axis_origin, setup.structure->axis_direction);
   }
   const AleFluid& form = scene.fluid->form();
   const double decay =
       form.viscosity / form.density * std::pow(2.405 / radius_of_fluid(setup, scene.fluid->nodes()), 2);
-  return std::max(decay, midpoint_share / shortest_pulse(setup));
-}
-
-double largest_midpoint_theta(const TimeData& time) {
-  return time.damping ? 1 : midpoint_bound;
+  return std::max(decay / midpoint_share, 1 / shortest_pulse(setup));
 }
 
 template <int n>
-TimeScheme time_scheme_of(const Case& setup, const Scene<n>& scene) {
+double scene_time(const Case& setup, const Scene<n>& scene) {
+  const double frequency = scene_frequency(setup, scene);
+  return frequency > 0 ? 1 / frequency : setup.time.value().end;
+}
+
+template <int n>
+std::string time_scheme_of(const Case& setup, const Scene<n>& scene) {
   const TimeData& time = setup.time.value();
   if (time.scheme) return *time.scheme;
-  const double rate = midpoint_damping(setup, scene);
-  const bool is_long = time.adaptive ? time.largest_step && rate * *time.largest_step > midpoint_share * (1 + rounding)
-                                     : rate * time.step > (midpoint_bound - 0.5) * (1 + rounding);
-  return is_long ? TimeScheme::tr_bdf2 : TimeScheme::midpoint;
+  if (time.adaptive && !time.largest_step) return scheme_for_short_steps;
+  const double longest = longest_midpoint_step(time, 1 / scene_frequency(setup, scene));
+  const bool is_long = (time.adaptive ? *time.largest_step : time.step) > longest * (1 + time_rounding);
+  return is_long ? scheme_for_long_steps : scheme_for_short_steps;
 }
 
 template <int n>
-std::string about_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
+std::string about_time_scheme(const Case& setup, const Scene<n>& scene, const std::string& scheme) {
   const TimeData& time = setup.time.value();
   if (time.scheme) return {};
-  const std::string name = "time scheme: " + time_schemes().name_of(scheme);
+  const std::string name = "time scheme: " + scheme;
   if (scheme != time_scheme_of(setup, scene)) return name + ", that of the run so far";
-  if (scheme == TimeScheme::midpoint) return name + ", chosen for the length of the steps";
-  const double scene_time = midpoint_share / midpoint_damping(setup, scene);
-  const double most = time.adaptive ? scene_time : (midpoint_bound - 0.5) / midpoint_share * scene_time;
+  if (scheme == scheme_for_short_steps) return name + ", chosen for the length of the steps";
+  const double swing = scene_time(setup, scene);
   return fmt::format(
       "{}, chosen because {} of {:g} ms are long against the scene's time of {:.3g} ms: two solves a step, of second "
-      "order "
-      "there, too; midpoint, with one, is chosen up to {:.3g} ms",
-      name, time.adaptive ? "largest steps" : "steps", time.adaptive ? *time.largest_step : time.step, scene_time,
-      most);
+      "order there, too; midpoint, with one, is chosen up to {:.3g} ms",
+      name, time.adaptive ? "largest steps" : "steps", time.adaptive ? *time.largest_step : time.step, swing,
+      longest_midpoint_step(time, swing));
+}
+
+std::string lost_order(const TimeData& time, const TimeIntegrator& scheme) {
+  if (time.adaptive) return {};
+  const auto lost = scheme.lost_order(time.step);
+  if (!lost) return {};
+  const std::string remedy = !lost->remedy.empty() ? lost->remedy
+                             : time.scheme         ? "or leave time.scheme out"
+                                                   : "or begin a new run";
+  return fmt::format("time.step: with {:g} ms {}; give steps of at most {:.3g} ms, {}", time.step, lost->said,
+                     lost->longest_step, remedy);
 }
 
 template <int n>
-std::string lost_order(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
-  const TimeData& time = setup.time.value();
-  if (scheme != TimeScheme::midpoint || time.adaptive) return {};
-  const double rate = time.damping ? *time.damping : midpoint_damping(setup, scene);
-  const double most = (midpoint_bound - 0.5) / rate;
-  if (!(time.step > most * (1 + rounding))) return {};
-  const std::string remedy = time.damping  ? "a smaller time.damping, or leave time.scheme and time.damping out"
-                             : time.scheme ? "or leave time.scheme out"
-                                           : "or begin a new run";
-  return fmt::format(
-      "time.step: with {:g} ms the midpoint rule has theta = {:.3g} and an error that falls like the step, not like "
-      "its "
-      "square; give steps of at most {:.3g} ms, {}",
-      time.step, std::min(largest_midpoint_theta(time), 0.5 + rate * time.step), most, remedy);
+std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene,
+                                                       const std::string& scheme) {
+  return make_integrator(scheme, n, setup.time.value().scheme_values, scene_frequency(setup, scene));
 }
 
-template <int n>
-std::unique_ptr<const TimeIntegrator> make_time_scheme(const Case& setup, const Scene<n>& scene, TimeScheme scheme) {
-  const TimeData& time = setup.time.value();
-  switch (scheme) {
-    case TimeScheme::euler:
-      return std::make_unique<EulerNewmark<n>>(NewmarkParameters{time.newmark_beta, time.newmark_gamma});
-    case TimeScheme::midpoint:
-      return std::make_unique<ShiftedMidpoint<n>>(time.damping ? *time.damping : midpoint_damping(setup, scene),
-                                                  largest_midpoint_theta(time));
-    case TimeScheme::bdf2:
-      return std::make_unique<Bdf2<n>>();
-    case TimeScheme::generalised_alpha:
-      return std::make_unique<GeneralisedAlpha<n>>(time.spectral_radius);
-    case TimeScheme::tr_bdf2:
-      return std::make_unique<TrBdf2<n>>();
-  }
-  throw std::logic_error("a time scheme without an integrator");
-}
-
-#define FSI_INSTANTIATE(n)                                                             \
-  template double midpoint_damping<n>(const Case&, const Scene<n>&);                   \
-  template TimeScheme time_scheme_of<n>(const Case&, const Scene<n>&);                 \
-  template std::string about_time_scheme<n>(const Case&, const Scene<n>&, TimeScheme); \
-  template std::string lost_order<n>(const Case&, const Scene<n>&, TimeScheme);        \
-  template std::unique_ptr<const TimeIntegrator> make_time_scheme<n>(const Case&, const Scene<n>&, TimeScheme);
+#define FSI_INSTANTIATE(n)                                                                     \
+  template double scene_frequency<n>(const Case&, const Scene<n>&);                            \
+  template double scene_time<n>(const Case&, const Scene<n>&);                                 \
+  template std::string time_scheme_of<n>(const Case&, const Scene<n>&);                        \
+  template std::string about_time_scheme<n>(const Case&, const Scene<n>&, const std::string&); \
+  template std::unique_ptr<const TimeIntegrator> make_time_scheme<n>(const Case&, const Scene<n>&, const std::string&);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "scene/loads.hpp"
 #include "system/system.hpp"
-#include "time/loads.hpp"
 #include "time/stepper.hpp"
 
 namespace fsi {

@@ -13,6 +13,8 @@ class Bdf2 : public BalanceScheme<n> {
  public:
   int stages(const State& state) const override { return state.since_jump == 0 ? 2 : 1; }
   double period(double step) const override { return 2 * step / 3; }
+  ErrorTerms error_terms() const override { return {2, 1.0 / 3}; }
+  bool bears_one_pass() const override { return true; }
 
  private:
   StepRates rates_of(const State& state, double step, int stage) const override;

@@ -4,19 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "time/error_terms.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
 namespace fsi {
-
-/// How the error of a scheme begins, docs/theory.md, section 8: what one step adds to y is
-///   constant dt^(order + 1) y^(order + 1) + shift dt^3 y''.
-struct ErrorTerms {
-  int order = 2;
-  double constant = 1.0 / 12;
-  double shift = 0;            ///< 1/ms, of the shifted midpoint rule
-  double largest_shift = 0.5;  ///< that shift dt may be
-};
 
 /// Errors of a step relative to the solution.
 struct StepErrors {

@@ -14,6 +14,8 @@ class EulerNewmark : public TimeIntegrator {
  public:
   explicit EulerNewmark(const NewmarkParameters& newmark = {}) : newmark_(newmark) {}
 
+  ErrorTerms error_terms() const override { return {1, 0.5}; }
+  bool bears_one_pass() const override { return true; }
   NewmarkParameters newmark() const override { return newmark_; }
   void accept(State& state, const StepData& data) const override;
 

@@ -21,6 +21,9 @@ class GeneralisedAlpha : public BalanceScheme<n> {
   explicit GeneralisedAlpha(double spectral_radius);
 
   double period(double step) const override { return a_f_ * (0.5 + shift_) / (a_f_ + shift_) * step; }
+  ErrorTerms error_terms() const override { return {2, 1.0 / 12 + shift_ * shift_}; }
+  bool bears_one_pass() const override { return true; }
+  std::string against_ringing() const override { return "give a smaller time.spectral_radius"; }
   bool pressures_lag() const override { return true; }
   void prepare(State& state) const override;
 

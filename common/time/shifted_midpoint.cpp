@@ -4,7 +4,27 @@
 
 #include <algorithm>
 
+#include "time/time_rounding.hpp"
+
 namespace fsi {
+
+template <int n>
+std::unique_ptr<ShiftedMidpoint<n>> ShiftedMidpoint<n>::of_scene(double frequency) {
+  auto scheme = std::make_unique<ShiftedMidpoint>(midpoint_share * frequency);
+  scheme->largest_theta_ = midpoint_bound;
+  return scheme;
+}
+
+template <int n>
+std::optional<LostOrder> ShiftedMidpoint<n>::lost_order(double step) const {
+  const double longest = (midpoint_bound - 0.5) / damping_;
+  if (!(step > longest * (1 + time_rounding))) return std::nullopt;
+  const bool given = largest_theta_ > midpoint_bound;
+  return LostOrder{
+      fmt::format("the midpoint rule has theta = {:.3g} and an error that falls like the step, not like its square",
+                  theta_of(step)),
+      longest, given ? "a smaller time.damping, or leave time.scheme and time.damping out" : ""};
+}
 
 template <int n>
 std::string ShiftedMidpoint<n>::about(double shortest, double longest) const {

@@ -1,8 +1,17 @@
 #pragma once
 
+#include <memory>
+
 #include "time/balance.hpp"
 
 namespace fsi {
+
+/// Of a scene's frequency that is the midpoint rule's damping: what the artery's wave tolerates best (docs/theory.md,
+/// section 8.5), 0.2/ms there.
+inline constexpr double midpoint_share = 0.25;
+
+/// Largest theta of a midpoint rule whose shift is found from the scene: beyond it the shift would no longer keep the order.
+inline constexpr double midpoint_bound = 0.5625;
 
 /// The midpoint rule, its balance shifted towards the step's end (docs/theory.md, section 8.5):
 ///   t_b = t_n + theta dt,   theta = 1/2 + damping dt,   at most a bound,   k = 1 / (theta dt),   r = y^n.
@@ -11,10 +20,14 @@ namespace fsi {
 template <int n>
 class ShiftedMidpoint : public BalanceScheme<n> {
  public:
-  /// \param damping        the rate of the shift, 1/ms
-  /// \param largest_theta  1/2 to 1
-  explicit ShiftedMidpoint(double damping, double largest_theta = 1)
-      : damping_(damping), largest_theta_(largest_theta) {}
+  /// With a rate of the shift that is given, 1/ms.
+  explicit ShiftedMidpoint(double damping) : damping_(damping) {}
+  /// With that of a scene of this frequency, 1/ms.
+  static std::unique_ptr<ShiftedMidpoint> of_scene(double frequency);
+
+  ErrorTerms error_terms() const override { return {2, 1.0 / 12, damping_, largest_theta_ - 0.5}; }
+  std::optional<LostOrder> lost_order(double step) const override;
+  std::string against_ringing() const override { return "give a larger time.damping"; }
   std::string about(double shortest, double longest) const override;
   double period(double step) const override { return theta_of(step) * step; }
   bool pressures_lag() const override { return true; }
@@ -24,7 +37,8 @@ class ShiftedMidpoint : public BalanceScheme<n> {
   double level_shift(const State& state, double step) const override;
   double theta_of(double step) const;
 
-  double damping_, largest_theta_;
+  double damping_;            ///< 1/ms
+  double largest_theta_ = 1;  ///< where the damping is given
 };
 
 extern template class ShiftedMidpoint<1>;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "time/error_terms.hpp"
 #include "time/predictor.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
@@ -14,13 +15,29 @@ struct NewmarkParameters {
   double beta = 1, gamma = 1;
 };
 
-/// How rates follow from time levels: a time scheme. It is asked anew for each step, whose length may differ from the
+/// A length of steps with which a scheme has no longer its order.
+struct LostOrder {
+  std::string said;         ///< what it has then: "... and an error that falls like the step"
+  double longest_step = 0;  ///< ms, that keeps the order
+  std::string remedy;       ///< by the scheme's parameters that the case gives, but for shorter steps; empty: none
+};
+
+/// How rates follow from time levels: a time scheme, with all that others decide by it. It is asked anew for each step, whose length may differ from the
 /// last one's, and keeps nothing between steps: all history is in the State. A step has one stage or two: each is one
 /// nonlinear solve.
 class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
   virtual bool is_static() const { return false; }
+  /// How its error begins, with the constants of docs/theory.md, section 8.
+  virtual ErrorTerms error_terms() const = 0;
+  /// Where equal steps of this length (ms) cost the scheme its order; else empty.
+  virtual std::optional<LostOrder> lost_order(double /*step*/) const { return std::nullopt; }
+  /// Whether a partitioned coupling may leave a step after one pass. Else what that leaves between fluid and wall comes
+  /// back with every step.
+  virtual bool bears_one_pass() const { return false; }
+  /// What a user can do where pressures alternate from step to step.
+  virtual std::string against_ringing() const { return "take time.scheme = \"midpoint\""; }
   /// How the wall's velocity follows from its accelerations, of schemes of Newmark's family.
   virtual NewmarkParameters newmark() const { return {}; }
   /// What a user should know of it with steps of these lengths (ms), for the log; empty: nothing.
@@ -59,6 +76,8 @@ class TimeIntegrator {
 class QuasiStatic : public TimeIntegrator {
  public:
   bool is_static() const override { return true; }
+  ErrorTerms error_terms() const override { return {}; }
+  bool bears_one_pass() const override { return true; }
   void accept(State& state, const StepData& data) const override { state.finish_step(data.time); }
 
  private:

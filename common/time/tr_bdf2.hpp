@@ -17,6 +17,7 @@ class TrBdf2 : public BalanceScheme<n> {
  public:
   int stages(const State&) const override { return 2; }
   double period(double step) const override;
+  ErrorTerms error_terms() const override { return {2, 0.0404}; }
   void prepare(State& state) const override;
   std::optional<Balance> balance_again(const State& state) const override;
 

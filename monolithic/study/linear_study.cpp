@@ -24,11 +24,12 @@
 #include "driver/load_scene.hpp"
 #include "io/atomic_file.hpp"
 #include "io/folder_lock.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "monolithic/block/coupled_system.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/sub_problem_study.hpp"
-#include "petsc_solver/general_solvers.hpp"
+#include "petsc_solver/petsc_factories.hpp"
 #include "solvers/amg/sub_problem_options.hpp"
 #include "system/jacobian_product.hpp"
 #include "system/newton_stepper.hpp"
@@ -252,53 +253,26 @@ class LinearStudy {
                    {"right_hand_side", norm_b}};
     if (with_sub_problems_ && sub_problems_.empty()) study_sub_problems(paper);
     JacobianProduct<n> jacobian(blocks);
-    std::vector<double> x, y, reference;
+    std::vector<double> reference;
     // The direct solution first, whatever its place in the list: it is what the others are compared with.
     std::vector<std::string> order = solvers_;
     std::stable_partition(order.begin(), order.end(), [](const std::string& name) { return name == "direct"; });
     std::vector<Json> entries;
     for (const auto& name : order) {
       say(fmt::format("system {}:{}  {}", named.step, named.iteration, name));
-      Json entry = {{"name", name}};
+      Json entry = {{"name", name}, {"converged", false}};
       try {
-        std::unique_ptr<LinearSolver> solver;
-        const double set_up = seconds_of([&] {
-          solver = make_linear_solver(name, setup_, blocks);
-          solver->update();
-        });
-        LinearReport report;
-        LinearStatistics before = solver->statistics(), after;
-        const double first = seconds_of([&] { report = solver->solve(b, tolerance_, x); });
-        after = solver->statistics();
-        const double seconds =
-            first > 0.5 ? first : median_seconds(5, [&] { report = solver->solve(b, tolerance_, x); });
-        jacobian.multiply(x, y);
-        for (std::size_t i = 0; i < b.size(); ++i) y[i] = b[i] - y[i];
-        const double relative = norm(y) / norm_b;
-        // Two ways to sum one residual differ by rounding.
-        const bool converged = report.converged && relative <= 1.01 * tolerance_;
+        std::vector<double> x;
+        entry.update(solved_by(name, blocks, jacobian, b, product, x));
+        const bool converged = entry["converged"].get<bool>();
         complete_ = complete_ && converged;
-        entry.update({{"converged", converged},
-                      {"iterations", report.iterations},
-                      {"relative_residual", relative},
-                      {"set_up_seconds", set_up},
-                      {"solve_seconds", seconds},
-                      {"work_units", seconds / product},
-                      {"cycles",
-                       {{"mesh", after.mesh_cycles - before.mesh_cycles},
-                        {"flow", after.fluid_cycles - before.fluid_cycles},
-                        {"wall", after.wall_cycles - before.wall_cycles}}},
-                      {"operator_complexity", after.operator_complexity},
-                      {"levels", after.levels},
-                      {"memory_MiB", after.memory_mib},
-                      {"message", report.failure}});
         if (converged && reference.empty())
           reference = x;
         else if (converged)
           entry["difference"] = difference(system.numbering(), x, reference);
       } catch (const ConvergenceError& failure) {
         complete_ = false;
-        entry.update({{"converged", false}, {"message", failure.what()}});
+        entry["message"] = failure.what();
       }
       if (!entry.contains("difference")) entry["difference"] = nullptr;
       say(fmt::format("    {} iterations, {}", entry.value("iterations", 0),
@@ -311,6 +285,40 @@ class LinearStudy {
       for (auto& entry : entries)
         if (entry["name"] == name) answer["solvers"].push_back(entry);
     return answer;
+  }
+
+  /// What one solver takes for J x = b, with its answer x. \param product  seconds of one product with the matrix
+  Json solved_by(const std::string& name, const JacobianBlocks<n>& blocks, JacobianProduct<n>& jacobian,
+                 const std::vector<double>& b, double product, std::vector<double>& x) {
+    std::unique_ptr<LinearSolver> solver;
+    const double set_up = seconds_of([&] {
+      solver = make_linear_solver(name, setup_, blocks);
+      solver->update();
+    });
+    LinearReport report;
+    const LinearStatistics before = solver->statistics();
+    const double first = seconds_of([&] { report = solver->solve(b, tolerance_, x); });
+    const LinearStatistics after = solver->statistics();
+    const double seconds = first > 0.5 ? first : median_seconds(5, [&] { report = solver->solve(b, tolerance_, x); });
+    std::vector<double> left;
+    jacobian.multiply(x, left);
+    for (std::size_t i = 0; i < b.size(); ++i) left[i] = b[i] - left[i];
+    const double relative = norm(left) / norm(b);
+    return {{"converged",
+             report.converged && relative <= 1.01 * tolerance_},  // two sums of one residual differ by rounding
+            {"iterations", report.iterations},
+            {"relative_residual", relative},
+            {"set_up_seconds", set_up},
+            {"solve_seconds", seconds},
+            {"work_units", seconds / product},
+            {"cycles",
+             {{"mesh", after.mesh_cycles - before.mesh_cycles},
+              {"flow", after.fluid_cycles - before.fluid_cycles},
+              {"wall", after.wall_cycles - before.wall_cycles}}},
+            {"operator_complexity", after.operator_complexity},
+            {"levels", after.levels},
+            {"memory_MiB", after.memory_mib},
+            {"message", report.failure}};
   }
 
   /// The multigrid of each sub-problem of the first named system as a solver of its own. Large meshes get a smaller

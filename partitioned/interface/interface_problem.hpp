@@ -9,10 +9,10 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
-#include "petsc_solver/general_solvers.hpp"
 #include "scene/scene.hpp"
 #include "system/system.hpp"
 #include "time/stepper.hpp"
@@ -51,6 +51,14 @@ class InterfaceProblem {
     last_was_linearised_ = false;
     wall_.work_on(state, data);
     if (mesh_motion_) mesh_motion_->start();
+  }
+  /// The same from all fields extrapolated by `order`.
+  void start_from_prediction(State& state, StepData& data, int order) {
+    scene_.integrator->predict(state, order, data);
+    scene_.impose_conditions(state.now);
+    scene_.impose_inflows(state, data);
+    scene_.impose_interface(state, data.rates);
+    start(state, data);
   }
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) const = 0;

@@ -31,8 +31,8 @@ inline Case coupled_case(const std::string& material, double step = 0.125) {
   setup.structure->layers["adventitia"] =
       layer_of(material, {{"c10", 0.3}, {"c01", 0.2}, {"k1", 0.5620}, {"k2", 0.7112}, {"alpha", 62.0}});
   setup.inlet = PressureTable{{{0.0, 1.332}}};
-  setup.time = TimeData{step, 100 * step, 1, 1, 1};
-  setup.time->scheme = TimeScheme::euler;
+  setup.time = TimeData{step, 100 * step, 1};
+  setup.time->scheme = "euler";
   return setup;
 }
 

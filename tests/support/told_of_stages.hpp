@@ -17,6 +17,7 @@ class ToldOfStages : public TimeIntegrator {
   ToldOfStages(std::unique_ptr<const TimeIntegrator> scheme, Tell tell)
       : scheme_(std::move(scheme)), tell_(std::move(tell)) {}
 
+  ErrorTerms error_terms() const override { return scheme_->error_terms(); }
   NewmarkParameters newmark() const override { return scheme_->newmark(); }
   void prepare(State& state) const override { scheme_->prepare(state); }
   int stages(const State& state) const override { return scheme_->stages(state); }

@@ -83,7 +83,7 @@ Marched march(const SimplexMesh<2, Element::order>& mesh, double beta, double en
   setup.time.emplace();
   setup.time->step = end / steps;
   setup.time->end = end;
-  setup.time->damping = 0;
+  setup.time->scheme_values["damping"] = 0;
   const auto scene = build_scene<Element>(setup, mesh);
   scene->fluid->stabilise_backflow(1, beta);
   EXPECT_EQ(scene->fluid->open_boundaries()[1].name(), group::outlet);

@@ -21,83 +21,68 @@ std::size_t RestartedGmres::bytes() const {
   return entries * sizeof(double);
 }
 
-RestartedGmres::Cycle RestartedGmres::run_cycle(const LinearOperator& a, const LinearOperator& inverse, double norm_b,
-                                                double residual_norm, int directions, double tolerance,
-                                                std::vector<double>& x, std::vector<double>& history) {
-  const std::size_t size = x.size();
-  const int stride = directions + 1;
-  const auto h = [&](int row, int column) -> double& {
-    return hessenberg_[static_cast<std::size_t>(column) * stride + row];
-  };
-  const auto direction = [](std::vector<std::vector<double>>& set, int k, std::size_t entries) -> std::vector<double>& {
-    if (static_cast<int>(set.size()) <= k) set.resize(k + 1);
-    set[k].resize(entries);
-    return set[k];
-  };
-  hessenberg_.assign(static_cast<std::size_t>(stride) * directions, 0.0);
+void RestartedGmres::begin_cycle(double residual_norm, int directions) {
+  stride_ = directions + 1;
+  hessenberg_.assign(static_cast<std::size_t>(stride_) * directions, 0.0);
   cosine_.assign(directions, 0.0);
   sine_.assign(directions, 0.0);
-  right_.assign(stride, 0.0);
+  right_.assign(stride_, 0.0);
   right_[0] = residual_norm;
-  scaled_copy(1 / residual_norm, residual_, direction(basis_, 0, size));
+  scaled_copy(1 / residual_norm, residual_, direction(basis_, 0));
+}
 
-  Cycle cycle;
-  int usable = 0;  // columns of the triangular system
-  for (int k = 0; k < directions; ++k) {
-    auto& w = direction(basis_, k + 1, size);
-    const std::vector<double>* z = &basis_[k];
-    if (inverse) {
-      auto& image = flexible_ ? direction(preconditioned_, k, size) : work_;
-      image.resize(size);
-      inverse(basis_[k], image);
-      z = &image;
-    } else if (flexible_) {  // the update reads these
-      direction(preconditioned_, k, size) = basis_[k];
-    }
-    a(*z, w);
-    const double length = norm(w);
-    if (!std::isfinite(length)) {
-      cycle.finite = false;
-      break;
-    }
-    ++cycle.iterations;
+std::vector<double>& RestartedGmres::direction(std::vector<std::vector<double>>& set, int k) const {
+  if (static_cast<int>(set.size()) <= k) set.resize(k + 1);
+  set[k].resize(residual_.size());
+  return set[k];
+}
 
-    // Modified Gram-Schmidt, a second pass where the first removed most of w ("twice is enough").
-    double rest = length;
-    for (int pass = 0; pass < 2; ++pass) {
-      for (int j = 0; j <= k; ++j) {
-        const double overlap = dot(basis_[j], w);
-        h(j, k) += overlap;
-        axpy(-overlap, basis_[j], w);
-      }
-      const double left = norm(w);
-      const bool clean = left > 0.5 * rest;
-      rest = left;
-      if (clean) break;
-    }
-    h(k + 1, k) = rest;
-
-    for (int j = 0; j < k; ++j) {
-      const double upper = h(j, k), lower = h(j + 1, k);
-      h(j, k) = cosine_[j] * upper + sine_[j] * lower;
-      h(j + 1, k) = -sine_[j] * upper + cosine_[j] * lower;
-    }
-    const double radius = std::hypot(h(k, k), h(k + 1, k));
-    // A M^-1 v lies in the space already spanned: either the solution is in it, or the operator is singular on it.
-    const bool breakdown = rest <= 1e-14 * length;
-    if (radius <= 1e-14 * length) break;
-    cosine_[k] = h(k, k) / radius;
-    sine_[k] = h(k + 1, k) / radius;
-    h(k, k) = radius;
-    right_[k + 1] = -sine_[k] * right_[k];
-    right_[k] *= cosine_[k];
-    usable = k + 1;
-    history.push_back(std::abs(right_[k + 1]) / norm_b);
-    if (breakdown || std::abs(right_[k + 1]) <= tolerance * norm_b) break;
-    scale(1 / rest, w);
+const std::vector<double>& RestartedGmres::preconditioned(const LinearOperator& inverse, int k) {
+  if (!inverse) {
+    if (flexible_) direction(preconditioned_, k) = basis_[k];  // the update reads these
+    return basis_[k];
   }
-  if (usable == 0) return cycle;
+  auto& image = flexible_ ? direction(preconditioned_, k) : work_;
+  image.resize(residual_.size());
+  inverse(basis_[k], image);
+  return image;
+}
 
+double RestartedGmres::orthogonalise(int k, double length) {
+  auto& w = basis_[k + 1];
+  double rest = length;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int j = 0; j <= k; ++j) {
+      const double overlap = dot(basis_[j], w);
+      h(j, k) += overlap;
+      axpy(-overlap, basis_[j], w);
+    }
+    const double left = norm(w);
+    const bool clean = left > 0.5 * rest;
+    rest = left;
+    if (clean) break;
+  }
+  h(k + 1, k) = rest;
+  return rest;
+}
+
+bool RestartedGmres::rotate(int k, double smallest) {
+  for (int j = 0; j < k; ++j) {
+    const double upper = h(j, k), lower = h(j + 1, k);
+    h(j, k) = cosine_[j] * upper + sine_[j] * lower;
+    h(j + 1, k) = -sine_[j] * upper + cosine_[j] * lower;
+  }
+  const double radius = std::hypot(h(k, k), h(k + 1, k));
+  if (radius <= smallest) return false;
+  cosine_[k] = h(k, k) / radius;
+  sine_[k] = h(k + 1, k) / radius;
+  h(k, k) = radius;
+  right_[k + 1] = -sine_[k] * right_[k];
+  right_[k] *= cosine_[k];
+  return true;
+}
+
+void RestartedGmres::update(const LinearOperator& inverse, int usable, std::vector<double>& x) {
   coefficients_.assign(usable, 0.0);
   for (int j = usable - 1; j >= 0; --j) {
     double sum = right_[j];
@@ -106,16 +91,44 @@ RestartedGmres::Cycle RestartedGmres::run_cycle(const LinearOperator& a, const L
   }
   if (flexible_) {
     for (int j = 0; j < usable; ++j) axpy(coefficients_[j], preconditioned_[j], x);
-  } else {
-    set_zero(residual_);
-    for (int j = 0; j < usable; ++j) axpy(coefficients_[j], basis_[j], residual_);
-    if (inverse) {
-      inverse(residual_, work_);
-      axpy(1, work_, x);
-    } else {
-      axpy(1, residual_, x);
-    }
+    return;
   }
+  set_zero(residual_);
+  for (int j = 0; j < usable; ++j) axpy(coefficients_[j], basis_[j], residual_);
+  if (inverse) {
+    inverse(residual_, work_);
+    axpy(1, work_, x);
+  } else {
+    axpy(1, residual_, x);
+  }
+}
+
+RestartedGmres::Cycle RestartedGmres::run_cycle(const LinearOperator& a, const LinearOperator& inverse, double norm_b,
+                                                double residual_norm, int directions, double tolerance,
+                                                std::vector<double>& x, std::vector<double>& history) {
+  begin_cycle(residual_norm, directions);
+  Cycle cycle;
+  int usable = 0;  // columns of the triangular system
+  for (int k = 0; k < directions; ++k) {
+    auto& w = direction(basis_, k + 1);
+    a(preconditioned(inverse, k), w);
+    const double length = norm(w);
+    if (!std::isfinite(length)) {
+      cycle.finite = false;
+      break;
+    }
+    ++cycle.iterations;
+    const double smallest = 1e-14 * length;
+    const double rest = orthogonalise(k, length);
+    if (!rotate(k, smallest)) break;
+    usable = k + 1;
+    history.push_back(std::abs(right_[k + 1]) / norm_b);
+    // A M^-1 v lies in the space already spanned: either the solution is in it, or the operator is singular on it.
+    const bool breakdown = rest <= smallest;
+    if (breakdown || std::abs(right_[k + 1]) <= tolerance * norm_b) break;
+    scale(1 / rest, w);
+  }
+  if (usable > 0) update(inverse, usable, x);
   return cycle;
 }
 

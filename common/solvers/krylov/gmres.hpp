@@ -25,8 +25,21 @@ class RestartedGmres {
   };
   Cycle run_cycle(const LinearOperator& a, const LinearOperator& inverse, double norm_b, double residual_norm,
                   int directions, double tolerance, std::vector<double>& x, std::vector<double>& history);
+  void begin_cycle(double residual_norm, int directions);
+  /// M^-1 v_k
+  const std::vector<double>& preconditioned(const LinearOperator& inverse, int k);
+  /// Takes v_0 to v_k off w = v_{k+1} by modified Gram-Schmidt, a second time where the first removed most of w ("twice is
+  /// enough"). \returns |w|, not yet one
+  double orthogonalise(int k, double length);
+  /// Givens' rotations of column k. \returns false where the column has nothing above `smallest`
+  bool rotate(int k, double smallest);
+  /// x += M^-1 V y of the least squares' y.
+  void update(const LinearOperator& inverse, int usable, std::vector<double>& x);
+  std::vector<double>& direction(std::vector<std::vector<double>>& set, int k) const;
+  double& h(int row, int column) { return hessenberg_[static_cast<std::size_t>(column) * stride_ + row]; }
 
   bool flexible_;
+  int stride_ = 0;                                           ///< of a column of the Hessenberg matrix
   std::vector<std::vector<double>> basis_, preconditioned_;  ///< V, and Z = M^-1 V if flexible
   std::vector<double> residual_, work_;
   std::vector<double> hessenberg_, cosine_, sine_, right_, coefficients_;

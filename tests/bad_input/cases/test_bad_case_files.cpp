@@ -8,6 +8,7 @@
 #include "case/case_reader.hpp"
 #include "example_cases.hpp"
 #include "materials/material.hpp"
+#include "time/time_schemes.hpp"
 
 namespace fsi::test {
 
@@ -302,8 +303,8 @@ const std::vector<BadCase>& bad_cases() {
        "case.toml:27: time.newmark_gamma: 1.5 is out of range; give a number > 0 and <= 1 (Newmark's gamma of the "
        "wall, default 1)"},
       {"TimeSchemeUnknown", coupled_case, "end = 12.0", "end = 12.0\nscheme = \"midpiont\"",
-       "case.toml:27: time.scheme: \"midpiont\" is unknown; did you mean midpoint? There are euler, midpoint, bdf2, "
-       "generalised-alpha or tr-bdf2"},
+       "case.toml:27: time.scheme: \"midpiont\" is unknown; did you mean midpoint? There are " +
+           one_of(time_schemes().names())},
       {"NewmarkWithAnotherScheme", coupled_case, "end = 12.0", "end = 12.0\nnewmark_beta = 0.25",
        "case.toml:27: time.newmark_beta: belongs to the scheme \"euler\", and this case names none; remove it, or set "
        "time.scheme = \"euler\""},

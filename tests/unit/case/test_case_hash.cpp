@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "case/case_reader.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 
@@ -17,7 +16,7 @@ Case example() {
   scene.structure.emplace();
   scene.structure->layers["media"] = {"neo-hookean", {{"c10", 3.0}}};
   scene.inlet = PressureTable{{{0, 1.332}}};
-  scene.time = TimeData{0.125, 12.0, 1, 1, 1};
+  scene.time = TimeData{0.125, 12.0, 1};
   return scene;
 }
 
@@ -48,7 +47,7 @@ TEST(CaseHash, NoticesWhatChangesTheEquations) {
   EXPECT_TRUE(changed([](Case& c) { c.structure->layers["media"].values["c10"] = 3.1; }));
   EXPECT_TRUE(changed([](Case& c) { c.structure->layers["adventitia"] = c.structure->layers["media"]; }));
   EXPECT_TRUE(changed([](Case& c) { c.inlet->points[0].second = 1; }));
-  EXPECT_TRUE(changed([](Case& c) { c.time->newmark_gamma = 0.5; }));
+  EXPECT_TRUE(changed([](Case& c) { c.time->scheme_values["newmark_gamma"] = 0.5; }));
   EXPECT_TRUE(changed([](Case& c) {
     c.time.reset();
     c.static_load = StaticData{};
@@ -181,14 +180,6 @@ TEST(Hash, HasThePublishedValues) {
   EXPECT_EQ(empty.hex(), "cbf29ce484222325");
   EXPECT_EQ(a.hex(), "af63dc4c8601ec8c");
   EXPECT_EQ(foobar.hex(), "85944171f73967e8");
-}
-
-class FileHash : public FolderTest {};
-
-TEST_F(FileHash, IsThatOfTheBytes) {
-  write_text(folder_ / "file", "foobar");
-  EXPECT_EQ(hash_of_file(folder_ / "file"), "85944171f73967e8");
-  EXPECT_THROW(hash_of_file(folder_ / "missing"), InputError);
 }
 
 }  // namespace

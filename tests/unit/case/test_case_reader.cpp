@@ -97,7 +97,7 @@ TEST(CaseReader, FillsInDefaults) {
   EXPECT_FALSE(scene.structure);
   EXPECT_EQ(scene.inlet->points, (Points{{0, 0}, {1, 2.5}, {1, 0}}));
   EXPECT_EQ(scene.time->steps(), 3);
-  EXPECT_EQ(scene.time->newmark_beta, 1.0);
+  EXPECT_TRUE(scene.time->scheme_values.empty());
   EXPECT_EQ(scene.monolithic.linear_solver, "fast");
   EXPECT_EQ(scene.partitioned.max_iterations, 200);
   EXPECT_EQ(scene.output.fields.size(), 3u);
@@ -187,8 +187,8 @@ constant_operators = "rebuilt"
   EXPECT_EQ(layer.values.at("k2"), 3);
   EXPECT_EQ(layer.values.at("fibre_scale"), 0.5);
   EXPECT_EQ(scene.load->points, (Points{{0, 4}}));
-  EXPECT_EQ(scene.time->scheme, TimeScheme::euler);
-  EXPECT_EQ(scene.time->newmark_gamma, 0.5);
+  EXPECT_EQ(scene.time->scheme, "euler");
+  EXPECT_EQ(scene.time->scheme_values.at("newmark_gamma"), 0.5);
   EXPECT_EQ(scene.time->predictor, 2);
   EXPECT_EQ(scene.monolithic.newton.mode, NewtonMode::full);
   EXPECT_EQ(scene.monolithic.newton.residual_tolerance, 1e-7);

@@ -47,7 +47,7 @@ Case lively_case() {
   setup.structure->layer_pressure = LayerPressure::separate;
   setup.structure->axis_origin = {0.4, 0.5, -1.0};
   setup.structure->axis_direction = {0, 1, 0};
-  setup.time->scheme = TimeScheme::midpoint;
+  setup.time->scheme = "midpoint";
   SupportData bedding;
   bedding.spring = 3;
   bedding.normal_damper = 2;

@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "base/hash.hpp"
 #include "io/checkpoint.hpp"
 #include "io/result_folder.hpp"
 #include "sample_fields.hpp"
@@ -81,7 +80,7 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
          {"wall_displacement.csv", "iterations.csv", "fields.xdmf", "fluid.xdmf", "wall.xdmf", "checkpoint.h5"})
       EXPECT_EQ(contents_of(run / file), contents_of(reference / file))
           << file << " killed after " << milliseconds << " ms";
-    EXPECT_EQ(hash_of_file(run / "fields.h5"), hash_of_file(reference / "fields.h5"));
+    EXPECT_TRUE(contents_of(run / "fields.h5") == contents_of(reference / "fields.h5"));
   }
 }
 

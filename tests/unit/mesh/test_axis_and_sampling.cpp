@@ -7,6 +7,7 @@
 #include "mesh/boundary.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/sampling.hpp"
+#include "mesh/wall_sampling.hpp"
 #include "meshes.hpp"
 
 namespace fsi {

@@ -9,6 +9,7 @@
 #include "mesh/point_math.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sampling.hpp"
+#include "mesh/wall_sampling.hpp"
 #include "meshes.hpp"
 #include "support/meshes.hpp"
 

@@ -95,7 +95,7 @@ TEST_F(GmshFiles, LeavesOutVolumesThatAreNotWanted) {
 
 TEST_F(GmshFiles, ListsItsVolumes) {
   write_gmsh(test::short_artery(), folder_ / "tube.msh", {"2.2", true});
-  EXPECT_EQ(gmsh_volumes(folder_ / "tube.msh"), (std::vector<std::string>{"fluid", "media", "adventitia"}));
+  EXPECT_EQ(gmsh_regions(folder_ / "tube.msh", 3), (std::vector<std::string>{"fluid", "media", "adventitia"}));
 }
 
 TEST_F(GmshFiles, WritesNothingWhereItCannot) {

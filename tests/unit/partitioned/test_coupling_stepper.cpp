@@ -169,10 +169,10 @@ TEST_P(EachScheme, ReportsWhatItDid) {
 }
 
 /// A short piece of the axisymmetric artery, quadratic elements, pushed for one step.
-Case short_pulse(const std::string& scheme, double tolerance, TimeScheme time_scheme, double step = 0.0625) {
+Case short_pulse(const std::string& scheme, double tolerance, const std::string& time_scheme, double step = 0.0625) {
   Case setup = partitioned_case(scheme, tolerance);
   setup.structure->layer_pressure = LayerPressure::separate;
-  setup.time = TimeData{step, 100 * step, 1, 1, std::nullopt};
+  setup.time = TimeData{step, 100 * step, std::nullopt};
   setup.time->scheme = time_scheme;
   setup.inlet = PressureTable{{{0.0, 1.332}, {0.0625, 1.332}, {0.0625, 0.0}}};
   return setup;
@@ -188,8 +188,7 @@ auto short_artery() {
   return with_mid_edge_nodes(generate_artery_section(shape, cells));
 }
 
-constexpr std::array every_time_scheme{TimeScheme::euler, TimeScheme::midpoint, TimeScheme::bdf2,
-                                       TimeScheme::generalised_alpha, TimeScheme::tr_bdf2};
+constexpr std::array every_time_scheme{"euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2"};
 
 /// Largest difference of the fluid's pressures relative to the largest pressure, at each step's last balance.
 std::vector<double> pressures_apart(const Case& setup, int steps) {
@@ -219,9 +218,9 @@ std::vector<double> pressures_apart(const Case& setup, int steps) {
 
 TEST_P(EachScheme, AgreesWithTheMonolithicDriverInEachTimeScheme) {
   if (GetParam() == "constant" || GetParam() == "aitken") GTEST_SKIP() << "hundreds of passes";
-  for (const TimeScheme time_scheme : every_time_scheme)
+  for (const std::string time_scheme : every_time_scheme)
     for (const double apart : pressures_apart(short_pulse(GetParam(), 1e-8, time_scheme), 3))
-      EXPECT_LT(apart, 1e-6) << time_schemes().name_of(time_scheme);
+      EXPECT_LT(apart, 1e-6) << time_scheme;
 }
 
 INSTANTIATE_TEST_SUITE_P(CouplingStepper, EachScheme,
@@ -315,11 +314,11 @@ TEST(CouplingStepper, ExplicitWithoutExtrapolationIsRefused) {
 }
 
 TEST(CouplingStepper, ExplicitIsRefusedWhereItsGapRings) {
-  for (const TimeScheme time_scheme : every_time_scheme) {
+  for (const std::string time_scheme : every_time_scheme) {
     const Case setup = short_pulse("explicit", 1e-6, time_scheme);
     const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
     const Loads loads(setup);
-    const bool rings = time_scheme == TimeScheme::midpoint || time_scheme == TimeScheme::tr_bdf2;
+    const bool rings = time_scheme == "midpoint" || time_scheme == "tr-bdf2";
     if (rings)
       EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError);
     else
@@ -403,24 +402,23 @@ TEST(CouplingStepper, SaysWhenItDoesNotConvergeAndLeavesTheFinishedLevels) {
 }
 
 TEST(CouplingStepper, AToleranceLeavesThePressureTheSameErrorAtEachStepLength) {
-  const auto worst = [](TimeScheme time_scheme, double step, ToleranceOf kind) {
+  const auto worst = [](const std::string& time_scheme, double step, ToleranceOf kind) {
     Case setup = short_pulse("robin-neumann-iqn", 1e-3, time_scheme, step);
     setup.partitioned.tolerance_of = kind;
     const auto apart = pressures_apart(setup, static_cast<int>(std::lround(0.25 / step)));
     return *std::max_element(apart.begin(), apart.end());
   };
-  for (const TimeScheme time_scheme : every_time_scheme)
+  for (const std::string time_scheme : every_time_scheme)
     for (const double step : {0.0625, 0.015625})  // some steps' errors meet
-      EXPECT_LT(worst(time_scheme, step, ToleranceOf::pressure), 2e-2)
-          << time_schemes().name_of(time_scheme) << ", " << step << " ms";
-  EXPECT_GT(worst(TimeScheme::midpoint, 0.0078125, ToleranceOf::displacement), 0.1)
-      << "so that the above means something";
+      EXPECT_LT(worst(time_scheme, step, ToleranceOf::pressure), 2e-2) << time_scheme << ", " << step << " ms";
+  EXPECT_GT(worst("midpoint", 0.0078125, ToleranceOf::displacement), 0.1) << "so that the above means something";
 }
 
 /// TR-BDF2 whose second stages meet a load that no wall bears, once `breaks` is set.
 class Breaking : public TimeIntegrator {
  public:
   explicit Breaking(const bool& breaks) : breaks_(breaks) {}
+  ErrorTerms error_terms() const override { return scheme_.error_terms(); }
   void prepare(State& state) const override { scheme_.prepare(state); }
   int stages(const State& state) const override { return scheme_.stages(state); }
   void predict(State& state, int order, const StepData& data) const override { scheme_.predict(state, order, data); }
@@ -440,7 +438,7 @@ class Breaking : public TimeIntegrator {
 };
 
 TEST(CouplingStepper, AFailedSecondStageLeavesNoTrace) {
-  const Case setup = short_pulse("robin-neumann-iqn", 1e-6, TimeScheme::tr_bdf2);
+  const Case setup = short_pulse("robin-neumann-iqn", 1e-6, "tr-bdf2");
   const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
   bool breaks = false;
   scene->integrator = std::make_unique<Breaking>(breaks);
@@ -463,7 +461,7 @@ TEST(CouplingStepper, AFailedSecondStageLeavesNoTrace) {
 /// What an adaptive step does: the same stepper, after a step that did not converge, is asked again.
 TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
   for (const char* scheme : {"robin-neumann-iqn", "iqn-imvj", "newton-krylov", "aitken"}) {
-    Case setup = short_pulse(scheme, 1e-4, TimeScheme::midpoint);
+    Case setup = short_pulse(scheme, 1e-4, "midpoint");
     const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
                other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
     const Loads loads(setup);
@@ -492,7 +490,7 @@ TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
 TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
   // A fourth step half as long, with and without what the first three taught.
   for (const char* scheme : {"iqn-ils", "iqn-imvj", "robin-neumann-iqn", "robin-neumann-imvj"}) {
-    Case setup = short_pulse(scheme, 1e-6, TimeScheme::midpoint), shorter = setup;
+    Case setup = short_pulse(scheme, 1e-6, "midpoint"), shorter = setup;
     shorter.time->step = 0.03125;
     const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
     const Loads loads(setup);

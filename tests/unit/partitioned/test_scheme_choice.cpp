@@ -47,7 +47,7 @@ TEST(SchemeChoice, GoesByTheStepOverTheWallsAnswer) {
 
 TEST(SchemeChoice, GoesByThePeriodOfTheTimeScheme) {
   Case setup = unnamed_case();
-  setup.time->scheme = TimeScheme::tr_bdf2;  // each stage's period: 1 - 1/sqrt(2) of the step [Bank1985]
+  setup.time->scheme = "tr-bdf2";  // each stage's period: 1 - 1/sqrt(2) of the step [Bank1985]
   const double longest = most_answers * answer_time() / (1 - 1 / std::sqrt(2.0));
   setup.time->step = 0.99 * longest;
   EXPECT_EQ(choice_with(setup).name, "robin-neumann-iqn");

@@ -7,9 +7,9 @@
 #include "fem/p1_tetrahedron.hpp"
 #include "mesh/artery_generator.hpp"
 #include "scene/build_scene.hpp"
+#include "scene/loads.hpp"
 #include "solvers/amg/transfer.hpp"
 #include "support/scenes.hpp"
-#include "time/loads.hpp"
 
 namespace fsi::test {
 

@@ -21,8 +21,8 @@ struct Squeezed {
     for (auto& [name, layer] : setup.structure->layers)
       layer = layer_of("compressible-neo-hookean", {{"young", 300.0}, {"poisson", 0.4}});
     setup.load = PressureTable{{{0.0, 1.0}}};
-    setup.time->scheme = TimeScheme::midpoint;
-    setup.time->damping = 0;  // theta is 1/2
+    setup.time->scheme = "midpoint";
+    setup.time->scheme_values["damping"] = 0;  // theta is 1/2
     scene = build_scene<P1Tetrahedron>(setup, mesh);
   }
   /// Takes a balance at which the wall is `part` shorter along z, and so 2 part at the step's end.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fem/p1_tetrahedron.hpp"
+#include "linear_solvers/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
-#include "petsc_solver/general_solvers.hpp"
 #include "support/nodal_arrays.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"

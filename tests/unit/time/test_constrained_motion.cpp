@@ -165,6 +165,7 @@ TEST(ConstrainedMotion, PressuresComeThroughAChangeOfTheStep) {
 /// What TR-BDF2 is not: the midpoint rule up to g dt and then the second backward difference.
 class MidpointBdf2 : public BalanceScheme<2> {
  public:
+  ErrorTerms error_terms() const override { return {}; }
   int stages(const State&) const override { return 2; }
 
  private:

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "scene/loads.hpp"
 #include "time/bdf2.hpp"
 #include "time/euler_newmark.hpp"
 #include "time/generalised_alpha.hpp"
-#include "time/loads.hpp"
 #include "time/shifted_midpoint.hpp"
 #include "time/tr_bdf2.hpp"
 

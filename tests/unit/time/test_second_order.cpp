@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "marching.hpp"
 #include "time/bdf2.hpp"
 #include "time/generalised_alpha.hpp"
 #include "time/shifted_midpoint.hpp"
+#include "time/time_schemes.hpp"
 #include "time/tr_bdf2.hpp"
 
 namespace fsi::test {
@@ -104,6 +106,22 @@ TEST_P(SecondOrder, FromRestAndThroughAJumpOfTheLoadWithEqualAndUnequalSteps) {
       EXPECT_NEAR(order, 2, 0.1) << quantities[i] << (uneven ? ", unequal steps" : "");
     }
   }
+}
+
+TEST(TimeSchemes, EachHasTheOrderThatItNames) {
+  for (const std::string& name : time_schemes().names()) {
+    const auto scheme = prototype(name);
+    const auto coarse = errors_of(*scheme, 240, true), fine = errors_of(*scheme, 480, true);
+    for (int i = 0; i < 4; ++i)
+      EXPECT_NEAR(std::log2(coarse[i] / fine[i]), scheme->error_terms().order, 0.1) << name << ", " << quantities[i];
+  }
+}
+
+TEST(TimeSchemes, KeepTheNumbersThatCheckpointsHold) {
+  const char* names[] = {"euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2"};
+  for (int number = 0; number < 5; ++number) EXPECT_EQ(time_schemes().at(names[number]).number, number);
+  std::set<int> numbers;
+  for (const auto& [name, scheme] : time_schemes().rows()) EXPECT_TRUE(numbers.insert(scheme.number).second) << name;
 }
 
 TEST_P(SecondOrder, HasThePeriodThatItNamesInEachStageOfEqualSteps) {

@@ -11,9 +11,6 @@ namespace fsi {
 /// Whether `name` serves any scene and any sub-problem.
 bool is_general_solver(const std::string& name);
 
-/// Whether this build has `petsc`.
-bool has_petsc();
-
 /// Makes the linear solver `name`, one of general_solver_names(), for a scene or sub-problem of as many processes as
 /// share out the blocks' numbering: on several `petsc` stands in for "fast", but for what is_factorised_at_first(), and
 /// MUMPS for the sparse factorisation.

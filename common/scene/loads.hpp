@@ -2,8 +2,8 @@
 
 #include "case/openings.hpp"
 #include "case/support_loads.hpp"
+#include "scene/time_axis.hpp"
 #include "time/state.hpp"
-#include "time/time_axis.hpp"
 #include "time/time_integrator.hpp"
 
 namespace fsi {

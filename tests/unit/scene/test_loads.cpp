@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "scene/loads.hpp"
 #include "time/euler_newmark.hpp"
-#include "time/loads.hpp"
 
 namespace fsi::test {
 

@@ -1,4 +1,4 @@
-#include "time/time_axis.hpp"
+#include "scene/time_axis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "petsc_solver/general_solvers.hpp"
+#include "linear_solvers/general_solvers.hpp"
 
 #include <fmt/format.h>
 #include <array>
@@ -7,14 +7,10 @@
 #include "base/error.hpp"
 #include "condensed_solver/fast_solver.hpp"
 #include "fem/dimensions.hpp"
-#include "petsc_solver/petsc_options.hpp"
+#include "petsc_solver/petsc_factories.hpp"
 #include "petsc_solver/small_systems.hpp"
 #include "system/central_direct_solver.hpp"
 #include "system/direct_linear_solver.hpp"
-#ifdef FSI_WITH_MPI
-#include "petsc_solver/petsc_direct_solver.hpp"
-#include "petsc_solver/petsc_solver.hpp"
-#endif
 
 namespace fsi {
 
@@ -24,30 +20,16 @@ template <int n>
 using Blocks = JacobianBlocks<n>;
 
 template <int n>
-std::unique_ptr<LinearSolver> make_petsc([[maybe_unused]] const Blocks<n>& blocks,
-                                         [[maybe_unused]] const FastOptions& fast) {
-#ifdef FSI_WITH_MPI
-  return std::make_unique<PetscSolver<n>>(blocks, fast);
-#else
-  throw InputError(case_of_petsc_options(), "linear_solver",
-                   "\"petsc\" is not in this build, which is without MPI (FSI_MPI=OFF)",
-                   "configure with -DFSI_MPI=ON and build again, or give \"fast\"");
-#endif
-}
-
-template <int n>
 std::unique_ptr<LinearSolver> make_fast(const Blocks<n>& blocks, const FastOptions& fast) {
   if (blocks.numbering.processes->is_alone()) return std::make_unique<FastSolver<n>>(blocks, fast);
   if (is_factorised_at_first(blocks.numbering.whole_size(), n, fast))
     return std::make_unique<CentralDirectSolver<n>>(blocks);
-  return make_petsc<n>(blocks, fast);
+  return make_petsc_solver<n>(blocks, fast);
 }
 
 template <int n>
 std::unique_ptr<LinearSolver> make_direct(const Blocks<n>& blocks, const FastOptions&) {
-#ifdef FSI_WITH_MPI
-  if (!blocks.numbering.processes->is_alone()) return std::make_unique<PetscDirectSolver<n>>(blocks);
-#endif
+  if (!blocks.numbering.processes->is_alone()) return make_petsc_direct_solver<n>(blocks);
   return std::make_unique<DirectLinearSolver<n>>(blocks);
 }
 
@@ -60,7 +42,7 @@ struct GeneralSolver {
 
 template <int n>
 constexpr std::array<GeneralSolver<n>, 3> general_solvers{
-    {{"fast", make_fast<n>}, {"direct", make_direct<n>}, {"petsc", make_petsc<n>}}};
+    {{"fast", make_fast<n>}, {"direct", make_direct<n>}, {"petsc", make_petsc_solver<n>}}};
 
 /// Null when no such solver serves any scene.
 template <int n>
@@ -75,14 +57,6 @@ const GeneralSolver<n>* find_general_solver(const std::string& name) {
 
 bool is_general_solver(const std::string& name) {
   return find_general_solver<3>(name) != nullptr;
-}
-
-bool has_petsc() {
-#ifdef FSI_WITH_MPI
-  return true;
-#else
-  return false;
-#endif
 }
 
 template <int n>

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/names.hpp"
+#include "mesh/cell_words.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/group_names.hpp"
+#include "mesh/mesh_checks.hpp"
+#include "mesh/point_math.hpp"
+#include "mesh/symmetry_planes.hpp"
+
+namespace fsi {
+
+inline constexpr const char* conforming_remedy =
+    "mesh fluid and wall together, with one shared surface (gmsh: BooleanFragments or Coherence before meshing)";
+
+/// A mesh that is being checked, what the scene asks of it, and what several checks say of both.
+template <int Dim, int Order>
+struct CheckedMesh {
+  using Mesh = SimplexMesh<Dim, Order>;
+  using Facet = typename Mesh::Facet;
+  using FacetSet = std::unordered_set<FacetKey<Dim>, FacetKeyHash>;
+
+  const Mesh& mesh;
+  const SceneMeshNeeds& needs;
+  const std::string& file;  ///< for messages
+  std::vector<SymmetryPlane<Dim, Order>> planes = symmetry_planes(mesh);
+  int fluid = -1;             ///< region
+  std::vector<int> layers{};  ///< regions
+  /// Of a facet; the second is -1 on the boundary.
+  std::unordered_map<FacetKey<Dim>, std::pair<int, int>, FacetKeyHash> cells_of{};
+
+  [[noreturn]] void fail(const std::string& key, const std::string& problem, const std::string& remedy) const {
+    throw InputError(file, key, problem, remedy);
+  }
+
+  static std::string text(const Point& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }
+  /// Centre of the vertices of a facet.
+  Point centroid(const Facet& f) const {
+    Point sum = mesh.nodes[f[0]];
+    for (int i = 1; i < Dim; ++i) sum = sum + mesh.nodes[f[i]];
+    return (1.0 / Dim) * sum;
+  }
+
+  const std::string& region_of(int cell) const { return mesh.regions[mesh.cell_region[cell]]; }
+  bool axisymmetric() const { return needs.geometry == TriangleGeometry::axisymmetric; }
+  bool held_by_wall_ends_alone() const {
+    return needs.holding.size() == 1 && needs.holding.front() == group::wall_ends;
+  }
+  bool is_wall(int cell) const {
+    return std::find(layers.begin(), layers.end(), mesh.cell_region[cell]) != layers.end();
+  }
+
+  /// Diagonal of the box around the mesh, mm.
+  double size() const {
+    Point low = mesh.nodes.front(), high = low;
+    for (const Point& x : mesh.nodes)
+      for (int d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], x[d]);
+        high[d] = std::max(high[d], x[d]);
+      }
+    return distance(low, high);
+  }
+
+  /// Calls visit(facets) for the facets of the named groups and of the planes of symmetry.
+  template <class Visit>
+  void for_groups_and_planes(const std::vector<std::string>& names, Visit visit) const {
+    for (const auto& name : names)
+      if (const auto* facets = mesh.facets(name)) visit(*facets);
+    for (const auto& plane : planes) visit(plane.group->facets);
+  }
+
+  /// What a surface of another name would have to be told, for remedies; empty when the mesh has none, else with ", or ".
+  std::string other_name_for(const std::string& missed, const std::vector<int>& regions) const {
+    const auto names = unused_surfaces(regions);
+    if (names.empty()) return "";
+    const std::string name = nearest_name(missed, names);
+    if (missed == group::wall_ends)
+      return fmt::format("if {} is meant, rename it, or add [[support]] with surface = \"{}\" and fixed = {}, or ",
+                         one_of(names), name, all_components());
+    if (missed == group::inlet || missed == group::outlet)
+      return fmt::format("if {} is meant, rename it, or add [[opening]] with surface = \"{}\", or ", one_of(names),
+                         name);
+    return fmt::format("if {} is meant, give that name, or ", one_of(names));
+  }
+
+  /// Of a wall that ends where it should go on.
+  std::string left_out_volumes() const {
+    if (needs.left_out.empty()) return "";
+    return fmt::format("give {} of the mesh, which the case leaves out, a section [structure.layers.{}], or ",
+                       fmt::join(needs.left_out, ", "), needs.left_out.front());
+  }
+
+ private:
+  /// Surfaces on the outside of these volumes that the scene has no use for: one of them may be what is missed.
+  std::vector<std::string> unused_surfaces(const std::vector<int>& regions) const {
+    std::vector<std::string> used{group::inlet, group::outlet, group::wall_ends, group::outer, group::inner};
+    used.insert(used.end(), needs.openings.begin(), needs.openings.end());
+    used.insert(used.end(), needs.supports.begin(), needs.supports.end());
+    std::vector<std::string> found;
+    for (const auto& group : mesh.facet_groups) {
+      if (group::is_symmetry_plane(group.name) || std::find(used.begin(), used.end(), group.name) != used.end())
+        continue;
+      const bool outside = std::all_of(group.facets.begin(), group.facets.end(), [&](const Facet& facet) {
+        const auto cells = cells_of.find(facet_key<Dim>(facet));
+        return cells != cells_of.end() && cells->second.second < 0 &&
+               std::find(regions.begin(), regions.end(), mesh.cell_region[cells->second.first]) != regions.end();
+      });
+      if (outside && !group.facets.empty()) found.push_back(group.name);
+    }
+    return found;
+  }
+
+  /// What `fixed` of a support says of a surface that cannot move.
+  const char* all_components() const {
+    if (Dim == 3) return R"(["x", "y", "z"])";
+    return axisymmetric() ? R"(["r", "z"])" : R"(["x", "y"])";
+  }
+};
+
+}  // namespace fsi

@@ -1,0 +1,68 @@
+#include "partitioned/one_pass_march.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace fsi {
+
+void OnePassMarch::require_small(double added_mass, int order, double time) const {
+  const double limit = std::pow(3, 1 - order);
+  if (!(added_mass > limit)) return;
+  give_up(
+      1, time,
+      fmt::format("is unstable: the fluid's added mass is {:.3g} times what the wall answers with, more than {:.3g}",
+                  added_mass, limit));
+}
+
+void OnePassMarch::check(int step, double time, const CouplingReport& pass, double movement) {
+  if (alternation_.alternates(pass.displacement_gap, pass.displacement_residual))
+    give_up(step, time,
+            fmt::format("is unstable: {} steps running the wall has missed the extrapolated displacement by more than "
+                        "its own, and further each time (now {:.2e} times)",
+                        alternation_.steps(), pass.displacement_residual));
+  if (velocity_gap_.comes_apart(pass.displacement_gap, movement))
+    give_up(step, time,
+            fmt::format("does not hold fluid and wall together, and its pressure is wrong: {} steps running their "
+                        "velocities on the interface differ by more than {:g} times the largest so far (now {:.2f} "
+                        "times)",
+                        velocity_gap_.steps(), velocity_gap_.bound(), velocity_gap_.last()));
+}
+
+void OnePassMarch::give_up(int step, double time, const std::string& what) const {
+  throw ConvergenceError(fmt::format("step {} (to t = {:g} ms): the {} coupling {}", step, time, scheme_->name, what),
+                         scheme_->advice);
+}
+
+std::string OnePassMarch::unchecked() const {
+  const int apart = std::max(velocity_gap_.steps(), alternation_.steps());
+  if (steps_ >= VelocityGapMonitor::most_steps && apart == 0) return {};
+  const std::string seen = apart > 0 ? fmt::format("; in the last {} of them fluid and wall came apart", apart) : "";
+  return fmt::format(
+      "the {} coupling claims nothing of {} steps{}: whether fluid and wall hold together shows after {}; "
+      "compare with partitioned.scheme = \"iqn-ils\"",
+      scheme_->name, steps_, seen, VelocityGapMonitor::most_steps);
+}
+
+void OnePassMarch::remember(Memory& memory) const {
+  memory.numbers["steps"] = steps_;
+  memory.numbers["alternating_steps"] = alternation_.steps();
+  memory.numbers["last_gap"] = alternation_.last_gap();
+  memory.numbers["steps_apart"] = velocity_gap_.steps();
+  memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
+}
+
+void OnePassMarch::recall(const Memory& memory) {
+  const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
+    const auto found = memory.numbers.find(name);
+    return found == memory.numbers.end() ? 0.0 : found->second;
+  };
+  if (!memory.step_changed) alternation_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
+  steps_ = static_cast<int>(number("steps"));
+  velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
+}
+
+}  // namespace fsi

@@ -1,0 +1,74 @@
+#include "partitioned/scheme_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/names.hpp"
+#include "fem/dimensions.hpp"
+#include "partitioned/interface/wetted_sides.hpp"
+#include "partitioned/scheme_choice.hpp"
+#include "scene/time_scheme.hpp"
+#include "time/time_schemes.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// One pass a step needs an extrapolation, and a time scheme that forgives what it leaves.
+template <int n>
+void require_for_one_pass(const CouplingScheme& scheme, const Case& setup, int order, const Scene<n>& scene) {
+  if (order == 0)
+    throw InputError(
+        setup.path.string(), "time.predictor",
+        fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme.name),
+        "use 1 or 2");
+  if (scene.integrator->bears_one_pass()) return;
+  std::vector<std::string> others;
+  for (const std::string& name : schemes_for_one_pass()) others.push_back("\"" + name + "\"");
+  throw InputError(setup.path.string(), "time.scheme",
+                   fmt::format("\"{}\" with partitioned.scheme = \"{}\": what one pass leaves between fluid and wall "
+                               "comes back with every step, and the pressure is wrong",
+                               time_scheme_of(setup, scene), scheme.name),
+                   "use " + one_of(others) + ", or a coupling scheme that iterates");
+}
+
+/// Notes where Robin-Neumann, made for short steps, meets long ones.
+template <int n>
+void note_long_steps(const CouplingScheme& scheme, const Case& setup, Scene<n>& scene) {
+  constexpr double long_step = 3.5;  // in answer times of the wall; from 2 to 3 both cost the same (docs/coupling.md)
+  const auto steps = steps_over_answer(setup, scene);
+  if (!steps || steps->adaptive || scene.has_flow_only() || !(steps->answers > long_step)) return;
+  scene.notices.push_back(fmt::format(
+      "{}: partitioned.scheme: a step of {:g} ms is, as its time scheme solves it, {:.2g} times as long as the "
+      "wall takes to answer, and \"{}\" takes many passes in such steps; \"iqn-ils\" takes fewer",
+      setup.path.string(), steps->length, steps->answers, scheme.name));
+}
+
+}  // namespace
+
+template <int n>
+void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {
+  if (scheme.one_pass) require_for_one_pass(scheme, setup, order, scene);
+  if (!scheme.robin && scene.coupled() && scene.has_flow_only())
+    throw InputError(setup.path.string(), "partitioned.scheme",
+                     fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "
+                                 "opening: its pressure is not determined",
+                                 scheme.name),
+                     "use a scheme that begins with robin-neumann, or give one opening a pressure, a resistance or a "
+                     "windkessel");
+  if (scheme.robin && wetted_sides_of(scene).stands_in_the_fluid())
+    scene.notices.push_back(fmt::format(
+        "{}: partitioned.scheme: \"{}\" takes the wall for a tube around the fluid, and this one stands in the fluid, "
+        "so that steps may find no solution; {}",
+        setup.path.string(), scheme.name,
+        scene.has_flow_only() ? "give one opening a pressure, a resistance or a windkessel, and name \"iqn-ils\""
+                              : "name \"iqn-ils\""));
+  else if (scheme.robin)
+    note_long_steps(scheme, setup, scene);
+}
+
+#define FSI_INSTANTIATE(n) template void check_scheme<n>(const CouplingScheme&, const Case&, int, Scene<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

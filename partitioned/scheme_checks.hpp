@@ -1,0 +1,15 @@
+#pragma once
+
+#include "case/case.hpp"
+#include "partitioned/schemes.hpp"
+#include "scene/scene.hpp"
+
+namespace fsi {
+
+/// Whether a coupling scheme serves a case; what it will be slow or fail at goes to the scene's notices.
+/// \param order  of the extrapolated start of a step
+/// \throws InputError where it cannot serve
+template <int n>
+void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene);
+
+}  // namespace fsi
