@@ -171,34 +171,24 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
 }
 
 template <int n>
-Memory CouplingStepper<n>::memory() const {
-  Memory memory = problem_->memory();
-  accelerator_->remember(memory);
-  memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
-  memory.numbers["interface_period"] = period_;
-  if (scheme_.one_pass) {
-    memory.numbers["steps"] = steps_;
-    memory.numbers["alternating_steps"] = march_.steps();
-    memory.numbers["last_gap"] = march_.last_gap();
-    memory.numbers["steps_apart"] = velocity_gap_.steps();
-    memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
-  }
-  return memory;
-}
-
-template <int n>
-void CouplingStepper<n>::recall(const Memory& memory) {
-  problem_->recall(memory);
-  accelerator_->recall(memory);
-  const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
-    const auto found = memory.numbers.find(name);
-    return found == memory.numbers.end() ? 0.0 : found->second;
-  };
-  period_ = number("interface_period");
-  if (memory.numbers.count("starts_far") > 0) starts_far_ = number("starts_far") != 0;
-  if (!memory.step_changed) march_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
-  steps_ = static_cast<int>(number("steps"));
-  velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
+void CouplingStepper<n>::keep(Memory& memory) {
+  problem_->keep(memory);
+  accelerator_->keep(memory);
+  double starts_far = starts_far_ ? 1 : 0;
+  memory.number_if_there("starts_far", starts_far);
+  starts_far_ = starts_far != 0;
+  memory.number_if_there("interface_period", period_);
+  if (!scheme_.one_pass && !memory.recalls()) return;
+  // Where another scheme wrote the checkpoint, they are as in a new march.
+  int alternating = march_.steps(), apart = velocity_gap_.steps();
+  double gap = march_.last_gap(), movement = velocity_gap_.largest_movement();
+  memory.count_if_there("steps", steps_);
+  memory.count_if_there("alternating_steps", alternating);
+  memory.number_if_there("last_gap", gap);
+  memory.count_if_there("steps_apart", apart);
+  memory.number_if_there("largest_movement", movement);
+  if (!memory.step_changed()) march_.set(alternating, gap);
+  velocity_gap_.set(apart, movement);
 }
 
 template <int n>

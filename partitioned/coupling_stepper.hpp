@@ -39,8 +39,7 @@ class CouplingStepper : public Stepper {
   /// One pass a step: its monitor speaks after some steps only.
   std::string unchecked() const override;
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step

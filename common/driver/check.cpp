@@ -174,7 +174,7 @@ int check_case(const std::string& program, const CommandLine& line, const Case& 
       lines.push_back({"time scheme", about});
   }
   for (const auto& choice : stepper->choices()) lines.push_back({choice.key, choice.value + ": " + choice.reason});
-  const bool by_parts = scene.coupled() && !stepper->choices().empty();
+  const bool by_parts = stepper->reports_coupling();
   lines.push_back({"linear solver", by_parts ? setup.partitioned.linear_solver + ", of fluid and wall each"
                                              : setup.monolithic.linear_solver});
   lines.push_back({"threads", fmt::format("{}, {}", threads.count, threads.reason)});

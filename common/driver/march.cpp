@@ -163,16 +163,10 @@ StepReport March<n>::step(State& state) {
 }
 
 template <int n>
-std::map<std::string, std::vector<double>> March<n>::memory() const {
-  if (!controller_) return {};
-  return {{"controller", controller_->memory()}, {"estimate", estimate_->memory()}};
-}
-
-template <int n>
-void March<n>::recall(const std::map<std::string, std::vector<double>>& memory) {
+void March<n>::keep(Memory& memory) {
   if (!controller_) return;
-  if (const auto found = memory.find("controller"); found != memory.end()) controller_->recall(found->second);
-  if (const auto found = memory.find("estimate"); found != memory.end()) estimate_->recall(found->second);
+  if (memory.wants({"controller"})) controller_->keep(memory);
+  if (memory.wants({"estimate"})) estimate_->keep(memory);
 }
 
 #define FSI_INSTANTIATE(n)                                           \

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +54,7 @@ class March : private StepJudge {
   /// The run goes on with the scheme that it began with, where the case would now be given another.
   void keep_scheme(TimeScheme scheme);
   /// What adaptive steps know of those before, for a restart.
-  std::map<std::string, std::vector<double>> memory() const;
-  void recall(const std::map<std::string, std::vector<double>>& memory);
+  void keep(Memory& memory);
 
  private:
   bool accepts(const State& state, const StepData& data) override;

@@ -1,31 +1,15 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <memory>
 
-#include "case/case.hpp"
-#include "io/result_folder.hpp"
-#include "scene/scene.hpp"
+#include "driver/watched.hpp"
 
 namespace fsi {
 
-/// What openings.csv shows of a state, in cases with [[opening]].
+inline constexpr const char* openings_file = "openings.csv";
+
+/// What openings.csv shows of a level, in cases with [[opening]]; null in others.
 template <int n>
-class OpeningObserver {
- public:
-  OpeningObserver(const Case& setup, const Scene<n>& scene);
-
-  /// Of the openings that the mesh has, in their order; empty where the case asks for no such table.
-  const std::vector<std::string>& names() const { return names_; }
-  std::vector<OpeningRecord> look(const State& level) const;
-  /// Adds the rows of the state's current time level.
-  void write(const State& level, ResultFolder& folder) const;
-  /// As Observables::require_same(). \throws InputError
-  void require_same(const State& level, const EarlierTables& earlier) const;
-
- private:
-  std::vector<const OpenBoundary<n>*> openings_;
-  std::vector<std::string> names_;
-};
+std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched);
 
 }  // namespace fsi

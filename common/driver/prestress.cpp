@@ -10,7 +10,7 @@
 #include "case/case_hash.hpp"
 #include "case/case_keys.hpp"
 #include "case/support_loads.hpp"
-#include "driver/checkpoint_arrays.hpp"
+#include "driver/array_orders.hpp"
 #include "fem/dimensions.hpp"
 #include "petsc_solver/general_solvers.hpp"
 #include "system/prestress.hpp"
@@ -22,6 +22,10 @@ namespace {
 constexpr const char* kind = "prestress";  // of file: stands where a checkpoint names its program
 constexpr const char* displacement_name = "displacement";
 constexpr const char* wall_name = "wall";
+
+std::map<std::string, ArrayKind> kinds_of_arrays() {
+  return {{displacement_name, ArrayKind::wall_vectors}, {wall_name, ArrayKind::wall}};
+}
 
 /// The entries of a case that a prestress depends on, a line each.
 template <int n>
@@ -65,7 +69,8 @@ Checkpoint earlier_prestress(const Case& setup, const std::string& text, const s
   Checkpoint earlier;
   try {
     const ArrayOrders<n> orders(scene);
-    earlier = read_checkpoint(file, orders.processes(), orders.sharing());
+    const auto kinds = kinds_of_arrays();
+    earlier = read_checkpoint(file, orders.processes(), orders.sharing(kinds));
   } catch (const InputError&) {
     throw InputError(file.string(), "", "cannot be read: it is damaged, or of another version", remedy);
   }
@@ -114,6 +119,7 @@ Checkpoint apply_prestress(const Case& setup, const std::string& mesh_hash, Scen
     kept.arrays[displacement_name] = found.displacement;
     kept.arrays[wall_name] = found.wall;
   }
+  kept.kinds = kinds_of_arrays();
   start_from<n>({kept.arrays.at(displacement_name), kept.arrays.at(wall_name), 0}, data.pressure, loads, scene);
   return kept;
 }

@@ -3,16 +3,17 @@
 #include <array>
 #include <utility>
 
+#include "driver/observables.hpp"
 #include "fem/dimensions.hpp"
 #include "io/column.hpp"
-#include "io/result_tables.hpp"
 
 namespace fsi {
 
 namespace {
 
-// Kinds of columns: those of one unit that is of one size.
-enum Kind { pressure, velocity, displacement, flow, area };
+/// What to say where an earlier run has no such table.
+const ResultTable::Lack no_samples{"output", "its samples are wanted, but the earlier run wrote none",
+                                   "continue without them, or run from the start"};
 
 /// Interpolated vectors as vectors of space.
 template <class Layout, std::size_t n>
@@ -25,49 +26,57 @@ std::array<double, 3> vector_at(const NodalSample& sample, const std::vector<dou
   return sum;
 }
 
+/// A table of samples without names.
+ResultTable begun(const char* file, const char* header, std::vector<Measure> measures) {
+  ResultTable table{file, header};
+  table.measures = std::move(measures);
+  table.blanks = true;
+  table.lack = no_samples;
+  return table;
+}
+
 }  // namespace
 
 template <int n>
-SampleTables<n>::SampleTables(RequestedSamples samples, const Scene<n>& scene)
-    : scene_(scene), samples_(std::move(samples)) {
+SampleTables<n>::SampleTables(const RequestedSamples& samples, const Scene<n>& scene)
+    : scene_(scene), samples_(samples) {
   add(points_file, samples_.points, false);
   add(lines_file, samples_.lines, true);
   if (samples_.planes.empty()) return;
-  SampledTable table{planes_file, "time_ms,plane,flow_mm3_per_ms,pressure_Pa,area_mm2", {}, {flow, pressure, area}};
-  for (const SampledPlane& plane : samples_.planes) table.places.push_back(plane.name);
+  ResultTable table = begun(planes_file, "time_ms,plane,flow_mm3_per_ms,pressure_Pa,area_mm2",
+                            {Measure::flow, Measure::pressure, Measure::area});
+  for (const SampledPlane& plane : samples_.planes) table.names.push_back(plane.name);
   tables_.push_back(table);
 }
 
 template <int n>
 void SampleTables<n>::add(const char* file, const std::vector<SampledPoint>& samples, bool along_line) {
   if (samples.empty()) return;
-  SampledTable table{
-      file,
-      along_line ? "time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa" : "time_ms,point,x_mm,y_mm,z_mm,pressure_Pa",
-      {},
-      {pressure}};
+  ResultTable table = begun(
+      file, along_line ? "time_ms,line,s_mm,x_mm,y_mm,z_mm,pressure_Pa" : "time_ms,point,x_mm,y_mm,z_mm,pressure_Pa",
+      {Measure::pressure});
   if (scene_.fluid) {
     table.header += ",velocity_x_mm_per_ms,velocity_y_mm_per_ms,velocity_z_mm_per_ms";
-    table.kinds.insert(table.kinds.end(), 3, velocity);
+    table.measures.insert(table.measures.end(), 3, Measure::velocity);
   }
   if (scene_.wall) {
     table.header += ",displacement_x_mm,displacement_y_mm,displacement_z_mm";
-    table.kinds.insert(table.kinds.end(), 3, displacement);
+    table.measures.insert(table.measures.end(), 3, Measure::displacement);
   }
   for (const SampledPoint& sample : samples) {
     std::string place = sample.name;
     if (along_line) place += ',' + number_text(sample.s);
     for (const double x : sample.at) place += ',' + number_text(x);
-    table.places.push_back(place);
+    table.names.push_back(place);
   }
   tables_.push_back(table);
 }
 
 template <int n>
-SampledRow SampleTables<n>::row(const SampledPoint& sample, const State& level) const {
+TableRow SampleTables<n>::row(const SampledPoint& sample, const State& level) const {
   using Mixed = MixedLayout<n>;
   const auto& medium = sample.in_fluid ? level.now.fluid : level.now.wall;
-  SampledRow row(1, 0.0);
+  TableRow row(1, 0.0);
   for (std::size_t a = 0; a < sample.scalars.nodes.size(); ++a)
     *row[0] += pascal_per_kilopascal * sample.scalars.weights[a] * medium[Mixed::scalar(sample.scalars.nodes[a])];
   if (scene_.fluid && !sample.in_fluid) row.resize(4);  // no velocity
@@ -82,8 +91,8 @@ SampledRow SampleTables<n>::row(const SampledPoint& sample, const State& level) 
 }
 
 template <int n>
-std::vector<SampledRow> SampleTables<n>::rows(const SampledTable& table, const State& level) const {
-  std::vector<SampledRow> rows;
+std::vector<TableRow> SampleTables<n>::rows(const ResultTable& table, const State& level) const {
+  std::vector<TableRow> rows;
   if (table.file == planes_file) {
     std::vector<const PlaneCut*> planes;
     for (const SampledPlane& plane : samples_.planes) planes.push_back(plane.cut.get());
@@ -99,12 +108,12 @@ std::vector<SampledRow> SampleTables<n>::rows(const SampledTable& table, const S
 }
 
 template <int n>
-std::vector<std::vector<SampledRow>> SampleTables<n>::rows(const State& level, PartialSums& sums) const {
-  std::vector<std::vector<SampledRow>> all;
-  for (const SampledTable& table : tables_) {
+std::vector<std::vector<TableRow>> SampleTables<n>::rows(const State& level, PartialSums& sums) const {
+  std::vector<std::vector<TableRow>> all;
+  for (const ResultTable& table : tables_) {
     all.push_back(rows(table, level));
     if (table.file == planes_file) continue;  // whole already
-    for (SampledRow& row : all.back())
+    for (TableRow& row : all.back())
       for (auto& value : row)
         if (value) sums.include(*value);
   }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "driver/observation.hpp"
-#include "io/sampled_table.hpp"
+#include "io/result_tables.hpp"
 #include "parallel/partial_sums.hpp"
 #include "scene/scene.hpp"
 #include "time/state.hpp"
@@ -16,22 +16,23 @@ namespace fsi {
 template <int n>
 class SampleTables {
  public:
-  SampleTables(RequestedSamples samples, const Scene<n>& scene);
+  /// Both must outlive this.
+  SampleTables(const RequestedSamples& samples, const Scene<n>& scene);
 
   /// In the order points, lines, planes; those without a sample are left out.
-  const std::vector<SampledTable>& tables() const { return tables_; }
+  const std::vector<ResultTable>& tables() const { return tables_; }
   /// The rows of each of them at a level. Processes that share the scene ask for them together: what they have to add up
   /// goes into `sums`, and the rows are those of all processes when that is done.
-  std::vector<std::vector<SampledRow>> rows(const State& level, PartialSums& sums) const;
+  std::vector<std::vector<TableRow>> rows(const State& level, PartialSums& sums) const;
 
  private:
   void add(const char* file, const std::vector<SampledPoint>& samples, bool along_line);
-  std::vector<SampledRow> rows(const SampledTable& table, const State& level) const;
-  SampledRow row(const SampledPoint& sample, const State& level) const;
+  std::vector<TableRow> rows(const ResultTable& table, const State& level) const;
+  TableRow row(const SampledPoint& sample, const State& level) const;
 
   const Scene<n>& scene_;
-  RequestedSamples samples_;
-  std::vector<SampledTable> tables_;
+  const RequestedSamples& samples_;
+  std::vector<ResultTable> tables_;
 };
 
 }  // namespace fsi

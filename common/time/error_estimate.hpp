@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "time/memory.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -50,8 +51,7 @@ class ErrorEstimate {
   void accept(const StepData& data);
 
   /// For a restart.
-  std::vector<double> memory() const;
-  void recall(const std::vector<double>& memory);
+  void keep(Memory& memory);
 
  private:
   struct Norms {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "io/level_columns.hpp"
 #include "io/result_folder.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -11,44 +10,51 @@ namespace fsi::test {
 
 namespace {
 
-const std::vector<FlowRecord> flow{{1, 2, 3e-9, 4}};
+const ResultTable steps{iterations_file, "step,time_ms,wall_s", RowsPer::step};
+const ResultTable flow{"flow.csv",
+                       "time_ms,in,out,p_in,p_out",
+                       RowsPer::level,
+                       {},
+                       {},
+                       {Measure::flow, Measure::flow, Measure::pressure, Measure::pressure},
+                       true};
+const TableRow row{1, 2, 3e-6, 4000};
 
 class SameRows : public FolderTest {
  protected:
   void SetUp() override {
     FolderTest::SetUp();
-    ResultTables tables;
-    tables.flow = true;
     {
-      ResultFolder results(folder_ / "run", tables);
-      results.write_iterations({1, 0.5, 1, 3, 0, 0.5, 1e-4});
-      results.write_flow(0.5, flow[0]);
+      ResultFolder results(folder_ / "run", {steps, flow}, {});
+      results.write({steps.file, {1, 0.5}, {{0.5}}});
+      results.write({flow.file, {0.5}, {row}});
       results.close();
     }
-    earlier_.emplace(folder_ / "run", tables, EarlierSteps{1, 0.5, 1, {}, {}, {}});
+    earlier_.emplace(folder_ / "run", std::vector<ResultTable>{steps, flow}, EarlierSteps{1, 0.5, 1, {}});
   }
-  void compare(const FlowRecord& seen) const {
-    require_same_rows(*earlier_, "flow.csv", 0.5, flow_columns(), std::vector<FlowRecord>{seen});
-  }
+  void compare(const TableRow& seen) const { require_same_rows(*earlier_, flow, 0.5, {seen}); }
   std::optional<EarlierTables> earlier_;
 };
 
 }  // namespace
 
 TEST_F(SameRows, TakesWhatTheStateGivesAgain) {
-  EXPECT_NO_THROW(compare(flow[0]));
+  EXPECT_NO_THROW(compare(row));
 }
 
 TEST_F(SameRows, ComparesByTheLargestNumberOfAMeasure) {
-  FlowRecord seen = flow[0];
-  seen.inlet_pressure = 6e-9;  // beside 4 kPa
+  TableRow seen = row;
+  seen[2] = 6e-6;  // beside 4 kPa
   EXPECT_NO_THROW(compare(seen));
-  seen = flow[0];
-  seen.inlet_flow *= 1 + 1e-5;
+  seen = row;
+  seen[0] = 1 + 1e-5;
   EXPECT_THROW(compare(seen), InputError);
-  seen = flow[0];
-  seen.outlet_pressure *= 1 + 1e-5;
+  seen = row;
+  seen[3] = 4000 * (1 + 1e-5);
   EXPECT_THROW(compare(seen), InputError);
+  seen = row;
+  seen[1].reset();
+  EXPECT_THROW(compare(seen), InputError) << "an empty place on one side";
 }
 
 }  // namespace fsi::test

@@ -1,6 +1,10 @@
-#include "io/step_columns.hpp"
+#include "driver/step_observer.hpp"
+
+#include "fem/dimensions.hpp"
 
 namespace fsi {
+
+namespace {
 
 const Columns<StepRecord>& iteration_columns() {
   using R = StepRecord;
@@ -12,6 +16,12 @@ const Columns<StepRecord>& iteration_columns() {
       {"solver_error", [](const R& r) { return r.solver_error; }}};
   return columns;
 }
+
+/// How fluid and wall came to agree in a step.
+struct CouplingRecord {
+  int passes = 0;
+  CouplingReport report;
+};
 
 const Columns<CouplingRecord>& coupling_columns() {
   using R = CouplingRecord;
@@ -34,5 +44,37 @@ const Columns<CouplingRecord>& coupling_columns() {
       {"pressure_residual", [](const R& r) { return r.report.pressure_residual; }}};
   return columns;
 }
+
+class StepObserver : public Observer {
+ public:
+  explicit StepObserver(bool couples) : couples_(couples) {}
+
+  std::vector<ResultTable> tables() const override {
+    std::vector<ResultTable> tables{table_of(iterations_file, iteration_columns(), RowsPer::step)};
+    if (couples_) tables.push_back(table_of(coupling_file, coupling_columns(), RowsPer::step));
+    return tables;
+  }
+  std::vector<TableRows> after_step(const FinishedStep& step) override {
+    const std::vector<double> lead{static_cast<double>(step.record.step), step.record.time};
+    std::vector<TableRows> found{rows_of(iterations_file, lead, iteration_columns(), {step.record})};
+    if (const auto& report = step.report.coupling)
+      found.push_back(rows_of(coupling_file, lead, coupling_columns(), {{step.report.outer_iterations, *report}}));
+    return found;
+  }
+
+ private:
+  bool couples_;
+};
+
+}  // namespace
+
+template <int n>
+std::unique_ptr<Observer> make_step_observer(const Watched<n>& watched) {
+  return std::make_unique<StepObserver>(watched.stepper.reports_coupling());
+}
+
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_step_observer(const Watched<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
 
 }  // namespace fsi

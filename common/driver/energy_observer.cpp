@@ -1,4 +1,9 @@
-#include "io/energy_table.hpp"
+#include "driver/energy_observer.hpp"
+
+#include <optional>
+
+#include "diagnostics/energy_balance.hpp"
+#include "fem/dimensions.hpp"
 
 namespace fsi {
 
@@ -60,6 +65,36 @@ constexpr PartColumn all_columns[] = {
      [](const EnergyParts& parts) { return parts.springs; }},
 };
 
+template <int n>
+class EnergyObserver : public Observer {
+ public:
+  explicit EnergyObserver(const Scene<n>& scene)
+      : scene_(scene), columns_(energy_columns(EnergyBalance<n>::parts_of(scene))) {}
+
+  std::vector<ResultTable> tables() const override {
+    ResultTable table = table_of(energy_file, columns_, RowsPer::step);
+    // With the energy balance switched off a run writes no such table, and may be continued alike.
+    table.lack = {"output.energy", "is wanted, but the earlier run wrote none",
+                  "continue with --set output.energy=false"};
+    return {table};
+  }
+  bool wants_balances() const override { return true; }
+  void begin(const State& state) override {
+    const auto measured = scene_.profile.phase(phase());
+    balance_.emplace(scene_, state);
+  }
+  std::vector<TableRows> after_step(const FinishedStep& step) override {
+    const EnergyRecord energy = balance_->step_to(step.state, step.report.balances);
+    return {rows_of(energy_file, {static_cast<double>(step.record.step), step.record.time}, columns_, {energy})};
+  }
+  const char* phase() const override { return "energy balance"; }
+
+ private:
+  const Scene<n>& scene_;
+  Columns<EnergyRecord> columns_;
+  std::optional<EnergyBalance<n>> balance_;
+};
+
 }  // namespace
 
 Columns<EnergyRecord> energy_columns(const EnergyParts& parts) {
@@ -68,5 +103,15 @@ Columns<EnergyRecord> energy_columns(const EnergyParts& parts) {
     if (present(parts)) columns.push_back(column);
   return columns;
 }
+
+template <int n>
+std::unique_ptr<Observer> make_energy_observer(const Watched<n>& watched) {
+  if (!watched.setup.output.energy) return nullptr;
+  return std::make_unique<EnergyObserver<n>>(watched.scene);
+}
+
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_energy_observer(const Watched<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
 
 }  // namespace fsi
