@@ -1,6 +1,6 @@
-#include "driver/driver.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "petsc_solver/general_solvers.hpp"
+#include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
 
 namespace fsi {
