@@ -11,13 +11,13 @@
 #include "base/memory.hpp"
 #include "base/standard_streams.hpp"
 #include "base/version.hpp"
-#include "driver/interruption.hpp"
-#include "driver/program.hpp"
 #include "meshes/artery_command.hpp"
 #include "meshes/geo_command.hpp"
 #include "meshes/import_command.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/thicken_command.hpp"
+#include "run/interruption.hpp"
+#include "run/program.hpp"
 
 namespace {
 

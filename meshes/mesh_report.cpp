@@ -10,10 +10,10 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
-#include "driver/program.hpp"
 #include "mesh/cells_across.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 

@@ -1,7 +1,7 @@
-#include "driver/driver.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "monolithic/linear_solvers.hpp"
 #include "monolithic/study/linear_study.hpp"
+#include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
 
 namespace fsi {

@@ -140,23 +140,14 @@ void CouplingStepper<n>::correct(const Pass& pass, std::vector<double>& x, PassA
 }
 
 template <int n>
-Memory CouplingStepper<n>::memory() const {
-  Memory memory = problem_->memory();
-  accelerator_->remember(memory);
-  memory.numbers["starts_far"] = starts_far_ ? 1 : 0;
-  memory.numbers["interface_period"] = period_;
-  if (scheme_.one_pass) march_.remember(memory);
-  return memory;
-}
-
-template <int n>
-void CouplingStepper<n>::recall(const Memory& memory) {
-  problem_->recall(memory);
-  accelerator_->recall(memory);
-  march_.recall(memory);
-  const auto& numbers = memory.numbers;
-  if (const auto found = numbers.find("interface_period"); found != numbers.end()) period_ = found->second;
-  if (const auto found = numbers.find("starts_far"); found != numbers.end()) starts_far_ = found->second != 0;
+void CouplingStepper<n>::keep(Memory& memory) {
+  problem_->keep(memory);
+  accelerator_->keep(memory);
+  double starts_far = starts_far_ ? 1 : 0;
+  memory.number_if_there("starts_far", starts_far);
+  starts_far_ = starts_far != 0;
+  memory.number_if_there("interface_period", period_);
+  if (scheme_.one_pass || memory.recalls()) march_.keep(memory);
 }
 
 template <int n>

@@ -40,8 +40,7 @@ class CouplingStepper : public Stepper {
   bool can_retry() const override { return !scheme_.one_pass; }
   std::string unchecked() const override { return scheme_.one_pass ? march_.unchecked() : std::string(); }
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   static constexpr int most_retreats = 10;        ///< failed passes of one step

@@ -1,6 +1,6 @@
-#include "driver/driver.hpp"
 #include "linear_solvers/general_solvers.hpp"
 #include "partitioned/coupling_stepper.hpp"
+#include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
 
 namespace fsi {

@@ -47,22 +47,17 @@ std::string OnePassMarch::unchecked() const {
       scheme_->name, steps_, seen, VelocityGapMonitor::most_steps);
 }
 
-void OnePassMarch::remember(Memory& memory) const {
-  memory.numbers["steps"] = steps_;
-  memory.numbers["alternating_steps"] = alternation_.steps();
-  memory.numbers["last_gap"] = alternation_.last_gap();
-  memory.numbers["steps_apart"] = velocity_gap_.steps();
-  memory.numbers["largest_movement"] = velocity_gap_.largest_movement();
-}
-
-void OnePassMarch::recall(const Memory& memory) {
-  const auto number = [&memory](const char* name) {  // 0, as in a new march, where another scheme wrote the checkpoint
-    const auto found = memory.numbers.find(name);
-    return found == memory.numbers.end() ? 0.0 : found->second;
-  };
-  if (!memory.step_changed) alternation_.set(static_cast<int>(number("alternating_steps")), number("last_gap"));
-  steps_ = static_cast<int>(number("steps"));
-  velocity_gap_.set(static_cast<int>(number("steps_apart")), number("largest_movement"));
+void OnePassMarch::keep(Memory& memory) {
+  // Where another scheme wrote the checkpoint, they are as in a new march.
+  int alternating = alternation_.steps(), apart = velocity_gap_.steps();
+  double gap = alternation_.last_gap(), movement = velocity_gap_.largest_movement();
+  memory.count_if_there("steps", steps_);
+  memory.count_if_there("alternating_steps", alternating);
+  memory.number_if_there("last_gap", gap);
+  memory.count_if_there("steps_apart", apart);
+  memory.number_if_there("largest_movement", movement);
+  if (!memory.step_changed()) alternation_.set(alternating, gap);
+  velocity_gap_.set(apart, movement);
 }
 
 }  // namespace fsi

@@ -27,8 +27,7 @@ class OnePassMarch {
 
   /// As Stepper::unchecked(): the monitor speaks after some steps only.
   std::string unchecked() const;
-  void remember(Memory& memory) const;
-  void recall(const Memory& memory);
+  void keep(Memory& memory);
 
  private:
   [[noreturn]] void give_up(int step, double time, const std::string& what) const;

@@ -4,7 +4,7 @@
 
 namespace fsi {
 
-/// A file, or a folder if it is empty, that is removed when a signal ends the program at once (driver/interruption.hpp)
+/// A file, or a folder if it is empty, that is removed when a signal ends the program at once (run/interruption.hpp)
 /// while this object lives. The owner removes it in every other case.
 class RemovedOnSignal {
  public:

@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 9> coupling_scheme_list{
     "aitken",        "constant",      "explicit",          "iqn-ils",           "iqn-imvj",
     "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj"};
 
-/// Fields of output.fields. Their table: driver/field_output.cpp.
+/// Fields of output.fields. Their table: observers/field_output.cpp.
 inline constexpr std::array<std::string_view, 8> output_field_list{
     "displacement",  "velocity",         "pressure",         "wall_shear_stress",
     "cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"};

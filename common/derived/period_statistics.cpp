@@ -73,41 +73,26 @@ void PeriodStatistics::finish(double time) {
   std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
 }
 
-std::map<std::string, std::vector<double>> PeriodStatistics::memory() const {
-  std::map<std::string, std::vector<double>> memory;
-  if (!begun_) return memory;
-  memory["times"] = {period_, time_, periods_, start_, until_};
-  memory["now"] = now_;
-  memory["integral"] = integral_;
-  memory["magnitude"] = magnitude_;
-  if (!last_) return memory;
-  memory["mean"] = last_->mean;
-  memory["oscillation"] = last_->oscillation;
-  memory["residence"] = last_->residence;
-  return memory;
-}
-
-bool PeriodStatistics::recall(const std::map<std::string, std::vector<double>>& memory, std::size_t nodes) {
-  const auto has = [&](const char* name, std::size_t size) {
-    const auto found = memory.find(name);
-    return found != memory.end() && found->second.size() == size;
-  };
-  if (!has("times", 5) || !has("now", 3 * nodes) || !has("integral", 3 * nodes) || !has("magnitude", nodes))
-    return false;
-  const auto& times = memory.at("times");
-  if (times[0] != period_) return false;
-  const bool whole = has("mean", nodes) && has("oscillation", nodes) && has("residence", nodes);
-  if (!whole && memory.count("mean") != 0) return false;
+void PeriodStatistics::keep(Memory& memory) {
+  if (!memory.recalls() && !begun_) return;
+  std::vector<double> times{period_, time_, periods_, start_, until_};
+  const bool kept = memory.wants({"times", "now", "integral", "magnitude"});
+  if (kept) memory.array("times", ArrayKind::alike, times, {times.size()});
+  if (!kept || times[0] != period_)
+    return memory.warn("the statistics begin anew: the earlier run had none of this period");
   begun_ = true;
   time_ = times[1];
   periods_ = times[2];
   start_ = times[3];
   until_ = times[4];
-  now_ = memory.at("now");
-  integral_ = memory.at("integral");
-  magnitude_ = memory.at("magnitude");
-  if (whole) last_ = {memory.at("mean"), memory.at("oscillation"), memory.at("residence")};
-  return true;
+  memory.array("now", ArrayKind::shear_vectors, now_);
+  memory.array("integral", ArrayKind::shear_vectors, integral_);
+  memory.array("magnitude", ArrayKind::shear_scalars, magnitude_);
+  if (memory.recalls() ? !memory.wants({"mean", "oscillation", "residence"}) : !last_) return;
+  if (memory.recalls()) last_.emplace();
+  memory.array("mean", ArrayKind::shear_scalars, last_->mean);
+  memory.array("oscillation", ArrayKind::shear_scalars, last_->oscillation);
+  memory.array("residence", ArrayKind::shear_scalars, last_->residence);
 }
 
 }  // namespace fsi

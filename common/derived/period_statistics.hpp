@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "time/memory.hpp"
 
 namespace fsi {
 
@@ -35,10 +35,9 @@ class PeriodStatistics {
   const std::optional<ShearStatistics>& last() const { return last_; }
   double until() const { return until_; }  ///< ms, end of that period
 
-  /// What a restart needs to go on bit for bit, by name; and the reverse: false when these numbers are not of this
-  /// period and so many nodes, and nothing is taken over.
-  std::map<std::string, std::vector<double>> memory() const;
-  bool recall(const std::map<std::string, std::vector<double>>& memory, std::size_t nodes);
+  /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then the
+  /// period that the restart falls into has none, which is said.
+  void keep(Memory& memory);
 
  private:
   void accumulate(double duration, const std::vector<double>& from, const std::vector<double>& to);

@@ -241,27 +241,37 @@ Checkpoint read_checkpoint(const fs::path& file) {
   return read_checkpoint(file, Communicator::alone(), {});
 }
 
+CheckpointReader::CheckpointReader(fs::path file, const Communicator& processes)
+    : file_(std::move(file)), processes_(processes) {
+  at_first(processes, [&] { verify(file_); });
+  hdf5_ = std::make_unique<const Hdf5File>(Hdf5File::open(file_, false));
+  head_.program = hdf5_->read_attribute("/", "program");
+  head_.case_hash = hdf5_->read_attribute("/", "case_hash");
+  head_.case_text = hdf5_->read_attribute("/", "case");
+  head_.mesh_hash = hdf5_->read_attribute("/", "mesh_hash");
+  head_.step = single<std::int64_t>(file_, *hdf5_, "/step");
+  head_.time = single<double>(file_, *hdf5_, "/time");
+  if (hdf5_->has("/arrays")) arrays_ = hdf5_->members("/arrays");
+  if (hdf5_->has("/integers"))
+    for (const auto& name : hdf5_->members("/integers"))
+      head_.integers[name] = single<std::int64_t>(file_, *hdf5_, "/integers/" + name);
+  if (hdf5_->has("/reals"))
+    for (const auto& name : hdf5_->members("/reals"))
+      head_.reals[name] = single<double>(file_, *hdf5_, "/reals/" + name);
+}
+
+CheckpointReader::~CheckpointReader() = default;
+
+std::vector<double> CheckpointReader::array(const std::string& name, const std::optional<SharedArray>& how) const {
+  if (how && !processes_.is_alone()) return read_shared(file_, *hdf5_, name, *how);
+  return hdf5_->read<double>(arrays_group + name);
+}
+
 Checkpoint read_checkpoint(const fs::path& file, const Communicator& processes, const ArraySharing& sharing) {
-  at_first(processes, [&] { verify(file); });
-  const auto hdf5 = Hdf5File::open(file, false);
-  Checkpoint checkpoint;
-  checkpoint.program = hdf5.read_attribute("/", "program");
-  checkpoint.case_hash = hdf5.read_attribute("/", "case_hash");
-  checkpoint.case_text = hdf5.read_attribute("/", "case");
-  checkpoint.mesh_hash = hdf5.read_attribute("/", "mesh_hash");
-  checkpoint.step = single<std::int64_t>(file, hdf5, "/step");
-  checkpoint.time = single<double>(file, hdf5, "/time");
-  if (hdf5.has("/arrays"))
-    for (const auto& name : hdf5.members("/arrays")) {
-      const auto how = processes.is_alone() ? std::nullopt : sharing(name);
-      checkpoint.arrays[name] = how ? read_shared(file, hdf5, name, *how) : hdf5.read<double>(arrays_group + name);
-    }
-  if (hdf5.has("/integers"))
-    for (const auto& name : hdf5.members("/integers"))
-      checkpoint.integers[name] = single<std::int64_t>(file, hdf5, "/integers/" + name);
-  if (hdf5.has("/reals"))
-    for (const auto& name : hdf5.members("/reals"))
-      checkpoint.reals[name] = single<double>(file, hdf5, "/reals/" + name);
+  const CheckpointReader reader(file, processes);
+  Checkpoint checkpoint = reader.head();
+  for (const auto& name : reader.arrays())
+    checkpoint.arrays[name] = reader.array(name, sharing ? sharing(name) : std::nullopt);
   return checkpoint;
 }
 
@@ -291,18 +301,6 @@ const std::vector<double>& require_size(const fs::path& file, const Checkpoint& 
   if (found->second.size() != size)
     throw InputError(file.string(), name, fmt::format("has {} values, not {}", found->second.size(), size),
                      another_mesh);
-  return found->second;
-}
-
-std::int64_t require_integer(const fs::path& file, const Checkpoint& checkpoint, const std::string& name) {
-  const auto found = checkpoint.integers.find(name);
-  if (found == checkpoint.integers.end()) refuse_lacking(file, name);
-  return found->second;
-}
-
-double require_real(const fs::path& file, const Checkpoint& checkpoint, const std::string& name) {
-  const auto found = checkpoint.reals.find(name);
-  if (found == checkpoint.reals.end()) refuse_lacking(file, name);
   return found->second;
 }
 

@@ -5,13 +5,17 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "parallel/whole_order.hpp"
+#include "time/memory.hpp"
 
 namespace fsi {
+
+class Hdf5File;
 
 /// All that a run needs to go on as if it had not stopped.
 struct Checkpoint {
@@ -22,6 +26,7 @@ struct Checkpoint {
   std::int64_t step = 0;  ///< the last finished step
   double time = 0;        ///< ms
   std::map<std::string, std::vector<double>> arrays;
+  std::map<std::string, ArrayKind> kinds;  ///< of arrays, while the run has them; a file does not tell
   std::map<std::string, std::int64_t> integers;
   std::map<std::string, double> reals;
 };
@@ -52,7 +57,30 @@ using ArraySharing = std::function<std::optional<SharedArray>(const std::string&
 /// that of one process, and can be read by any number of them.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint, const Communicator& processes,
                       const ArraySharing& sharing);
-/// \throws InputError also when an array is not of the size of the whole order
+
+/// A checkpoint whose arrays are read one by one, when it is known how they are held. For all processes together.
+class CheckpointReader {
+ public:
+  /// \throws InputError as read_checkpoint()
+  CheckpointReader(std::filesystem::path file, const Communicator& processes);
+  ~CheckpointReader();
+
+  /// Everything but the arrays.
+  const Checkpoint& head() const { return head_; }
+  /// Names of the arrays.
+  const std::vector<std::string>& arrays() const { return arrays_; }
+  /// \throws InputError also when an array is not of the size of the whole order, at all processes
+  std::vector<double> array(const std::string& name, const std::optional<SharedArray>& how) const;
+
+ private:
+  std::filesystem::path file_;
+  const Communicator& processes_;
+  std::unique_ptr<const Hdf5File> hdf5_;
+  Checkpoint head_;
+  std::vector<std::string> arrays_;
+};
+
+/// All of a checkpoint. \throws InputError as CheckpointReader
 Checkpoint read_checkpoint(const std::filesystem::path& file, const Communicator& processes,
                            const ArraySharing& sharing);
 
@@ -64,8 +92,5 @@ void require_same_run(const std::filesystem::path& file, const Checkpoint& check
 /// The array `name`, which must have `size` entries. \throws InputError
 const std::vector<double>& require_size(const std::filesystem::path& file, const Checkpoint& checkpoint,
                                         const std::string& name, std::size_t size);
-/// \throws InputError when the checkpoint does not hold it
-std::int64_t require_integer(const std::filesystem::path& file, const Checkpoint& checkpoint, const std::string& name);
-double require_real(const std::filesystem::path& file, const Checkpoint& checkpoint, const std::string& name);
 
 }  // namespace fsi

@@ -12,7 +12,9 @@ inline constexpr double pascal_per_kilopascal = 1000.0;  ///< tables show pressu
 enum class Measure {
   none,  ///< not compared: places, and what is no state's
   displacement,
+  velocity,
   flow,
+  area,
   pressure
 };
 
@@ -32,24 +34,6 @@ template <class Record>
 std::string header_of(std::string lead, const Columns<Record>& columns) {
   for (const auto& column : columns) lead += std::string(",") + column.name;
   return lead;
-}
-
-/// \param row  the numbers before the columns
-template <class Record>
-std::vector<double> row_of(std::vector<double> row, const Columns<Record>& columns, const Record& record) {
-  row.reserve(row.size() + columns.size());
-  for (const auto& column : columns) row.push_back(column.value(record));
-  return row;
-}
-
-/// A row for each record.
-template <class Record>
-std::vector<std::vector<double>> rows_of(const std::vector<double>& lead, const Columns<Record>& columns,
-                                         const std::vector<Record>& records) {
-  std::vector<std::vector<double>> rows;
-  rows.reserve(records.size());
-  for (const Record& record : records) rows.push_back(row_of(lead, columns, record));
-  return rows;
 }
 
 }  // namespace fsi

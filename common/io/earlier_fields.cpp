@@ -22,7 +22,7 @@ namespace {
                    "restart from a folder as its run has left it, or continue without fields by --set output.every=0");
 }
 
-/// Points that stand behind those of the mesh belong to edges between them (driver/field_output.hpp).
+/// Points that stand behind those of the mesh belong to edges between them (observers/field_output.hpp).
 void check_grids(const Hdf5File& h5, const fs::path& file, const std::vector<FieldGrid>& grids) {
   for (const FieldGrid& grid : grids) {
     const std::string points = "/" + grid.name + "/points", cells = "/" + grid.name + "/cells";

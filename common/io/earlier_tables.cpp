@@ -74,25 +74,23 @@ void copy_beginning(const fs::path& from, const fs::path& to, std::uint64_t byte
   }
 }
 
+/// How many columns the names of rows fill, with the places behind them.
+std::size_t columns_of_names(const ResultTable& table) {
+  if (table.names.empty()) return 0;
+  return 1 + static_cast<std::size_t>(std::count(table.names[0].begin(), table.names[0].end(), ','));
+}
+
 }  // namespace
 
-EarlierTables::EarlierTables(const fs::path& folder, const ResultTables& wanted, const EarlierSteps& steps)
+EarlierTables::EarlierTables(const fs::path& folder, const std::vector<ResultTable>& wanted, const EarlierSteps& steps)
     : folder_(folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw InputError(folder.string(), "", "is no folder", "give --restart the result folder of an earlier run");
-  for (const ResultTable& table : tables_of(wanted)) {
-    // With the energy balance switched off a run writes no such table, and may be continued alike.
-    if (wanted.energy && table.file == energy_table(*wanted.energy).file && !fs::exists(folder / table.file, error))
-      throw InputError((folder / table.file).string(), "output.energy", "is wanted, but the earlier run wrote none",
-                       "continue with --set output.energy=false");
-    if (table.within_steps && !fs::exists(folder / table.file, error))
-      throw InputError((folder / table.file).string(), "output.surfaces", "are wanted, but the earlier run wrote none",
-                       "continue without output.surfaces and output.forces, or run from the start");
-    const auto sampled = std::find_if(wanted.sampled.begin(), wanted.sampled.end(),
-                                      [&](const SampledTable& one) { return one.file == table.file; });
-    parts_.push_back(sampled == wanted.sampled.end() ? checked(table, steps)
-                                                     : with_digest(checked_samples(*sampled, steps), steps));
+  for (const ResultTable& table : wanted) {
+    if (table.lack && !fs::exists(folder / table.file, error))
+      throw InputError((folder / table.file).string(), table.lack->key, table.lack->problem, table.lack->remedy);
+    parts_.push_back(checked(table, steps));
   }
 }
 
@@ -107,9 +105,9 @@ void EarlierTables::copy_to(const fs::path& folder) const {
 }
 
 EarlierTables::Part EarlierTables::checked(const ResultTable& table, const EarlierSteps& steps) {
-  return with_digest(table.of_steps       ? checked_steps(table, steps)
-                     : table.within_steps ? checked_within_steps(table, steps)
-                                          : checked_levels(table, steps),
+  return with_digest(table.per == RowsPer::step          ? checked_steps(table, steps)
+                     : table.per == RowsPer::within_step ? checked_within_steps(table, steps)
+                                                         : checked_levels(table, steps),
                      steps);
 }
 
@@ -152,29 +150,28 @@ EarlierTables::Part EarlierTables::checked_steps(const ResultTable& table, const
 }
 
 EarlierTables::Part EarlierTables::checked_levels(const ResultTable& table, const EarlierSteps& steps) const {
-  TableReader reader(folder_ / table.file, table.header, table.names.empty() ? 0 : 1);
-  const std::vector<double>* z = table.file == centerline_table().file ? &steps.centre_z
-                                 : table.file == wall_table().file     ? &steps.wall_z
-                                                                       : nullptr;
-  const std::size_t rows = z != nullptr ? z->size() : std::max<std::size_t>(1, table.names.size());
-  const double length = z == nullptr || z->empty() ? 0 : std::max(std::abs(z->front()), std::abs(z->back()));
+  TableReader reader(folder_ / table.file, table.header, columns_of_names(table));
+  const auto& z = table.places;
+  const double length = z.empty() ? 0 : std::max(std::abs(z.front()), std::abs(z.back()));
   Part part{table.file};
   double time = 0;
   for (std::int64_t step = 1; step <= steps.levels; ++step) {
     time = times_[static_cast<std::size_t>(step - 1)];
-    if (step == steps.levels) part.last_level.reserve(rows * 4);
-    for (std::size_t i = 0; i < rows; ++i) {
-      read_row(reader, step, steps.step);
-      if (!same(reader.row()[0], time, time))
-        reader.refuse_line(fmt::format("is of the time {:g}, not {:g}: rows are missing, doubled or out of order",
-                                       reader.row()[0], time));
-      if (z != nullptr && !same(reader.row()[1], (*z)[i], length))
-        reader.refuse_line(fmt::format("is of z = {:g} mm, not {:g}: rows are missing, doubled or out of order",
-                                       reader.row()[1], (*z)[i]));
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      read_row(reader, step, steps.step, table.blanks);
+      const auto& row = reader.row();
+      if (!same(row[0], time, time))
+        reader.refuse_line(
+            fmt::format("is of the time {:g}, not {:g}: rows are missing, doubled or out of order", row[0], time));
+      if (!z.empty() && !same(row[1], z[i], length))
+        reader.refuse_line(
+            fmt::format("is of z = {:g} mm, not {:g}: rows are missing, doubled or out of order", row[1], z[i]));
       if (!table.names.empty() && reader.place() != table.names[i])
-        reader.refuse_line(fmt::format("is of the opening {}, not {}: rows are missing, doubled or out of order",
-                                       printable(reader.place()), table.names[i]));
-      if (step == steps.levels) part.last_level.insert(part.last_level.end(), reader.row().begin(), reader.row().end());
+        reader.refuse_line(fmt::format(
+            "is of '{}', not of '{}': the earlier run looked elsewhere, or rows are missing, doubled or out "
+            "of order",
+            printable(reader.place()), table.names[i]));
+      if (step == steps.levels) part.last_level.insert(part.last_level.end(), row.begin() + 1, row.end());
     }
   }
   part.bytes = reader.bytes();
@@ -203,37 +200,6 @@ EarlierTables::Part EarlierTables::checked_within_steps(const ResultTable& table
   }
   Part part{table.file, reader.bytes()};
   check_rest(reader, 0, before);
-  return part;
-}
-
-EarlierTables::Part EarlierTables::checked_samples(const SampledTable& table, const EarlierSteps& steps) const {
-  std::error_code error;
-  if (!fs::exists(folder_ / table.file, error))
-    throw InputError((folder_ / table.file).string(), "output",
-                     "its samples are wanted, but the earlier run wrote none",
-                     "continue without them, or run from the start");
-  const std::size_t columns = 1 + static_cast<std::size_t>(std::count(table.header.begin(), table.header.end(), ','));
-  TableReader reader(folder_ / table.file, table.header, columns - 1 - table.kinds.size());
-  Part part{table.file};
-  double time = 0;
-  for (std::int64_t step = 1; step <= steps.levels; ++step) {
-    time = times_[static_cast<std::size_t>(step - 1)];
-    for (const std::string& place : table.places) {
-      read_row(reader, step, steps.step, true);
-      if (!same(reader.row()[0], time, time))
-        reader.refuse_line(fmt::format("is of the time {:g}, not {:g}: rows are missing, doubled or out of order",
-                                       reader.row()[0], time));
-      if (reader.place() != place)
-        reader.refuse_line(
-            fmt::format("is of '{}', not of '{}': the earlier run sampled elsewhere, or rows are "
-                        "missing, doubled or out of order",
-                        printable(reader.place()), place));
-      if (step == steps.levels)
-        part.last_level.insert(part.last_level.end(), reader.row().begin() + 1, reader.row().end());
-    }
-  }
-  part.bytes = reader.bytes();
-  check_rest(reader, 0, time);
   return part;
 }
 

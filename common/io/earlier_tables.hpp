@@ -12,12 +12,10 @@ namespace fsi {
 
 /// What a checkpoint and the scene say that the tables of its run hold.
 struct EarlierSteps {
-  std::int64_t step = 0;         ///< the last finished one
-  double time = 0;               ///< its end, ms; in statics the fraction of the load
-  std::int64_t levels = 0;       ///< levels that the tables of waves and flow hold: of steps 1 to this
-  std::vector<double> centre_z;  ///< mm, of the rows of each level in centerline_pressure.csv
-  std::vector<double> wall_z;    ///< mm, likewise in wall_displacement.csv
-  TableDigests digests{};        ///< of the rows that are taken over; tables without are held against the others alone
+  std::int64_t step = 0;    ///< the last finished one
+  double time = 0;          ///< its end, ms; in statics the fraction of the load
+  std::int64_t levels = 0;  ///< levels that the tables of waves and flow hold: of steps 1 to this
+  TableDigests digests{};   ///< of the rows that are taken over; tables without are held against the others alone
 };
 
 /// The tables of an earlier run, checked row by row: what a restart takes over from them is what the run wrote up to its
@@ -25,14 +23,14 @@ struct EarlierSteps {
 /// steps after the checkpoint, is left out, and so is a torn last line. Memory: a time per step.
 class EarlierTables {
  public:
-  /// Reads the tables `wanted` in `folder`. \throws InputError naming file and line
-  EarlierTables(const std::filesystem::path& folder, const ResultTables& wanted, const EarlierSteps& steps);
+  /// Reads the tables `wanted` in `folder`, iterations.csv the first of them. \throws InputError naming file and line
+  EarlierTables(const std::filesystem::path& folder, const std::vector<ResultTable>& wanted, const EarlierSteps& steps);
 
   const std::filesystem::path& folder() const { return folder_; }
   /// Ends of the steps 1 to the last one, as EarlierSteps::time.
   const std::vector<double>& times() const { return times_; }
-  /// Rows of the last level in a table of waves or flow, one after the other; empty where there is none. Of sampled
-  /// tables the values alone, NaN where a cell is empty.
+  /// Values of the rows of the last level in a table of levels, one row after the other, NaN where a cell is empty. Nothing
+  /// where there is no such table or level.
   const std::vector<double>& last_level(const std::string& file) const;
 
   /// Copies the checked rows into a folder, which may be the same: each table by a temporary file and rename, so that a
@@ -50,7 +48,6 @@ class EarlierTables {
   Part checked_steps(const ResultTable& table, const EarlierSteps& steps);
   Part checked_levels(const ResultTable& table, const EarlierSteps& steps) const;
   Part checked_within_steps(const ResultTable& table, const EarlierSteps& steps) const;
-  Part checked_samples(const SampledTable& table, const EarlierSteps& steps) const;
   Part with_digest(Part part, const EarlierSteps& steps) const;
 
   std::filesystem::path folder_;

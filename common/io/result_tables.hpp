@@ -4,44 +4,78 @@
 #include <string>
 #include <vector>
 
-#include "diagnostics/energy_record.hpp"
-#include "io/sampled_table.hpp"
+#include "io/column.hpp"
 
 namespace fsi {
 
-/// Which tables a scene has besides iterations.csv.
-struct ResultTables {
-  bool centerline_pressure = false;     ///< scenes with fluid
-  bool wall_displacement = false;       ///< scenes with a wall
-  bool flow = false;                    ///< scenes with fluid
-  bool coupling = false;                ///< partitioned runs
-  std::optional<EnergyParts> energy{};  ///< unless the case does not want it
-  std::vector<std::string> openings{};  ///< names of those that openings.csv has rows for; empty: no such table
-  std::vector<std::string> surfaces{};  ///< names whose forces the case asks for
-  std::vector<SampledTable> sampled{};  ///< that the case asks for
+/// How the rows of a table follow the steps of a run.
+enum class RowsPer {
+  step,        ///< one for each step, `step,time_ms,...`
+  level,       ///< some for each finished level, `time_ms,...`
+  within_step  ///< some for each step, `time_ms,...`, all at one time within it or at its end
 };
 
 /// A table of a result folder.
 struct ResultTable {
   std::string file;
   std::string header;
-  bool of_steps = false;  ///< a row for each step, `step,time_ms,...`; else rows for each level, `time_ms,...`
-  /// A row for each of these at each level, or step, the name in the second column. Empty: all columns are numbers.
+  RowsPer per = RowsPer::level;
+  /// A row for each of these, what stands between its time and its values, as text: a name, perhaps with places behind it.
+  /// Empty: all columns are numbers.
   std::vector<std::string> names{};
-  bool within_steps = false;  ///< rows for each step, `time_ms,...`, at one time within it or at its end
+  std::vector<double> places{};     ///< a row for each of these, its first value; empty: there are none
+  std::vector<Measure> measures{};  ///< per value, what a restart compares with the last rows of levels; empty: nothing
+  bool blanks = false;              ///< a value may not exist: an empty cell
+  /// What to say where an earlier run that is gone on with has no such table: key of the case, problem, remedy. Empty: every
+  /// run of the case has it.
+  struct Lack {
+    std::string key, problem, remedy;
+  };
+  std::optional<Lack> lack{};
+
+  std::size_t rows() const;  ///< for a level or a step
 };
 
-/// By name: what each table is. energy.csv has the columns of the parts that a scene has.
-ResultTable iterations_table();
-ResultTable centerline_table();
-ResultTable wall_table();
-ResultTable flow_table();
-ResultTable openings_table(const std::vector<std::string>& names);
-ResultTable coupling_table();
-ResultTable energy_table(const EnergyParts& parts);
-ResultTable surfaces_table(const std::vector<std::string>& names);
+/// The values of a row, in the table's units; empty: none exists.
+using TableRow = std::vector<std::optional<double>>;
 
-/// Those of a run, iterations.csv first.
-std::vector<ResultTable> tables_of(const ResultTables& wanted);
+/// The rows of a table for a level or a step.
+struct TableRows {
+  std::string file;
+  std::vector<double> lead;  ///< step and time, or time in ms
+  std::vector<TableRow> rows;
+};
+
+/// A table with a column for each number of a record. \param named  heading of the column of names; empty: none
+template <class Record>
+ResultTable table_of(const std::string& file, const Columns<Record>& columns, RowsPer per = RowsPer::level,
+                     const std::string& named = "", std::vector<std::string> names = {}) {
+  ResultTable table{file, per == RowsPer::step ? "step,time_ms" : "time_ms", per, std::move(names)};
+  if (!named.empty()) table.header += "," + named;
+  table.header = header_of(table.header, columns);
+  for (const auto& column : columns) table.measures.push_back(column.measure);
+  return table;
+}
+
+/// A row for each record.
+template <class Record>
+TableRows rows_of(const std::string& file, std::vector<double> lead, const Columns<Record>& columns,
+                  const std::vector<Record>& records) {
+  TableRows found{file, std::move(lead), {}};
+  for (const Record& record : records) {
+    found.rows.emplace_back();
+    for (const auto& column : columns) found.rows.back().emplace_back(column.value(record));
+  }
+  return found;
+}
+
+/// The rows as they stand in the file. \throws ConvergenceError when a number is not finite
+std::string text_of(const ResultTable& table, const TableRows& rows);
+
+/// A number as the tables show it: the fewest digits that read back to the same double.
+std::string number_text(double value);
+
+/// The table that every run has, and that says when its steps ended: its first two columns.
+inline constexpr const char* iterations_file = "iterations.csv";
 
 }  // namespace fsi

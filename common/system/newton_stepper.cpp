@@ -20,46 +20,53 @@ void append_history(const NewtonReport& report, std::vector<std::string>& lines,
                     it.step < 1 ? fmt::format("  step {:g}", it.step) : "", it.linearised ? "  new jacobian" : ""));
 }
 
-void remember(const std::string& name, const LinearisationPoint& point, Memory& memory) {
-  memory.arrays[name + ".mesh"] = point.now.mesh;
-  memory.arrays[name + ".flow"] = point.now.fluid;
-  memory.arrays[name + ".wall"] = point.now.wall;
-  memory.arrays[name + ".mesh_reference"] = point.rates.mesh_reference;
-  memory.arrays[name + ".flow_reference"] = point.rates.fluid_reference;
-  if (!point.support_loads.empty()) memory.arrays[name + ".support_loads"] = point.support_loads;
-  if (!point.opening_pressures.empty()) {
-    memory.arrays[name + ".opening_pressures"] = point.opening_pressures;
-    if (!point.rates.windkessel_reference.empty())
-      memory.arrays[name + ".windkessels"] = point.rates.windkessel_reference;
-    if (!point.now.windkessel.empty()) memory.arrays[name + ".opening_values"] = point.now.windkessel;
-  }
-  memory.numbers[name + ".step"] = point.rates.step;
-  memory.numbers[name + ".period"] = point.rates.interface.period;
-  memory.numbers[name + ".flow_factor"] = point.rates.fluid_factor;
-  memory.numbers[name + ".acceleration_factor"] = point.rates.acceleration_factor;
-  memory.numbers[name + ".wall_pressure"] = point.wall_pressure;
-}
-bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point) {
-  if (memory.step_changed) return false;
-  if (memory.numbers.count(name + ".step") == 0) return false;
-  const auto array = [&](const char* part) {
-    const auto found = memory.arrays.find(name + part);
-    return found == memory.arrays.end() ? std::vector<double>() : found->second;
+namespace {
+
+constexpr std::size_t most_openings = 100000;
+
+/// All of it, or nothing. \returns whether there is such a point
+bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
+  Solution& now = point.now;
+  StepRates& rates = point.rates;
+  const std::pair<const char*, double*> numbers[] = {{".step", &rates.step},
+                                                     {".period", &rates.interface.period},
+                                                     {".flow_factor", &rates.fluid_factor},
+                                                     {".acceleration_factor", &rates.acceleration_factor},
+                                                     {".wall_pressure", &point.wall_pressure}};
+  if (!memory.wants({name + ".step", name + ".mesh", name + ".flow", name + ".wall", name + ".mesh_reference",
+                     name + ".flow_reference"}))
+    return false;
+  for (const auto& [part, number] : numbers) memory.number(name + part, *number);
+  memory.array(name + ".mesh", ArrayKind::mesh, now.mesh);
+  memory.array(name + ".flow", ArrayKind::flow, now.fluid);
+  memory.array(name + ".wall", ArrayKind::wall, now.wall);
+  memory.array(name + ".mesh_reference", ArrayKind::mesh, rates.mesh_reference);
+  memory.array(name + ".flow_reference", ArrayKind::flow, rates.fluid_reference);
+  const auto if_any = [&](const char* part, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule = {}) {
+    if (memory.recalls() ? memory.has(name + part) : !values.empty()) memory.array(name + part, kind, values, rule);
   };
-  const auto number = [&](const char* part) { return memory.numbers.at(name + part); };
-  point.now = {array(".mesh"), array(".flow"), array(".wall")};
-  point.rates.mesh_reference = array(".mesh_reference");
-  point.rates.fluid_reference = array(".flow_reference");
-  point.support_loads = array(".support_loads");
-  point.opening_pressures = array(".opening_pressures");
-  point.rates.windkessel_reference = array(".windkessels");
-  point.now.windkessel = array(".opening_values");
-  point.rates.step = number(".step");
-  point.rates.interface.period = number(".period");
-  point.rates.fluid_factor = number(".flow_factor");
-  point.rates.acceleration_factor = number(".acceleration_factor");
-  point.wall_pressure = number(".wall_pressure");
+  if_any(".support_loads", ArrayKind::support_loads, point.support_loads);
+  if_any(".opening_pressures", ArrayKind::alike, point.opening_pressures, {{}, {}, most_openings});
+  if (point.opening_pressures.empty()) return true;
+  if_any(".windkessels", ArrayKind::opening_values, rates.windkessel_reference);
+  if_any(".opening_values", ArrayKind::opening_values, now.windkessel);
   return true;
+}
+
+}  // namespace
+
+template <int n>
+void keep_linearisation(const std::string& name, System<n>& system, Memory& memory,
+                        const std::function<void(const StepRates&)>& prepare) {
+  LinearisationPoint point;
+  if (!memory.recalls()) {
+    if (!system.linearised()) return;
+    point = system.linearisation_point();
+    keep(name, point, memory);
+  } else if (keep(name, point, memory) && !memory.step_changed()) {
+    if (prepare) prepare(point.rates);
+    system.linearise_at(point);
+  }
 }
 
 template <int n>
@@ -103,17 +110,8 @@ void NewtonStepper<n>::advance_stage(State& state, const StepData& data) {
 }
 
 template <int n>
-Memory NewtonStepper<n>::memory() const {
-  Memory memory;
-  if (options_.mode != NewtonMode::full && system_.linearised())
-    remember("kept", system_.linearisation_point(), memory);
-  return memory;
-}
-
-template <int n>
-void NewtonStepper<n>::recall(const Memory& memory) {
-  LinearisationPoint point;
-  if (fsi::recall("kept", memory, point)) system_.linearise_at(point);
+void NewtonStepper<n>::keep(Memory& memory) {
+  if (options_.mode != NewtonMode::full || memory.recalls()) keep_linearisation("kept", system_, memory);
 }
 
 template <int n>
@@ -147,7 +145,10 @@ NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int pre
   return solved;
 }
 
-#define FSI_INSTANTIATE(n) template class NewtonStepper<n>;
+#define FSI_INSTANTIATE(n)                                                           \
+  template void keep_linearisation<n>(const std::string&, System<n>&, Memory&,       \
+                                      const std::function<void(const StepRates&)>&); \
+  template class NewtonStepper<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 
 }  // namespace fsi

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -12,9 +13,11 @@ namespace fsi {
 /// Lines of the paper's Table 3: iteration, increment, residual.
 void append_history(const NewtonReport& report, std::vector<std::string>& lines, const std::string& indent = "");
 
-/// A linearisation point as numbers to remember, and back.
-void remember(const std::string& name, const LinearisationPoint& point, Memory& memory);
-bool recall(const std::string& name, const Memory& memory, LinearisationPoint& point);
+/// The point that a system's Jacobian was made at, if there is one; recalling, the system is linearised there again.
+/// \param prepare  called before that
+template <int n>
+void keep_linearisation(const std::string& name, System<n>& system, Memory& memory,
+                        const std::function<void(const StepRates&)>& prepare = {});
 
 /// Advances a whole scene at once by Newton's method: the monolithic method for fluid and wall, and the only one there
 /// is for a scene with one of them.
@@ -29,9 +32,7 @@ class NewtonStepper : public Stepper {
 
   StepReport advance(State& state) override;
 
-  Memory memory() const override;
-
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   std::string name_of_step(const State& state, const StepData& data) const;

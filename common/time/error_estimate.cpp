@@ -146,15 +146,11 @@ void ErrorEstimate<n>::accept(const StepData& data) {
 }
 
 template <int n>
-std::vector<double> ErrorEstimate<n>::memory() const {
-  return {static_cast<double>(since_jump_), scale_.displacement, scale_.velocity, scale_.pressure};
-}
-
-template <int n>
-void ErrorEstimate<n>::recall(const std::vector<double>& memory) {
-  if (memory.size() != 4) return;
-  since_jump_ = static_cast<int>(memory[0]);
-  scale_ = {memory[1], memory[2], memory[3]};
+void ErrorEstimate<n>::keep(Memory& memory) {
+  std::vector<double> numbers{static_cast<double>(since_jump_), scale_.displacement, scale_.velocity, scale_.pressure};
+  memory.array("estimate", ArrayKind::alike, numbers, {4});
+  since_jump_ = static_cast<int>(numbers[0]);
+  scale_ = {numbers[1], numbers[2], numbers[3]};
 }
 
 template class ErrorEstimate<2>;

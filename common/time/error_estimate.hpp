@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "time/error_terms.hpp"
+#include "time/memory.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -42,8 +43,7 @@ class ErrorEstimate {
   void accept(const StepData& data);
 
   /// For a restart.
-  std::vector<double> memory() const;
-  void recall(const std::vector<double>& memory);
+  void keep(Memory& memory);
 
  private:
   struct Norms {

@@ -64,11 +64,12 @@ void StepController::fail(double length) {
   held_ = true;
 }
 
-void StepController::recall(const std::vector<double>& memory) {
-  if (memory.size() != 3) return;
-  wanted_ = std::min(memory[0], limits_.largest);
-  error_before_ = memory[1];
-  length_before_ = memory[2];
+void StepController::keep(Memory& memory) {
+  std::vector<double> numbers{wanted_, error_before_, length_before_};
+  memory.array("controller", ArrayKind::alike, numbers, {3});
+  wanted_ = memory.recalls() ? std::min(numbers[0], limits_.largest) : wanted_;
+  error_before_ = numbers[1];
+  length_before_ = numbers[2];
 }
 
 }  // namespace fsi

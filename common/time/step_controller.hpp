@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include "time/memory.hpp"
 
 namespace fsi {
 
@@ -36,8 +36,7 @@ class StepController {
   void fail(double length);
 
   /// For a restart.
-  std::vector<double> memory() const { return {wanted_, error_before_, length_before_}; }
-  void recall(const std::vector<double>& memory);
+  void keep(Memory& memory);
 
  private:
   /// The highest rung not above a length, within the limits.

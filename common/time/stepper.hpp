@@ -1,12 +1,12 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/finite.hpp"
 #include "time/level_energy.hpp"
+#include "time/memory.hpp"
 #include "time/state.hpp"
 #include "time/step_data.hpp"
 
@@ -53,14 +53,6 @@ struct StepperChoice {
   std::string reason;  ///< a clause
 };
 
-/// What a stepper keeps between steps besides the state, by name: numbers that a restart needs to go on bit for bit.
-struct Memory {
-  std::map<std::string, std::vector<double>> arrays;
-  std::map<std::string, double> numbers;
-  /// The run goes on with another step: Jacobians and differences of the one before must not serve.
-  bool step_changed = false;
-};
-
 /// One way to advance a scene by a time step. The two drivers differ in this.
 class Stepper {
  public:
@@ -84,8 +76,8 @@ class Stepper {
   const StepReport& report() const { return report_; }
   /// For log and summary.
   virtual std::vector<StepperChoice> choices() const { return {}; }
-  virtual Memory memory() const = 0;
-  virtual void recall(const Memory& memory) = 0;
+  /// What it needs of the steps before besides the state.
+  virtual void keep(Memory& memory) = 0;
 
  protected:
   /// Of a step whose last stage is solved. \throws ConvergenceError when the solution of a stage is not finite

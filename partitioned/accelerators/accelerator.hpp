@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "time/stepper.hpp"
+#include "time/memory.hpp"
 
 namespace fsi {
 
@@ -37,8 +37,7 @@ class Accelerator {
   /// alone.
   virtual bool allows_change() const { return true; }
   /// What is kept from one step to the next, for a restart that goes on bit for bit.
-  virtual void remember(Memory& /*memory*/) const {}
-  virtual void recall(const Memory& /*memory*/) {}
+  virtual void keep(Memory& /*memory*/) {}
 };
 
 }  // namespace fsi

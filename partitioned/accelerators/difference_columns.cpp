@@ -30,27 +30,27 @@ FilteredQr DifferenceColumns::factorise() {
   return qr;
 }
 
-void DifferenceColumns::remember(Memory& memory, const std::string& name) const {
-  std::vector<double>&v = memory.arrays[name + ".v"], &w = memory.arrays[name + ".w"],
-  &age = memory.arrays[name + ".age"];
+void DifferenceColumns::keep(Memory& memory, const std::string& name) {
+  if (memory.recalls()) columns_.clear();
+  if (!memory.wants({name + ".age", name + ".v", name + ".w"})) return;
+  std::vector<double> v, w, age;
   for (const Column& column : columns_) {
     v.insert(v.end(), column.v.begin(), column.v.end());
     w.insert(w.end(), column.w.begin(), column.w.end());
     age.push_back(column.age);
   }
-}
-
-void DifferenceColumns::recall(const Memory& memory, const std::string& name) {
-  columns_.clear();
-  const auto age = memory.arrays.find(name + ".age");
-  if (age == memory.arrays.end() || age->second.empty()) return;
-  const auto &v = memory.arrays.at(name + ".v"), &w = memory.arrays.at(name + ".w");
-  const auto size = static_cast<std::ptrdiff_t>(v.size() / age->second.size());
-  for (std::size_t j = 0; j < age->second.size(); ++j) {
+  ArrayRule ages;
+  ages.each = count_range;
+  memory.array(name + ".age", ArrayKind::alike, age, ages);
+  memory.array(name + ".v", ArrayKind::interface_columns, v, {{}, age.size()});
+  memory.array(name + ".w", ArrayKind::interface_columns, w, {{}, age.size()});
+  if (!memory.recalls()) return;
+  const auto size = static_cast<std::ptrdiff_t>(age.empty() ? 0 : v.size() / age.size());
+  for (std::size_t j = 0; j < age.size(); ++j) {
     const auto from = static_cast<std::ptrdiff_t>(j) * size;
     columns_.push_back({{v.begin() + from, v.begin() + from + size},
                         {w.begin() + from, w.begin() + from + size},
-                        static_cast<int>(age->second[j])});
+                        static_cast<int>(age[j])});
   }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "partitioned/accelerators/filtered_qr.hpp"
-#include "time/stepper.hpp"
+#include "time/memory.hpp"
 
 namespace fsi {
 
@@ -37,8 +37,7 @@ class DifferenceColumns {
   std::size_t size() const { return columns_.size(); }
   const Column& operator[](std::size_t j) const { return columns_[j]; }
 
-  void remember(Memory& memory, const std::string& name) const;
-  void recall(const Memory& memory, const std::string& name);
+  void keep(Memory& memory, const std::string& name);
 
  private:
   std::size_t most_;

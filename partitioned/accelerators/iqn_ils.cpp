@@ -72,17 +72,10 @@ void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) 
   add_difference(x, r);
 }
 
-void IqnIls::remember(Memory& memory) const {
-  columns_.remember(memory, "iqn_ils");
-  before_.remember(memory, "iqn_ils.before");
-  memory.numbers["iqn_ils.before.age"] = before_age_;
-}
-
-void IqnIls::recall(const Memory& memory) {
-  columns_.recall(memory, "iqn_ils");
-  before_.recall(memory, "iqn_ils.before");
-  const auto age = memory.numbers.find("iqn_ils.before.age");
-  before_age_ = age == memory.numbers.end() ? 0 : static_cast<int>(age->second);
+void IqnIls::keep(Memory& memory) {
+  columns_.keep(memory, "iqn_ils");
+  before_.keep(memory, "iqn_ils.before");
+  memory.count_if_there("iqn_ils.before.age", before_age_);
 }
 
 }  // namespace fsi

@@ -33,8 +33,7 @@ class IqnIls : public Accelerator {
   void abandon() override { columns_.abandon(); }
   void change(bool longer) override;
   AcceleratorStatus status() const override { return status_; }
-  void remember(Memory& memory) const override;
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   void add_difference(const std::vector<double>& x, const std::vector<double>& r);

@@ -69,12 +69,8 @@ void IqnImvj::accept(const std::vector<double>& x, const std::vector<double>& r)
     jacobian_.truncate(static_cast<std::size_t>(options_.columns + 1) / 2, LowRankMap::truncation);
 }
 
-void IqnImvj::remember(Memory& memory) const {
-  jacobian_.remember(memory, "iqn_imvj");
-}
-
-void IqnImvj::recall(const Memory& memory) {
-  jacobian_.recall(memory, "iqn_imvj");
+void IqnImvj::keep(Memory& memory) {
+  jacobian_.keep(memory, "iqn_imvj");
 }
 
 }  // namespace fsi

@@ -23,8 +23,7 @@ class IqnImvj : public Accelerator {
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void accept(const std::vector<double>& x, const std::vector<double>& r) override;
   AcceleratorStatus status() const override { return status_; }
-  void remember(Memory& memory) const override;
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   std::vector<double> old_jacobian_times(const std::vector<double>& r) const;

@@ -98,20 +98,20 @@ void LowRankMap::truncate(std::size_t rank, double tolerance) {
   b_ = columns_of(right);
 }
 
-void LowRankMap::remember(Memory& memory, const std::string& name) const {
-  std::vector<double>&a = memory.arrays[name + ".a"], &b = memory.arrays[name + ".b"];
+void LowRankMap::keep(Memory& memory, const std::string& name) {
+  if (memory.recalls()) clear();
+  if (!memory.wants({name + ".rank", name + ".a", name + ".b"})) return;
+  std::vector<double> a, b;
   for (const auto& column : a_) a.insert(a.end(), column.begin(), column.end());
   for (const auto& column : b_) b.insert(b.end(), column.begin(), column.end());
-  memory.numbers[name + ".rank"] = static_cast<double>(rank());
-}
-
-void LowRankMap::recall(const Memory& memory, const std::string& name) {
-  clear();
-  const auto rank = memory.numbers.find(name + ".rank");
-  if (rank == memory.numbers.end() || rank->second == 0) return;
-  const auto &a = memory.arrays.at(name + ".a"), &b = memory.arrays.at(name + ".b");
-  const auto count = static_cast<std::ptrdiff_t>(rank->second), size = static_cast<std::ptrdiff_t>(a.size()) / count;
-  for (std::ptrdiff_t i = 0; i < count; ++i)
+  auto rank = static_cast<double>(a_.size());
+  memory.number(name + ".rank", rank, count_range);
+  const auto columns = static_cast<std::size_t>(rank);
+  memory.array(name + ".a", ArrayKind::interface_columns, a, {{}, columns});
+  memory.array(name + ".b", ArrayKind::interface_columns, b, {{}, columns});
+  if (!memory.recalls() || columns == 0) return;
+  const auto size = static_cast<std::ptrdiff_t>(a.size() / columns);
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(columns); ++i)
     add({a.begin() + i * size, a.begin() + (i + 1) * size}, {b.begin() + i * size, b.begin() + (i + 1) * size});
 }
 

@@ -39,13 +39,8 @@ void AitkenRelaxation::correct(std::vector<double>& x, const std::vector<double>
   axpy(factor_, r, x);
 }
 
-void AitkenRelaxation::remember(Memory& memory) const {
-  memory.numbers["relaxation"] = factor_;
-}
-
-void AitkenRelaxation::recall(const Memory& memory) {
-  const auto factor = memory.numbers.find("relaxation");
-  if (factor != memory.numbers.end()) factor_ = factor->second;
+void AitkenRelaxation::keep(Memory& memory) {
+  memory.number_if_there("relaxation", factor_);
 }
 
 }  // namespace fsi

@@ -34,8 +34,7 @@ class AitkenRelaxation : public Accelerator {
   void correct(std::vector<double>& x, const std::vector<double>& r) override;
   void abandon() override { factor_ = start_; }
   AcceleratorStatus status() const override { return {factor_, 0}; }
-  void remember(Memory& memory) const override;
-  void recall(const Memory& memory) override;
+  void keep(Memory& memory) override;
 
  private:
   InterfaceSpace space_;

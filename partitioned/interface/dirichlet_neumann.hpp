@@ -55,15 +55,9 @@ class DirichletNeumann : public InterfaceProblem<n> {
     return pass;
   }
 
-  Memory memory() const override {
-    Memory memory = Base::memory();
-    if (fluid_.linearised()) remember("fluid", fluid_.linearisation_point(), memory);
-    return memory;
-  }
-  void recall(const Memory& memory) override {
-    Base::recall(memory);
-    LinearisationPoint point;
-    if (fsi::recall("fluid", memory, point)) fluid_.linearise_at(point);
+  void keep(Memory& memory) override {
+    Base::keep(memory);
+    keep_linearisation("fluid", fluid_, memory);
   }
 
  private:

@@ -145,15 +145,7 @@ class InterfaceProblem {
     return force > 0 ? std::sqrt(gap / force) : 0.0;
   }
 
-  virtual Memory memory() const {
-    Memory memory;
-    if (wall_.linearised()) remember("wall", wall_.linearisation_point(), memory);
-    return memory;
-  }
-  virtual void recall(const Memory& memory) {
-    LinearisationPoint point;
-    if (fsi::recall("wall", memory, point)) wall_.linearise_at(point);
-  }
+  virtual void keep(Memory& memory) { keep_linearisation("wall", wall_, memory); }
 
   CouplingCost cost;  ///< of the step; the stepper sets it back
 

@@ -113,27 +113,14 @@ class RobinNeumann : public InterfaceProblem<n> {
     stage_loads_.clear();
   }
 
-  Memory memory() const override {
-    Memory memory = Base::memory();
-    if (fluid_.linearised()) remember("fluid", fluid_.linearisation_point(), memory);
+  void keep(Memory& memory) override {
+    Base::keep(memory);
+    memory.number_if_there("stiffening", stiffening_);
+    keep_linearisation("fluid", fluid_, memory,
+                       [this](const StepRates& rates) { robin_.impedance = impedance_of(rates); });
+    if (!memory.wants({"load0", "load1", "load2"})) return;
     for (std::size_t level = 0; level < loads_.size(); ++level)
-      memory.arrays["load" + std::to_string(level)] = loads_[level];
-    memory.numbers["stiffening"] = stiffening_;
-    return memory;
-  }
-  void recall(const Memory& memory) override {
-    Base::recall(memory);
-    if (const auto stored = memory.numbers.find("stiffening"); stored != memory.numbers.end())
-      stiffening_ = stored->second;
-    LinearisationPoint point;
-    if (fsi::recall("fluid", memory, point)) {
-      robin_.impedance = impedance_of(point.rates);
-      fluid_.linearise_at(point);
-    }
-    for (std::size_t level = 0; level < loads_.size(); ++level) {
-      const auto load = memory.arrays.find("load" + std::to_string(level));
-      if (load != memory.arrays.end()) loads_[level] = load->second;
-    }
+      memory.array("load" + std::to_string(level), ArrayKind::interface, loads_[level]);
   }
 
  private:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 TOP_FOLDERS = ("common", "meshes", "monolithic", "partitioned")
 # What users hand over on the command line comes from no file; the key is an option or the word itself.
-OF_THE_COMMAND_LINE = ("common/driver/command_line.cpp", "monolithic/study/linear_study.cpp", "meshes/fsi_mesh.cpp")
+OF_THE_COMMAND_LINE = ("common/run/command_line.cpp", "monolithic/study/linear_study.cpp", "meshes/fsi_mesh.cpp")
 # Reached by a mistake in the program only: the case reader has refused what a user could have written.
 BEHIND_THE_READER = (
     "common/algebra/gathered_matrix.cpp",

@@ -393,7 +393,7 @@ class Oscillator {
     stepper.keep_balances(true);
     for (int step = 0; step < loads_->steps(); ++step) {
       const auto report = stepper.advance(state_);
-      const EnergyRecord record = energy_->step_to(state_, report.balances);
+      const EnergyRecord record = energy_->step_to(state_, report);
       supply_ += record.support_work;
       dissipated_ += record.damping;
       remainder_ = std::max(remainder_, std::abs(record.remainder));

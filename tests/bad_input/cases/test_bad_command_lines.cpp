@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "driver/command_line.hpp"
-#include "driver/program.hpp"
+#include "run/command_line.hpp"
+#include "run/program.hpp"
 
 namespace fsi::test {
 

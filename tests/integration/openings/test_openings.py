@@ -109,7 +109,7 @@ class Artery(FolderTest):
         (part / "openings.csv").write_text("".join(rows))
         refused = attempt(MONOLITHIC, CASE, "--restart", part, folder=part, settings=self.settings)
         self.assertEqual(refused.returncode, 1)
-        self.assertIn("openings.csv: line 2: is of the opening outlet, not inlet", refused.stderr)
+        self.assertIn("openings.csv: line 2: is of 'outlet', not of 'inlet'", refused.stderr)
 
     def test_energy_is_balanced_by_every_scheme(self):
         for scheme in SCHEMES:

@@ -97,21 +97,25 @@ TEST(PeriodStatistics, GoesOnFromItsMemoryBitForBit) {
     whole.add(0.1 * k, shear(0.1 * k));
     first.add(0.1 * k, shear(0.1 * k));
   }
-  ASSERT_TRUE(second.recall(first.memory(), 1));
+  WrittenMemory memory = memory_of(first);
+  second.keep(memory.turn());
   for (; k <= 40; ++k) {
     whole.add(0.1 * k, shear(0.1 * k));
     second.add(0.1 * k, shear(0.1 * k));
   }
-  EXPECT_EQ(whole.memory(), second.memory());
+  EXPECT_EQ(memory_of(whole).arrays, memory_of(second).arrays);
 }
 
-TEST(PeriodStatistics, RefusesAMemoryOfAnotherPeriodOrSurface) {
+TEST(PeriodStatistics, LeavesAMemoryOfAnotherPeriod) {
   PeriodStatistics s(1), other(2);
   s.add(0, {1, 0, 0});
   s.add(1, {1, 0, 0});
-  EXPECT_FALSE(other.recall(s.memory(), 1));
-  EXPECT_FALSE(PeriodStatistics(1).recall(s.memory(), 2));
-  EXPECT_FALSE(PeriodStatistics(1).recall({}, 1));
+  WrittenMemory memory = memory_of(s);
+  other.keep(memory.turn());
+  EXPECT_TRUE(memory_of(other).arrays.empty()) << "it begins anew";
+  WrittenMemory none;
+  s.keep(none.turn());
+  EXPECT_FALSE(memory_of(s).arrays.empty());
 }
 
 }  // namespace

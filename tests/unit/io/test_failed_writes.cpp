@@ -25,14 +25,14 @@ class FailedWrites : public FolderTest {};
 TEST_F(FailedWrites, LeaveWholeRowsInATable) {
   const auto file = folder_ / "t.csv";
   CsvFile table(file, "time_ms,value");
-  table.write({0.5, 1});
+  table.write("0.5,1\n");
   const auto before = contents_of(file);
   {
     const FileSizeLimit limit(before.size() + 3);
-    EXPECT_THROW(table.write({1, 2}), WriteError);
+    EXPECT_THROW(table.write("1,2\n"), WriteError);
     EXPECT_EQ(contents_of(file), before);
   }
-  table.write({1, 2});
+  table.write("1,2\n");
   EXPECT_EQ(contents_of(file), "time_ms,value\n0.5,1\n1,2\n");
   table.close();
 }
@@ -41,7 +41,7 @@ TEST_F(FailedWrites, AreNoticedInATableThatIsGone) {
   const auto file = folder_ / "t.csv";
   CsvFile table(file, "time_ms,value");
   fs::remove(file);
-  EXPECT_NE(message_of<WriteError>([&] { table.write({0.5, 1}); }).find("has been deleted"), std::string::npos);
+  EXPECT_NE(message_of<WriteError>([&] { table.write("0.5,1\n"); }).find("has been deleted"), std::string::npos);
   EXPECT_THROW(table.close(), WriteError);
   EXPECT_FALSE(fs::exists(file));
 }
@@ -49,7 +49,7 @@ TEST_F(FailedWrites, AreNoticedInATableThatIsGone) {
 TEST_F(FailedWrites, AreNoticedInATableThatSomebodyElseWritesTo) {
   CsvFile table(folder_ / "t.csv", "time_ms,value");
   write_text(folder_ / "t.csv", "time_ms,value\n0.25,7\n");
-  EXPECT_NE(message_of<WriteError>([&] { table.write({0.5, 1}); }).find("something else writes"), std::string::npos);
+  EXPECT_NE(message_of<WriteError>([&] { table.write("0.5,1\n"); }).find("something else writes"), std::string::npos);
 }
 
 TEST_F(FailedWrites, AreToldByTheLog) {

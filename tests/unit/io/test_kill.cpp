@@ -8,6 +8,7 @@
 #include "io/checkpoint.hpp"
 #include "io/result_folder.hpp"
 #include "sample_fields.hpp"
+#include "sample_tables.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fsi::test {
@@ -16,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultTables no_fluid{false, true, false};
+const std::vector<ResultTable> no_fluid{steps_table, wall_table({0, 1, 2})};
+const std::vector<std::string> known = files_of(no_fluid);
 constexpr int last_step = 200;
 constexpr double step_size = 0.25;  // exact in binary, so that times can be compared
 
@@ -27,8 +29,8 @@ void write_step(ResultFolder& results, FieldsWriter& fields, const std::vector<F
     fields.write(step, sample_values(grids, time));
     return;
   }
-  results.write_wall(time, {{0, time, 0}, {1, time, 0}, {2, time, 0}});
-  results.write_iterations({step, time, 1, 3, 0, 0.5});
+  results.write({"wall_displacement.csv", {time}, {{0, time, 0}, {1, time, 0}, {2, time, 0}}});
+  results.write({iterations_file, {1.0 * step, time}, {{3, 0.5}}});
   fields.write(step, sample_values(grids, time));
   Checkpoint checkpoint;
   checkpoint.step = step;
@@ -48,7 +50,7 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      ResultFolder results(run, no_fluid);
+      ResultFolder results(run, no_fluid, known);
       FieldsWriter fields(run, grids, planned);
       for (int step = 0; step <= last_step; ++step) write_step(results, fields, grids, step);
       _exit(0);
@@ -64,15 +66,15 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     ASSERT_LT(step, last_step);
     EXPECT_EQ(checkpoint.arrays.at("state"), std::vector<double>(1000, checkpoint.time));
     {
-      const EarlierSteps earlier{step, checkpoint.time, step, {}, {0, 1, 2}};
-      ResultFolder results(run, no_fluid, EarlierTables(run, no_fluid, earlier));
+      const EarlierSteps earlier{step, checkpoint.time, step};
+      ResultFolder results(run, no_fluid, known, EarlierTables(run, no_fluid, earlier));
       FieldsWriter fields(run, grids, planned, run, checkpoint.time);
       write_step(results, fields, grids, step + 1);
     }
 
     const auto reference = folder_ / "reference";
     {
-      ResultFolder results(reference, no_fluid);
+      ResultFolder results(reference, no_fluid, known);
       FieldsWriter fields(reference, grids, planned);
       for (int s = 0; s <= step + 1; ++s) write_step(results, fields, grids, s);
     }

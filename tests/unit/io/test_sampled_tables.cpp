@@ -1,7 +1,5 @@
 // Tables of samples: their text, and what a restart believes of them.
 
-#include "io/sampled_table.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,19 +8,24 @@
 #include "base/error.hpp"
 #include "io/earlier_tables.hpp"
 #include "io/result_folder.hpp"
+#include "sample_tables.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fsi::test {
 
 namespace {
 
-const SampledTable points{
-    points_file, "time_ms,point,x_mm,y_mm,pressure_Pa,velocity_x_mm_per_ms", {"a,0,1.5", "b,2,-1"}, {0, 1}};
+const ResultTable points{"points.csv",
+                         "time_ms,point,x_mm,y_mm,pressure_Pa,velocity_x_mm_per_ms",
+                         RowsPer::level,
+                         {"a,0,1.5", "b,2,-1"},
+                         {},
+                         {Measure::pressure, Measure::velocity},
+                         true,
+                         ResultTable::Lack{"output", "the earlier run wrote none", "continue without"}};
 
-ResultTables tables_of(const SampledTable& sampled = points) {
-  ResultTables wanted{false, false, true};
-  wanted.sampled = {sampled};
-  return wanted;
+std::vector<ResultTable> tables_of(const ResultTable& sampled = points) {
+  return {steps_table, flow_table, sampled};
 }
 
 class SampledTables : public FolderTest {
@@ -31,19 +34,19 @@ class SampledTables : public FolderTest {
 
   void SetUp() override {
     FolderTest::SetUp();
-    ResultFolder results(folder_ / "run", tables_of());
+    ResultFolder results(folder_ / "run", tables_of(), {});
     for (int k = 1; k <= written; ++k) {
       const double time = 0.1 * k;
-      results.write_iterations({k, time, 1, 3, 0, 0.5, 1e-4});
-      results.write_flow(time, {1.0 * k, 2, 3, 4});
-      results.write_sampled(points, time, {{100.0 * k, std::nullopt}, {-1e-3, 0.25 * k}});
+      results.write({iterations_file, {1.0 * k, time}, {{3, 0.5}}});
+      results.write({"flow.csv", {time}, {{1.0 * k, 2}}});
+      results.write({points.file, {time}, {{100.0 * k, std::nullopt}, {-1e-3, 0.25 * k}}});
     }
   }
 
-  EarlierTables read(const SampledTable& sampled = points) const {
-    return EarlierTables(folder_ / "run", tables_of(sampled), {step, 0.1 * step, step, {}, {}});
+  EarlierTables read(const ResultTable& sampled = points) const {
+    return EarlierTables(folder_ / "run", tables_of(sampled), {step, 0.1 * step, step});
   }
-  std::string refusal(const SampledTable& sampled = points) const {
+  std::string refusal(const ResultTable& sampled = points) const {
     try {
       read(sampled);
     } catch (const InputError& error) {
@@ -52,39 +55,39 @@ class SampledTables : public FolderTest {
     return "accepted";
   }
   void replace(const std::string& from, const std::string& to) {
-    std::string text = contents_of(folder_ / "run" / points_file);
+    std::string text = contents_of(folder_ / "run" / points.file);
     ASSERT_NE(text.find(from), std::string::npos);
-    write_text(folder_ / "run" / points_file, text.replace(text.find(from), from.size(), to));
+    write_text(folder_ / "run" / points.file, text.replace(text.find(from), from.size(), to));
   }
 };
 
 TEST_F(SampledTables, EmptyCellsStandForWhatDoesNotExist) {
-  EXPECT_EQ(contents_of(folder_ / "run" / points_file),
+  EXPECT_EQ(contents_of(folder_ / "run" / points.file),
             points.header + "\n0.1,a,0,1.5,100,\n0.1,b,2,-1,-0.001,0.25\n0.2,a,0,1.5,200,\n0.2,b,2,-1,-0.001,0.5\n" +
                 "0.30000000000000004,a,0,1.5,300,\n0.30000000000000004,b,2,-1,-0.001,0.75\n");
 }
 
 TEST_F(SampledTables, ARestartTakesOverTheRowsUpToItsCheckpoint) {
   const auto earlier = read();
-  const auto& last = earlier.last_level(points_file);
+  const auto& last = earlier.last_level(points.file);
   ASSERT_EQ(last.size(), 4u);
   EXPECT_EQ(last[0], 200);
   EXPECT_TRUE(std::isnan(last[1]));
   EXPECT_EQ(last[3], 0.5);
-  { const ResultFolder again(folder_ / "again", tables_of(), earlier); }
-  EXPECT_EQ(contents_of(folder_ / "again" / points_file),
+  { const ResultFolder again(folder_ / "again", tables_of(), {}, earlier); }
+  EXPECT_EQ(contents_of(folder_ / "again" / points.file),
             points.header + "\n0.1,a,0,1.5,100,\n0.1,b,2,-1,-0.001,0.25\n0.2,a,0,1.5,200,\n0.2,b,2,-1,-0.001,0.5\n");
 }
 
 TEST_F(SampledTables, OtherSamplesAreRefused) {
-  SampledTable other = points;
-  other.places[1] = "b,2,-1.5";
+  ResultTable other = points;
+  other.names[1] = "b,2,-1.5";
   EXPECT_NE(refusal(other).find("is of 'b,2,-1', not of 'b,2,-1.5'"), std::string::npos) << refusal(other);
   other = points;
-  other.places.push_back("c,0,0");
+  other.names.push_back("c,0,0");
   EXPECT_NE(refusal(other).find("rows are missing, doubled or out of order"), std::string::npos) << refusal(other);
   other = points;
-  other.file = lines_file;
+  other.file = "lines.csv";
   EXPECT_NE(refusal(other).find("the earlier run wrote none"), std::string::npos) << refusal(other);
 }
 
@@ -103,10 +106,10 @@ TEST_F(SampledTables, WordsForNumbersAreRefused) {
 }
 
 TEST_F(SampledTables, NumbersThatAreNotFiniteAreNotWritten) {
-  ResultFolder results(folder_ / "other", tables_of());
-  EXPECT_THROW(results.write_sampled(points, 0.1, {{1, 2}, {std::numeric_limits<double>::infinity(), std::nullopt}}),
+  ResultFolder results(folder_ / "other", tables_of(), {});
+  EXPECT_THROW(results.write({points.file, {0.1}, {{1, 2}, {std::numeric_limits<double>::infinity(), std::nullopt}}}),
                ConvergenceError);
-  EXPECT_EQ(contents_of(folder_ / "other" / points_file), points.header + "\n");
+  EXPECT_EQ(contents_of(folder_ / "other" / points.file), points.header + "\n");
 }
 
 }  // namespace

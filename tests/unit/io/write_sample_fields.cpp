@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "driver/program.hpp"
+#include "run/program.hpp"
 #include "sample_fields.hpp"
 
 namespace {

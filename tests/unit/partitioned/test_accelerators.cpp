@@ -138,17 +138,14 @@ TYPED_TEST(QuasiNewton, GoesOnBitForBitFromItsMemory) {
   TypeParam accelerator{QuasiNewtonOptions{}}, restarted{QuasiNewtonOptions{}};
   auto x = zero(map);
   corrections(accelerator, map, x, 1e-6);
-  Memory memory;
-  accelerator.remember(memory);
-  restarted.recall(memory);
+  WrittenMemory memory = memory_of(accelerator);
+  restarted.keep(memory.turn());
   const AddedMassMap next{12, 10.0, 0.3};
   auto y = x;
   corrections(accelerator, next, x, 1e-6);
   corrections(restarted, next, y, 1e-6);
   EXPECT_EQ(x, y);
-  Memory a, b;
-  accelerator.remember(a);
-  restarted.remember(b);
+  const WrittenMemory a = memory_of(accelerator), b = memory_of(restarted);
   EXPECT_EQ(a.arrays, b.arrays);
   EXPECT_EQ(a.numbers, b.numbers);
 }
@@ -162,9 +159,8 @@ TYPED_TEST(QuasiNewton, KeepsItsMemoryBounded) {
   for (int step = 0; step < 6; ++step) {
     map.shift = 0.2 * step;
     EXPECT_LT(corrections(accelerator, map, x, 1e-6), 300);
-    Memory memory;
-    accelerator.remember(memory);
     std::size_t numbers = 0;
+    const WrittenMemory memory = memory_of(accelerator);
     for (const auto& [name, array] : memory.arrays) numbers += array.size();
     EXPECT_LE(numbers, 2u * 10 * 8 + 10);
   }
@@ -207,11 +203,7 @@ TEST(IqnIls, AnAbandonedStepTeachesNothing) {
     for (double& value : r) value *= -1e3;
     accelerator.correct(x, r);
   }
-  const auto ages = [&] {
-    Memory memory;
-    accelerator.remember(memory);
-    return memory.arrays.at("iqn_ils.age");
-  };
+  const auto ages = [&] { return memory_of(accelerator).arrays.at("iqn_ils.age"); };
   EXPECT_EQ(ages().front(), 0);
   accelerator.abandon();
   ASSERT_FALSE(ages().empty());
@@ -249,9 +241,8 @@ TEST(NewtonKrylov, GoesOnBitForBitFromItsMemory) {
   NewtonKrylov method(QuasiNewtonOptions{}), restarted(QuasiNewtonOptions{});
   auto x = zero(map);
   corrections(method, map, x, 1e-6);
-  Memory memory;
-  method.remember(memory);
-  restarted.recall(memory);
+  WrittenMemory memory = memory_of(method);
+  restarted.keep(memory.turn());
   auto y = x;
   EXPECT_EQ(corrections(method, next, x, 1e-6), corrections(restarted, next, y, 1e-6));
   EXPECT_EQ(x, y);

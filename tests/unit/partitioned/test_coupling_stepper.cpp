@@ -127,7 +127,8 @@ TEST_P(EachScheme, GoesOnBitForBitFromItsMemory) {
   State state = scene->at_rest();
   for (int n = 0; n < 3; ++n) stepper.advance(state);
   State copy = state;
-  again.recall(stepper.memory());
+  WrittenMemory memory = memory_of(stepper);
+  again.keep(memory.turn());
   for (int n = 0; n < 2; ++n) {
     const auto first = stepper.advance(state), second = again.advance(copy);
     EXPECT_EQ(first.outer_iterations, second.outer_iterations);
@@ -272,7 +273,8 @@ TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
     stepper.advance(state);
     EXPECT_EQ(stepper.unchecked().empty(), step >= VelocityGapMonitor::most_steps) << step;
     CouplingStepper<3> restarted(*scene, loads, setup);
-    restarted.recall(stepper.memory());
+    WrittenMemory memory = memory_of(stepper);
+    restarted.keep(memory.turn());
     EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
   }
 }
@@ -446,16 +448,16 @@ TEST(CouplingStepper, AFailedSecondStageLeavesNoTrace) {
   CouplingStepper<2> stepper(*scene, loads, setup);
   State state = scene->at_rest();
   stepper.advance(state);
-  const Memory before = stepper.memory();
+  const WrittenMemory before = memory_of(stepper);
   EXPECT_GT(largest(before.arrays.at("load1")), 0) << "of the first stage";
   breaks = true;
   EXPECT_THROW(stepper.advance(state), ConvergenceError);
   EXPECT_EQ(state.step, 1);
   for (const char* load : {"load0", "load1", "load2"})
-    EXPECT_EQ(stepper.memory().arrays.at(load), before.arrays.at(load));
+    EXPECT_EQ(memory_of(stepper).arrays.at(load), before.arrays.at(load));
   breaks = false;
   stepper.advance(state);
-  EXPECT_EQ(stepper.memory().arrays.at("load2"), before.arrays.at("load0"));
+  EXPECT_EQ(memory_of(stepper).arrays.at("load2"), before.arrays.at("load0"));
 }
 
 /// What an adaptive step does: the same stepper, after a step that did not converge, is asked again.
@@ -474,7 +476,7 @@ TEST(CouplingStepper, GoesOnAfterAStepThatFailed) {
     for (double& u : broken.before[0].fluid) u *= 1e6;
     for (double& u : broken.before[0].mesh) u *= 1e6;
     EXPECT_THROW(stepper.advance(broken), ConvergenceError) << scheme;
-    const Memory before = undisturbed.memory(), after = stepper.memory();
+    const WrittenMemory before = memory_of(undisturbed), after = memory_of(stepper);
     for (const auto& [name, values] : before.arrays) {
       const bool is_kept =
           name.rfind("load", 0) == 0 || name.rfind("iqn", 0) == 0 || name.rfind("newton_krylov", 0) == 0;
@@ -497,19 +499,18 @@ TEST(CouplingStepper, KeepsDifferencesThroughAChangeOfStep) {
     CouplingStepper<2> stepper(*scene, loads, setup);
     State state = scene->at_rest();
     for (int n = 0; n < 3; ++n) stepper.advance(state);
-    Memory memory = stepper.memory();
-    memory.step_changed = true;
+    const WrittenMemory memory = memory_of(stepper);
     std::array<int, 2> passes{};
     for (const bool kept : {false, true}) {
       const auto fresh = build_scene<P2P1AxisymmetricTriangle>(shorter, short_artery());
       Loads finer(shorter);
       finer.axis().go_on(loads.axis().stretches(), state.step, state.time);
       CouplingStepper<2> next(*fresh, finer, shorter);
-      Memory known = memory;
+      WrittenMemory known = memory;
       if (!kept)
         for (const char* name : {"iqn_ils.age", "iqn_ils.v", "iqn_ils.w"}) known.arrays[name].clear();
       if (!kept) known.numbers["iqn_imvj.rank"] = 0;
-      next.recall(known);
+      next.keep(known.turn(true));
       State copy = state;
       passes[kept ? 1 : 0] = next.advance(copy).outer_iterations;
       EXPECT_DOUBLE_EQ(copy.time, state.time + 0.03125);

@@ -97,7 +97,8 @@ TEST(NewtonStepper, RecallsItsJacobianBitForBit) {
 
   const auto fresh = build_scene<P1Tetrahedron>(setup, mesh);
   NewtonStepper<3> restarted(*fresh, loads, options(), number_scene(*fresh));
-  restarted.recall(stepper.memory());
+  WrittenMemory memory = memory_of(stepper);
+  restarted.keep(memory.turn());
   State copy = state;
   for (int n = 0; n < 2; ++n) {
     stepper.advance(state);

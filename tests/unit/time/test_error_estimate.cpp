@@ -61,7 +61,8 @@ TEST_F(Cubic, KnowsNothingOfARejectedStep) {
   step(5, false);
   state_ = before;
   ErrorEstimate<2> again({}, {2.0}, {2, 1.0 / 12, 0}, 5.0);
-  again.recall(estimate_.memory());
+  WrittenMemory memory = memory_of(estimate_);
+  again.keep(memory.turn());
   estimate_ = again;
   EXPECT_LT(step(0.7).displacement, first.displacement);
 }

@@ -103,7 +103,8 @@ TEST(StepController, AStepCutShortSaysNothingAboutTheLengthWanted) {
 TEST(StepController, GoesOnFromItsMemory) {
   StepController whole({0.1, 1e-3, 2}, 2), again = whole;
   whole.accept(0.1, 0.02);
-  again.recall(whole.memory());
+  WrittenMemory memory = memory_of(whole);
+  again.keep(memory.turn());
   for (const double error : {0.7, 0.3, 0.05}) {
     whole.accept(whole.wanted(), error);
     again.accept(again.wanted(), error);

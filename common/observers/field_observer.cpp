@@ -1,0 +1,83 @@
+#include "observers/field_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "base/error.hpp"
+#include "fem/dimensions.hpp"
+#include "io/checkpoint.hpp"
+#include "io/earlier_fields.hpp"
+#include "io/first_process.hpp"
+#include "observers/field_output.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr const char* entries_name = "field_entries";  // written up to the last level observed
+
+template <int n>
+class FieldObserver : public Observer {
+ public:
+  explicit FieldObserver(const Watched<n>& watched) : watched_(watched) {}
+
+  void begin(const State& state) override {
+    const auto& [folder, from] = std::pair(watched_.folder, watched_.restarted_from);
+    const bool restarted = !from.empty();
+    fields_.emplace(watched_.setup, watched_.scene, watched_.derived, watched_.grids, watched_.grid_shares,
+                    watched_.loads.axis(), folder, from, restarted ? shown_until(watched_.scene, state) : 0);
+    if (!restarted) return;
+    watched_.scene.processes().wait();  // until all have written
+    if (writes_fields(watched_.setup))
+      entries_ = found_entries(folder);
+    else if (!std::filesystem::exists(folder / "fields.h5"))
+      entries_ = 0;
+  }
+  void look(const State& level) override {
+    // What is shown behind that level is not there for a restart.
+    if (fields_->write(level) && level.time <= shown_until(watched_.scene, watched_.state)) ++entries_;
+  }
+  /// The fields of the earlier run, as far as this one goes on with them. \throws InputError
+  void keep(Memory& memory) override {
+    if (memory.recalls() ? memory.has(entries_name) : entries_ > 0)
+      memory.integer(entries_name, entries_, {0, 1e15, true});
+    if (!memory.recalls() || !writes_fields(watched_.setup)) return;
+    const auto& folder = watched_.restarted_from;
+    const std::int64_t found = found_entries(folder);
+    if (found < entries_)
+      throw InputError(
+          (folder / "fields.h5").string(), "",
+          fmt::format("{} of {} entries up to {:g} ms are missing, which {} knows of", entries_ - found, entries_,
+                      shown_until(watched_.scene, watched_.state), checkpoint_file(folder).string()),
+          "bring the file back, or continue without fields by --set output.every=0");
+  }
+
+ private:
+  /// Entries of fields in a folder up to the last level observed.
+  std::int64_t found_entries(const std::filesystem::path& folder) const {
+    std::int64_t found = 0;
+    do_together(watched_.scene.processes(), [&] {
+      found = checked_field_entries(folder, watched_.grids, shown_until(watched_.scene, watched_.state));
+    });
+    return found;
+  }
+
+  Watched<n> watched_;
+  std::optional<FieldOutput<n>> fields_;
+  std::int64_t entries_ = 0;  ///< of the levels shown so far
+};
+
+}  // namespace
+
+template <int n>
+std::unique_ptr<Observer> make_field_observer(const Watched<n>& watched) {
+  return std::make_unique<FieldObserver<n>>(watched);
+}
+
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_field_observer(const Watched<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,275 @@
+#include "observers/field_output.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "derived/stress_invariants.hpp"
+#include "fem/dimensions.hpp"
+#include "fem/nodal_layout.hpp"
+#include "time/time_rounding.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The vectors of a nodal array as vectors of space.
+template <class Layout, std::size_t n>
+std::vector<double> vectors(const std::vector<double>& from, const std::array<int, n>& axes) {
+  const int nodes = static_cast<int>(from.size()) / Layout::entries;
+  std::vector<double> to(VectorLayout<3>::size(nodes), 0.0);
+  for (int node = 0; node < nodes; ++node)
+    for (std::size_t k = 0; k < n; ++k)
+      to[VectorLayout<3>::vector(node, axes[k])] = from[Layout::vector(node, static_cast<int>(k))];
+  return to;
+}
+
+template <class Layout>
+std::vector<double> scalars(const std::vector<double>& from) {
+  const int nodes = static_cast<int>(from.size()) / Layout::entries;
+  std::vector<double> to(static_cast<std::size_t>(nodes));
+  for (int node = 0; node < nodes; ++node) to[node] = from[Layout::scalar(node)];
+  return to;
+}
+
+/// Values at some nodes, `components` each, as a field that is zero at the others.
+std::vector<double> spread(const std::vector<int>& nodes, const std::vector<double>& values, std::size_t components,
+                           int node_count) {
+  std::vector<double> field(static_cast<std::size_t>(node_count) * components, 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t k = 0; k < components; ++k)
+      field[static_cast<std::size_t>(nodes[i]) * components + k] = values[i * components + k];
+  return field;
+}
+
+/// A level as fields see it. What several of them are made of is found once, when the first asks.
+template <int n>
+class Level {
+ public:
+  Level(const State& of, const std::array<int, n>& along, const DerivedQuantities<n>& derived, Profile& profile)
+      : state(of), axes(along), derived_(derived), profile_(profile) {}
+
+  const State& state;
+  const std::array<int, n>& axes;
+
+  std::vector<double> shear() const {
+    const auto phase = profile_.phase("wall shear stress");
+    return spread(derived_.shear->nodes(), derived_.shear->at_nodes(state.now), 3, fluid_nodes());
+  }
+  /// Zero before the first period has ended.
+  std::vector<double> statistics(std::vector<double> ShearStatistics::*which) const {
+    const auto& nodes = derived_.shear->nodes();
+    const auto& last = derived_.statistics->last();
+    return spread(nodes, last ? (*last).*which : std::vector<double>(nodes.size(), 0.0), 1, fluid_nodes());
+  }
+  const WallStresses& stresses() const {
+    if (!stresses_) {
+      const auto phase = profile_.phase("wall stress");
+      stresses_ = derived_.stress->of(state.now.wall);
+    }
+    return *stresses_;
+  }
+  /// make(stress of a node) appends its numbers to a field.
+  template <class Make>
+  std::vector<double> of_stresses(Make make) const {
+    std::vector<double> field;
+    for (const auto& stress : stresses().cauchy) make(stress, field);
+    return field;
+  }
+
+ private:
+  int fluid_nodes() const { return static_cast<int>(state.now.fluid.size()) / MixedLayout<n>::entries; }
+
+  const DerivedQuantities<n>& derived_;
+  Profile& profile_;
+  mutable std::optional<WallStresses> stresses_;
+};
+
+/// What a grid has.
+struct GridFacts {
+  bool fluid, moves, flows, fibres, statistics;
+};
+
+/// A field of fields.h5: the name in output.fields that asks for it, which grids have it, and its values.
+template <int n>
+struct OutputField {
+  std::string_view name;
+  std::string_view asked_by;  ///< empty: by output.statistics
+  int components;
+  const char* unit;
+  bool of_vertices;  ///< known at vertices, linear between them
+  bool (*exists)(const GridFacts& grid);
+  std::vector<double> (*values)(const Level<n>& level, bool fluid);
+};
+
+constexpr bool in_fluid(const GridFacts& grid) {
+  return grid.fluid;
+}
+constexpr bool in_wall(const GridFacts& grid) {
+  return !grid.fluid;
+}
+constexpr bool in_fibres(const GridFacts& grid) {
+  return !grid.fluid && grid.fibres;
+}
+constexpr bool in_statistics(const GridFacts& grid) {
+  return grid.fluid && grid.statistics;
+}
+
+template <int n>
+constexpr std::array<OutputField<n>, 12> output_fields{
+    {{"displacement", "displacement", 3, "mm", false, [](const GridFacts& grid) { return grid.moves; },
+      [](const Level<n>& level, bool fluid) {
+        return fluid ? vectors<VectorLayout<n>>(level.state.now.mesh, level.axes)
+                     : vectors<MixedLayout<n>>(level.state.now.wall, level.axes);
+      }},
+     {"velocity", "velocity", 3, "mm/ms", false, [](const GridFacts& grid) { return grid.flows; },
+      [](const Level<n>& level, bool fluid) {
+        return fluid ? vectors<MixedLayout<n>>(level.state.now.fluid, level.axes)
+                     : vectors<VectorLayout<n>>(level.state.wall_velocity, level.axes);
+      }},
+     {"pressure", "pressure", 1, "kPa", true, [](const GridFacts&) { return true; },
+      [](const Level<n>& level, bool fluid) {
+        return scalars<MixedLayout<n>>(fluid ? level.state.now.fluid : level.state.now.wall);
+      }},
+     {"wall_shear_stress", "wall_shear_stress", 3, "kPa", false, in_fluid,
+      [](const Level<n>& level, bool) { return level.shear(); }},
+     {"cauchy_stress", "cauchy_stress", 6, "kPa", true, in_wall,
+      [](const Level<n>& level, bool) {
+        return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
+          for (int i = 0; i < 3; ++i)
+            for (int j = i; j < 3; ++j) field.push_back(s(i, j));
+        });
+      }},
+     {"principal_stress", "principal_stress", 3, "kPa", true, in_wall,
+      [](const Level<n>& level, bool) {
+        return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
+          for (const double value : principal_stresses(s)) field.push_back(value);
+        });
+      }},
+     {"von_mises_stress", "von_mises_stress", 1, "kPa", true, in_wall,
+      [](const Level<n>& level, bool) {
+        return level.of_stresses(
+            [](const Mat3<double>& s, std::vector<double>& field) { field.push_back(von_mises_stress(s)); });
+      }},
+     {"fibre_stress_1", "fibre_stress", 1, "kPa", true, in_fibres,
+      [](const Level<n>& level, bool) { return level.stresses().of_fibres[0]; }},
+     {"fibre_stress_2", "fibre_stress", 1, "kPa", true, in_fibres,
+      [](const Level<n>& level, bool) { return level.stresses().of_fibres[1]; }},
+     {"tawss", "", 1, "kPa", false, in_statistics,
+      [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::mean); }},
+     {"osi", "", 1, "1", false, in_statistics,
+      [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::oscillation); }},
+     {"rrt", "", 1, "1/kPa", false, in_statistics,
+      [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::residence); }}}};
+
+/// Whether every name of output.fields asks for a field, and every field is asked for by one of these or by none.
+template <int n>
+constexpr bool all_asked_for() {
+  for (const auto name : output_field_list) {
+    bool found = false;
+    for (const auto& field : output_fields<n>) found = found || field.asked_by == name;
+    if (!found) return false;
+  }
+  for (const auto& field : output_fields<n>) {
+    bool found = field.asked_by.empty();
+    for (const auto name : output_field_list) found = found || field.asked_by == name;
+    if (!found) return false;
+  }
+  return true;
+}
+static_assert(all_asked_for<3>(), "case/choices.hpp owns these names");
+
+/// Planned steps that end at these times, ascending.
+std::vector<std::int64_t> steps_at(const std::vector<double>& times, const TimeAxis& axis) {
+  std::vector<std::int64_t> steps;
+  for (const double time : times) {
+    const double early = time * (1 - time_rounding);
+    const auto step = first_that(
+        axis.planned_steps(), [&](std::int64_t i) { return axis.planned_time_of(static_cast<int>(i) + 1) >= early; });
+    if (step < axis.planned_steps()) steps.push_back(step + 1);
+  }
+  return steps;
+}
+
+}  // namespace
+
+template <int n>
+FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
+                            std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
+                            const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
+                            double until)
+    : axes_(scene.axes), derived_(derived), profile_(scene.profile) {
+  if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics)) return;
+  const auto& wanted = setup.output.fields;
+  assert(shares.empty() || shares.size() == grids.size());
+  for (std::size_t g = 0; g < grids.size(); ++g) {
+    FieldGrid& grid = grids[g];
+    const bool fluid = grid.name == "fluid";
+    const GridFacts facts{fluid, !fluid || scene.coupled(), fluid || !scene.is_static(),
+                          derived.stress && derived.stress->has_fibres(), derived.statistics.has_value()};
+    for (const auto& field : output_fields<n>)
+      if ((field.asked_by.empty() || std::find(wanted.begin(), wanted.end(), field.asked_by) != wanted.end()) &&
+          field.exists(facts))
+        grid.fields.push_back({std::string(field.name), field.components, field.unit});
+    if (grid.fields.empty()) continue;
+    grids_.push_back(std::move(grid));
+    if (shares.empty())
+      made_.push_back({nullptr, separate_middles<n>(grids_.back()), {}});
+    else
+      made_.push_back({(fluid ? scene.fluid->nodes() : scene.wall->nodes()).share.get(), std::move(shares[g].middles),
+                       std::move(shares[g].order)});
+  }
+  if (grids_.empty()) return;
+  FieldPlan planned;
+  if (auto times = output_times(setup); !times.empty())
+    planned = {static_cast<std::int64_t>(times.size()), [times = std::move(times)](std::int64_t entry) {
+                 return FieldStep{entry, times.at(static_cast<std::size_t>(entry))};
+               }};
+  else
+    planned = planned_field_steps(
+        axis.planned_steps(), setup.output.every,
+        [&axis](std::int64_t step) { return axis.planned_time_of(static_cast<int>(step)); },
+        steps_at(setup.output.times, axis));
+  if (restarted_from.empty())
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, scene.processes());
+  else
+    writer_ = std::make_unique<FieldsWriter>(folder, grids_, planned, restarted_from, until, scene.processes());
+}
+
+template <int n>
+bool FieldOutput<n>::write(const State& state) {
+  if (!writer_) return false;
+  const auto entry = writer_->entry_at(state.time);
+  if (!entry) return false;
+  const Level<n> level(state, axes_, derived_, profile_);
+  FieldValues values;
+  for (std::size_t g = 0; g < grids_.size(); ++g)
+    for (const auto& field : grids_[g].fields)
+      for (const auto& known : output_fields<n>) {
+        if (known.name != field.name) continue;
+        auto numbers = known.values(level, grids_[g].name == "fluid");
+        const auto components = static_cast<std::size_t>(field.components);
+        const Grid& made = made_[g];
+        const bool has_middles = grids_[g].nodes_per_cell > n + 1;  // of the whole grid: all processes agree
+        if (made.share && has_middles) made.share->exchange.update(numbers, field.components);
+        numbers.resize((made.order ? made.order->items() : grids_[g].points.size()) * components);
+        for (const Middle& middle : made.middles)
+          for (std::size_t k = 0; k < components; ++k) {
+            const auto at = [&](int point) { return numbers[static_cast<std::size_t>(point) * components + k]; };
+            numbers[static_cast<std::size_t>(middle.point) * components + k] =
+                known.of_vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(middle.node);
+          }
+        if (made.order) numbers = made.order->to_stretches(numbers.data(), field.components);
+        values[{grids_[g].name, field.name}] = std::move(numbers);
+      }
+  writer_->write(*entry, values);
+  return true;
+}
+
+#define FSI_INSTANTIATE(n) template class FieldOutput<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+
+}  // namespace fsi

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "case/case.hpp"
+#include "derived/derived_quantities.hpp"
+#include "io/fields_writer.hpp"
+#include "observers/grid_share.hpp"
+#include "scene/scene.hpp"
+#include "scene/time_axis.hpp"
+
+namespace fsi {
+
+/// Whether a case wants fields of any kind.
+inline bool writes_fields(const Case& setup) {
+  const auto& output = setup.output;
+  return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period));
+}
+
+/// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells
+/// keep their mid-edge nodes; there pressures and stresses are the mean of the edge's ends, as the pressure's shape
+/// functions have it. Where layers have vertices of their own, the nodes between these are written once for each.
+template <int n>
+class FieldOutput {
+ public:
+  /// Nothing is written when the case wants no fields.
+  /// \param derived         what fields are made of that are not the solution itself; must outlive this, as the scene
+  /// \param grids           of the media, without fields
+  /// \param shares          of these grids, where processes share them out; else empty
+  /// \param axis            must outlive this
+  /// \param restarted_from  result folder that the run continues; empty: a new run
+  /// \param until           ms, of the last level that the run there has written, or 0
+  FieldOutput(const Case& setup, const Scene<n>& scene, const DerivedQuantities<n>& derived,
+              std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
+              const std::filesystem::path& folder, const std::filesystem::path& restarted_from, double until);
+
+  /// Writes the state's fields if an entry is planned for its time. Returns whether there is one. For all processes that
+  /// share the scene out together.
+  bool write(const State& state);
+
+ private:
+  /// A grid that is written.
+  struct Grid {
+    const NodeShare* share;       ///< of its medium; null: whole
+    std::vector<Middle> middles;  ///< of its edges
+    std::optional<WholeOrder> order;
+  };
+
+  std::array<int, n> axes_;
+  const DerivedQuantities<n>& derived_;
+  Profile& profile_;
+  std::vector<FieldGrid> grids_;
+  std::vector<Grid> made_;  ///< per grid
+  std::unique_ptr<FieldsWriter> writer_;
+};
+
+}  // namespace fsi

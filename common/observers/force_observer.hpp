@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "observers/watched.hpp"
+
+namespace fsi {
+
+inline constexpr const char* surfaces_file = "surfaces.csv";
+
+/// Forces of the fluid on the surfaces that a case names, at the balances of the steps; null where it names none.
+template <int n>
+std::unique_ptr<Observer> make_force_observer(const Watched<n>& watched);
+
+}  // namespace fsi

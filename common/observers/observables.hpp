@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "observers/watched.hpp"
+
+namespace fsi {
+
+inline constexpr const char* centreline_file = "centerline_pressure.csv";
+inline constexpr const char* wall_file = "wall_displacement.csv";
+inline constexpr const char* flow_file = "flow.csv";
+inline constexpr const char* points_file = "points.csv";
+inline constexpr const char* lines_file = "lines.csv";
+inline constexpr const char* planes_file = "planes.csv";
+
+/// What tables show of each level: centre-line pressure, inner-wall displacement, flow, samples. Parts that a scene does not
+/// have cost nothing.
+template <int n>
+std::unique_ptr<Observer> make_observables(const Watched<n>& watched);
+
+/// kPa, at the points of the centre line. For all processes together. \param fluid  (u, p)
+template <int n>
+std::vector<double> centre_line_pressure(const ObservationPoints& points, const std::vector<double>& fluid,
+                                         const Communicator& processes);
+
+}  // namespace fsi

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/result_tables.hpp"
+#include "io/step_record.hpp"
+#include "time/memory.hpp"
+#include "time/state.hpp"
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// A step that has just been finished, as a watcher sees it.
+struct FinishedStep {
+  const StepRecord& record;  ///< what it took
+  const StepReport& report;
+  const State& state;  ///< at its end
+};
+
+/// Someone who watches a run and changes nothing of it. Who watches a case, and where a new watcher is entered:
+/// observers.cpp. Processes that share a scene call all of these together, and all get the same rows.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// The tables that it fills, with their columns.
+  virtual std::vector<ResultTable> tables() const { return {}; }
+  /// Whether it looks at StepReport::balances.
+  virtual bool wants_balances() const { return false; }
+  /// The run begins, or goes on, from a state; the result folder is there.
+  virtual void begin(const State& /*state*/) {}
+
+  /// What the tables of levels show of one. A restart asks for them again, and what has a measure must be the same.
+  virtual std::vector<TableRows> rows_at(const State& /*level*/) const { return {}; }
+  /// Takes in a level whose pressures are known: of a new run the first, then each once.
+  virtual void look(const State& /*level*/) {}
+  /// Rows of the tables of steps.
+  virtual std::vector<TableRows> after_step(const FinishedStep& /*step*/) { return {}; }
+
+  /// What it needs to go on after a restart. The names get the watcher's own word before them (observers.cpp).
+  virtual void keep(Memory& /*memory*/) {}
+  /// The phase of the profile that its seconds count for.
+  virtual const char* phase() const { return "output"; }
+};
+
+/// Where a watcher says what belongs into no table.
+class Voice {
+ public:
+  virtual ~Voice() = default;
+  /// To the user: a line on the console and in the log.
+  virtual void warn(const std::string& said) = 0;
+  /// An entry of the summary.
+  virtual void note(const std::string& key, const nlohmann::json& value) = 0;
+};
+
+}  // namespace fsi

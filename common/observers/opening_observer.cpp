@@ -1,0 +1,68 @@
+#include "observers/opening_observer.hpp"
+
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// What openings.csv says of an opening at a level.
+struct OpeningRecord {
+  double flow = 0;      ///< mm^3/ms, out of the fluid
+  double pressure = 0;  ///< of the fluid, mean over the surface, kPa; written in Pa
+  double behind = 0;    ///< stored by a Windkessel; behind a resistance the distal pressure, else 0; kPa; written in Pa
+};
+
+const Columns<OpeningRecord>& opening_columns() {
+  using R = OpeningRecord;
+  static const Columns<R> columns{
+      {"flow_mm3_per_ms", [](const R& r) { return r.flow; }, Measure::flow},
+      {"mean_pressure_Pa", [](const R& r) { return pascal_per_kilopascal * r.pressure; }, Measure::pressure},
+      {"windkessel_pressure_Pa", [](const R& r) { return pascal_per_kilopascal * r.behind; }, Measure::pressure}};
+  return columns;
+}
+
+template <int n>
+class OpeningObserver : public Observer {
+ public:
+  explicit OpeningObserver(std::vector<const OpenBoundary<n>*> openings) : openings_(std::move(openings)) {}
+
+  std::vector<ResultTable> tables() const override {
+    std::vector<std::string> names;
+    for (const auto* open : openings_) names.push_back(open->name());
+    return {table_of(openings_file, opening_columns(), RowsPer::level, "opening", std::move(names))};
+  }
+  std::vector<TableRows> rows_at(const State& level) const override {
+    std::vector<OpeningRecord> records;
+    for (const auto* open : openings_) {
+      const OutflowLaw* law = open->law();
+      const double behind = law == nullptr  ? 0
+                            : law->stores() ? level.now.windkessel[open->place()]
+                                            : law->distal_pressure;
+      const auto &mesh = level.now.mesh, &flow = level.now.fluid;
+      records.push_back({open->outflow(mesh, flow), open->mean_pressure(mesh, flow), behind});
+    }
+    return {rows_of(openings_file, {level.time}, opening_columns(), records)};
+  }
+
+ private:
+  std::vector<const OpenBoundary<n>*> openings_;  ///< that the mesh has, in their order
+};
+
+}  // namespace
+
+template <int n>
+std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched) {
+  std::vector<const OpenBoundary<n>*> openings;
+  if (!watched.setup.openings.empty() && watched.scene.fluid)
+    for (const auto& open : watched.scene.fluid->open_boundaries())
+      if (!open.empty()) openings.push_back(&open);
+  if (openings.empty()) return nullptr;
+  return std::make_unique<OpeningObserver<n>>(std::move(openings));
+}
+
+#define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_opening_observer(const Watched<n>&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/checkpoint.hpp"
+#include "scene/scene.hpp"
+#include "time/memory.hpp"
+
+namespace fsi {
+
+/// How processes share the arrays of a scene's checkpoint out, and how long these are here, by what they have numbers of.
+/// Made by all processes together.
+template <int n>
+class ArrayOrders {
+ public:
+  /// \param shear_nodes  of the fluid, with wall shear stress; null: there are none. Both must outlive this
+  explicit ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes = nullptr);
+
+  const Communicator& processes() const { return scene_.processes(); }
+  /// None for what all processes have alike, and for all on one process.
+  std::optional<SharedArray> of(ArrayKind kind) const;
+  /// By the names of arrays, while this and `kinds` live. One without kind is alike.
+  ArraySharing sharing(const std::map<std::string, ArrayKind>& kinds) const;
+  /// Numbers here; of interface_columns those of one column. Empty for `alike`: any number.
+  /// \param rest  the state at rest, for the sizes
+  std::optional<std::size_t> length(ArrayKind kind, const State& rest) const;
+
+ private:
+  const Scene<n>& scene_;
+  std::size_t shear_nodes_;
+  std::optional<WholeOrder> fluid_, wall_, interface_, shear_;
+};
+
+}  // namespace fsi

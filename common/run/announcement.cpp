@@ -1,0 +1,97 @@
+#include "run/announcement.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
+#include "base/threads.hpp"
+#include "base/version.hpp"
+#include "case/statistics_period.hpp"
+#include "fem/dimensions.hpp"
+#include "linear_solvers/general_solvers.hpp"
+#include "run/program.hpp"
+#include "scene/time_scheme.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// The time scheme, and steps at the end that are shorter.
+template <int n>
+void announce_steps(const RunParts<n>& parts, RunLog& log) {
+  if (parts.scene.is_static()) return;
+  if (const std::string why = about_time_scheme(parts.setup, parts.scene, parts.scheme); !why.empty()) log.info(why);
+  const bool adaptive = parts.setup.time->adaptive;
+  const double step = parts.setup.time->step, longest = adaptive ? std::numeric_limits<double>::infinity() : step;
+  if (const std::string about = parts.scene.integrator->about(step, longest); !about.empty()) log.info(about);
+  if (const double last = parts.loads.axis().shorter_last_steps(); last > 0)
+    log.info(fmt::format("the last steps have {:.6g} ms in place of {:g} ms: the run ends at {:.12g} ms", last, step,
+                         parts.setup.time->end));
+  if (const std::string said = lost_order(*parts.setup.time, *parts.scene.integrator); !said.empty()) {
+    log.warning(said);
+    warn(parts.program, said);
+  }
+}
+
+}  // namespace
+
+template <int n>
+void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console& console, RunLog& log) {
+  const auto& mesh = parts.loaded.mesh;
+  nlohmann::json& summary = parts.voice.summary;
+  const auto unknowns = summary["unknowns"]["coupled"].get<std::int64_t>();
+  const auto text = fmt::format("{} {}: {} | {} nodes, {} {}, {} unknowns, {}{} threads{}, {}", parts.program, version,
+                                shortened(parts.setup.title, 200), mesh.nodes, mesh.cells, mesh.cell, unknowns,
+                                parts.processes.is_alone() ? "" : fmt::format("{} processes, ", parts.processes.size()),
+                                threads(), parts.processes.is_alone() ? "" : " each",
+                                parts.loads.axis().is_adaptive()
+                                    ? fmt::format("adaptive steps, tolerance {:g}", parts.setup.time->tolerance)
+                                    : fmt::format("{} steps", parts.loads.steps()));
+  console.line(text);
+  log.info(text);
+  log.info(fmt::format("threads: {}, {}", parts.threads.count, parts.threads.reason));
+  announce_steps(parts, log);
+  const auto& monolithic = parts.setup.monolithic;
+  const auto& partitioned = parts.setup.partitioned;
+  const bool by_parts = parts.stepper->reports_coupling();
+  if (const std::string other =
+          other_solver_on_processes(by_parts ? partitioned.linear_solver : monolithic.linear_solver,
+                                    by_parts ? partitioned.fast : monolithic.fast, n, parts.processes);
+      !other.empty())
+    log.info(other);
+  for (const auto& choice : parts.stepper->choices()) {
+    log.info(fmt::format("{} = {}: {}", choice.key, choice.value, choice.reason));
+    summary["choices"][choice.key] = {{"value", choice.value}, {"reason", choice.reason}};
+  }
+  for (const auto& warning : parts.setup.warnings) log.warning(warning);
+  parts.loading.write_to(log);
+  for (const auto& notice : parts.scene.notices) {
+    log.warning(notice);
+    warn(parts.program, notice);
+  }
+  for (const auto& remark : parts.scene.remarks) log.info(remark);
+  if (const auto said = about_statistics(parts.setup); !said.empty()) log.info(said);
+  for (const auto& note : parts.loaded.points.notes) log.info(note);
+  for (const auto& warning : parts.loaded.points.warnings) {
+    log.warning(warning);
+    warn(parts.program, warning);
+  }
+  if (parts.lock && !parts.lock->said().empty()) log.warning(parts.lock->said());
+  if (parts.state.step == 0) return;
+  log.info(fmt::format("restarted after step {}, t = {:g} ms", parts.state.step, parts.state.time));
+  for (const auto& warning : checkpoints.warnings()) log.warning(warning);
+  if (!checkpoints.left_aside().empty()) log.info(checkpoints.left_aside());
+  if (!checkpoints.step_change().empty()) {
+    console.line(checkpoints.step_change());
+    log.info(checkpoints.step_change());
+  }
+}
+
+#define FSI_INSTANTIATE(n) template void announce<n>(RunParts<n>&, const RunCheckpoints<n>&, Console&, RunLog&);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

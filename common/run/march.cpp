@@ -1,0 +1,153 @@
+#include "run/march.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "fem/dimensions.hpp"
+#include "scene/time_scheme.hpp"
+
+namespace fsi {
+
+namespace {
+
+// Of the scene's time.
+constexpr double first_share = 1.0 / 32, largest_share = 1;
+constexpr double its_tolerance = 0.01;  // of the first step, which goes with the root of the tolerance
+
+}  // namespace
+
+// Accelerations are differences over the step's square, and the linear solver's numbers are in single precision.
+template <int n>
+void require_resolvable(const Case& setup, const Scene<n>& scene) {
+  constexpr double smallest = 1e-13;  // of the time in which the scene swings
+  if (!setup.time || setup.time->adaptive) return;
+  const double swing = scene_time(setup, scene);
+  if (setup.time->step >= smallest * swing) return;
+  throw InputError(setup.path.string(), "time.step",
+                   fmt::format("{:g} ms is too short for the scene's time of {:.3g} ms", setup.time->step, swing),
+                   fmt::format("give at least {:.3g} ms", smallest * swing));
+}
+
+template <int n>
+March<n>::March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
+                std::function<void(const std::string&)> say)
+    : setup_(setup), scene_(scene), stepper_(stepper), loads_(loads), say_(std::move(say)) {
+  if (!loads.axis().is_adaptive()) return;
+  keep_scheme();
+  stepper_.judge_by(this);
+}
+
+template <int n>
+void March<n>::keep_scheme() {
+  if (!loads_.axis().is_adaptive()) return;
+  const TimeData& time = *setup_.time;
+  const double swing = scene_time(setup_, scene_);
+  StepLimits limits;
+  limits.largest = time.largest_step.value_or(largest_share * swing);
+  const ErrorTerms terms = scene_.integrator->error_terms();
+  const double first = first_share * swing * std::pow(time.tolerance / its_tolerance, 1.0 / terms.order);
+  limits.first = time.first_step.value_or(std::min(first, limits.largest));
+  limits.smallest = time.smallest_step.value_or(limits.first);
+  limits.first = std::max(limits.first, limits.smallest);
+  limits.largest = std::max(limits.largest, limits.first);
+  controller_.emplace(limits, terms.order);
+  const auto volumes = [](const auto& medium) { return medium ? medium->space().volumes() : std::vector<double>(); };
+  estimate_.emplace(volumes(scene_.fluid), volumes(scene_.wall), terms, swing);
+}
+
+template <int n>
+March<n>::~March() {
+  if (controller_) stepper_.judge_by(nullptr);
+}
+
+template <int n>
+bool March<n>::accepts(const State& state, const StepData& data) {
+  errors_ = estimate_->of(state, data);
+  const double error = errors_->largest() / setup_.time->tolerance;
+  const double length = data.rates.step;
+  if (errors_->known && !(error <= 1)) {
+    if (controller_->reject(length, error)) return false;
+    ++attempts_.beyond;
+  }
+  if (errors_->known)
+    controller_->accept(length, error);
+  else
+    controller_->accept(length);
+  estimate_->accept(data);
+  if (data.ends_at_jump) controller_->restart();
+  return true;
+}
+
+template <int n>
+bool March<n>::shrink(int step, int failures) {
+  if (loads_.axis().is_static() || !stepper_.can_retry() || failures > setup_.time->retries) return false;
+  if (controller_) {
+    controller_->fail(loads_.step_length(step));
+    return true;
+  }
+  // Parts of a planned step may fail in their turn: its end is where halving began.
+  const double shortest = setup_.time->step * std::exp2(-setup_.time->retries);
+  if (loads_.step_length(step) < 1.5 * shortest) return false;
+  loads_.axis().halve(step);
+  return true;
+}
+
+template <int n>
+StepReport March<n>::step(State& state) {
+  const int step = state.step + 1;
+  StepReport spent;  // by attempts that came to nothing
+  spent.outer_iterations = 0;
+  const auto add = [&spent](const StepReport& report) {
+    spent.outer_iterations += report.outer_iterations;
+    spent.newton_iterations += report.newton_iterations;
+    spent.linear_iterations += report.linear_iterations;
+  };
+  std::optional<ConvergenceError> first_failure;
+  for (int failures = 0;;) {
+    if (controller_) loads_.axis().choose(step, state.time, controller_->wanted());
+    const double length = loads_.step_length(step);
+    try {
+      StepReport report = stepper_.advance(state);
+      if (report.rejected) {
+        ++attempts_.rejected;
+        add(report);
+        say_(fmt::format("step {} rejected with {:.6g} ms: {}; tolerance {:g}", step, length, errors_->text(),
+                         setup_.time->tolerance));
+        continue;
+      }
+      report.outer_iterations += spent.outer_iterations;
+      report.newton_iterations += spent.newton_iterations;
+      report.linear_iterations += spent.linear_iterations;
+      return report;
+    } catch (const ConvergenceError& failure) {
+      ++attempts_.failed;
+      if (!first_failure) first_failure = failure;
+      if (!shrink(step, ++failures)) {
+        loads_.axis().drop_insertions_after(state.step);
+        throw ConvergenceError(*first_failure);
+      }
+      add(stepper_.report());
+      const double next = controller_ ? controller_->wanted() : loads_.step_length(step);
+      say_(fmt::format("{}; again with {:.6g} ms in place of {:.6g} ms", failure.what(), next, length));
+    }
+  }
+}
+
+template <int n>
+void March<n>::keep(Memory& memory) {
+  if (!controller_) return;
+  if (memory.wants({"controller"})) controller_->keep(memory);
+  if (memory.wants({"estimate"})) estimate_->keep(memory);
+}
+
+#define FSI_INSTANTIATE(n)                                           \
+  template void require_resolvable<n>(const Case&, const Scene<n>&); \
+  template class March<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

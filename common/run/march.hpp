@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "scene/loads.hpp"
+#include "scene/scene.hpp"
+#include "time/error_estimate.hpp"
+#include "time/step_controller.hpp"
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// \throws InputError for steps so short that rounding is all that a run would see of them
+template <int n>
+void require_resolvable(const Case& setup, const Scene<n>& scene);
+
+/// Attempts at steps since the start of the program.
+struct Attempts {
+  int rejected = 0;  ///< solved, but with too large an error
+  int failed = 0;    ///< without solution
+  int beyond = 0;    ///< accepted with too large an error: smaller ones are not allowed
+};
+
+/// Takes steps: as the case says or, if they are adaptive, as long as their estimated error allows. A step that finds
+/// no solution is taken again with a part of its length; equal steps return to their grid behind it.
+template <int n>
+class March : private StepJudge {
+ public:
+  /// All of them must outlive this. \param say  gets a line for each attempt that came to nothing, for the log
+  March(const Case& setup, const Scene<n>& scene, Stepper& stepper, Loads& loads,
+        std::function<void(const std::string&)> say);
+  March(const March&) = delete;
+  March& operator=(const March&) = delete;
+  ~March() override;
+
+  /// Takes the state one step further. Iterations in the report are those of all attempts.
+  /// \throws ConvergenceError when the step has no solution, nor its last part; the finished levels are untouched
+  StepReport step(State& state);
+
+  const Attempts& attempts() const { return attempts_; }
+  /// Of the last step; nothing where steps are not adaptive.
+  const std::optional<StepErrors>& errors() const { return errors_; }
+
+  /// The run goes on with the scheme that the scene has got since: the one that it began with.
+  void keep_scheme();
+  /// What adaptive steps know of those before, for a restart.
+  void keep(Memory& memory);
+
+ private:
+  bool accepts(const State& state, const StepData& data) override;
+  /// Makes the next step smaller. \returns false when it may not be
+  bool shrink(int step, int failures);
+
+  const Case& setup_;
+  const Scene<n>& scene_;
+  Stepper& stepper_;
+  Loads& loads_;
+  std::function<void(const std::string&)> say_;
+  Attempts attempts_;
+  std::optional<StepController> controller_;
+  std::optional<ErrorEstimate<n>> estimate_;
+  std::optional<StepErrors> errors_;
+};
+
+}  // namespace fsi

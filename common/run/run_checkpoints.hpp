@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/checkpoint.hpp"
+#include "io/earlier_tables.hpp"
+#include "io/table_digest.hpp"
+#include "observers/observers.hpp"
+#include "restart/checkpoint_pace.hpp"
+#include "restart/recalled_memory.hpp"
+#include "run/run_parts.hpp"
+
+namespace fsi {
+
+/// The checkpoints of a run: what it goes on from, and what it leaves. For all processes together.
+template <int n>
+class RunCheckpoints {
+ public:
+  /// Both must outlive this.
+  RunCheckpoints(RunParts<n>& parts, const Observers& observers);
+
+  /// Takes over what the run in line.restart has left, if it can be believed: its checkpoint, and the tables, which are only
+  /// read. Nothing where the run is new. \throws InputError
+  std::optional<EarlierTables> recall();
+  /// What could not be taken over, a line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Entries that are not for the methods and watchers of this run; and that it goes on with another step. Empty: not so.
+  const std::string& left_aside() const { return left_aside_; }
+  const std::string& step_change() const { return step_change_; }
+
+  /// The tables hold what a restart from this step goes on from.
+  void vouch(ResultFolder& folder);
+  /// Before a step that may have to be given up. What it leaves behind would not go on to the same bits, so that the
+  /// checkpoint is of what there is now; where the folder has it, nothing needs to be kept.
+  void keep_finished();
+  /// After a step: the first process's clock decides.
+  bool is_due() const;
+  bool writes_any() const { return pace_.writes_any(); }
+  /// Of now.
+  void save();
+  /// Of the last finished step, when one is given up.
+  void save_finished();
+
+ private:
+  Checkpoint of_now();
+  void write(const Checkpoint& checkpoint) const;
+  /// All that a run keeps but its state and the steps that led there, in the order in which it is taken over.
+  void keep_parts(Memory& memory);
+  void keep_scheme(Memory& memory);
+  std::string text_of_change(const Stretch& before) const;
+
+  RunParts<n>& parts_;
+  const Observers& observers_;
+  CheckpointPace pace_;
+  TableDigests digests_;
+  int saved_ = -1;                      ///< the step whose checkpoint the folder has
+  std::optional<Checkpoint> finished_;  ///< of the last finished step, where that is not written
+  std::vector<std::string> warnings_;
+  std::string left_aside_, step_change_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/idle_cores.hpp"
+#include "base/stopwatch.hpp"
+#include "case/case.hpp"
+#include "io/first_process.hpp"
+#include "io/folder_lock.hpp"
+#include "restart/array_orders.hpp"
+#include "run/command_line.hpp"
+#include "run/driver.hpp"
+#include "run/load_scene.hpp"
+#include "run/loading_report.hpp"
+#include "run/march.hpp"
+#include "run/process_summary.hpp"
+#include "run/process_threads.hpp"
+#include "run/run_voice.hpp"
+#include "scene/loads.hpp"
+#include "system/work_unit.hpp"
+
+namespace fsi {
+
+/// What a run is made of, in the order in which it is made.
+template <int n>
+struct RunParts {
+  /// \param watch  of the cores, from the program's start on
+  /// \param lock   of the result folder; empty at all processes but the first
+  RunParts(const std::string& program, const CommandLine& line, const Case& setup, const StepperMaker& make_stepper,
+           const CoreWatch& watch, const std::optional<FolderLock>& lock);
+  ~RunParts();
+  RunParts(const RunParts&) = delete;
+  RunParts& operator=(const RunParts&) = delete;
+
+  /// Whether a level is looked at one step later, when its pressures are known.
+  bool lagging() const { return scene.integrator->pressures_lag(); }
+  /// The last level but one as a state, for those who look at it.
+  const State& level_before(const State& at);
+  /// The last level whose pressures are known.
+  const State& shown_level() { return lagging() ? level_before(state) : state; }
+  /// The run goes on with another scheme than the case would now be given.
+  void keep_scheme(const std::string& kept);
+
+  Clock::time_point start = Clock::now();
+  std::string program;
+  const CommandLine& line;
+  const std::optional<FolderLock>& lock;
+  const Case& setup;
+  ThreadChoice threads;
+  LoadingReport loading;  ///< what was said when there was no log
+  LoadedScene<n> loaded;
+  Scene<n>& scene;
+  const Communicator& processes;
+  FirstProcess first;
+  ProcessSummary<n> about_processes;
+  WorkUnitMeter<n> work_unit;
+  ArrayOrders<n> orders;
+  Loads loads;
+  std::unique_ptr<Stepper> stepper;
+  RunVoice voice;
+  March<n> march;
+  std::string scheme;  ///< in time; empty in statics
+  State state;
+
+ private:
+  State shown_;  ///< a finished level, for output
+};
+
+}  // namespace fsi

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "io/run_log.hpp"
+#include "observers/observer.hpp"
+#include "run/console.hpp"
+
+namespace fsi {
+
+/// What is said while a run goes on, as far as it has ears already.
+class RunVoice : public Voice {
+ public:
+  void to(RunLog& log, Console& console) {
+    log_ = &log;
+    console_ = &console;
+  }
+  void warn(const std::string& said) override {
+    if (console_ != nullptr) console_->line(said);
+    log_only(said);
+  }
+  void note(const std::string& key, const nlohmann::json& value) override { summary[key] = value; }
+  /// Into the log, of a step in progress.
+  void log_only(const std::string& said) {
+    if (log_ != nullptr) log_->warning(said);
+  }
+
+  nlohmann::json summary;  ///< of the run: summary.json
+
+ private:
+  RunLog* log_ = nullptr;
+  Console* console_ = nullptr;
+};
+
+}  // namespace fsi

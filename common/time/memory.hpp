@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+/// What an array that a run remembers has numbers of. It says how long the array is, and how processes share it out.
+enum class ArrayKind {
+  alike,              ///< the run: all processes have the same
+  support_loads,      ///< loads of the wall's supports, alike
+  opening_values,     ///< what the openings keep (Solution::windkessel), alike
+  mesh,               ///< vectors per fluid node
+  flow,               ///< vectors and scalars per fluid node
+  wall,               ///< vectors and scalars per wall node
+  wall_vectors,       ///< vectors per wall node
+  interface,          ///< vectors per node between fluid and wall
+  interface_columns,  ///< several of these, one after the other
+  shear_vectors,      ///< vectors of space per node with wall shear stress
+  shear_scalars       ///< a number per node with wall shear stress
+};
+
+/// What a number may be; finite in any case.
+struct Range {
+  double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
+  bool whole = false;
+};
+inline constexpr Range count_range{0, std::numeric_limits<int>::max(), true};
+
+/// What an array must be besides what its kind says.
+struct ArrayRule {
+  std::optional<std::size_t> length{};                         ///< numbers here, where the kind does not say it
+  std::optional<std::size_t> columns{};                        ///< of interface_columns
+  std::size_t most = std::numeric_limits<std::size_t>::max();  ///< numbers, of an array of any length
+  Range each{};
+};
+
+/// What a restart needs to go on bit for bit. Who has such numbers goes over them in one function,
+///   void keep(Memory& memory) { memory.number("age", age_, count_range); memory.array("load", kind, load_); }
+/// which tells the name of each, its kind and what it may be, and serves both ways: a memory that is written down takes the
+/// values; one that recalls puts those of an earlier run in their place, if it can believe them. So an entry is one line.
+class Memory {
+ public:
+  virtual ~Memory() = default;
+  /// Whether values come from an earlier run; else they are written down.
+  virtual bool recalls() const = 0;
+  /// Whether the earlier run has left an entry. Only to be asked where recalls().
+  virtual bool has(const std::string& name) const = 0;
+  /// The run goes on with another step: Jacobians and differences of the one before must not serve.
+  virtual bool step_changed() const { return false; }
+  /// For the log: what could not be taken over.
+  virtual void warn(const std::string& said) = 0;
+
+  /// An entry that must be there. \throws InputError naming it where it is missing, too long, or holds what it may not
+  virtual void array(const std::string& name, ArrayKind kind, std::vector<double>& values,
+                     const ArrayRule& rule = {}) = 0;
+  virtual void number(const std::string& name, double& value, const Range& range = {}) = 0;
+  virtual void integer(const std::string& name, std::int64_t& value, const Range& range = {}) = 0;
+
+  /// Of entries that an earlier run has all or none of: whether they are to be gone over.
+  bool wants(std::initializer_list<std::string> names) const;
+  /// An entry that an earlier run, or another method, may lack; then the value stays.
+  void number_if_there(const std::string& name, double& value, const Range& range = {});
+  /// A count that is kept among numbers; as above.
+  void count_if_there(const std::string& name, int& value);
+};
+
+/// Another memory, with something before all names.
+class PrefixedMemory : public Memory {
+ public:
+  /// \param memory  must outlive this
+  PrefixedMemory(std::string prefix, Memory& memory) : prefix_(std::move(prefix)), memory_(memory) {}
+  bool recalls() const override { return memory_.recalls(); }
+  bool has(const std::string& name) const override { return memory_.has(prefix_ + name); }
+  bool step_changed() const override { return memory_.step_changed(); }
+  void warn(const std::string& said) override { memory_.warn(said); }
+  void array(const std::string& name, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule) override {
+    memory_.array(prefix_ + name, kind, values, rule);
+  }
+  void number(const std::string& name, double& value, const Range& range) override {
+    memory_.number(prefix_ + name, value, range);
+  }
+  void integer(const std::string& name, std::int64_t& value, const Range& range) override {
+    memory_.integer(prefix_ + name, value, range);
+  }
+
+ private:
+  std::string prefix_;
+  Memory& memory_;
+};
+
+/// Entries as they were written down, and back within the same program, where all are believed.
+class WrittenMemory : public Memory {
+ public:
+  std::map<std::string, std::vector<double>> arrays;
+  std::map<std::string, ArrayKind> kinds;  ///< of the arrays
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::int64_t> integers;
+
+  /// From now on it recalls.
+  WrittenMemory& turn(bool step_changed = false);
+
+  bool recalls() const override { return recalls_; }
+  bool has(const std::string& name) const override;
+  bool step_changed() const override { return step_changed_; }
+  void warn(const std::string&) override {}
+  void array(const std::string& name, ArrayKind kind, std::vector<double>& values, const ArrayRule& = {}) override;
+  void number(const std::string& name, double& value, const Range& = {}) override;
+  void integer(const std::string& name, std::int64_t& value, const Range& = {}) override;
+
+ private:
+  bool recalls_ = false, step_changed_ = false;
+};
+
+/// What `owner.keep()` writes down.
+template <class Owner>
+WrittenMemory memory_of(Owner& owner) {
+  WrittenMemory memory;
+  owner.keep(memory);
+  return memory;
+}
+
+}  // namespace fsi
