@@ -96,7 +96,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       advance_stage(state, data);
-      scene_.set_windkessels(state.now, data.rates);
+      scene_.settle_openings(state.now, data.rates);
       if (rejects(state, data)) {
         take_back();
         return report_;
@@ -291,13 +291,10 @@ double CouplingStepper<n>::added_mass(const State& state, const StepData& data) 
   push.opening_flows.clear();
   // What stands behind an opening without flow is taken off: the answer to the push alone counts.
   const auto push_all = [&](double pressure) {
-    const auto& open = scene_.fluid->open_boundaries();
-    for (std::size_t i = 0; i < push.opening_pressures.size(); ++i) {
-      const OutflowLaw* law = open[i].law();
-      const double reference = law != nullptr && law->stores() ? push.rates.windkessel_reference[open[i].place()] : 0;
-      push.opening_pressures[i] =
-          pressure - (law != nullptr ? law->pressure(push.rates.fluid_factor, reference, 0) : 0);
-    }
+    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(), pressure);
+    for (const auto& opening : scene_.openings.answering())
+      push.opening_pressures[opening.number] -=
+          opening.law->pressure(push.rates.fluid_factor, push.rates.openings_reference.data() + opening.place, 0);
   };
   const double at_rest = scene_.initial_load ? scene_.initial_load->pressure : 0.0;
   if (scene_.initial_load)

@@ -6,25 +6,25 @@
 namespace fsi {
 
 template <int n>
-OpeningObserver<n>::OpeningObserver(const Case& setup, const Scene<n>& scene) {
+OpeningObserver<n>::OpeningObserver(const Case& setup, const Scene<n>& scene) : scene_(scene) {
   if (setup.openings.empty() || !scene.fluid) return;
-  for (const auto& open : scene.fluid->open_boundaries()) {
-    if (open.empty()) continue;
-    openings_.push_back(&open);
-    names_.push_back(open.name());
+  const auto& open = scene.fluid->open_boundaries();
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (open[i].empty()) continue;
+    openings_.push_back(i);
+    names_.push_back(open[i].name());
   }
 }
 
 template <int n>
 std::vector<OpeningRecord> OpeningObserver<n>::look(const State& level) const {
   std::vector<OpeningRecord> records;
-  for (const auto* open : openings_) {
-    const OutflowLaw* law = open->law();
-    const double behind = law == nullptr  ? 0
-                          : law->stores() ? level.now.windkessel[open->place()]
-                                          : law->distal_pressure;
+  for (const std::size_t i : openings_) {
+    const auto& open = scene_.fluid->open_boundaries()[i];
+    const auto* answering = scene_.openings.answering(i);
+    const double behind = answering ? answering->law->pressure_behind(level.now.openings.data() + answering->place) : 0;
     const auto &mesh = level.now.mesh, &flow = level.now.fluid;
-    records.push_back({open->outflow(mesh, flow), open->mean_pressure(mesh, flow), behind});
+    records.push_back({open.outflow(mesh, flow), open.mean_pressure(mesh, flow), behind});
   }
   return records;
 }

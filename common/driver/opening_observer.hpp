@@ -24,7 +24,8 @@ class OpeningObserver {
   void require_same(const State& level, const EarlierTables& earlier) const;
 
  private:
-  std::vector<const OpenBoundary<n>*> openings_;
+  const Scene<n>& scene_;
+  std::vector<std::size_t> openings_;  ///< their numbers
   std::vector<std::string> names_;
 };
 

@@ -38,8 +38,8 @@ void for_each_array(StateType& state, Visit visit) {
     visit(fmt::format("level{}.mesh", level), state.before[level].mesh);
     visit(fmt::format("level{}.flow", level), state.before[level].fluid);
     visit(fmt::format("level{}.wall", level), state.before[level].wall);
-    if (!state.before[level].windkessel.empty())
-      visit(fmt::format("level{}.windkessel", level), state.before[level].windkessel);
+    if (!state.before[level].openings.empty())
+      visit(fmt::format("level{}.windkessel", level), state.before[level].openings);
   }
   visit("wall_velocity", state.wall_velocity);
   visit("wall_acceleration", state.wall_acceleration);
@@ -48,14 +48,13 @@ void for_each_array(StateType& state, Visit visit) {
     visit(fmt::format("balance{}.mesh", k), state.balances[k].mesh);
     visit(fmt::format("balance{}.flow", k), state.balances[k].fluid);
     visit(fmt::format("balance{}.wall", k), state.balances[k].wall);
-    if (!state.balances[k].windkessel.empty())
-      visit(fmt::format("balance{}.windkessel", k), state.balances[k].windkessel);
+    if (!state.balances[k].openings.empty()) visit(fmt::format("balance{}.windkessel", k), state.balances[k].openings);
   }
   visit("wall_velocity_before", state.wall_velocity_before);
   visit("rate.mesh", state.rate.mesh);
   visit("rate.flow", state.rate.fluid);
   visit("rate.wall", state.rate.wall);
-  if (!state.rate.windkessel.empty()) visit("rate.windkessel", state.rate.windkessel);
+  if (!state.rate.openings.empty()) visit("rate.windkessel", state.rate.openings);
   visit("rate.wall_velocity", state.velocity_rate);
   visit("rate.loads", state.load_rates);
 }
@@ -138,7 +137,7 @@ void check_memory(const fs::path& file, const Checkpoint& checkpoint, std::size_
         } else if (ends_with(name, ".support_loads")) {
           require(name, array.size(), state.support_loads);
         } else if (ends_with(name, ".windkessels") || ends_with(name, ".opening_values")) {
-          require(name, array.size(), state.now.windkessel.size());
+          require(name, array.size(), state.now.openings.size());
         } else if (ends_with(name, ".opening_pressures")) {
           if (array.size() > most_openings) refuse(file, name, "is too long", another_version);
         } else if (ends_with(name, ".age")) {

@@ -33,7 +33,7 @@ AssemblyResult FluidProblem<Element>::assemble(const FluidInput& in, const std::
   const auto result =
       assemble_fluid(form_, packs_, with_projection(in, projection_), residual, derivatives, &jacobian_);
   for (std::size_t i = 0; i < open_.size(); ++i)
-    open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), in.mesh, residual,
+    open_[i].add_pressure(i < pressures.size() ? pressures[i] : 0, in.mesh, residual,
                           derivatives == FluidDerivatives::fluid_and_domain ? &jacobian_.shape_derivatives : nullptr);
   for (const auto& [open, facets] : backflow_)
     facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);

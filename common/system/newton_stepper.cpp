@@ -29,9 +29,8 @@ void remember(const std::string& name, const LinearisationPoint& point, Memory& 
   if (!point.support_loads.empty()) memory.arrays[name + ".support_loads"] = point.support_loads;
   if (!point.opening_pressures.empty()) {
     memory.arrays[name + ".opening_pressures"] = point.opening_pressures;
-    if (!point.rates.windkessel_reference.empty())
-      memory.arrays[name + ".windkessels"] = point.rates.windkessel_reference;
-    if (!point.now.windkessel.empty()) memory.arrays[name + ".opening_values"] = point.now.windkessel;
+    if (!point.rates.openings_reference.empty()) memory.arrays[name + ".windkessels"] = point.rates.openings_reference;
+    if (!point.now.openings.empty()) memory.arrays[name + ".opening_values"] = point.now.openings;
   }
   memory.numbers[name + ".step"] = point.rates.step;
   memory.numbers[name + ".period"] = point.rates.interface.period;
@@ -52,8 +51,8 @@ bool recall(const std::string& name, const Memory& memory, LinearisationPoint& p
   point.rates.fluid_reference = array(".flow_reference");
   point.support_loads = array(".support_loads");
   point.opening_pressures = array(".opening_pressures");
-  point.rates.windkessel_reference = array(".windkessels");
-  point.now.windkessel = array(".opening_values");
+  point.rates.openings_reference = array(".windkessels");
+  point.now.openings = array(".opening_values");
   point.rates.step = number(".step");
   point.rates.interface.period = number(".period");
   point.rates.fluid_factor = number(".flow_factor");
@@ -77,7 +76,7 @@ StepReport NewtonStepper<n>::advance(State& state) {
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
-    scene_.set_windkessels(state.now, data.rates);
+    scene_.settle_openings(state.now, data.rates);
     if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
     if (data.rates.last_stage)

@@ -22,6 +22,7 @@ FLOORS = (
     ("common/sampling",),
     ("common/materials",),
     ("common/fluid", "common/wall", "common/mesh_motion"),
+    ("common/openings",),
     ("common/case",),
     ("common/time",),
     ("common/scene",),
