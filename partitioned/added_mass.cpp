@@ -19,13 +19,10 @@ double added_mass(const Scene<n>& scene, InterfaceProblem<n>& problem, const Int
   push.opening_flows.clear();
   // What stands behind an opening without flow is taken off: the answer to the push alone counts.
   const auto push_all = [&](double pressure) {
-    const auto& open = scene.fluid->open_boundaries();
-    for (std::size_t i = 0; i < push.opening_pressures.size(); ++i) {
-      const OutflowLaw* law = open[i].law();
-      const double reference = law != nullptr && law->stores() ? push.rates.windkessel_reference[open[i].place()] : 0;
-      push.opening_pressures[i] =
-          pressure - (law != nullptr ? law->pressure(push.rates.fluid_factor, reference, 0) : 0);
-    }
+    std::fill(push.opening_pressures.begin(), push.opening_pressures.end(), pressure);
+    for (const auto& opening : scene.openings.answering())
+      push.opening_pressures[opening.number] -=
+          opening.law->pressure(push.rates.fluid_factor, push.rates.openings_reference.data() + opening.place, 0);
   };
   const double at_rest = scene.initial_load ? scene.initial_load->pressure : 0.0;
   if (scene.initial_load)

@@ -56,7 +56,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       advance_stage(state, data);
-      scene_.set_windkessels(state.now, data.rates);
+      scene_.settle_openings(state.now, data.rates);
       if (rejects(state, data)) {
         take_back();
         return report_;

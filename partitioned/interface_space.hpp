@@ -9,7 +9,7 @@
 namespace fsi {
 
 /// Scalar products of interface vectors. A vector holds the numbers of this process's interface nodes first and behind
-/// them copies of other processes': linear combinations are formed of all, and so the copies stay what their owners
+/// them ghosts, other processes': linear combinations are formed of all, and so the ghosts stay what their owners
 /// have; products count the own ones and are summed over the processes, several in one message. All processes get the
 /// same bits. A process may have no interface node: whether a vector is empty says nothing.
 class InterfaceSpace {

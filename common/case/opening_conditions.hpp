@@ -4,7 +4,7 @@
 
 #include "case/choices.hpp"
 #include "case/pressure_table.hpp"
-#include "fluid/outflow_law.hpp"
+#include "openings/opening_laws.hpp"
 
 namespace fsi {
 
@@ -18,8 +18,10 @@ struct FlowRateData {
 struct OpeningConditions {
   std::optional<PressureTable> pressure{};  ///< on the fluid from outside, kPa
   std::optional<FlowRateData> flow_rate{};  ///< prescribes the velocity
-  std::optional<OutflowLaw> outflow_law{};  ///< a resistance or a Windkessel
+  std::optional<OpeningLawData> law{};      ///< of a pressure that answers the flow
   std::optional<double> backflow{};         ///< beta of its stabilisation (fluid/backflow.hpp); empty: the standard
+
+  bool is_free() const { return !pressure && !flow_rate && !law; }
 };
 
 }  // namespace fsi

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "case/key_values.hpp"
 #include "case/openings.hpp"
+#include "case/parameter_keys.hpp"
 #include "case/table_input.hpp"
 #include "fluid/backflow.hpp"
 
@@ -19,29 +19,30 @@ namespace fsi {
 namespace {
 
 using presence::optional, presence::required;
-constexpr std::array<const char*, 4> sources = {"pressure", "flow_rate", "resistance", "windkessel"};
 constexpr std::size_t most_jumps = 100'000;  // each ends a step
+constexpr const char* in_place = ", in place of a pressure";
+
+/// What an opening may have one of.
+std::vector<std::string> sources() {
+  std::vector<std::string> names{"pressure", "flow_rate"};
+  for (const auto& [name, kind] : opening_laws().rows()) names.push_back(name);
+  return names;
+}
 
 /// An opening as it stands in the file.
 struct OpeningInput {
   TableInput table;  ///< of the pressure or the flow rate
   InflowProfile profile = InflowProfile::parabolic;
-  OutflowLaw resistance, windkessel;
+  ParameterValues law;
   OpeningConditions conditions;
 };
 
-std::vector<CaseKey<OutflowLaw>> windkessel_keys() {
-  return {
-      leaf("proximal", required, "resistance before the compliance in {unit}",
-           number(at(&OutflowLaw::proximal), not_negative, quantity::resistance())),
-      leaf("compliance", required, "in {unit}", number(at(&OutflowLaw::compliance), positive, quantity::compliance())),
-      leaf("distal", required, "resistance behind the compliance in {unit}",
-           number(at(&OutflowLaw::distal), positive, quantity::resistance())),
-      leaf("initial_pressure", optional, "of the compliance at the start in {unit}, default {}",
-           number(at(&OutflowLaw::initial_pressure), any_number, quantity::pressure())),
-      leaf("distal_pressure", optional, "behind the distal resistance in {unit}, default {}",
-           number(at(&OutflowLaw::distal_pressure), any_number, quantity::pressure())),
-  };
+/// The keys of a law's section.
+std::vector<CaseKey<ParameterValues>> keys_of_law(const OpeningLawKind& kind) {
+  const Place<ParameterValues, ParameterValues> all{[](ParameterValues& values) -> ParameterValues& { return values; }};
+  std::vector<CaseKey<ParameterValues>> keys;
+  for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, all));
+  return keys;
 }
 
 std::string lower_case(std::string text) {
@@ -50,24 +51,21 @@ std::string lower_case(std::string text) {
 }
 
 /// Textbooks' letters for the parts of a Windkessel are nearer to other keys than to those that they mean.
-void refuse_symbols(const CaseEntry& windkessel) {
-  struct Symbol {
-    const char* letters;
-    const char* key;
-  };
-  constexpr Symbol symbols[] = {{"Rp", "proximal"},        {"R1", "proximal"},        {"Rc", "proximal"},
-                                {"Z", "proximal"},         {"Zc", "proximal"},        {"C", "compliance"},
-                                {"Rd", "distal"},          {"R2", "distal"},          {"R", "distal"},
-                                {"Pd", "distal_pressure"}, {"P0", "initial_pressure"}};
-  if (!windkessel.is_section()) return;
-  for (const auto& child : windkessel.children()) {
-    std::string name = child.key().substr(windkessel.key().size() + 1);
+void refuse_letters(const CaseEntry& law, const OpeningLawKind& kind) {
+  if (!law.is_section()) return;
+  std::string named;  // those that must be given with a letter
+  for (const auto& p : kind.parameters) {
+    const auto letter =
+        std::find_if(kind.letters.begin(), kind.letters.end(), [&](const auto& row) { return row.second == p.name; });
+    if (!named.empty()) named += &p == &kind.parameters.back() ? " and " : ", ";
+    named += (p.required && letter != kind.letters.end() ? p.name + " (" + letter->first + ")" : p.name);
+  }
+  for (const auto& child : law.children()) {
+    std::string name = child.key().substr(law.key().size() + 1);
     name.erase(std::remove(name.begin(), name.end(), '_'), name.end());
-    for (const Symbol& symbol : symbols)
-      if (lower_case(name) == lower_case(symbol.letters))
-        child.refuse("unknown key", std::string("did you mean ") + symbol.key +
-                                        "? There are proximal (Rp), compliance (C), distal (Rd), initial_pressure and "
-                                        "distal_pressure");
+    for (const auto& [letters, parameter] : kind.letters)
+      if (lower_case(name) == lower_case(letters))
+        child.refuse("unknown key", "did you mean " + parameter + "? There are " + named);
   }
 }
 
@@ -79,7 +77,7 @@ KeyValue<OpeningInput> table_of(const TableKind& kind) {
 /// Listed by list_openings(), as they are after reading.
 std::vector<CaseKey<OpeningInput>> keys_of_opening(Geometry geometry = Geometry::three_dimensional) {
   const auto unlisted = [](const OpeningInput&) { return std::string(); };
-  return {
+  std::vector<CaseKey<OpeningInput>> keys{
       leaf<OpeningInput>("pressure", optional,
                          "on the fluid in {unit}: a number, a table of [time in ms, pressure], or { file = "
                          "\"NAME.csv\" }, path relative to the case file",
@@ -95,38 +93,46 @@ std::vector<CaseKey<OpeningInput>> keys_of_opening(Geometry geometry = Geometry:
           {[](const CaseEntry& entry, OpeningInput& input) { read_period(entry, input.table); }, unlisted}),
       leaf("profile", optional, "of a flow rate's velocity: {}",
            name_from(at(&OpeningInput::profile), inflow_profiles())),
-      leaf("resistance", optional, "pressure over outward flow in {unit}, in place of a pressure",
-           number(at(&OpeningInput::resistance, &OutflowLaw::proximal), not_negative, quantity::resistance())),
-      leaf("distal_pressure", optional, "behind the resistance in {unit}, default {}",
-           number(at(&OpeningInput::resistance, &OutflowLaw::distal_pressure), any_number, quantity::pressure())),
+  };
+  for (const auto& [name, kind] : opening_laws().rows())
+    for (std::size_t i = 0; !kind.has_section() && i < kind.parameters.size(); ++i) {
+      keys.push_back(parameter_key(kind.parameters[i], at(&OpeningInput::law)));
+      keys.back().required = optional;
+      if (i == 0) keys.back().about += in_place;
+    }
+  keys.push_back(
       leaf("backflow", optional,
            "factor of the stabilisation against fluid that enters where its flow is not given, 0: none; default 0.5, "
            "which lets no kinetic energy in",
-           number(at(&OpeningInput::conditions, &OpeningConditions::backflow), not_negative)),
-      section<OutflowLaw, OpeningInput>(
-          "windkessel", optional, "proximal resistance, compliance and distal resistance, in place of a pressure",
-          windkessel_keys(), [](OpeningInput& input) -> OutflowLaw& { return input.windkessel; },
-          [](const OpeningInput& input) { return &input.windkessel; }),
-  };
+           number(at(&OpeningInput::conditions, &OpeningConditions::backflow), not_negative)));
+  for (const auto& [name, kind] : opening_laws().rows())
+    if (kind.has_section())
+      keys.push_back(section<ParameterValues, OpeningInput>(
+          name, optional, kind.about + std::string(in_place), keys_of_law(kind),
+          [](OpeningInput& input) -> ParameterValues& { return input.law; },
+          [](const OpeningInput& input) { return &input.law; }));
+  return keys;
 }
 
 /// One source at most, and nothing that belongs to another.
 void check_sources(const CaseEntry& entry) {
   std::string source;
-  for (const char* name : sources) {
+  for (const std::string& name : sources()) {
     if (!entry.has(name)) continue;
     if (!source.empty())
       entry.child(name).refuse("stands beside " + source, "keep one of them: what happens here has one cause");
     source = name;
   }
-  const auto belongs = [&](const char* key, bool given, const std::string& to) {
+  const auto belongs = [&](const std::string& key, bool given, const std::string& to) {
     if (entry.has(key) && !given) entry.child(key).refuse("belongs to " + to, "remove it, or give " + to + " as well");
   };
   const bool table = source == "pressure" || source == "flow_rate";
   belongs("until", table, "pressure or flow_rate");
   belongs("period", table, "pressure or flow_rate");
   belongs("profile", source == "flow_rate", "flow_rate");
-  belongs("distal_pressure", source == "resistance", source == "windkessel" ? "windkessel" : "resistance");
+  for (const auto& [name, kind] : opening_laws().rows())
+    for (const auto& p : kind.parameters)
+      if (!kind.has_section() && p.name != name) belongs(p.name, source == name, name);
 }
 
 OpeningConditions read_opening(const CaseEntry& entry, Geometry geometry) {
@@ -135,9 +141,12 @@ OpeningConditions read_opening(const CaseEntry& entry, Geometry geometry) {
     entry.refuse("has a comma in its name, which openings.csv could not show", "give the surface a name without");
   if (!entry.is_section())
     entry.refuse("is no section", "write [[opening]] with surface = \"" + entry.key().substr(8) + "\"");
-  if (entry.has("windkessel") && entry.has("distal_pressure"))
-    entry.child("distal_pressure").refuse("stands beside windkessel", "put it into the section windkessel");
-  if (entry.has("windkessel")) refuse_symbols(entry.child("windkessel"));
+  for (const auto& [name, kind] : opening_laws().rows()) {
+    if (!kind.has_section() || !entry.has(name)) continue;
+    for (const auto& p : kind.parameters)
+      if (entry.has(p.name)) entry.child(p.name).refuse("stands beside " + name, "put it into the section " + name);
+    refuse_letters(entry.child(name), kind);
+  }
   read_keys(entry, keys_of_opening(geometry), input);
   check_sources(entry);
   OpeningConditions& conditions = input.conditions;
@@ -156,10 +165,9 @@ OpeningConditions read_opening(const CaseEntry& entry, Geometry geometry) {
                                     "give a table without jumps whose last value is its first, or profile = "
                                     "\"parabolic\"");
     conditions.flow_rate = FlowRateData{input.table.table, input.profile};
-  } else if (entry.has("resistance")) {
-    conditions.outflow_law = input.resistance;
-  } else if (entry.has("windkessel")) {
-    conditions.outflow_law = input.windkessel;
+  } else {
+    for (const auto& [name, kind] : opening_laws().rows())
+      if (entry.has(name)) conditions.law = OpeningLawData{name, input.law};
   }
   return conditions;
 }
@@ -172,23 +180,19 @@ void list_table(const std::string& path, const PressureTable& table, std::vector
 void list_openings(const Case& scene, const std::string& path, std::vector<CaseValue>& values) {
   for (const auto& [surface, conditions] : scene.openings) {
     const std::string here = path + "." + surface;
-    const auto add = [&](const char* key, double value) {
-      values.push_back({here + "." + key, fmt::format("{}", value), KeyRole::physics});
-    };
     if (conditions.pressure) list_table(here + ".pressure", *conditions.pressure, values);
     if (conditions.flow_rate) {
       list_table(here + ".flow_rate", conditions.flow_rate->table, values);
       values.push_back({here + ".profile", inflow_profiles().name_of(conditions.flow_rate->profile), KeyRole::physics});
     }
-    if (const auto& law = conditions.outflow_law; law && law->stores()) {
-      list_keys(windkessel_keys(), *law, here + ".windkessel", values);
-    } else if (law) {
-      add("resistance", law->proximal);
-      add("distal_pressure", law->distal_pressure);
+    if (const auto& law = conditions.law) {
+      const OpeningLawKind& kind = opening_laws().at(law->name);
+      list_keys(keys_of_law(kind), law->values, kind.has_section() ? here + "." + law->name : here, values);
     }
-    if (!conditions.flow_rate) add("backflow", conditions.backflow.value_or(BackflowTraction::standard));
-    if (!conditions.pressure && !conditions.flow_rate && !conditions.outflow_law)
-      values.push_back({here, "free of traction", KeyRole::physics});
+    if (!conditions.flow_rate)
+      values.push_back({here + ".backflow", fmt::format("{}", conditions.backflow.value_or(BackflowTraction::standard)),
+                        KeyRole::physics});
+    if (conditions.is_free()) values.push_back({here, "free of traction", KeyRole::physics});
   }
 }
 
@@ -205,18 +209,16 @@ std::vector<KeyHelp> help() {
 }  // namespace
 
 CaseKey<Case> opening_key() {
-  return {
-      "opening",
-      optional,
-      "a list [[opening]]: each a surface that fluid passes, with pressure, flow_rate, resistance or windkessel, or "
-      "free of traction",
-      [](const CaseEntry& entry, Case& scene) {
-        for (const auto& child : entry.children())
-          scene.openings[child.key().substr(entry.key().size() + 1)] = read_opening(child, scene.geometry);
-      },
-      list_openings,
-      KeyRole::physics,
-      help()};
+  return {"opening",
+          optional,
+          "a list [[opening]]: each a surface that fluid passes, with " + one_of(sources()) + ", or free of traction",
+          [](const CaseEntry& entry, Case& scene) {
+            for (const auto& child : entry.children())
+              scene.openings[child.key().substr(entry.key().size() + 1)] = read_opening(child, scene.geometry);
+          },
+          list_openings,
+          KeyRole::physics,
+          help()};
 }
 
 void check_openings(const CaseEntry& whole_case, const Case& scene) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,15 +9,11 @@
 
 namespace fsi {
 
-/// What happens at one surface through which fluid may pass.
-struct OpeningData {
-  std::string surface;                    ///< name of the facet group
-  std::optional<PressureTable> pressure;  ///< on the fluid from outside; none: free of traction
-  std::optional<FlowRateData> flow_rate{};
-  std::optional<OutflowLaw> outflow_law{};
-  std::optional<double> backflow{};  ///< as in OpeningConditions
-  bool listed = false;               ///< the case has [[opening]], and this is none that [inlet] makes
-  bool demanded = true;              ///< of the mesh; else it may have no such surface
+/// One surface through which fluid may pass, with what happens there.
+struct OpeningData : OpeningConditions {
+  std::string surface;   ///< name of the facet group
+  bool listed = false;   ///< the case has [[opening]], and this is none that [inlet] makes
+  bool demanded = true;  ///< of the mesh; else it may have no such surface
 };
 
 /// Whether a case says that its fluid has no opening.
@@ -32,15 +27,10 @@ inline bool is_closed(const Case& setup) {
 inline std::vector<OpeningData> openings_of(const Case& setup) {
   if (!setup.fluid) return {};
   std::vector<OpeningData> openings;
-  if (setup.inlet || (setup.openings.empty() && !is_closed(setup))) openings.push_back({group::inlet, setup.inlet});
-  for (const auto& [surface, conditions] : setup.openings)
-    openings.push_back(
-        {surface, conditions.pressure, conditions.flow_rate, conditions.outflow_law, conditions.backflow, true});
-  if (setup.fluid->outlet && setup.openings.count(group::outlet) == 0) {
-    openings.push_back({group::outlet, std::nullopt});
-    openings.back().demanded = setup.openings.empty() && !is_closed(setup);
-    openings.back().listed = !setup.openings.empty();
-  }
+  if (setup.inlet || (setup.openings.empty() && !is_closed(setup))) openings.push_back({{setup.inlet}, group::inlet});
+  for (const auto& [surface, conditions] : setup.openings) openings.push_back({conditions, surface, true});
+  if (setup.fluid->outlet && setup.openings.count(group::outlet) == 0)
+    openings.push_back({{}, group::outlet, !setup.openings.empty(), setup.openings.empty() && !is_closed(setup)});
   return openings;
 }
 

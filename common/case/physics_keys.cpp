@@ -9,6 +9,7 @@
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
 #include "case/opening_keys.hpp"
+#include "case/parameter_keys.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_input.hpp"
 #include "materials/material.hpp"
@@ -126,25 +127,11 @@ KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data:
 
 // [structure].
 
-std::string about(const Parameter& parameter) {
-  const std::string unit = parameter.quantity->unit;
-  return parameter.about + (unit.empty() ? "" : " in " + unit) +
-         (parameter.required || parameter.of_a_set ? "" : ", default " + text_for_people(parameter.standard));
-}
-
 /// The keys of a layer of this material: its name and its parameters.
 std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
   std::vector<CaseKey<MaterialData>> keys = {
       leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
-  for (const auto& p : kind.parameters) {
-    KeyValue<MaterialData> value = parameter_value(p, &MaterialData::values);
-    value.write = [p](const MaterialData& layer) {
-      const auto found = layer.values.find(p.name);
-      if (p.of_a_set && found == layer.values.end()) return std::string("not given");
-      return fmt::format("{}", found == layer.values.end() ? p.standard : found->second);
-    };
-    keys.push_back(leaf(p.name, p.required, about(p), value));
-  }
+  for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, at(&MaterialData::values)));
   return keys;
 }
 

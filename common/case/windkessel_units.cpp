@@ -24,12 +24,12 @@ std::optional<double> mean_pressure(const Case& scene) {
     if (opening.flow_rate) {
       const auto& table = opening.flow_rate->table;
       flow += table.mean(0, table.period > 0 ? table.period : scene.time->end);
-    } else if (opening.outflow_law) {
-      const double resistance =
-          opening.outflow_law->proximal + (opening.outflow_law->stores() ? opening.outflow_law->distal : 0);
+    } else if (opening.law) {
+      const auto law = opening.law->make();
+      const double resistance = law->slope(0);  // to a steady flow
       if (!(resistance > 0)) return std::nullopt;
       conductance += 1 / resistance;
-      behind += opening.outflow_law->distal_pressure / resistance;
+      behind += law->pressure(0, law->start().data(), 0) / resistance;
     } else if (opening.demanded) {
       return std::nullopt;
     }
@@ -41,8 +41,11 @@ std::optional<double> mean_pressure(const Case& scene) {
 /// The largest pressure that the case gives for what is behind its openings, kPa.
 double given_pressure(const Case& scene) {
   double pressure = scene.prestress ? scene.prestress->pressure : 0;
-  for (const auto& [surface, conditions] : scene.openings)
-    if (conditions.outflow_law) pressure = std::max(pressure, conditions.outflow_law->initial_pressure);
+  for (const auto& [surface, conditions] : scene.openings) {
+    if (!conditions.law) continue;
+    const auto law = conditions.law->make();
+    if (const auto kept = law->start(); !kept.empty()) pressure = std::max(pressure, law->pressure_behind(kept.data()));
+  }
   return pressure;
 }
 
@@ -81,18 +84,16 @@ void warn_of_windkessel_units(const CaseEntry& whole_case, const Case& scene) {
   const bool high = pressure && too_high(*pressure, given_pressure(scene));
   bool said_high = false;
   for (const auto& [surface, conditions] : scene.openings) {
-    const auto& law = conditions.outflow_law;
-    if (!law) continue;
-    const CaseEntry opening = whole_case.child("opening").child(surface);
-    const CaseEntry entry = opening.child(law->stores() ? "windkessel" : "resistance");
+    if (!conditions.law) continue;
+    const CaseEntry entry = whole_case.child("opening").child(surface).child(conditions.law->name);
     if (high && !said_high)
       entry.warn(fmt::format("the mean flow would raise {:.3g} kPa behind the outlets, as resistances in mmHg s/ml do",
                              *pressure),
                  fmt::format("multiply such resistances by {}: kPa ms/mm^3 are expected", kilopascal));
     said_high = said_high || high;
     const auto beat = beat_of(scene, pressure && !high);
-    const double time_constant = law->distal * law->compliance;
-    if (!beat || !law->stores() || !too_short(time_constant, beat->length)) continue;
+    const double time_constant = conditions.law->make()->time_constant();
+    if (!beat || time_constant == 0 || !too_short(time_constant, beat->length)) continue;
     const std::string problem =
         fmt::format("distal times compliance is {:.3g} ms beside {:g} ms of a {}, which looks like a number of seconds",
                     time_constant, beat->length, beat->name);

@@ -183,7 +183,7 @@ void CondensedIteration<n>::correct(double tolerance, double relative, const Inn
     report.iterations += inner_solver(right_, scale, tolerance, solution_);
   correction_.assign(numbering.columns(), 0.0);
   layout_.give(solution_, correction_);
-  numbering.update_copies(correction_);
+  numbering.update_ghosts(correction_);
   if (extension_) {
     for (std::size_t i = 0; i < mesh_.size(); ++i) {
       const Unknown& unknown = numbering.mesh[i];
@@ -192,7 +192,7 @@ void CondensedIteration<n>::correct(double tolerance, double relative, const Inn
     extension_->solve(mesh_right_, mesh_, std::min(loosest_extension, HarmonicExtensionOptions().tolerance / relative));
     for (std::size_t i = 0; i < mesh_.size(); ++i)
       if (numbering.mesh_rows[i].index >= 0) correction_[numbering.mesh_rows[i].index] = mesh_[i];
-    numbering.update_copies(correction_);
+    numbering.update_ghosts(correction_);
   }
 }
 

@@ -14,11 +14,11 @@ namespace fsi {
 /// The outer iteration around a solver of velocities and pressures: it computes residuals of the whole system in double
 /// precision, takes the mesh displacement along by its extension, and brings the shape derivatives back that the inner
 /// solver leaves out, small against the rest, through the residual. Where the scene is shared out among processes, each
-/// holds the rows of its unknowns, and solutions with copies.
+/// holds the rows of its unknowns, and solutions with ghosts.
 template <int n>
 class CondensedIteration {
  public:
-  /// solution = approximate F^-1 right in the order of the layout, places of copies as they are; `scale` is |right| > 0.
+  /// solution = approximate F^-1 right in the order of the layout, places of ghosts as they are; `scale` is |right| > 0.
   /// \param tolerance  residual over |right|
   /// \returns iterations
   using InnerSolver = std::function<int(const std::vector<double>& right, double scale, double tolerance,

@@ -18,7 +18,7 @@ namespace fsi {
 /// here by the numbering). In statics v stands for the displacement itself. Nodes are ordered as in the whole mesh, so
 /// that neighbours are close. Vectors: n numbers for each velocity node, then one for each pressure. A node
 /// of which only some components are unknowns has a place for all n; the others stay zero. Where the scene is shared out
-/// among processes, copies of their velocities and pressures have places like this process's own.
+/// among processes, ghosts of their velocities and pressures have places like this process's own.
 template <int n>
 class VelocityPressureLayout {
  public:
@@ -137,7 +137,7 @@ class VelocityPressureLayout {
   std::size_t velocity_size() const { return static_cast<std::size_t>(velocities) * n; }
   std::size_t size() const { return velocity_size() + pressures; }
 
-  /// Equations of the system that belong to these unknowns, in this order; zero where there is none, as at copies.
+  /// Equations of the system that belong to these unknowns, in this order; zero where there is none, as at ghosts.
   void take(const std::vector<double>& system, std::vector<double>& mine) const {
     mine.resize(size());
     const auto equation = [&](std::int64_t unknown) {
@@ -154,7 +154,7 @@ class VelocityPressureLayout {
   }
 
  private:
-  /// But for copies of other processes' unknowns, which have no equations here.
+  /// But for ghosts, which have no equations here.
   [[maybe_unused]] bool same_places(const UnknownMap& unknowns, const UnknownMap& rows) const {
     return std::equal(unknowns.begin(), unknowns.end(), rows.begin(), rows.end(),
                       [this](const Unknown& unknown, const Unknown& row) {

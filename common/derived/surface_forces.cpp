@@ -122,8 +122,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     std::vector<double> mesh_buffer, flow_buffer, residual;
     const auto& mesh = gradients_->template reach<Vector>(balance.at.mesh, mesh_buffer);
     const auto& flow = gradients_->template reach<Mixed>(balance.at.fluid, flow_buffer);
-    scene_.fluid->assemble(scene_.fluid_input(balance.at, balance.data.rates), balance.data.opening_pressures,
-                           residual);
+    scene_.assemble_fluid(balance.at, balance.data, residual);
     std::vector<Mat3<double>> stress;
     for (std::size_t i = 0; i < gradients_->size(); ++i)
       stress.push_back(viscous_stress<n>(*gradients_, i, scene_.fluid->form().viscosity, mesh, flow));
@@ -163,7 +162,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
   struct Set {
     bool by_equations = true;
     std::vector<int> facets;  ///< places
-    std::vector<int> nodes;   ///< of the surface; copies of other processes' too
+    std::vector<int> nodes;   ///< of the surface; ghosts too
     std::vector<int> beside;  ///< facets that touch these nodes, with a traction that is not given
   };
 

@@ -148,7 +148,7 @@ class WallStressOf : public WallStress<Element::components> {
       const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
       std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
     }
-    if (wall_.nodes().share) update_copies(all);
+    if (wall_.nodes().share) update_ghosts(all);
     return all;
   }
 
@@ -164,7 +164,7 @@ class WallStressOf : public WallStress<Element::components> {
     return unloaded;
   }
 
-  void update_copies(WallStresses& all) const {
+  void update_ghosts(WallStresses& all) const {
     const Exchange& exchange = wall_.nodes().share->exchange;
     std::vector<double> numbers;
     numbers.reserve(9 * all.cauchy.size());

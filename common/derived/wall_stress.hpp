@@ -22,7 +22,7 @@ struct WallStresses {
 /// weak form, from displacement gradients recovered at the vertices and the pressure there (docs/theory.md, section 11a).
 /// Gradients are recovered on the cells of one layer. Where layers have vertices of their own, each has its own stress;
 /// a vertex that layers share has their mean. All processes that share the wall ask together, and each gets the stresses at
-/// all its nodes, copies too.
+/// all its nodes, ghosts too.
 template <int n>
 class WallStress {
  public:

@@ -123,14 +123,14 @@ class EnergyBalance {
     // Integrals over openings are those of all processes.
     const double share = scene_.processes().is_first() ? in.duration : 0;
     const auto& open = scene_.fluid->open_boundaries();
-    const auto& pressures = balance.data.opening_pressures;
+    const std::vector<double> pressures = scene_.opening_pressures(balance.at, balance.data);
     for (std::size_t i = 0; i < open.size(); ++i) {
       const double kinetic = share * scene_.fluid->kinetic_outflow(open[i], in.balance, balance.at.fluid);
       if (open[i].name() == group::inlet)
         record.inlet_kinetic -= kinetic;
       else
         record.outlet_kinetic += kinetic;
-      const double pressure = open[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in.balance);
+      const double pressure = i < pressures.size() ? pressures[i] : 0;
       if (pressure != 0) record.inlet_work -= share * pressure * open[i].outflow(balance.at.mesh, balance.at.fluid);
     }
     if (!scene_.inflows.empty())

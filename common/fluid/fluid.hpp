@@ -43,15 +43,14 @@ class Fluid {
   }
 
   /// Overwrites the residual, in the mixed layout, with all terms but prescribed values; the tractions of the open
-  /// boundaries included: -p N, p being what is applied there and what the opening's law answers the flow with, and those
-  /// against backflow.
-  /// \param pressures  kPa, of the open boundaries in their order; missing ones are zero
+  /// boundaries included: -p N, and those against backflow.
+  /// \param pressures  from outside, kPa, of the open boundaries in their order; missing ones are zero
   virtual AssemblyResult assemble(const FluidInput& in, const std::vector<double>& pressures,
                                   std::vector<double>& residual,
                                   FluidDerivatives derivatives = FluidDerivatives::none) = 0;
 
-  /// The derivatives last assembled, but for those of the openings' laws: dp/dQ w w^T, w their normals, which would fill
-  /// the matrix (system/low_rank_solver.hpp). Storage appears with the first request.
+  /// The derivatives last assembled, for given pressures from outside: how these answer the flow, dp/dQ w w^T, w the normals
+  /// of an opening, would fill the matrix (system/low_rank_solver.hpp). Storage appears with the first request.
   virtual FluidJacobian<n>& jacobian(FluidDerivatives derivatives) = 0;
 
   /// uJ, of a level: mesh displacement (empty where the domain is rigid) and flow (u, p). Of the elements that sums count

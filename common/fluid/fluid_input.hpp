@@ -16,11 +16,8 @@ struct FluidInput {
   const double* fluid_reference = nullptr;
   double fluid_factor = 0;  ///< 1/ms
   double mesh_factor = 0;   ///< 1/ms
-  double step = 0;          ///< ms, for the stabilisation
-  /// Of what the Windkessels behind the openings store, kPa: dp_c/dt = fluid_factor (p_c - reference). Null: there is none.
-  const double* windkessel_reference = nullptr;
-  /// What openings keep at the balance, Solution::windkessel. Null: nothing.
-  const double* opening_values = nullptr;
+  /// ms, the dt of tau (docs/theory.md, section 3.2): theta dt where a rule balances within the step
+  double step = 0;
   /// The projected pressure gradient of the stabilisation, vector layout, kPa/mm. The sub-problem finds it itself.
   const double* projected_gradient = nullptr;
 };

@@ -40,7 +40,7 @@ template <class Element>
 void FluidProblem<Element>::add_openings(const FluidInput& in, const std::vector<double>& pressures,
                                          std::vector<double>& residual, FluidDerivatives derivatives) {
   for (std::size_t i = 0; i < open_.size(); ++i)
-    open_[i].add_pressure(open_[i].outside_pressure(i < pressures.size() ? pressures[i] : 0, in), in.mesh, residual,
+    open_[i].add_pressure(i < pressures.size() ? pressures[i] : 0, in.mesh, residual,
                           derivatives == FluidDerivatives::fluid_and_domain ? &jacobian_.shape_derivatives : nullptr);
   for (const auto& [open, facets] : backflow_)
     facets.add(form_.density, in.fluid, residual.data(), derivatives == FluidDerivatives::none ? nullptr : &jacobian_);

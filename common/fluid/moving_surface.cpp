@@ -30,7 +30,7 @@ class MovingFacets : public MovingSurface<Element::components> {
       : nodes_(std::move(nodes)), facets_(std::move(facets)), counted_(facets_.size(), 1) {
     if (share == nullptr) return;
     for (int a = 0; a < static_cast<int>(nodes_.size()); ++a)
-      if (share->owned[a] == 0) copies_.push_back(a);
+      if (share->owned[a] == 0) ghosts_.push_back(a);
     for (std::size_t f = 0; f < facets_.size(); ++f)  // PartRestriction::counts
       counted_[f] = share->owned[*std::min_element(facets_[f].begin(), facets_[f].end())];
   }
@@ -38,7 +38,7 @@ class MovingFacets : public MovingSurface<Element::components> {
   std::vector<double> normals(const double* mesh) const override {
     std::vector<double> weights(Mixed::size(static_cast<int>(nodes_.size())), 0.0);
     add_pressure(1, mesh, weights.data(), nullptr);
-    drop_copies(weights, Mixed::entries);
+    drop_ghosts(weights, Mixed::entries);
     return weights;
   }
 
@@ -53,7 +53,7 @@ class MovingFacets : public MovingSurface<Element::components> {
         for (int a = 0; a < F::scalar_nodes; ++a) areas[facet[a]] += F::scalar_shape(q, a) * area;
       }
     }
-    drop_copies(areas, 1);
+    drop_ghosts(areas, 1);
     return areas;
   }
 
@@ -167,7 +167,7 @@ class MovingFacets : public MovingSurface<Element::components> {
           }
         }
       }
-    drop_copies(slope, Vector::entries);
+    drop_ghosts(slope, Vector::entries);
     return slope;
   }
 
@@ -179,9 +179,9 @@ class MovingFacets : public MovingSurface<Element::components> {
       for (int k = 0; k < n; ++k) x[a][Element::axis[k]] += Pack(mesh[Vector::vector(facet[a], k)]);
     }
   }
-  /// Copies of other processes' nodes lack the facets that touch no own node; their owners have them whole.
-  void drop_copies(std::vector<double>& field, int entries) const {
-    for (const int node : copies_)
+  /// Ghosts lack the facets that touch no own node; their owners have them whole.
+  void drop_ghosts(std::vector<double>& field, int entries) const {
+    for (const int node : ghosts_)
       std::fill_n(field.begin() + static_cast<std::ptrdiff_t>(node) * entries, entries, 0.0);
   }
   static double mesh_velocity(const FluidInput& in, int node, int k) {
@@ -266,7 +266,7 @@ class MovingFacets : public MovingSurface<Element::components> {
   std::vector<Point> nodes_;
   std::vector<Facet> facets_;
   std::vector<char> counted_;  ///< per facet: in sums, by this process
-  std::vector<int> copies_;    ///< nodes of other processes
+  std::vector<int> ghosts_;    ///< nodes of other processes
 };
 
 }  // namespace

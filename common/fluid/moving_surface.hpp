@@ -20,9 +20,9 @@ class MovingSurface {
 
   virtual ~MovingSurface() = default;
 
-  /// Integrals of N_a n, as a flow array, mm^2; zero at copies of other processes' nodes.
+  /// Integrals of N_a n, as a flow array, mm^2; zero at ghosts (nodes of other processes).
   virtual std::vector<double> normals(const double* mesh) const = 0;
-  /// Integrals of the scalar fields' shape functions per node, mm^2; zero at copies.
+  /// Integrals of the scalar fields' shape functions per node, mm^2; zero at ghosts.
   virtual std::vector<double> areas(const double* mesh) const = 0;
 
   /// Adds the traction -pressure n to the fluid's residual and, unless null, its derivative by the mesh's displacement.
@@ -31,7 +31,7 @@ class MovingSurface {
   /// Volume flow outward, integral of u . n, mm^3/ms.
   virtual double outflow(const double* mesh, const double* flow) const = 0;
   /// The flow that the surface's own motion leaves, integral of (u - w) . n, w the mesh's velocity, and its derivative by
-  /// the mesh's displacement, vector layout, zero at copies.
+  /// the mesh's displacement, vector layout, zero at ghosts.
   virtual double relative_outflow(const FluidInput& in) const = 0;
   virtual std::vector<double> relative_outflow_slope(const FluidInput& in) const = 0;
   /// Integral of |u|^2/2 (u - w) . n, w the mesh's velocity, mm^5/ms^3.

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "fem/facet_load.hpp"
 #include "fluid/fluid_input.hpp"
 #include "fluid/moving_surface.hpp"
-#include "fluid/outflow_law.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "parallel/node_share.hpp"
 
@@ -44,7 +42,7 @@ class OpenBoundary {
         empty_(!processes.any(std::any_of(areas_.begin(), areas_.end(), [](double area) { return area != 0; }))) {}
 
   const std::string& name() const { return name_; }
-  /// Integrals of N_a n at rest, as a flow array, mm^2; zero at copies of other processes' nodes.
+  /// Integrals of N_a n at rest, as a flow array, mm^2; zero at ghosts (nodes of other processes).
   const std::vector<double>& normals() const { return normals_; }
   /// Lets it move with the mesh.
   void move_by(std::shared_ptr<const MovingSurface<n>> surface) { moving_ = std::move(surface); }
@@ -53,27 +51,6 @@ class OpenBoundary {
   /// Whether there is a surface at all.
   bool empty() const { return empty_; }
 
-  /// Lets a law say what pressure answers the flow. \param place  of its p_c among those of all openings
-  void set_law(const OutflowLaw& law, std::size_t place) {
-    law_ = law;
-    place_ = place;
-  }
-  /// Null where the outside pressure does not depend on the flow.
-  const OutflowLaw* law() const { return law_ ? &*law_ : nullptr; }
-  /// Of the p_c of a law that stores, in Solution::windkessel.
-  std::size_t place() const { return place_; }
-  /// Of an opening that moves: the flow through it is given, and the pressure that drives it is found with the step.
-  /// \param place  in Solution::windkessel, of that pressure, kPa, and behind it the flow, outward, mm^3/ms
-  void set_given_flow(std::size_t place) { flow_place_ = place; }
-  /// That place; none where the flow is not given like this.
-  const std::optional<std::size_t>& given_flow() const { return flow_place_; }
-  /// The pressure from outside at a balance, kPa. \param applied  of a table
-  double outside_pressure(double applied, const FluidInput& in) const {
-    if (flow_place_) return in.opening_values[*flow_place_];
-    if (!law_) return applied;
-    const double reference = law_->stores() ? in.windkessel_reference[place_] : 0;
-    return applied + law_->pressure(in.fluid_factor, reference, relative_outflow(in));
-  }
   /// The nodes of its facets, one after the other, normals outward.
   const std::vector<int>& facets() const { return facets_; }
 
@@ -145,9 +122,6 @@ class OpenBoundary {
   const Communicator* processes_;
   bool empty_;
   std::shared_ptr<const MovingSurface<n>> moving_;
-  std::optional<OutflowLaw> law_;
-  std::size_t place_ = 0;
-  std::optional<std::size_t> flow_place_;
 };
 
 /// \param nodes   reference positions of the fluid's nodes, mm

@@ -35,7 +35,7 @@ class MeshFollower {
  public:
   /// \param motion  must outlive this, and so must `frames`
   /// \param inner   per node and component: its value is sought; at nodes with a frame components are the frame's
-  ///                also at copies of other processes' nodes
+  ///                also at ghosts
   /// \param frames  null: none
   /// \param shared  its share must outlive this
   MeshFollower(const NonlinearMeshMotion<n>& motion, std::vector<char> inner, const NodalFrames<n>* frames = nullptr,

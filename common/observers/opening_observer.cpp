@@ -25,40 +25,44 @@ const Columns<OpeningRecord>& opening_columns() {
 template <int n>
 class OpeningObserver : public Observer {
  public:
-  explicit OpeningObserver(std::vector<const OpenBoundary<n>*> openings) : openings_(std::move(openings)) {}
+  OpeningObserver(const Scene<n>& scene, std::vector<std::size_t> openings)
+      : scene_(scene), openings_(std::move(openings)) {}
 
   std::vector<ResultTable> tables() const override {
     std::vector<std::string> names;
-    for (const auto* open : openings_) names.push_back(open->name());
+    for (const std::size_t i : openings_) names.push_back(scene_.fluid->open_boundaries()[i].name());
     return {table_of(openings_file, opening_columns(), RowsPer::level, "opening", std::move(names))};
   }
   std::vector<TableRows> rows_at(const State& level) const override {
     std::vector<OpeningRecord> records;
-    for (const auto* open : openings_) {
-      const OutflowLaw* law = open->law();
-      const double behind = law == nullptr  ? 0
-                            : law->stores() ? level.now.windkessel[open->place()]
-                                            : law->distal_pressure;
+    for (const std::size_t i : openings_) {
+      const auto& open = scene_.fluid->open_boundaries()[i];
+      const auto* answering = scene_.openings.answering(i);
+      const double behind =
+          answering ? answering->law->pressure_behind(level.now.openings.data() + answering->place) : 0;
       const auto &mesh = level.now.mesh, &flow = level.now.fluid;
-      records.push_back({open->outflow(mesh, flow), open->mean_pressure(mesh, flow), behind});
+      records.push_back({open.outflow(mesh, flow), open.mean_pressure(mesh, flow), behind});
     }
     return {rows_of(openings_file, {level.time}, opening_columns(), records)};
   }
 
  private:
-  std::vector<const OpenBoundary<n>*> openings_;  ///< that the mesh has, in their order
+  const Scene<n>& scene_;
+  std::vector<std::size_t> openings_;  ///< numbers of those that the mesh has
 };
 
 }  // namespace
 
 template <int n>
 std::unique_ptr<Observer> make_opening_observer(const Watched<n>& watched) {
-  std::vector<const OpenBoundary<n>*> openings;
-  if (!watched.setup.openings.empty() && watched.scene.fluid)
-    for (const auto& open : watched.scene.fluid->open_boundaries())
-      if (!open.empty()) openings.push_back(&open);
+  std::vector<std::size_t> openings;
+  if (!watched.setup.openings.empty() && watched.scene.fluid) {
+    const auto& open = watched.scene.fluid->open_boundaries();
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (!open[i].empty()) openings.push_back(i);
+  }
   if (openings.empty()) return nullptr;
-  return std::make_unique<OpeningObserver<n>>(std::move(openings));
+  return std::make_unique<OpeningObserver<n>>(watched.scene, std::move(openings));
 }
 
 #define FSI_INSTANTIATE(n) template std::unique_ptr<Observer> make_opening_observer(const Watched<n>&);

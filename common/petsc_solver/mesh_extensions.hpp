@@ -12,11 +12,11 @@
 namespace fsi {
 
 /// The solver of a harmonic or stiffened mesh motion, of the fluid's nodes `part`: HarmonicExtension on one process, and
-/// where the part is shared out, conjugate gradients by PETSc unless it is small (PetscExtension). There right sides count at own entries, fields hold copies:
+/// where the part is shared out, conjugate gradients by PETSc unless it is small (PetscExtension). There right sides count at own entries, fields hold ghosts:
 /// given values have to be in them, sought ones are brought to them.
 /// \param laplacian  conditions not imposed; must outlive this, and so must `frames` and `part`
-/// \param inner      per node and component, in the frames: its value is sought. What stands there for copies of other
-///                   processes' nodes does not matter
+/// \param inner      per node and component, in the frames: its value is sought. What stands there for ghosts does not
+///                   matter
 /// \param frames     null: none
 template <int n>
 std::unique_ptr<MeshExtension<n>> make_harmonic_extension(const BlockMatrix<1, n>& laplacian, std::vector<char> inner,

@@ -72,7 +72,7 @@ LinearReport PetscDirectSolver<n>::solve(const std::vector<double>& b, double, s
   petsc_check(VecGetArrayRead(x_, &found));
   std::copy_n(found, numbering.size, x.begin());
   petsc_check(VecRestoreArrayRead(x_, &found));
-  numbering.update_copies(x);
+  numbering.update_ghosts(x);
   jacobian_.multiply(x, product_);
   for (std::size_t i = 0; i < b.size(); ++i) product_[i] = b[i] - product_[i];
   double squares[2] = {dot(product_, product_), dot(b, b)};

@@ -25,7 +25,7 @@ class SharedLayout {
   PetscInt velocity_rows = 0, pressure_rows = 0;         ///< of this process
   PetscInt first_velocity = 0;                           ///< number of its first velocity node
 
-  /// Gives copies of velocities the owners' numbers. \param per_velocity  of the layout
+  /// Gives ghosts' velocities the owners' numbers. \param per_velocity  of the layout
   void update_velocities(std::vector<double>& per_velocity) const;
 
   PetscInt rows() const { return velocity_rows + pressure_rows; }

@@ -87,7 +87,7 @@ std::optional<std::size_t> ArrayOrders<n>::length(ArrayKind kind, const State& r
     case ArrayKind::support_loads:
       return rest.support_loads;
     case ArrayKind::opening_values:
-      return rest.now.windkessel.size();
+      return rest.now.openings.size();
     case ArrayKind::mesh:
       return rest.now.mesh.size();
     case ArrayKind::flow:

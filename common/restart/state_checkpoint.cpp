@@ -34,8 +34,7 @@ void keep_fields(const std::string& name, Solution& fields, Memory& memory) {
   keep_sized(name + ".mesh", ArrayKind::mesh, fields.mesh, memory);
   keep_sized(name + ".flow", ArrayKind::flow, fields.fluid, memory);
   keep_sized(name + ".wall", ArrayKind::wall, fields.wall, memory);
-  if (!fields.windkessel.empty())
-    keep_sized(name + ".windkessel", ArrayKind::opening_values, fields.windkessel, memory);
+  if (!fields.openings.empty()) keep_sized(name + ".windkessel", ArrayKind::opening_values, fields.openings, memory);
 }
 
 template <std::size_t count>

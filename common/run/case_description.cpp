@@ -27,23 +27,13 @@ std::string course(const PressureTable& table, const std::string& unit) {
 }
 
 /// \param volume  the unit of what flows: of a plane scene an area
-std::string text_of_law(const OutflowLaw& law, const char* volume) {
-  std::string text =
-      law.stores()
-          ? fmt::format("Windkessel: proximal {:g}, distal {:g} kPa ms/{}, compliance {:g} {}/kPa, from {:g} kPa",
-                        law.proximal, law.distal, volume, law.compliance, volume, law.initial_pressure)
-          : fmt::format("resistance {:g} kPa ms/{}", law.proximal, volume);
-  if (law.distal_pressure != 0) text += fmt::format(" above {:g} kPa", law.distal_pressure);
-  return text;
-}
-
 std::string text_of_opening(const OpeningData& opening, const char* volume) {
   if (opening.pressure) return "pressure " + course(*opening.pressure, "kPa");
   if (opening.flow_rate)
     return fmt::format("flow into the fluid of {}, {} profile",
                        course(opening.flow_rate->table, std::string(volume) + "/ms"),
                        inflow_profiles().name_of(opening.flow_rate->profile));
-  if (opening.outflow_law) return text_of_law(*opening.outflow_law, volume);
+  if (opening.law) return opening.law->make()->description(volume);
   return "free of traction";
 }
 

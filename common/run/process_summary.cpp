@@ -62,7 +62,7 @@ template <int n>
 ProcessSummary<n>::ProcessSummary(const Scene<n>& scene) : scene_(scene), reading_memory_(peak_memory_mib()) {
   if (scene.processes().is_alone()) return;
   for (const Numbering& numbering : numberings(scene))
-    halo_unknowns_ += static_cast<std::int64_t>(numbering.copies.size());
+    halo_unknowns_ += static_cast<std::int64_t>(numbering.ghosts.size());
 }
 
 template <int n>

@@ -167,13 +167,10 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
   boundary.velocity = boundary.mesh = DirichletConditions<n>(nodes);
   std::vector<FacetsOf<Element>> not_closed{interface};
   for (const auto& plane : symmetry_planes(mesh)) not_closed.push_back(plane.group->facets);
-  std::size_t stores = 0;
   for (const auto& opening : openings) {
     const FacetsOf<Element> facets = group_facets(mesh, opening.surface);
     not_closed.push_back(facets);
     boundary.open.push_back(open_boundary<Element>(opening.surface, fluid.nodes, in_part<Element>(fluid, facets)));
-    if (opening.outflow_law) boundary.open.back().set_law(*opening.outflow_law, stores);
-    stores += opening.outflow_law && opening.outflow_law->stores() ? 1 : 0;
   }
   const auto wet = nodes_on<Element>(fluid, interface);
   const auto moving = wall ? moving_openings<Element>(mesh, fluid, boundary.open, wet, *wall)
@@ -182,7 +179,6 @@ FluidBoundary<Element> fluid_boundary(const std::vector<OpeningData>& openings, 
     const FacetsOf<Element> facets = group_facets(mesh, openings[i].surface);
     if (moving[i]) {
       boundary.open[i].move_by(moving_surface<Element>(fluid.nodes, in_part<Element>(fluid, facets)));
-      if (openings[i].flow_rate) boundary.open[i].set_given_flow(std::exchange(stores, stores + 2));
       continue;
     }
     const auto on = nodes_on<Element>(fluid, facets);

@@ -5,17 +5,9 @@
 #include "case/case.hpp"
 #include "mesh/mesh_share.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_parts.hpp"
 
 namespace fsi {
-
-/// The whole parts of a mesh that is shared out, and the ways from their numbers to those here: for all that is found on
-/// the whole and kept in part. Null where there is no such medium.
-template <class Element>
-struct WholeParts {
-  using Part = Submesh<Element::dim, Element::order>;
-  std::unique_ptr<const Part> fluid, wall;
-  std::unique_ptr<const PartRestriction> fluid_here, wall_here;
-};
 
 /// Builds the sub-problems that the case has, discretised by an element, on a checked mesh (check_scene_mesh): boundary
 /// conditions of docs/theory.md, section 2.4, the interface found from the cells.

@@ -117,8 +117,7 @@ std::vector<std::string> open_and_closed_surfaces(const Case& setup, const Simpl
   std::vector<std::string> known, free, closed, open;
   for (const auto& opening : openings_of(setup)) {
     open.push_back(opening.surface);
-    if (mesh.facets(opening.surface) && !opening.pressure && !opening.flow_rate && !opening.outflow_law)
-      free.push_back(opening.surface);
+    if (mesh.facets(opening.surface) && opening.is_free()) free.push_back(opening.surface);
   }
   const auto to_close = closed_names(setup);
   for (const auto& group : mesh.facet_groups) {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "case/openings.hpp"
+#include "fem/dimensions.hpp"
 #include "fem/elements.hpp"
 #include "fluid/inflow_profile.hpp"
-#include "fluid/womersley_inflow.hpp"
 
 namespace fsi {
 
@@ -26,48 +26,62 @@ PeriodicFlow periodic_flow(const PressureTable& table) {
 }  // namespace
 
 template <class Element>
-MadeInflow<Element::components> make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                                            InflowNodes where, const PartRestriction* here) {
-  constexpr int n = Element::components;
+Inflow make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part, InflowNodes where) {
   const OpeningData opening = openings_of(setup).at(where.opening);
   const InflowOpening<Element> place{opening.surface, part.nodes,
                                      in_part<Element>(part, group_facets(mesh, opening.surface)),
                                      std::move(where.sticking), setup.path.string()};
-  const std::size_t size =
-      VectorLayout<n>::size(here ? static_cast<int>(here->whole_nodes().size()) : part.node_count());
-  if (here) where.nodes = here->nodes(where.nodes);
+  Inflow inflow{where.opening, std::move(where.nodes), {}, nullptr, {}};
   const FlowRateData& rate = opening.flow_rate.value();
   if (rate.profile == InflowProfile::womersley) {
-    auto of_opening =
-        womersley_inflow<Element>(place, periodic_flow(rate.table), setup.fluid->density, setup.fluid->viscosity);
-    if (here)
-      of_opening.keep([&](std::size_t entry) {
-        const int node = here->local(static_cast<int>(entry) / n);
-        return node < 0 ? -1 : static_cast<std::ptrdiff_t>(VectorLayout<n>::vector(node));
-      });
-    const auto womersley = std::make_shared<const WomersleyInflow>(std::move(of_opening));
-    return {{where.opening, std::move(where.nodes), size,
-             [womersley](double time, double flow, std::vector<double>& velocity) {
-               womersley->set(time, flow, velocity);
-             }},
-            womersley->instead(),
-            fmt::format("the flow of {} in Womersley's profile: its mean and {} {}", opening.surface,
-                        womersley->modes(), womersley->modes() == 1 ? "harmonic" : "harmonics")};
+    inflow.womersley = std::make_shared<WomersleyInflow>(
+        womersley_inflow<Element>(place, periodic_flow(rate.table), setup.fluid->density, setup.fluid->viscosity));
+    const int modes = inflow.womersley->modes();
+    inflow.instead = inflow.womersley->instead();
+    inflow.remark = fmt::format("the flow of {} in Womersley's profile: its mean and {} {}", opening.surface, modes,
+                                modes == 1 ? "harmonic" : "harmonics");
+    return inflow;
   }
   UnitInflow unit =
       rate.profile == InflowProfile::plug ? plug_inflow<Element>(place) : parabolic_inflow<Element>(place);
-  if (here) unit.velocity = here->field(unit.velocity, n);
-  return {{where.opening, std::move(where.nodes), size,
-           [profile = std::move(unit.velocity)](double, double flow, std::vector<double>& velocity) {
-             for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = flow * profile[i];
-           }},
-          std::move(unit.instead)};
+  inflow.profile = std::move(unit.velocity);
+  inflow.instead = std::move(unit.instead);
+  return inflow;
 }
 
-#define FSI_INSTANTIATE(Element)                                 \
-  template MadeInflow<Element::components> make_inflow<Element>( \
-      const Case&, const MeshOf<Element>&, const PartOf<Element>&, InflowNodes, const PartRestriction*);
+template <int n>
+void restrict_to(const PartRestriction& here, Inflow& inflow) {
+  inflow.nodes = here.nodes(inflow.nodes);
+  inflow.profile = here.field(inflow.profile, n);
+  if (inflow.womersley)
+    inflow.womersley->keep([&](std::size_t entry) {
+      const int node = here.local(static_cast<int>(entry) / n);
+      return node < 0 ? -1 : static_cast<std::ptrdiff_t>(VectorLayout<n>::vector(node));
+    });
+}
+
+template <int n>
+PrescribedInflow<n> prescribed(Inflow inflow, int nodes) {
+  typename PrescribedInflow<n>::Profile profile;
+  if (inflow.womersley)
+    profile = [womersley = std::move(inflow.womersley)](double time, double flow, std::vector<double>& velocity) {
+      womersley->set(time, flow, velocity);
+    };
+  else
+    profile = [unit = std::move(inflow.profile)](double, double flow, std::vector<double>& velocity) {
+      for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = flow * unit[i];
+    };
+  return {inflow.opening, std::move(inflow.nodes), VectorLayout<n>::size(nodes), std::move(profile)};
+}
+
+#define FSI_INSTANTIATE(Element) \
+  template Inflow make_inflow<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&, InflowNodes);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+#define FSI_INSTANTIATE(n)                                       \
+  template void restrict_to<n>(const PartRestriction&, Inflow&); \
+  template PrescribedInflow<n> prescribed<n>(Inflow, int);
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 
 }  // namespace fsi

@@ -1,28 +1,39 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
+#include "fluid/womersley_inflow.hpp"
 #include "mesh/mesh_share.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
 
 namespace fsi {
 
-/// The velocity of an opening whose flow is given.
-template <int n>
-struct MadeInflow {
-  PrescribedInflow<n> inflow;
+/// The velocity of an opening whose flow is given: a nodal profile of unit flow or one that changes in time.
+struct Inflow {
+  std::size_t opening;                         ///< its number
+  std::vector<int> nodes;                      ///< whose velocity is prescribed
+  std::vector<double> profile;                 ///< vector layout, 1/mm^2; empty: the other one holds
+  std::shared_ptr<WomersleyInflow> womersley;  ///< null: the other one holds
   std::string instead;   ///< what was taken in place of the profile asked for, and why; empty: nothing
   std::string remark{};  ///< what it is made of; empty: nothing to say
 };
 
-/// Makes the nodal profile that the case asks for at an opening with a flow rate (fluid/inflow_profile.hpp).
+/// Makes the profile that the case asks for at an opening with a flow rate (fluid/inflow_profile.hpp).
 /// \param part  the whole fluid
-/// \param here  the nodes of it that the inflow is made for; null: all
 /// \throws InputError when the fluid sticks at every node of the opening
 template <class Element>
-MadeInflow<Element::components> make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                                            InflowNodes where, const PartRestriction* here = nullptr);
+Inflow make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part, InflowNodes where);
+
+/// Leaves of an inflow of the whole fluid what is here.
+template <int n>
+void restrict_to(const PartRestriction& here, Inflow& inflow);
+
+/// \param nodes  that the fluid has
+template <int n>
+PrescribedInflow<n> prescribed(Inflow inflow, int nodes);
 
 }  // namespace fsi

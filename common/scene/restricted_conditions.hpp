@@ -8,7 +8,7 @@
 
 namespace fsi {
 
-/// Conditions of a medium's whole part, at the nodes that this process holds: own ones and copies.
+/// Conditions of a medium's whole part, at the nodes that this process holds: own ones and ghosts.
 template <int n>
 DirichletConditions<n> restricted(const DirichletConditions<n>& whole, const PartRestriction& here) {
   std::vector<double> values(VectorLayout<n>::size(whole.node_count()), 0.0);

@@ -14,6 +14,7 @@
 #include "fluid/fluid.hpp"
 #include "mesh_motion/mesh_motion.hpp"
 #include "mesh_motion/nonlinear_mesh_motion.hpp"
+#include "openings/openings.hpp"
 #include "scene/dirichlet_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
 #include "time/time_integrator.hpp"
@@ -38,13 +39,14 @@ class Scene {
 
   std::unique_ptr<Fluid<n>> fluid;
   std::unique_ptr<Wall<n>> wall;
+  Openings<n> openings;                                           ///< behind the fluid's open boundaries
   std::unique_ptr<MeshMotion<n>> mesh_motion_problem;             ///< null unless fluid and wall meet
   MeshMotionMatrix<n> mesh_motion;                                ///< its operator; empty unless fluid and wall meet
   std::unique_ptr<NonlinearMeshMotion<n>> nonlinear_mesh_motion;  ///< in place of both, where the case asks for one
   int mesh_motion_assemblies = 0;        ///< what is made of the matrix is as old as the count it was made at
   bool keep_constant_operators = true;   ///< false: assembled at each use, to see what keeping them saves
-  std::vector<InterfaceNode> interface;  ///< this process's first, then copies; each ascending in the fluid's numbers
-  std::size_t interface_copies = 0;      ///< how many at the end are other processes'
+  std::vector<InterfaceNode> interface;  ///< this process's first, then ghosts; each ascending in the fluid's numbers
+  std::size_t interface_ghosts = 0;      ///< how many at the end are other processes'
   std::vector<double> interface_areas;   ///< that belongs to each of them, mm^2
   std::array<int, n> axes{};             ///< of space, 0 to 2, that the components of vectors lie along
   Conditions velocity_conditions;        ///< of the fluid's velocity
@@ -68,7 +70,7 @@ class Scene {
 
   bool coupled() const { return fluid && wall; }
   /// Of its nodes, the first so many are this process's: what sums over the interface count.
-  std::size_t owned_interface() const { return interface.size() - interface_copies; }
+  std::size_t owned_interface() const { return interface.size() - interface_ghosts; }
   /// Of the whole interface, mm^2.
   double interface_area() const {
     const auto own = interface_areas.begin() + static_cast<std::ptrdiff_t>(owned_interface());
@@ -116,19 +118,11 @@ class Scene {
       if (wall) state.now.wall = initial_load->wall;
     }
     impose_conditions(state.now);
-    for_each_law([&](const OpenBoundary<n>&, const OutflowLaw& law) {
-      if (law.stores()) state.now.windkessel.push_back(law.initial_pressure);
-    });
-    for_each_given_flow([&](const OpenBoundary<n>&, std::size_t) {
-      state.now.windkessel.insert(state.now.windkessel.end(), {initial_load ? initial_load->pressure : 0.0, 0.0});
-    });
+    state.now.openings = openings.start(initial_load ? initial_load->pressure : 0.0);
     state.before = {state.now, state.now, state.now};
     integrator->prepare(state);
-    for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
-      if (law.stores() && !state.rate.windkessel.empty())
-        state.rate.windkessel[open.place()] =
-            law.rate(law.initial_pressure, open.outflow(state.now.mesh, state.now.fluid));
-    });
+    if (!state.rate.openings.empty())
+      state.rate.openings = openings.start_rates(state.now.openings, state.now.mesh, state.now.fluid);
     if (!state.velocity_rate.empty() || !state.rate.fluid.empty())
       state.load_rates.assign((fluid ? fluid->open_boundaries().size() : 0) + state.support_loads + 1, 0.0);
     if (initial_load && !state.load_rates.empty()) {
@@ -159,9 +153,18 @@ class Scene {
     in.fluid_reference = rates.fluid_reference.data();
     in.fluid_factor = rates.fluid_factor;
     in.step = rates.interface.period;
-    if (!rates.windkessel_reference.empty()) in.windkessel_reference = rates.windkessel_reference.data();
-    if (!now.windkessel.empty()) in.opening_values = now.windkessel.data();
     return in;
+  }
+  /// The fluid's residual at a solution, as Fluid::assemble(), with what lies behind its openings.
+  AssemblyResult assemble_fluid(const Solution& at, const StepData& data, std::vector<double>& residual,
+                                FluidDerivatives derivatives = FluidDerivatives::none) const {
+    const FluidInput in = fluid_input(at, data.rates);
+    return fluid->assemble(in, opening_pressures(at, data), residual, derivatives);
+  }
+  /// From outside at a balance, kPa, of the fluid's open boundaries in their order; missing ones are zero.
+  std::vector<double> opening_pressures(const Solution& at, const StepData& data) const {
+    return openings.pressures(data.opening_pressures, fluid_input(at, data.rates), data.rates.openings_reference,
+                              at.openings);
   }
   WallInput wall_input(const Solution& now, const StepRates& rates) const {
     WallInput in;
@@ -182,29 +185,13 @@ class Scene {
     if (wall) wall_conditions.template impose<Mixed>(solution.wall);
   }
 
-  /// Calls visit(open boundary, law) for each opening whose pressure answers the flow.
-  template <class Visit>
-  void for_each_law(Visit visit) const {
-    if (!fluid) return;
-    for (const auto& open : fluid->open_boundaries())
-      if (open.law() != nullptr) visit(open, *open.law());
-  }
-  /// Calls visit(open boundary, its number) for each opening that moves and whose flow is given.
-  template <class Visit>
-  void for_each_given_flow(Visit visit) const {
-    if (!fluid) return;
-    const auto& open = fluid->open_boundaries();
-    for (std::size_t i = 0; i < open.size(); ++i)
-      if (open[i].given_flow()) visit(open[i], i);
-  }
   /// Whether the flow is given wherever fluid may pass, if it may at all: then nothing but a moving wall determines its
   /// pressure.
   bool has_flow_only() const {
     if (!fluid) return false;
-    std::size_t open = 0, given = inflows.size();
+    std::size_t open = 0;
     for (const auto& boundary : fluid->open_boundaries()) open += !boundary.empty();
-    for_each_given_flow([&](const OpenBoundary<n>&, std::size_t) { ++given; });
-    return open == given;
+    return open == inflows.size() + openings.driven().size();
   }
 
   /// Writes the velocities of the openings whose flow is given to state.now: so that the stage ends with that flow.
@@ -212,26 +199,9 @@ class Scene {
     for (const auto& inflow : inflows) inflow.impose(state.before[0].fluid, data, state.now.fluid);
   }
 
-  /// The flow outward that is given at a balance of the step from `level` on, mm^3/ms: such that the stage ends with that
-  /// of `data`.
-  double given_outflow(const OpenBoundary<n>& open, std::size_t number, const Solution& level,
-                       const StepData& data) const {
-    const double start = level.windkessel[*open.given_flow() + 1];
-    const double end = data.opening_flows.empty() ? 0.0 : -data.opening_flows[number];
-    return data.rates.carry == 1 ? end : start + data.rates.carry * (end - start);
-  }
-
-  /// Sets what the Windkessels store at a balance from the flow there, and that flow where it is given.
-  void set_windkessels(Solution& balance, const StepRates& rates) const {
-    for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw& law) {
-      if (law.stores())
-        balance.windkessel[open.place()] =
-            law.stored_pressure(rates.fluid_factor, rates.windkessel_reference[open.place()],
-                                open.relative_outflow(fluid_input(balance, rates)));
-    });
-    for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t) {
-      balance.windkessel[*open.given_flow() + 1] = open.relative_outflow(fluid_input(balance, rates));
-    });
+  /// Sets what openings keep at a balance from the flow there.
+  void settle_openings(Solution& balance, const StepRates& rates) const {
+    if (fluid) openings.settle(fluid_input(balance, rates), rates.openings_reference, balance.openings);
   }
 
   /// Imposes d_m = d_s and the velocity that belongs to it on the interface of state.now.

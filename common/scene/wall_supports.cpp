@@ -119,16 +119,18 @@ std::vector<HeldSurface<Element::components>> surfaces_held_by_supports(const Ca
 }
 
 template <class Element>
-void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                  const PartRestriction* here, WallProblem<Element>& wall) {
+SupportFacets<Element> support_facets(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part) {
+  SupportFacets<Element> facets;
+  for (const auto& [name, support] : setup.supports) facets[name] = in_part<Element>(part, group_facets(mesh, name));
+  return facets;
+}
+
+template <class Element>
+void support_wall(const Case& setup, const SupportFacets<Element>& facets_of, WallProblem<Element>& wall) {
   auto supports = std::make_unique<WallSupports<Element::components>>(*wall.graph(), wall.nodes().share);
   const auto& x = wall.nodes().nodes;
-  const auto facets_of = [&](const std::string& surface) {
-    auto facets = in_part<Element>(part, group_facets(mesh, surface));
-    return here ? here->facets(facets) : facets;
-  };
   for (const auto& [name, support] : setup.supports) {
-    const auto facets = facets_of(name);
+    const auto& facets = facets_of.at(name);
     const Bedding springs{support.spring, support.normal_spring}, dampers{support.damper, support.normal_damper};
     if (!springs.is_none()) supports->template add_springs<Element>(x, facets, springs);
     if (!dampers.is_none()) supports->template add_dampers<Element>(x, facets, dampers);
@@ -140,7 +142,7 @@ void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<E
       supports->add_force(shares, load.component);
       continue;
     }
-    const auto facets = facets_of(load.surface);
+    const auto& facets = facets_of.at(load.surface);
     if (load.component < 0)
       supports->template add_pressure<Element>(x, facets);
     else
@@ -166,11 +168,12 @@ void require_common_frames(const Case& setup, const Scene<n>& scene) {
 template void require_common_frames<2>(const Case&, const Scene<2>&);
 template void require_common_frames<3>(const Case&, const Scene<3>&);
 
-#define FSI_INSTANTIATE(Element)                                                                   \
-  template std::vector<HeldSurface<Element::components>> surfaces_held_by_supports<Element>(       \
-      const Case&, const MeshOf<Element>&, const PartOf<Element>&);                                \
-  template void support_wall<Element>(const Case&, const MeshOf<Element>&, const PartOf<Element>&, \
-                                      const PartRestriction*, WallProblem<Element>&);
+#define FSI_INSTANTIATE(Element)                                                               \
+  template std::vector<HeldSurface<Element::components>> surfaces_held_by_supports<Element>(   \
+      const Case&, const MeshOf<Element>&, const PartOf<Element>&);                            \
+  template SupportFacets<Element> support_facets<Element>(const Case&, const MeshOf<Element>&, \
+                                                          const PartOf<Element>&);             \
+  template void support_wall<Element>(const Case&, const SupportFacets<Element>&, WallProblem<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "case/case.hpp"
-#include "mesh/mesh_share.hpp"
 #include "scene/boundary_conditions.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
 
-/// Gives the wall the springs, dampers and loads of its supports; nothing when the case has none.
-/// \param part  the whole wall
-/// \param here  what of it the problem has; null: all
+/// The facets of surfaces by name, in the numbers of the wall's part.
 template <class Element>
-void support_wall(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part,
-                  const PartRestriction* here, WallProblem<Element>& wall);
+using SupportFacets = std::map<std::string, FacetsOf<Element>>;
+/// Those that supports hold or load. \param part  the wall
+template <class Element>
+SupportFacets<Element> support_facets(const Case& setup, const MeshOf<Element>& mesh, const PartOf<Element>& part);
+
+/// Gives the wall the springs, dampers and loads of its supports; nothing when the case has none.
+template <class Element>
+void support_wall(const Case& setup, const SupportFacets<Element>& facets, WallProblem<Element>& wall);
 
 /// The surfaces on which supports hold components of the wall's displacement.
 /// \throws InputError where the normal of a curved surface is asked for

@@ -14,23 +14,23 @@ namespace fsi {
 /// of absent parts are empty. Single components of a node may be without an unknown, and so may its scalar.
 ///
 /// Where a scene is shared out among processes, each has the equations of its nodes and their unknowns, 0 to size - 1.
-/// Values at copies of other processes' nodes hang on these processes' unknowns: they are numbered on from `size`, and
-/// have no equation here. Solutions hold both (columns()); the solver fills the first, update_copies() the rest.
+/// Values at ghosts, copies of other processes' nodes, hang on these processes' unknowns: they are numbered on from `size`,
+/// and have no equation here. Solutions hold both (columns()); the solver fills the first, update_ghosts() the rest.
 struct Numbering {
   std::int64_t size = 0;             ///< equations, and unknowns, of this process
   std::int64_t first = 0;            ///< number among all processes' of the first of them: the others follow
   std::int64_t whole = 0;            ///< of all processes together; 0: not shared out
-  std::vector<std::int64_t> copies;  ///< numbers among all processes' of the unknowns from `size` on
+  std::vector<std::int64_t> ghosts;  ///< numbers among all processes' of the unknowns from `size` on
   Exchange exchange;                 ///< of unknowns
   const Communicator* processes = &Communicator::alone();
 
-  std::size_t columns() const { return static_cast<std::size_t>(size) + copies.size(); }
-  /// Of an unknown, own or copy, among all processes'.
+  std::size_t columns() const { return static_cast<std::size_t>(size) + ghosts.size(); }
+  /// Of an unknown, own or ghost, among all processes'.
   std::int64_t global(std::int64_t unknown) const {
-    return unknown < size ? first + unknown : copies[static_cast<std::size_t>(unknown - size)];
+    return unknown < size ? first + unknown : ghosts[static_cast<std::size_t>(unknown - size)];
   }
-  /// Gives the copies in x, of columns() numbers, their owners' values.
-  void update_copies(std::vector<double>& x) const {
+  /// Gives the ghosts in x, of columns() numbers, their owners' values.
+  void update_ghosts(std::vector<double>& x) const {
     if (!processes->is_alone()) exchange.update(x);
   }
   /// Unknowns of all processes.

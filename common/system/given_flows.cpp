@@ -10,11 +10,11 @@ namespace fsi {
 
 template <int n>
 GivenFlows<n>::GivenFlows(const Scene<n>& scene) : scene_(&scene) {
-  scene.for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t number) {
-    const auto& normals = open.normals();
+  for (const auto& opening : scene.openings.driven()) {
+    const auto& normals = opening.surface->normals();
     const double square = std::inner_product(normals.begin(), normals.end(), normals.begin(), 0.0);
-    flows_.push_back({&open, number, std::sqrt(scene.processes().sum(square)), open.area(), 0});
-  });
+    flows_.push_back({&opening, std::sqrt(scene.processes().sum(square)), opening.surface->area(), 0});
+  }
   if (flows_.empty()) return;
   const double speed = wave_speed(scene);
   stiffness_ = scene.fluid->form().density * speed * speed / scene.fluid->volume();
@@ -25,8 +25,9 @@ double GivenFlows<n>::compare(const State& state, const StepData& data) {
   double forces = 0;
   for (std::size_t i = 0; i < flows_.size(); ++i) {
     Flow& flow = flows_[i];
-    flow.gap = flow.open->relative_outflow(scene_->fluid_input(state, data.rates)) -
-               scene_->given_outflow(*flow.open, flow.number, state.before[0], data);
+    const double end = data.opening_flows.empty() ? 0.0 : -data.opening_flows[flow.opening->number];
+    flow.gap = flow.opening->surface->relative_outflow(scene_->fluid_input(state, data.rates)) -
+               Openings<n>::given_outflow(*flow.opening, state.before[0].openings, end, data.rates.carry);
     const double force = force_of_gap(i, data.rates.fluid_factor) * flow.gap;
     forces += force * force;
   }

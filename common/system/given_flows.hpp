@@ -18,9 +18,12 @@ class GivenFlows {
   explicit GivenFlows(const Scene<n>& scene);
 
   std::size_t count() const { return flows_.size(); }
-  const OpenBoundary<n>& open(std::size_t i) const { return *flows_[i].open; }
-  /// The pressure that drives it, kPa: unknown, part of a solution.
-  double& pressure(std::size_t i, Solution& solution) const { return solution.windkessel[*open(i).given_flow()]; }
+  const OpenBoundary<n>& open(std::size_t i) const { return *flows_[i].opening->surface; }
+  /// The pressure that drives it, kPa: unknown, part of a solution. \tparam AnySolution  const or not
+  template <class AnySolution>
+  auto& pressure(std::size_t i, AnySolution& solution) const {
+    return Openings<n>::pressure(*flows_[i].opening, solution.openings);
+  }
   /// What it lacks to what is given, outward, mm^3/ms, at the last compare().
   double gap(std::size_t i) const { return flows_[i].gap; }
 
@@ -32,8 +35,7 @@ class GivenFlows {
 
  private:
   struct Flow {
-    const OpenBoundary<n>* open;
-    std::size_t number;   ///< of the opening
+    const typename Openings<n>::Driven* opening;
     double normal, area;  ///< at rest, mm^2: Euclidean norm of the integrals of N_a n; the area
     double gap;
   };

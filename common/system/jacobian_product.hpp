@@ -13,7 +13,7 @@ class JacobianProduct {
  public:
   explicit JacobianProduct(const JacobianBlocks<n>& blocks);
 
-  /// y = J x, y resized to the equations here. \param x  with its copies (Numbering::update_copies)
+  /// y = J x, y resized to the equations here. \param x  with its ghosts (Numbering::update_ghosts)
   void multiply(const std::vector<double>& x, std::vector<double>& y);
 
  private:
@@ -22,5 +22,9 @@ class JacobianProduct {
   JacobianBlocks<n> blocks_;
   std::vector<double> fluid_, mesh_, wall_, fluid_rows_, mesh_rows_, wall_rows_;
 };
+
+/// terms += |J| |x|, terms in the equations here. \param x  not negative, with its ghosts
+template <int n>
+void add_absolute_products(const JacobianBlocks<n>& j, const std::vector<double>& x, std::vector<double>& terms);
 
 }  // namespace fsi

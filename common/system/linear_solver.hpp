@@ -22,7 +22,7 @@ struct InterfacePair {
 /// The Jacobian of a scene, or of one of its sub-problems, as its block matrices (boundary and interface conditions not
 /// imposed) and the numbering that imposes them: all that a linear solver sees of a scene. A solver is made for one of
 /// these; the arrays keep their place, their values change with each linearisation. Absent parts are null, and so are
-/// parts without unknowns. Where the scene is shared out, all processes call its solver together, and rows of copies are
+/// parts without unknowns. Where the scene is shared out, all processes call its solver together, and rows of ghosts are
 /// incomplete: they have no equation in the numbering.
 template <int n>
 struct JacobianBlocks {
@@ -78,7 +78,7 @@ class LinearSolver {
   /// update() has been called.
   virtual bool ready() const = 0;
   /// \param tolerance  demanded |b - J x| / |b|; direct solvers solve to rounding
-  /// \param x          overwritten: Numbering::columns() entries; those of copies are the caller's to update
+  /// \param x          overwritten: Numbering::columns() entries; those of ghosts are the caller's to update
   virtual LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) = 0;
   virtual LinearStatistics statistics() const { return {}; }
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a

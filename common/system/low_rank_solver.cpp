@@ -45,7 +45,7 @@ void LowRankLinearSolver<n>::update() {
       if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<VectorLayout<n>>(by_mesh);
       add_to_system(numbering.mesh, by_mesh, term.columns);
     }
-    term.columns.resize(size);  // copies have no part in the normals
+    term.columns.resize(size);  // ghosts have no part in the normals
   }
   prepared_ = false;
 }
@@ -94,7 +94,7 @@ std::vector<double> LowRankLinearSolver<n>::correct(std::vector<double>& z, cons
 
 template <int n>
 double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, std::vector<double>& x) {
-  blocks_.numbering.update_copies(x);
+  blocks_.numbering.update_ghosts(x);
   product_.multiply(x, residual_);
   const std::vector<double> flow = flows(x);
   for (std::size_t i = 0; i < flow.size(); ++i)

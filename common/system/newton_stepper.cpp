@@ -48,8 +48,8 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
   if_any(".support_loads", ArrayKind::support_loads, point.support_loads);
   if_any(".opening_pressures", ArrayKind::alike, point.opening_pressures, {{}, {}, most_openings});
   if (point.opening_pressures.empty()) return true;
-  if_any(".windkessels", ArrayKind::opening_values, rates.windkessel_reference);
-  if_any(".opening_values", ArrayKind::opening_values, now.windkessel);
+  if_any(".windkessels", ArrayKind::opening_values, rates.openings_reference);
+  if_any(".opening_values", ArrayKind::opening_values, now.openings);
   return true;
 }
 
@@ -84,7 +84,7 @@ StepReport NewtonStepper<n>::advance(State& state) {
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
-    scene_.set_windkessels(state.now, data.rates);
+    scene_.settle_openings(state.now, data.rates);
     if (rejects(state, data)) break;
     if (keep_balances_) report_.balances.push_back({state.now, data});
     if (data.rates.last_stage)

@@ -72,8 +72,8 @@ inline void unknowns_of(const UnknownMap& map, int entries, const std::vector<in
     }
 }
 
-/// Makes of a numbering of all nodes here, copies included, one that is shared out (see Numbering): own unknowns first,
-/// no equations at copies, and what processes have to tell each other.
+/// Makes of a numbering of all nodes here, ghosts included, one that is shared out (see Numbering): own unknowns first,
+/// no equations at ghosts, and what processes have to tell each other.
 template <int n>
 void share_out(const Scene<n>& scene, Numbering& numbering) {
   const Communicator& processes = scene.processes();
@@ -101,8 +101,8 @@ void share_out(const Scene<n>& scene, Numbering& numbering) {
       elsewhere(!numbering.interface_velocities.empty() || !numbering.interface_displacements.empty())};
   numbering.first = processes.sum_before(numbering.size);
   numbering.whole = processes.sum(numbering.size);
-  numbering.copies.assign(all - static_cast<std::size_t>(numbering.size), -1);
-  // The same entries, in the same order, at both sides: conditions of copies are those of their owners.
+  numbering.ghosts.assign(all - static_cast<std::size_t>(numbering.size), -1);
+  // The same entries, in the same order, at both sides: conditions of ghosts are those of their owners.
   std::map<int, Exchange::Neighbour> neighbours;
   std::map<int, std::vector<char>> seen_sent, seen_received;
   for_each_map(scene, numbering, [&](const UnknownMap& map, int entries, const NodeShare& share) {
@@ -113,7 +113,7 @@ void share_out(const Scene<n>& scene, Numbering& numbering) {
     share.exchange.update(numbers, entries);
     for (std::size_t i = 0; i < map.size(); ++i)
       if (map[i].index >= numbering.size)
-        numbering.copies[static_cast<std::size_t>(map[i].index - numbering.size)] =
+        numbering.ghosts[static_cast<std::size_t>(map[i].index - numbering.size)] =
             static_cast<std::int64_t>(numbers[i]);
     for (const auto& with : share.exchange.neighbours()) {
       auto& neighbour = neighbours[with.rank];

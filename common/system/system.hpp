@@ -1,21 +1,17 @@
 #pragma once
 
-#include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <limits>
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "solvers/newton.hpp"
 #include "system/direct_linear_solver.hpp"
-#include "system/given_flows.hpp"
+#include "system/field_norms.hpp"
 #include "system/interface_impedance.hpp"
 #include "system/linear_solver.hpp"
-#include "system/low_rank_solver.hpp"
 #include "system/numbering.hpp"
+#include "system/opening_terms.hpp"
 
 namespace fsi {
 
@@ -26,12 +22,6 @@ struct LinearisationPoint {
   double wall_pressure = 0;
   std::vector<double> support_loads = {};
   std::vector<double> opening_pressures = {};  ///< where openings move; empty otherwise: no derivative knows them
-};
-
-/// The norm of increments and iterates.
-enum class SystemNorm {
-  volumes,  ///< L2, each entry weighted with the volume that belongs to its node
-  entries   ///< Euclidean
 };
 
 /// The discrete equations of a scene, or of one of its sub-problems, under a numbering: residual, Jacobian and linear
@@ -63,7 +53,7 @@ class System : public NewtonProblem {
   const std::vector<double>& fluid_residual() const { return fluid_residual_; }
 
   /// What the flows through openings that move lack to what is given there, outward, at the last residual, mm^3/ms.
-  std::vector<double> flow_gaps() const;
+  std::vector<double> flow_gaps() const { return openings_.gaps(); }
 
   /// The state and step that evaluate(), linearise() and move() refer to from now on.
   /// A Jacobian made for other factors than this step's is no longer kept.
@@ -85,12 +75,9 @@ class System : public NewtonProblem {
 
   void move(double step) override;
 
-  double size() const override;
-  /// Each field by itself: displacements may be smaller than pressures by any number, which the units alone decide.
-  bool negligible(double increment, double share) const override;
-  /// The largest of velocities, displacements of the wall and pressures of both: the pressures of the next step feel
-  /// errors of displacements that count little in a norm of all fields.
-  double relative_increment() const override;
+  double size() const override { return norms_.of_solution(state_->now); }
+  bool negligible(double, double share) const override { return norms_.negligible(increment_, state_->now, share); }
+  double relative_increment() const override { return norms_.relative_to_change(increment_, *state_, *data_); }
 
   /// eps times the norm of |J| |x|: the size of the terms that cancel in the residual. Stresses are sums of terms as
   /// small as the strain (materials/strain.hpp), so that none of them is of order one.
@@ -99,9 +86,6 @@ class System : public NewtonProblem {
  private:
   const Communicator& processes() const { return *numbering_.processes; }
   static std::vector<InterfacePair> interface_pairs(const Scene<n>& scene);
-
-  /// The asked-for solver, which knows the openings' pressures that answer the flow where the equations have such.
-  std::unique_ptr<LinearSolver> solver_by(const LinearSolverFactory<n>& make_solver);
 
   AssemblyResult assemble(bool derivatives);
 
@@ -116,29 +100,8 @@ class System : public NewtonProblem {
   template <class Layout>
   void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows);
 
-  /// terms += |J| |x| of the Jacobian last assembled. \returns the squares of what flows that are given add to its norm
-  double add_absolute_products(const std::vector<double>& x, std::vector<double>& terms);
-
-  template <class Layout>
-  static double weighted(const std::vector<double>& volumes, const std::vector<double>& field, bool present) {
-    double sum = 0;
-    if (present)
-      for (std::size_t i = 0; i < field.size(); ++i) sum += volumes[i / Layout::entries] * field[i] * field[i];
-    return sum;
-  }
-
-  /// Weights per unknown of the squared L2 norm of an increment of all fields ([Langer2018], algorithm 1), mm,
-  /// mm/ms and kPa added up as they are (docs/theory.md, section 9.3).
-  std::vector<double> norm_weights();
-
   /// Whether there is an opening that moves, on whose pressure derivatives depend.
-  bool openings_move() const;
-  /// The terms of openings whose pressure answers the flow or whose flow is given, as they are now.
-  void linearise_openings();
-  /// The term of the i-th flow that is given: they are the last ones.
-  std::size_t term_of(std::size_t given_flow) const {
-    return opening_terms_.size() - given_flows_.count() + given_flow;
-  }
+  bool openings_move() const { return !numbering_.fluid_rows.empty() && openings_.move(); }
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
@@ -148,28 +111,18 @@ class System : public NewtonProblem {
   Numbering numbering_;
   FluidDerivatives derivatives_;
   std::vector<InterfacePair> interface_;
-  /// Of an opening that moves, at the last linearisation.
-  struct MovingTerm {
-    std::vector<double> normals, by_mesh;
-  };
-  std::vector<OpeningTerm> opening_terms_;  ///< beside the block matrices
-  std::vector<MovingTerm> moving_terms_;    ///< in their order, empty for openings that stay
-  GivenFlows<n> given_flows_;
-  std::vector<double> flow_pressures_;                  ///< the increments of their pressures
-  const LowRankLinearSolver<n>* with_terms_ = nullptr;  ///< the solver, where there are terms
-  MeshMotionTangent<n> mesh_tangent_;                   ///< of a nonlinear mesh motion; empty otherwise
-  SystemNorm norm_;
+  OpeningTerms<n> openings_;
+  MeshMotionTangent<n> mesh_tangent_;  ///< of a nonlinear mesh motion; empty otherwise
   const InterfaceImpedance* impedance_;
   std::unique_ptr<LinearSolver> solver_;
+  FieldNorms<n> norms_;
   LinearReport linear_report_;
   State* state_ = nullptr;
   const StepData* data_ = nullptr;
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
-  std::vector<double> rows_;                                         ///< of a part in its frames
-  std::vector<double> mesh_volumes_, fluid_volumes_, wall_volumes_;  ///< per node; zero at copies
-  std::vector<double> weights_;
+  std::vector<double> rows_;  ///< of a part in its frames
 };
 
 }  // namespace fsi

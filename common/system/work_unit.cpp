@@ -35,7 +35,7 @@ void multiply_by(const NodeGraph& graph, const std::vector<double>& values, cons
 }
 
 template <class Layout>
-void update_copies(const PartNodes& nodes, std::vector<double>& field) {
+void update_ghosts(const PartNodes& nodes, std::vector<double>& field) {
   if (nodes.share) nodes.share->template update<Layout>(field);
 }
 
@@ -57,10 +57,10 @@ void CoupledProduct<n>::multiply() {
   if (scene_.fluid) {
     const NodeGraph& graph = *scene_.fluid->graph();
     const auto& values = scene_.fluid->jacobian(FluidDerivatives::fluid).fluid.values;
-    update_copies<MixedLayout<n>>(scene_.fluid->nodes(), fluid_);
+    update_ghosts<MixedLayout<n>>(scene_.fluid->nodes(), fluid_);
     multiply_by<mixed, mixed>(graph, values, fluid_, fluid_rows_, false);
     if (scene_.coupled()) {
-      update_copies<VectorLayout<n>>(scene_.fluid->nodes(), mesh_);
+      update_ghosts<VectorLayout<n>>(scene_.fluid->nodes(), mesh_);
       multiply_by<mixed, n>(graph, values, mesh_, fluid_rows_, true);
       if (scene_.nonlinear_mesh_motion)
         multiply_by<n, n>(graph, values, mesh_, mesh_rows_, false);
@@ -71,7 +71,7 @@ void CoupledProduct<n>::multiply() {
     }
   }
   if (scene_.wall) {
-    update_copies<MixedLayout<n>>(scene_.wall->nodes(), wall_);
+    update_ghosts<MixedLayout<n>>(scene_.wall->nodes(), wall_);
     multiply_by<mixed, mixed>(*scene_.wall->graph(), scene_.wall->jacobian().values, wall_, wall_rows_, false);
   }
 }

@@ -33,7 +33,7 @@ class CoupledProduct {
   /// \param scene  must outlive this. The storage of its Jacobians appears where it is missing
   explicit CoupledProduct(Scene<n>& scene);
 
-  /// For all processes together: copies get their owners' values, then each has its rows. x is one everywhere.
+  /// For all processes together: ghosts get their owners' values, then each has its rows. x is one everywhere.
   void multiply();
 
   /// Of the last product, in the layouts of the media. Only where the scene has one medium do they mean anything.

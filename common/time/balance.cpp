@@ -19,7 +19,7 @@ void for_each_field(Function function) {
   function(&Solution::mesh);
   function(&Solution::fluid);
   function(&Solution::wall);
-  function(&Solution::windkessel);
+  function(&Solution::openings);
 }
 
 std::vector<double> combine(double a, const std::vector<double>& x, double b, const std::vector<double>& y) {
@@ -138,7 +138,7 @@ StepRates BalanceScheme<n>::rates_from(double step, double k, References referen
   rates.mesh_reference = std::move(references.of.mesh);
   rates.fluid_reference = std::move(references.of.fluid);
   rates.wall_reference = std::move(references.of.wall);
-  rates.windkessel_reference = std::move(references.of.windkessel);
+  rates.openings_reference = std::move(references.of.openings);
   return rates;
 }
 

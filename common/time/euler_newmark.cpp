@@ -21,7 +21,7 @@ StepRates EulerNewmark<Components>::rates_of(const State& state, double step, in
   rates.mesh_reference = old.mesh;
   rates.fluid_reference = old.fluid;
   rates.wall_reference = old.wall;
-  rates.windkessel_reference = old.windkessel;
+  rates.openings_reference = old.openings;
 
   using Vector = VectorLayout<Components>;
   using Mixed = MixedLayout<Components>;

@@ -59,7 +59,7 @@ void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solutio
   follow(state.rate.mesh, end.mesh, start.mesh);
   follow(state.rate.fluid, end.fluid, start.fluid);
   follow(state.rate.wall, end.wall, start.wall);
-  follow(state.rate.windkessel, end.windkessel, start.windkessel);
+  follow(state.rate.openings, end.openings, start.openings);
   follow(state.velocity_rate, end_velocity, state.wall_velocity);
   for (std::size_t i = 0; i < loads.size(); ++i)
     state.load_rates[i] = (loads[i] - (1 - a_m) * state.load_rates[i]) / a_m;

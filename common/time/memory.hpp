@@ -15,7 +15,7 @@ namespace fsi {
 enum class ArrayKind {
   alike,              ///< the run: all processes have the same
   support_loads,      ///< loads of the wall's supports, alike
-  opening_values,     ///< what the openings keep (Solution::windkessel), alike
+  opening_values,     ///< what the openings keep (Solution::openings), alike
   mesh,               ///< vectors per fluid node
   flow,               ///< vectors and scalars per fluid node
   wall,               ///< vectors and scalars per wall node

@@ -34,7 +34,7 @@ void predict(State& state, int order, double time) {
   extrapolate(&Solution::mesh);
   extrapolate(&Solution::fluid);
   extrapolate(&Solution::wall);
-  extrapolate(&Solution::windkessel);
+  extrapolate(&Solution::openings);
 }
 
 }  // namespace fsi

@@ -11,12 +11,10 @@ namespace fsi {
 /// Nodal values of one time level, the paper's X = (D_m, U_f, U_s), in the layouts of fem/nodal_layout.hpp. Arrays of
 /// absent physics are empty.
 struct Solution {
-  std::vector<double> mesh;   ///< d_m, vectors per fluid node, mm
-  std::vector<double> fluid;  ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
-  std::vector<double> wall;   ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
-  /// p_c of the Windkessels behind open boundaries (fluid/outflow_law.hpp), in their order, kPa, which equations have
-  /// eliminated; then pressure and flow of openings that move whose flow is given (fluid/open_boundary.hpp).
-  std::vector<double> windkessel{};
+  std::vector<double> mesh;        ///< d_m, vectors per fluid node, mm
+  std::vector<double> fluid;       ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
+  std::vector<double> wall;        ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
+  std::vector<double> openings{};  ///< what openings keep (openings/openings.hpp): its owner knows what stands where
 };
 
 /// Everything a time step starts from and works on.

@@ -21,8 +21,7 @@ struct StepRates {
   double fluid_factor = 0;         ///< 1/ms: du/dt = fluid_factor (u - fluid_reference)
   double acceleration_factor = 0;  ///< 1/ms^2: wall's acceleration = acceleration_factor d + acceleration_history
   std::vector<double> mesh_reference, fluid_reference, wall_reference;
-  std::vector<double>
-      windkessel_reference{};                ///< kPa, as Solution::windkessel: dp_c/dt = fluid_factor (p_c - reference)
+  std::vector<double> openings_reference{};  ///< of what openings keep: dy/dt = fluid_factor (y - reference)
   std::vector<double> acceleration_history;  ///< mm/ms^2
 
   int stage = 0;               ///< from 0

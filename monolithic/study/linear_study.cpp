@@ -127,17 +127,15 @@ class LinearStudy {
     refuse_pressures_per_layer(setup, scene_->wall->nodes(), "--linear-systems");
     refuse_nonlinear_mesh_motion(setup, "--linear-systems");
     refuse_turned_frames<n>(setup, &scene_->fluid_frames, &scene_->wall_frames, "--linear-systems");
-    scene_->for_each_law([&](const OpenBoundary<n>& open, const OutflowLaw&) {
-      throw InputError(setup.path.string(), "opening." + open.name(),
+    for (const auto& opening : scene_->openings.answering())
+      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
                        "--linear-systems studies matrices, and the pressure of a resistance or a windkessel is in none",
                        "give this opening a pressure");
-    });
-    scene_->for_each_given_flow([&](const OpenBoundary<n>& open, std::size_t) {
-      throw InputError(setup.path.string(), "opening." + open.name(),
+    for (const auto& opening : scene_->openings.driven())
+      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
                        "--linear-systems studies matrices, and the pressure that drives the flow which is given at an "
                        "opening that moves is in none",
                        "give this opening a pressure, or clamp the wall there");
-    });
     if (systems_.back().step > loads_.steps())
       throw InputError("", "--linear-systems", fmt::format("the run has no step {}", systems_.back().step),
                        fmt::format("give steps up to {}", loads_.steps()));

@@ -116,18 +116,15 @@ class InterfaceProblem {
   double force_residual() {
     const Stopwatch watch(cost.fluid_seconds);
     const auto phase = scene_.profile.phase("assembly: interface balance");
-    Solution moved{state_->now.mesh, state_->now.fluid, {}};
+    Solution moved{state_->now.mesh, state_->now.fluid, {}, state_->now.openings};
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) {
         const double gap = state_->now.wall[wall_entry(node, k)] - state_->now.mesh[mesh_entry(node, k)];
         moved.mesh[mesh_entry(node, k)] += gap;
         moved.fluid[fluid_entry(node, k)] += data_->rates.interface.velocity_change(gap);
       }
-    FluidInput in = scene_.fluid_input(*state_, data_->rates);
-    in.mesh = moved.mesh.data();
-    in.fluid = moved.fluid.data();
     std::vector<double> rows;
-    scene_.fluid->assemble(in, data_->opening_pressures, rows);
+    scene_.assemble_fluid(moved, *data_, rows);
     std::vector<double> loads = data_->interface_load;
     scene_.fluid_frames.template to_frames<MixedLayout<n>>(rows);  // where some components are free, and others held
     scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);
@@ -184,7 +181,7 @@ class InterfaceProblem {
     }
   }
 
-  /// Loads the wall with the fluid's momentum rows and solves it. Rows at copies of other processes' nodes, which are
+  /// Loads the wall with the fluid's momentum rows and solves it. Rows at ghosts, other processes' nodes, which are
   /// not whole, load no row of this process.
   void solve_wall(const std::vector<double>& fluid_rows, const PassAccuracy& accuracy) {
     const Stopwatch watch(cost.wall_seconds);

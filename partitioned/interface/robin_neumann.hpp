@@ -96,7 +96,7 @@ class RobinNeumann : public InterfaceProblem<n> {
   void accept() override {
     stage_loads_.emplace_back(Base::interface_size());
     const std::vector<double>* rows = &fluid_.fluid_residual();
-    if (const auto& share = scene_.fluid->nodes().share) {  // rows of copies are not whole here
+    if (const auto& share = scene_.fluid->nodes().share) {  // rows of ghosts are not whole here
       whole_rows_ = *rows;
       share->template update<MixedLayout<n>>(whole_rows_);
       rows = &whole_rows_;
@@ -153,7 +153,7 @@ class RobinNeumann : public InterfaceProblem<n> {
   double stiffening_ = 1;     ///< of the membrane's impedance
   InterfaceImpedance robin_;  ///< R_f + c (u - v), v being g / c
   System<n> fluid_;
-  std::vector<double> whole_rows_;                ///< the fluid's, copies of other processes' nodes too
+  std::vector<double> whole_rows_;                ///< the fluid's, ghosts too
   std::array<std::vector<double>, 3> loads_;      ///< lambda of the last stages of finished steps, the latest first
   std::vector<std::vector<double>> stage_loads_;  ///< lambda of the stages of the step in progress
 };

@@ -22,7 +22,7 @@ FLOORS = (
     ("common/sampling",),
     ("common/materials",),
     ("common/fluid", "common/wall", "common/mesh_motion"),
-    ("common/time",),
+    ("common/openings", "common/time"),
     ("common/case",),
     ("common/scene",),
     ("common/system",),

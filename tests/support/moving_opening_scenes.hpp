@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/nodal_frames.hpp"
+#include "support/opening_laws.hpp"
 #include "support/ring_meshes.hpp"
 #include "support/scenes.hpp"
 #include "support/supported_meshes.hpp"
@@ -23,7 +24,7 @@ inline Case case_with(Ends ends, const std::string& normal, double step) {
   setup.structure->bulk_modulus = 50;
   setup.inlet.reset();
   setup.openings["inlet"].pressure = PressureTable{{{0.0, 0.0}, {4 * step, 0.4}}};
-  setup.openings["outlet"].outflow_law = OutflowLaw{0.3, 0.4, 0.5, 0, 0.02};
+  setup.openings["outlet"].law = windkessel(0.3, 0.4, 0.5, 0, 0.02);
   setup.supports["ends"].fixed = ends == Ends::slide ? std::vector<std::string>{normal} : std::vector<std::string>{};
   return setup;
 }

@@ -142,7 +142,7 @@ class ArbitrarySteps {
     const StepRates& rates = balance.data.rates;
     const Solution& at = balance.at;
     std::vector<double> fluid, wall, before(at.wall.size(), 0.0);
-    scene_->fluid->assemble(scene_->fluid_input(at, rates), balance.data.opening_pressures, fluid);
+    scene_->assemble_fluid(at, balance.data, fluid);
     const WallInput in = scene_->wall_input(at, rates);
     scene_->wall->assemble(in, 0, at.wall, wall);
     if (wall_before) {

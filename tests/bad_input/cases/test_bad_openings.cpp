@@ -58,12 +58,11 @@ TEST_F(Openings, AreReadByName) {
   EXPECT_EQ(all[0].flow_rate->profile, InflowProfile::plug);
   EXPECT_EQ(all[1].pressure->points, (Points{{0, 1}, {4, 3}}));
   EXPECT_EQ(all[1].pressure->period, 4);
-  EXPECT_EQ(all[2].outflow_law->proximal, 6);
-  EXPECT_EQ(all[2].outflow_law->distal_pressure, -1);
-  EXPECT_FALSE(all[2].outflow_law->stores());
-  EXPECT_EQ(all[3].outflow_law->initial_pressure, 4);
-  EXPECT_TRUE(all[3].outflow_law->stores());
-  EXPECT_FALSE(all[4].pressure || all[4].flow_rate || all[4].outflow_law);
+  EXPECT_EQ(all[2].law->name, "resistance");
+  EXPECT_EQ(all[2].law->values, (ParameterValues{{"resistance", 6}, {"distal_pressure", -1}}));
+  EXPECT_TRUE(all[2].law->make()->start().empty());
+  EXPECT_EQ(all[3].law->make()->start(), std::vector<double>{4});
+  EXPECT_TRUE(all[4].is_free());
   EXPECT_TRUE(all[4].demanded);
   EXPECT_FALSE(all[5].demanded) << "the mesh may have no outlet";
 }

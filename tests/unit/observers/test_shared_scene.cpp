@@ -85,7 +85,7 @@ class Twins {
   }
   Solution restricted_level(const Solution& level) const {
     return {parts.fluid_here->field(level.mesh, Vector::entries), parts.fluid_here->field(level.fluid, Mixed::entries),
-            parts.wall_here->field(level.wall, Mixed::entries), level.windkessel};
+            parts.wall_here->field(level.wall, Mixed::entries), level.openings};
   }
   std::vector<double> wall_vectors(unsigned seed) const {
     return random_field(whole->wall->nodes().nodes, 3, 0.5, 0.1, seed);

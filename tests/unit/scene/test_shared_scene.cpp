@@ -95,7 +95,7 @@ class Both {
     const auto random_solution = [&](unsigned seed) {
       Solution s{random_field(x, n, 0.01, 0.002, seed), random_field(x, n + 1, 3.0, 0.5, seed + 1),
                  random_field(y, n + 1, 0.01, 0.002, seed + 2),
-                 std::vector<double>(whole_state.now.windkessel.size(), 0.3)};
+                 std::vector<double>(whole_state.now.openings.size(), 0.3)};
       for (int a = 0; a < whole->wall->node_count(); ++a)
         std::copy_n(s.wall.begin() + static_cast<std::ptrdiff_t>(Mixed::vector(whole->wall->nodes().original_of(a))), n,
                     s.wall.begin() + static_cast<std::ptrdiff_t>(Mixed::vector(a)));
@@ -121,7 +121,7 @@ class Both {
     return parts_.wall_here ? parts_.wall_here->field(field, entries) : field;
   }
   Solution share_of(const Solution& s) const {
-    return {fluid_field(s.mesh, n), fluid_field(s.fluid, n + 1), wall_field(s.wall, n + 1), s.windkessel};
+    return {fluid_field(s.mesh, n), fluid_field(s.fluid, n + 1), wall_field(s.wall, n + 1), s.openings};
   }
 
   /// Calls visit(map here, its places in the whole map) for the fields of two numberings.
@@ -228,7 +228,7 @@ void compare(const Case& setup, const MeshOf<Element>& mesh = small_mesh<Element
   same(both.state.now.mesh, moved.mesh);
   same(both.state.now.fluid, moved.fluid);
   same(both.state.now.wall, moved.wall);
-  same(both.state.now.windkessel, moved.windkessel);
+  same(both.state.now.openings, moved.openings);
 
   // What belongs to the whole scene.
   EXPECT_NEAR(both.here->fluid->volume(), both.whole->fluid->volume(), 1e-12 * both.whole->fluid->volume());

@@ -10,6 +10,7 @@
 #include "linear_solvers/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
 #include "support/nodal_arrays.hpp"
+#include "support/opening_laws.hpp"
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "system/jacobian_product.hpp"
@@ -20,7 +21,9 @@ namespace fsi::test {
 
 namespace {
 
-constexpr OutflowLaw windkessel{0.3, 0.05, 2.0, 0.5, 0.8}, resistance{1.5, 0, 0, 0.2, 0};
+constexpr double initial_pressure = 0.8;
+const OpeningLawData at_outlet = windkessel(0.3, 0.05, 2.0, 0.5, initial_pressure),
+                     at_inlet{"resistance", {{"resistance", 1.5}, {"distal_pressure", 0.2}}};
 
 /// The fluid of a box at a random state, a Windkessel at the outlet and perhaps a resistance at the inlet.
 struct OpenFluid {
@@ -30,10 +33,10 @@ struct OpenFluid {
 
   explicit OpenFluid(bool both = true) {
     Case setup = coupled_case("neo-hookean");
-    setup.openings["outlet"].outflow_law = windkessel;
+    setup.openings["outlet"].law = at_outlet;
     if (both) {
       setup.inlet.reset();
-      setup.openings["inlet"].outflow_law = resistance;
+      setup.openings["inlet"].law = at_inlet;
     }
     for (auto& [surface, conditions] : setup.openings) conditions.backflow = 0;
     scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
@@ -53,20 +56,16 @@ TEST(OpeningTerms, PressAsTheirLawSays) {
   OpenFluid open;
   const auto& boundaries = open.scene->fluid->open_boundaries();
   ASSERT_EQ(boundaries.size(), 2u);
-  EXPECT_EQ(open.state.now.windkessel, std::vector<double>{windkessel.initial_pressure});
-  const auto in = open.scene->fluid_input(open.state, open.data.rates);
+  EXPECT_EQ(open.state.now.openings, std::vector<double>{initial_pressure});
   std::vector<double> with, without;
-  open.scene->fluid->assemble(in, open.data.opening_pressures, with);
+  open.scene->assemble_fluid(open.state.now, open.data, with);
   Case plain = coupled_case("neo-hookean");
   const auto other = build_scene<P1Tetrahedron>(plain, fluid_and_wall_box(2));
   other->fluid->assemble(other->fluid_input(open.state, open.data.rates), open.data.opening_pressures, without);
   for (const auto& boundary : boundaries) {
     const double flow = boundary.outflow(open.state.now.fluid);
-    const bool stores = boundary.name() == "outlet";
-    const double k = open.data.rates.fluid_factor;
-    const double pressure = stores ? windkessel.pressure(k, windkessel.initial_pressure, flow)
-                                   : resistance.distal_pressure + resistance.proximal * flow;
-    boundary.add_pressure(pressure, without);
+    const auto& law = boundary.name() == "outlet" ? at_outlet : at_inlet;
+    boundary.add_pressure(law.make()->pressure(open.data.rates.fluid_factor, &initial_pressure, flow), without);
   }
   EXPECT_LT(largest(difference(with, without)), 1e-13);
 }

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "system/given_flows.hpp"
+#include "system/low_rank_solver.hpp"
+#include "system/numbering.hpp"
+
+namespace fsi {
+
+/// What openings add to the equations of the fluid beside its block matrices: how pressures answer the flow, and pressures
+/// that are unknowns where the flow is given, with an equation each.
+template <int n>
+class OpeningTerms {
+ public:
+  /// \param scene  must outlive this
+  explicit OpeningTerms(const Scene<n>& scene) : scene_(scene) {}
+  OpeningTerms(const OpeningTerms&) = delete;  // solvers refer to the terms
+  OpeningTerms& operator=(const OpeningTerms&) = delete;
+
+  /// Makes the terms of a system with the fluid's equations. \returns the solver that takes them into account: that for
+  /// the block matrices itself where there are none
+  std::unique_ptr<LinearSolver> join(const JacobianBlocks<n>& blocks, std::unique_ptr<LinearSolver> solver);
+
+  /// Whether there is an opening that moves, on whose pressure derivatives depend.
+  bool move() const;
+  /// What given flows lack, outward, at the last residual, mm^3/ms.
+  std::vector<double> gaps() const;
+
+  /// Finds the gaps of state.now. \returns the sum of squares of the forces that they are worth, a part of the residual's
+  double compare(const State& state, const StepData& data) { return given_flows_.compare(state, data); }
+  /// The terms as they are at a solution. \param of_mesh  the mesh has unknowns
+  void linearise(const Solution& now, const StepRates& rates, bool of_mesh);
+  /// Before a linear solve: what the equations of given flows lack.
+  void set_gaps();
+  /// After it: the increments of the pressures.
+  void take_increments();
+  /// Pressures that are unknowns += step times their increments.
+  void add_increments(double step, Solution& now) const;
+
+  /// terms += |J| |x|, J being the terms last made. \returns the squares of what flows that are given add to its norm
+  double add_absolute_products(const Numbering& numbering, const std::vector<double>& x, const Solution& now,
+                               double fluid_factor, std::vector<double>& terms) const;
+
+ private:
+  /// The term of the i-th flow that is given: they are the last ones.
+  std::size_t term_of(std::size_t given_flow) const { return terms_.size() - given_flows_.count() + given_flow; }
+
+  /// Of an opening that moves, at the last linearisation.
+  struct Moving {
+    std::vector<double> normals, by_mesh;
+  };
+
+  const Scene<n>& scene_;
+  std::vector<OpeningTerm> terms_;
+  std::vector<Moving> moving_;  ///< in their order, empty for openings that stay
+  GivenFlows<n> given_flows_;
+  std::vector<double> increments_;                  ///< of the pressures where the flow is given
+  const LowRankLinearSolver<n>* solver_ = nullptr;  ///< where there are terms
+};
+
+}  // namespace fsi
