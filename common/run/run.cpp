@@ -107,6 +107,7 @@ class Run {
     const CommandLine& line = parts_.line;
     // All that a restart reads is checked before anything is written.
     std::optional<EarlierTables> earlier = checkpoints_.recall();
+    complete_ = state().step;
     parts_.stepper->keep_balances(observers_.want_balances());
     note_signals();           // until here nothing has been written
     parts_.processes.wait();  // until all have read
