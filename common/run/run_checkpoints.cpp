@@ -38,10 +38,9 @@ RunCheckpoints<n>::RunCheckpoints(RunParts<n>& parts, const Observers& observers
       pace_({parts.setup.output.checkpoint_every, parts.setup.output.checkpoint_seconds}) {}
 
 template <int n>
-void RunCheckpoints<n>::keep_parts(Memory& memory) {
+void RunCheckpoints<n>::keep_method(Memory& memory) {
   PrefixedMemory marching(of_march, memory), stepping(of_stepper, memory);
   parts_.march.keep(marching);
-  observers_.keep(memory);
   parts_.stepper->keep(stepping);
 }
 
@@ -66,7 +65,8 @@ Checkpoint RunCheckpoints<n>::of_now() {
   keep(parts_.state, memory);
   write_down_steps(parts_.loads.axis(), parts_.state, memory);
   keep(digests_, of_digests);
-  keep_parts(memory);
+  observers_.keep(memory);
+  keep_method(memory);
   Checkpoint checkpoint;
   checkpoint.program = parts_.program;
   checkpoint.case_hash = hash_of_case(parts_.setup);
@@ -148,6 +148,7 @@ std::optional<EarlierTables> RunCheckpoints<n>::recall() {
   keep(past.digests, of_digests);
   EarlierTables earlier(parts_.line.restart, observers_.tables(), past);
   StoredSteps steps = recall_steps(memory, state, earlier.times());
+  observers_.keep(memory);  // rows may show what a watcher remembers
   if (past.levels > 0) observers_.require_same(parts_.shown_level(), earlier);
 
   const Stretch before = steps.stretches.back();
@@ -155,7 +156,7 @@ std::optional<EarlierTables> RunCheckpoints<n>::recall() {
     memory.change_step();
     step_change_ = text_of_change(before);
   }
-  keep_parts(memory);
+  keep_method(memory);
   if (const auto left = memory.require_all_known(others()); !left.empty())
     left_aside_ = fmt::format("of the checkpoint, what the methods of this run do not use: {}", fmt::join(left, ", "));
   warnings_ = memory.warnings();

@@ -46,8 +46,8 @@ class RunCheckpoints {
  private:
   Checkpoint of_now();
   void write(const Checkpoint& checkpoint) const;
-  /// All that a run keeps but its state and the steps that led there, in the order in which it is taken over.
-  void keep_parts(Memory& memory);
+  /// What march and stepper keep.
+  void keep_method(Memory& memory);
   void keep_scheme(Memory& memory);
   std::string text_of_change(const Stretch& before) const;
 

@@ -152,7 +152,6 @@ def sealed_checkpoints(file, choose):
         yield "times", f"{name} negative", lambda h5, n=name, v=values: replaced(h5, f"arrays/{n}", -v - 1)
         yield "times", f"{name} huge", lambda h5, n=name, v=values: replaced(h5, f"arrays/{n}", v + 1e12)
     yield "unknown", "an array more", lambda h5: h5.create_dataset("arrays/more", data=[1.0])
-    yield "unknown", "an array more of the stepper", lambda h5: h5.create_dataset("arrays/stepper.more", data=[1.0])
     for name in ("program", "case_hash", "mesh_hash"):
         yield "attribute", f"{name} of another run", lambda h5, n=name: h5.attrs.__setitem__(n, np.bytes_("other"))
         yield "attribute", f"{name} missing", lambda h5, n=name: h5.attrs.__delitem__(n)

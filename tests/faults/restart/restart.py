@@ -87,6 +87,9 @@ class Base:
         yield from refused(field_files(choose))
         for kind, what, change in harmless_tables(self.folder, self.step, self.level, choose):
             yield Mutation(kind, what, (SAME,), change)
+        # What another coupling scheme would have kept is left aside.
+        more = edited(lambda h5: h5.create_dataset("arrays/stepper.more", data=[1.0]))
+        yield Mutation("left aside", "an array more of the stepper", (SAME,), more)
         if self.name == "adaptive":
             return
         for what, file, expected in meshes(tiny_mesh(self.harness), self.harness.base):

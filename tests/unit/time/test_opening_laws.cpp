@@ -191,7 +191,7 @@ TEST(OpeningLaws, AreMarchedAtTheSchemesOrder) {
     for (const auto& [scheme, order] : schemes_with_orders()) {
       SCOPED_TRACE(name);
       std::vector<double> errors;
-      for (const int steps : {80, 160, 320})
+      for (const int steps : {160, 320, 640})
         march(
             *behind, *scheme, steps, flow, duration, false, [](double, double) {},
             [&](const State& state) {
