@@ -25,6 +25,7 @@
 #include "run/run_checkpoints.hpp"
 #include "run/run_parts.hpp"
 #include "run/step_beyond.hpp"
+#include "scene/time_scheme.hpp"
 #include "time/balance.hpp"
 
 namespace fsi {
