@@ -41,7 +41,7 @@ class Observer {
 
   /// What it needs to go on after a restart. The names get the watcher's own word before them (observers.cpp).
   virtual void keep(Memory& /*memory*/) {}
-  /// The phase of the profile that its seconds count for.
+  /// The phase of the profile that the seconds of after_step() count for; levels count as output.
   virtual const char* phase() const { return "output"; }
 };
 

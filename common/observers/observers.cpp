@@ -67,8 +67,8 @@ void Observers::look(const State& level) const {
 }
 
 void Observers::look(const State& level, ResultFolder& folder) const {
+  const auto phase = profile_.phase("output");
   for (const auto& [word, observer] : observers_) {
-    const auto phase = profile_.phase(observer->phase());
     for (const TableRows& rows : observer->rows_at(level)) folder.write(rows);
     observer->look(level);
   }
