@@ -107,6 +107,7 @@ class RigidPipe(FolderTest):
                 "factorisation: coupled",
                 "solve: coupled",
                 "energy balance",
+                "level check",
                 "checkpoint",
                 "output",
             },

@@ -148,6 +148,7 @@ class StaticWall(FolderTest):
                 "set-up: coupled",
                 "solve: coupled",
                 "energy balance",
+                "level check",
                 "checkpoint",
                 "output",
             },
