@@ -65,7 +65,7 @@ TEST_F(CheckedFiles, AreRegularOrRefused) {
     const auto text = name.string() + ": cannot be written (it is no regular file); remove it or give another name";
     EXPECT_EQ(message_of<WriteError>([&] { CheckedFile::create(name); }), text);
     EXPECT_EQ(message_of<WriteError>([&] { CheckedFile::append(name); }), text);
-    EXPECT_EQ(message_of<WriteError>([&] { require_regular_or_absent(name); }), text);
+    EXPECT_EQ(message_of<WriteError>([&] { require_still_regular(name); }), text);
   };
   refused("/dev/null");
   refused("/dev/full");
@@ -74,7 +74,7 @@ TEST_F(CheckedFiles, AreRegularOrRefused) {
   refused(folder_ / "pipe");  // and nobody waits for a reader
   fs::create_symlink("/dev/null", folder_ / "link");
   refused(folder_ / "link");
-  EXPECT_NO_THROW(require_regular_or_absent(folder_ / "absent"));
+  EXPECT_NO_THROW(require_still_regular(folder_ / "absent"));
 }
 
 TEST_F(CheckedFiles, MadeNewFollowNoLink) {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<ResultTable> no_fluid{steps_table, wall_table({0, 1, 2})};
-const std::vector<std::string> known = files_of(no_fluid);
+const std::vector<std::string> files_written = files_of(no_fluid);
 constexpr int last_step = 200;
 constexpr double step_size = 0.25;  // exact in binary, so that times can be compared
 
@@ -50,7 +50,7 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      ResultFolder results(run, no_fluid, known);
+      ResultFolder results(run, no_fluid, files_written);
       FieldsWriter fields(run, grids, planned);
       for (int step = 0; step <= last_step; ++step) write_step(results, fields, grids, step);
       _exit(0);
@@ -67,14 +67,14 @@ TEST_F(Kill, AtAnyMomentLeavesResultsThatARestartContinues) {
     EXPECT_EQ(checkpoint.arrays.at("state"), std::vector<double>(1000, checkpoint.time));
     {
       const EarlierSteps earlier{step, checkpoint.time, step};
-      ResultFolder results(run, no_fluid, known, EarlierTables(run, no_fluid, earlier));
+      ResultFolder results(run, no_fluid, files_written, EarlierTables(run, no_fluid, earlier));
       FieldsWriter fields(run, grids, planned, run, checkpoint.time);
       write_step(results, fields, grids, step + 1);
     }
 
     const auto reference = folder_ / "reference";
     {
-      ResultFolder results(reference, no_fluid, known);
+      ResultFolder results(reference, no_fluid, files_written);
       FieldsWriter fields(reference, grids, planned);
       for (int s = 0; s <= step + 1; ++s) write_step(results, fields, grids, s);
     }
