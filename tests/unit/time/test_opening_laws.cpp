@@ -33,7 +33,7 @@ double flow(double t) {
 }
 
 /// p_c under that flow, by variation of constants.
-double exact_number(double t) {
+double exact_pressure(double t) {
   const double tau = law.distal * law.compliance, w = frequency * tau, left = std::exp(-t / tau);
   return law.distal_pressure + (law.initial_pressure - law.distal_pressure) * left +
          amplitude * law.distal *
@@ -82,11 +82,11 @@ Marched march(const TimeIntegrator& scheme, int steps, const std::function<doubl
       law, scheme, steps, inflow, until, uneven,
       [&](double time, double pressure) {
         const double stored = pressure - law.proximal * inflow(time);
-        marched.at_balances = std::max(marched.at_balances, std::abs(stored - exact_number(time)));
+        marched.at_balances = std::max(marched.at_balances, std::abs(stored - exact_pressure(time)));
       },
       [&](const State& state) {
         marched.stored = state.before[0].openings[0];
-        marched.error = std::max(marched.error, std::abs(marched.stored - exact_number(state.time)));
+        marched.error = std::max(marched.error, std::abs(marched.stored - exact_pressure(state.time)));
       });
   return marched;
 }
