@@ -70,12 +70,9 @@ void turn_counter_clockwise(const std::vector<Point>& nodes, std::vector<Triangl
   }
 }
 
-#define INSTANTIATE(Order)                                                                                    \
-  template void lay_into_plane<Order>(const std::string&, GmshFile&, const std::vector<TriangleCell<Order>>&, \
-                                      TriangleGeometry);                                                      \
-  template void turn_counter_clockwise<Order>(const std::vector<Point>&, std::vector<TriangleCell<Order>>&);
-INSTANTIATE(1)
-INSTANTIATE(2)
-#undef INSTANTIATE
+template void lay_into_plane<1>(const std::string&, GmshFile&, const std::vector<TriangleCell<1>>&, TriangleGeometry);
+template void turn_counter_clockwise<1>(const std::vector<Point>&, std::vector<TriangleCell<1>>&);
+template void lay_into_plane<2>(const std::string&, GmshFile&, const std::vector<TriangleCell<2>>&, TriangleGeometry);
+template void turn_counter_clockwise<2>(const std::vector<Point>&, std::vector<TriangleCell<2>>&);
 
 }  // namespace fsi
