@@ -12,20 +12,9 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 
-extern "C" void openblas_set_num_threads(int);
-extern "C" int openblas_get_num_threads();
-
 namespace fsi {
 
 namespace {
-
-int dense_threads = openblas_get_num_threads();  // as it begins, until it is set
-
-/// OpenBLAS starts its threads when it is told their number, and each takes 128 MiB of addresses: not before they are
-/// needed.
-void start_dense_threads() {
-  if (openblas_get_num_threads() != dense_threads) openblas_set_num_threads(dense_threads);
-}
 
 // UMFPACK copes with allocations that fail: it asks for less.
 void* malloc_for_umfpack(std::size_t size) {
@@ -179,42 +168,8 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
     throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", status), "a smaller time step");
 }
 
-void DirectSolver::solve_each(const SparseMatrix& a, const std::vector<std::vector<double>>& b,
-                              std::vector<std::vector<double>>& x) const {
-  const OneDenseThread same_bits_for_any_number;
-  const auto& my = *implementation_;
-  const int count = static_cast<int>(b.size());
-  x.resize(b.size());
-  start_dense_threads();
-  std::vector<int> status(b.size(), UMFPACK_OK);
-#pragma omp parallel for schedule(dynamic) if (a.size() > 2000)
-  for (int k = 0; k < count; ++k) {
-    x[k].resize(b[k].size());
-    std::vector<SuiteSparse_long> integer_work(my.integer_work.size());
-    std::vector<double> work(my.work.size());
-    double info[UMFPACK_INFO];
-    status[k] = static_cast<int>(umfpack_dl_wsolve(UMFPACK_A, indices(a.offsets), indices(a.rows), a.values.data(),
-                                                   x[k].data(), b[k].data(), my.numeric, my.control, info,
-                                                   integer_work.data(), work.data()));
-  }
-  for (int s : status)
-    if (s != UMFPACK_OK)
-      throw ConvergenceError(fmt::format("sparse solve failed (UMFPACK status {})", s), "a smaller time step");
-}
-
 long long DirectSolver::factor_nonzeros() const {
   return static_cast<long long>(implementation_->lower + implementation_->upper);
-}
-
-void set_dense_threads(int count) {
-  dense_threads = count;
-}
-
-OneDenseThread::OneDenseThread() : before_(dense_threads) {
-  set_dense_threads(1);
-}
-OneDenseThread::~OneDenseThread() {
-  set_dense_threads(before_);
 }
 
 }  // namespace fsi

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/dense_threads.hpp"
 #include "algebra/sparse_matrix.hpp"
 
 namespace fsi {
@@ -34,31 +35,12 @@ class DirectSolver {
   /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
   void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const;
 
-  /// The same for several right-hand sides, side by side in threads.
-  void solve_each(const SparseMatrix& a, const std::vector<std::vector<double>>& b,
-                  std::vector<std::vector<double>>& x) const;
-
   /// Entries of both factors, for reports.
   long long factor_nonzeros() const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
-};
-
-/// Threads of the dense kernels inside factorisations. The bits of factors depend on them.
-void set_dense_threads(int count);
-
-/// One such thread for as long as this lives: where results must not depend on the number of threads.
-class OneDenseThread {
- public:
-  OneDenseThread();
-  ~OneDenseThread();
-  OneDenseThread(const OneDenseThread&) = delete;
-  OneDenseThread& operator=(const OneDenseThread&) = delete;
-
- private:
-  int before_;
 };
 
 }  // namespace fsi

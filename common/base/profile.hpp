@@ -7,7 +7,7 @@
 
 namespace fsi {
 
-/// Seconds and calls spent in one named phase of a run.
+/// Seconds and calls spent in one named phase of a run, without phases that were entered in it.
 struct Phase {
   double seconds = 0;
   std::int64_t calls = 0;
@@ -17,24 +17,33 @@ struct Phase {
 /// are entered outside parallel regions.
 class Profile {
  public:
-  /// Measures from construction to destruction and adds to the phase.
+  /// Measures from construction to destruction and adds to the phase, but for what inner scopes measured.
   class Scope {
    public:
-    explicit Scope(Phase& phase) : phase_(phase), start_(std::chrono::steady_clock::now()) {}
+    Scope(Phase& phase, Scope*& innermost)
+        : phase_(phase), innermost_(innermost), outer_(innermost), start_(std::chrono::steady_clock::now()) {
+      innermost = this;
+    }
     ~Scope() {
-      phase_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+      const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+      phase_.seconds += all - inside_;
       ++phase_.calls;
+      if (outer_) outer_->inside_ += all;
+      innermost_ = outer_;
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
    private:
     Phase& phase_;
+    Scope*& innermost_;
+    Scope* outer_;
+    double inside_ = 0;  ///< seconds of inner scopes
     std::chrono::steady_clock::time_point start_;
   };
 
   /// Times the enclosing block under `name`, e.g. "assembly: fluid jacobian".
-  [[nodiscard]] Scope phase(const std::string& name) { return Scope(phases_[name]); }
+  [[nodiscard]] Scope phase(const std::string& name) { return Scope(phases_[name], innermost_); }
   /// Adds to the counter `name`, e.g. "factorisations: coupled".
   void count(const std::string& name, std::int64_t by = 1) { counters_[name] += by; }
 
@@ -42,6 +51,7 @@ class Profile {
   const std::map<std::string, std::int64_t>& counters() const { return counters_; }
 
  private:
+  Scope* innermost_ = nullptr;  ///< of the scopes that live
   std::map<std::string, Phase> phases_;
   std::map<std::string, std::int64_t> counters_;
 };

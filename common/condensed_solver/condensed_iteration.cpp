@@ -8,7 +8,6 @@
 #include "algebra/direct_solver.hpp"
 #include "algebra/vector_operations.hpp"
 #include "fem/dimensions.hpp"
-#include "mesh_motion/harmonic_extension.hpp"
 
 namespace fsi {
 
@@ -122,7 +121,7 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
   while (report.iterations < max_iterations_) {
     const double wanted = 0.8 * tolerance / relative;
     const double inner = shape_derivatives_ ? std::max(wanted, 0.5 * shape_contraction) : wanted;
-    correct(inner, relative, inner_solver, report);
+    correct(inner, inner_solver, report);
     const auto step_along_directions = [&] {
       jacobian_.multiply(correction_, jacobian_times_x_);
       directions.add(correction_, jacobian_times_x_);
@@ -168,8 +167,7 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
 }
 
 template <int n>
-void CondensedIteration<n>::correct(double tolerance, double relative, const InnerSolver& inner_solver,
-                                    LinearReport& report) {
+void CondensedIteration<n>::correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report) {
   const Numbering& numbering = blocks_.numbering;
   const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
   layout_.take(residual_, right_);
@@ -189,7 +187,7 @@ void CondensedIteration<n>::correct(double tolerance, double relative, const Inn
       const Unknown& unknown = numbering.mesh[i];
       mesh_[i] = unknown.index < 0 ? 0 : unknown.factor * correction_[unknown.index];
     }
-    extension_->solve(mesh_right_, mesh_, std::min(loosest_extension, HarmonicExtensionOptions().tolerance / relative));
+    extend(std::min(loosest_extension, extension_share * tolerance));
     for (std::size_t i = 0; i < mesh_.size(); ++i)
       if (numbering.mesh_rows[i].index >= 0) correction_[numbering.mesh_rows[i].index] = mesh_[i];
     numbering.update_ghosts(correction_);
@@ -206,16 +204,22 @@ void CondensedIteration<n>::subtract_mesh_rows(double tolerance) {
     any = any || mesh_right_[i] != 0;
   }
   if (!shape_derivatives_ || !numbering.processes->any(any)) return;
-  // An iteration costs too much for what the flow would not notice.
-  if (extension_->iterates() && norm_of_all(mesh_right_) <= 0.01 * tolerance * norm_of_all(right_)) return;
+  if (norm_of_all(mesh_right_) <= 0.01 * tolerance * norm_of_all(right_)) return;  // the flow would not notice
   set_zero(mesh_);
-  extension_->solve(mesh_right_, mesh_, mesh_rows_tolerance);
+  extend(mesh_rows_tolerance);
   multiply(*blocks_.shape_derivatives, mesh_, fluid_rows_);
   std::vector<double>& all = jacobian_times_x_;
   all.assign(residual_.size(), 0.0);
   add_to_system(numbering.fluid_rows, fluid_rows_, all);
   layout_.take(all, solution_);
   axpy(-1, solution_, right_);
+}
+
+template <int n>
+void CondensedIteration<n>::extend(double tolerance) {
+  if (!blocks_.profile) return extension_->solve(mesh_right_, mesh_, tolerance);
+  const auto phase = blocks_.profile->phase("solve: mesh motion");
+  extension_->solve(mesh_right_, mesh_, tolerance);
 }
 
 #define FSI_INSTANTIATE(n) template class CondensedIteration<n>;

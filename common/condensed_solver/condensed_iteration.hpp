@@ -48,16 +48,18 @@ class CondensedIteration {
   /// Of the mesh motion that the mesh equations' own residual asks for: it enters the flow's right-hand side only, and
   /// what it lacks comes back in the next residual.
   static constexpr double mesh_rows_tolerance = 1e-3;
-  static constexpr double loosest_extension = 1e-3;  ///< tolerance of a late correction's mesh motion
+  /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it lacks is a residual
+  /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
+  static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
 
   void count_extension();
   /// Of rows, which all processes have some of.
   double norm_of_all(const std::vector<double>& x) const;
 
-  /// correction = approximate solution for the residual: velocities and pressures by the inner solver, mesh motion as
-  /// exact as the whole solution wants it.
-  /// \param relative  the residual over the right-hand side: how much this correction weighs
-  void correct(double tolerance, double relative, const InnerSolver& inner_solver, LinearReport& report);
+  /// correction = approximate solution for the residual: velocities and pressures by the inner solver, then the mesh.
+  void correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report);
+  /// Mesh displacements inside, of mesh_right_ and the given ones.
+  void extend(double tolerance);
 
   /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
   /// rounding, or what an iterative extension left.

@@ -162,8 +162,7 @@ void HarmonicExtension<n>::set_up(Group& group) {
 template <int n>
 void HarmonicExtension<n>::factorise(Group& group) {
   // The matrix is symmetric: its rows serve as columns.
-  SparseMatrix& a = group.columns;
-  a = {};
+  SparseMatrix a;
   a.offsets = {0};
   for (std::size_t row = 0; row < group.entry.size(); ++row) {
     for_row(group, row, [&](int column, double value) {
@@ -172,7 +171,6 @@ void HarmonicExtension<n>::factorise(Group& group) {
     });
     a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
   }
-  group.solver = DirectSolver();
   group.solver.factorise(a);
 }
 
@@ -202,16 +200,16 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
 template <int n>
 void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<double>& right,
                                           std::vector<double>& field) {
-  const std::size_t rows = group.entry.size();
-  right_.assign(group.offset.size(), std::vector<double>(rows));
-  for (std::size_t c = 0; c < group.offset.size(); ++c)
+  const std::size_t rows = group.entry.size(), count = group.offset.size();
+  right_.resize(rows * count);
+  for (std::size_t c = 0; c < count; ++c)
     for (std::size_t i = 0; i < rows; ++i) {
       const std::size_t entry = group.entry[i] + group.offset[c];
-      right_[c][i] = right[entry] - rows_[entry];
+      right_[c * rows + i] = right[entry] - rows_[entry];
     }
-  group.solver.solve_each(group.columns, right_, solution_);
-  for (std::size_t c = 0; c < group.offset.size(); ++c)
-    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] = solution_[c][i];
+  group.solver.solve(right_, static_cast<int>(count), solution_);
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] = solution_[c * rows + i];
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old
@@ -296,8 +294,7 @@ template <int n>
 double HarmonicExtension<n>::memory_mib() const {
   double bytes = 0;
   for (const Group& group : groups_)
-    bytes += 16.0 * static_cast<double>(group.solver.factor_nonzeros()) +
-             static_cast<double>(group.matrix.bytes() + group.multigrid.bytes());
+    bytes += group.solver.bytes() + static_cast<double>(group.matrix.bytes() + group.multigrid.bytes());
   return bytes / (1 << 20);
 }
 

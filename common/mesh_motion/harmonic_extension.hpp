@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
+#include "algebra/cholesky_solver.hpp"
 #include "algebra/csr_matrix.hpp"
-#include "algebra/direct_solver.hpp"
 #include "fem/nodal_frames.hpp"
 #include "mesh_motion/mesh_extension.hpp"
 #include "solvers/smoothed_aggregation/scalar_multigrid.hpp"
@@ -22,7 +22,7 @@ struct HarmonicExtensionOptions {
   /// Inner nodes from which the iteration is quicker than triangular solves. Factors of a plane graph hardly fill in:
   /// with 24,000 inner nodes their solve still takes a fifth of the time of an iteration to 1e-4.
   /// \param dimension  components of a node
-  static constexpr int standard_iterative_from(int dimension) { return dimension == 2 ? 200000 : 12000; }
+  static constexpr int standard_iterative_from(int dimension) { return dimension == 2 ? 200000 : 60000; }
 };
 
 /// The mesh motion's equations. Components do not couple: each distinct one has a scalar matrix, whose components are
@@ -66,8 +66,7 @@ class HarmonicExtension : public MeshExtension<n> {
     std::vector<std::size_t> offset;  ///< from there to the entry of each of its vectors
     CsrMatrix<double> matrix;         ///< of the iteration
     ScalarMultigrid multigrid;        ///< its preconditioner
-    SparseMatrix columns;             ///< of the factorisation
-    DirectSolver solver;
+    CholeskySolver solver;
     bool iterative = false;
   };
 
@@ -91,8 +90,7 @@ class HarmonicExtension : public MeshExtension<n> {
   const NodalFrames<n>* frames_;
   std::vector<Group> groups_;
   int iterations_ = 0;
-  std::vector<std::vector<double>> right_, solution_;  ///< by component
-  std::vector<double> values_, rows_;
+  std::vector<double> values_, rows_, right_, solution_;
 };
 
 }  // namespace fsi

@@ -52,6 +52,15 @@ double estimated_error(const NewtonProblem& problem, double left) {
   return problem.relative_increment() * left / (1 - left);
 }
 
+/// \param left             what the last increment left of the residual
+/// \param small_increment  whether the increment is small enough where that decides
+bool is_accurate(const NewtonProblem& problem, const NewtonOptions& options, double left, bool small_increment) {
+  if (options.error_tolerance == 0) return small_increment;
+  const double change = problem.relative_increment();
+  if (!std::isfinite(change)) return small_increment;
+  return left < 1 && change * left / (1 - left) <= options.error_tolerance;
+}
+
 }  // namespace
 
 int NewtonReport::linear_iterations() const {
@@ -119,7 +128,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (options.observe_iteration) options.observe_iteration(report);
     if (reference == 0) reference = increment;
 
-    const bool accurate = iteration.increment <= options.tolerance * reference;
+    const bool accurate =
+        is_accurate(problem, options, new_residual / residual, iteration.increment <= options.tolerance * reference);
     const bool small = iteration.step == 1 && (accurate || problem.negligible(increment, rounding_increment) ||
                                                (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||

@@ -51,6 +51,9 @@ enum class NewtonMode {
 
 struct NewtonOptions {
   NewtonMode mode = NewtonMode::kept;
+  /// Converged when the estimate of NewtonReport::error is at most this; 0, or where nobody knows what the solution
+  /// changes: by the increment.
+  double error_tolerance = 0;
   /// Converged when the increment's norm is below this times `reference`.
   double tolerance = 1e-8;
   double reference = 0;           ///< 0: the norm of the first increment ([Langer2018], algorithm 1)

@@ -1,0 +1,118 @@
+#include "algebra/cholesky_solver.hpp"
+
+#include <cholmod.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "algebra/dense_threads.hpp"
+#include "algebra/factorisation_memory.hpp"
+#include "base/error.hpp"
+#include "base/memory.hpp"
+
+namespace fsi {
+
+struct CholeskySolver::Implementation {
+  cholmod_common common;
+  cholmod_factor* factor = nullptr;
+  // Storage of solves: solution, and two arrays of CHOLMOD's own.
+  mutable cholmod_dense *solution = nullptr, *work = nullptr, *extra = nullptr;
+
+  Implementation() {
+    cholmod_l_start(&common);
+    common.print = 0;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_METIS;
+    common.postorder = 1;
+    common.final_ll = 1;
+  }
+  ~Implementation() {
+    cholmod_l_free_dense(&solution, &common);
+    cholmod_l_free_dense(&work, &common);
+    cholmod_l_free_dense(&extra, &common);
+    cholmod_l_free_factor(&factor, &common);
+    cholmod_l_finish(&common);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  /// \throws as the last call ended
+  void check(std::int64_t unknowns) const {
+    if (common.status == CHOLMOD_OK) return;
+    if (common.status == CHOLMOD_OUT_OF_MEMORY)
+      throw OutOfMemory(fmt::format("the factor of {} unknowns does not fit", unknowns));
+    throw ConvergenceError(
+        fmt::format("sparse factorisation: the matrix is not positive definite or holds NaN (CHOLMOD status {})",
+                    common.status),
+        "a smaller time step, and check the mesh");
+  }
+};
+
+CholeskySolver::CholeskySolver() : implementation_(std::make_unique<Implementation>()) {}
+CholeskySolver::~CholeskySolver() = default;
+CholeskySolver::CholeskySolver(CholeskySolver&&) noexcept = default;
+CholeskySolver& CholeskySolver::operator=(CholeskySolver&&) noexcept = default;
+
+bool CholeskySolver::factorised() const {
+  return implementation_->factor != nullptr;
+}
+
+void CholeskySolver::factorise(const SparseMatrix& a) {
+  const OneDenseThread same_bits_for_any_number;
+  const Activity activity("factorising a matrix");
+  auto& my = *implementation_;
+  cholmod_l_free_factor(&my.factor, &my.common);
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<std::size_t>(a.size());
+  view.nzmax = static_cast<std::size_t>(a.nonzeros());
+  view.p = const_cast<std::int64_t*>(a.offsets.data());  // CHOLMOD's interface has no const; it only reads
+  view.i = const_cast<std::int64_t*>(a.rows.data());
+  view.x = const_cast<double*>(a.values.data());
+  view.stype = 1;  // the upper half is read
+  view.itype = CHOLMOD_LONG;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  my.factor = cholmod_l_analyze(&view, &my.common);
+  my.check(a.size());
+  const double expected = 1.2 * sizeof(double) * my.common.lnz;  // blocks hold some zeros besides
+  if (expected > (1 << 20) && will_not_fit(expected, static_cast<double>(available_memory().bytes)))
+    throw OutOfMemory(fmt::format("the factor of {} unknowns takes about {}", a.size(), memory_text(expected)));
+  start_dense_threads();
+  cholmod_l_factorize(&view, my.factor, &my.common);
+  if (my.common.status != CHOLMOD_OK || my.factor->minor < my.factor->n) {
+    if (my.common.status == CHOLMOD_OK) my.common.status = CHOLMOD_NOT_POSDEF;
+    cholmod_l_free_factor(&my.factor, &my.common);
+    my.check(a.size());
+  }
+}
+
+void CholeskySolver::solve(const std::vector<double>& b, int count, std::vector<double>& x) const {
+  const OneDenseThread same_bits_for_any_number;
+  auto& my = *implementation_;
+  assert(my.factor && b.size() == my.factor->n * static_cast<std::size_t>(count));
+  start_dense_threads();
+  cholmod_dense right{};
+  right.nrow = right.d = my.factor->n;
+  right.ncol = static_cast<std::size_t>(count);
+  right.nzmax = b.size();
+  right.x = const_cast<double*>(b.data());  // as above
+  right.xtype = CHOLMOD_REAL;
+  right.dtype = CHOLMOD_DOUBLE;
+  cholmod_l_solve2(CHOLMOD_A, my.factor, &right, nullptr, &my.solution, nullptr, &my.work, &my.extra, &my.common);
+  my.check(static_cast<std::int64_t>(my.factor->n));
+  const auto* first = static_cast<const double*>(my.solution->x);
+  x.assign(first, first + b.size());
+}
+
+double CholeskySolver::bytes() const {
+  const auto* factor = implementation_->factor;
+  if (!factor) return 0;
+  return factor->is_super ? static_cast<double>(factor->xsize * sizeof(double) + factor->ssize * sizeof(std::int64_t))
+                          : static_cast<double>(factor->nzmax * (sizeof(double) + sizeof(std::int64_t)));
+}
+
+}  // namespace fsi

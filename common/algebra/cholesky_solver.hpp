@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "algebra/sparse_matrix.hpp"
+
+namespace fsi {
+
+/// Sparse Cholesky factorisation of symmetric positive definite matrices ([Chen2008], CHOLMOD, 64-bit indices, METIS
+/// ordering). Beside an LU factorisation it keeps one factor, for the most part in dense blocks without indices, and
+/// several right-hand sides pass it together: a quarter of the memory and less of the time
+/// (docs/solver-measurements.md, "Mesh motion"). Results do not depend on the number of threads.
+class CholeskySolver {
+ public:
+  CholeskySolver();
+  ~CholeskySolver();
+  CholeskySolver(CholeskySolver&&) noexcept;
+  CholeskySolver& operator=(CholeskySolver&&) noexcept;
+
+  /// \param a  symmetric, both halves stored, of which one is read
+  /// \throws ConvergenceError when it is not positive definite, OutOfMemory before what will not fit
+  void factorise(const SparseMatrix& a);
+  bool factorised() const;
+
+  /// x = A^-1 b for `count` right-hand sides, one behind the other.
+  void solve(const std::vector<double>& b, int count, std::vector<double>& x) const;
+
+  /// Of the factor.
+  double bytes() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace fsi
