@@ -6,32 +6,48 @@
 namespace fsi {
 
 void DifferenceColumns::start() {
+  qr_.reset();
   for (Column& column : columns_) ++column.age;
   while (!columns_.empty() && columns_.back().age > reused_steps_) columns_.pop_back();
 }
 
+void DifferenceColumns::clear() {
+  columns_.clear();
+  qr_.reset();
+}
+
 void DifferenceColumns::abandon() {
+  qr_.reset();
   columns_.erase(std::remove_if(columns_.begin(), columns_.end(), [](const Column& column) { return column.age == 0; }),
                  columns_.end());
 }
 
 void DifferenceColumns::add(std::vector<double> v, std::vector<double> w) {
   columns_.insert(columns_.begin(), Column{std::move(v), std::move(w), 0});
-  if (columns_.size() > most_) columns_.pop_back();
+  ++new_;
+  if (columns_.size() <= most_) return;
+  columns_.pop_back();
+  if (qr_ && qr_->kept().size() + new_ > columns_.size()) qr_->remove_last();
 }
 
-FilteredQr DifferenceColumns::factorise() {
-  std::vector<const std::vector<double>*> v;
-  for (const Column& column : columns_) v.push_back(&column.v);
-  FilteredQr qr(v, filter_, space_);
-  std::vector<Column> kept;
-  for (const std::size_t j : qr.kept()) kept.push_back(std::move(columns_[j]));
-  columns_ = std::move(kept);
-  return qr;
+const FilteredQr& DifferenceColumns::factorise() {
+  const bool goes_on = qr_ && (new_ == 0 || (new_ == 1 && qr_->insert_first(columns_.front().v)));
+  if (!goes_on) {
+    std::vector<const std::vector<double>*> v;
+    for (const Column& column : columns_) v.push_back(&column.v);
+    qr_.emplace(v, filter_, space_);
+  }
+  if (!goes_on || new_ > 0) {
+    std::vector<Column> kept;
+    for (const std::size_t j : qr_->kept()) kept.push_back(std::move(columns_[j]));
+    columns_ = std::move(kept);
+  }
+  new_ = 0;
+  return *qr_;
 }
 
 void DifferenceColumns::keep(Memory& memory, const std::string& name) {
-  if (memory.recalls()) columns_.clear();
+  if (memory.recalls()) clear();
   if (!memory.wants({name + ".age", name + ".v", name + ".w"})) return;
   std::vector<double> v, w, age;
   for (const Column& column : columns_) {

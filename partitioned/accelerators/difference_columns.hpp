@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,10 @@ class DifferenceColumns {
   /// Forgets the columns of the step, or stage, in progress.
   void abandon();
   void add(std::vector<double> v, std::vector<double> w);
-  void clear() { columns_.clear(); }
-  /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left.
-  FilteredQr factorise();
+  void clear();
+  /// Factorises V; columns that the filter drops are forgotten, so that its places are those of the columns left. From
+  /// the beginning in each step, or stage, so that a restart has the same bits; then column by column.
+  const FilteredQr& factorise();
 
   bool empty() const { return columns_.empty(); }
   std::size_t size() const { return columns_.size(); }
@@ -45,6 +47,8 @@ class DifferenceColumns {
   double filter_;
   InterfaceSpace space_;
   std::vector<Column> columns_;
+  std::optional<FilteredQr> qr_;  ///< of all but the newest
+  std::size_t new_ = 0;           ///< how many these are
 };
 
 }  // namespace fsi

@@ -15,6 +15,14 @@ class FilteredQr {
  public:
   FilteredQr(const std::vector<const std::vector<double>*>& columns, double filter, const InterfaceSpace& space = {});
 
+  /// The same of { v, the columns kept }, by rotations: the work of one column in place of all ([Golub2013], section
+  /// 6.5.2). kept() then counts places among these.
+  /// \returns false where v is a combination of the others but for rounding: then nothing has changed, and only a
+  /// factorisation from the beginning tells which of them to keep
+  bool insert_first(const std::vector<double>& v);
+  /// Forgets the last column kept.
+  void remove_last() { remove(r_.size() - 1); }
+
   /// Places of the columns kept, ascending.
   const std::vector<std::size_t>& kept() const { return kept_; }
   /// c minimising |V c - b| over the columns kept, in their order.
@@ -23,8 +31,14 @@ class FilteredQr {
   std::vector<std::vector<double>> pseudo_inverse() const;
 
  private:
+  void remove(std::size_t j);
+  /// Turns rows i and i + 1 of R so that column j has nothing in the second, and the columns of Q with them.
+  void rotate(std::size_t i, std::size_t j);
+
+  double filter_;
   InterfaceSpace space_;
   std::vector<std::size_t> kept_;
+  std::vector<double> lengths_;         ///< of the columns kept
   std::vector<std::vector<double>> q_;  ///< orthonormal columns
   std::vector<std::vector<double>> r_;  ///< r_[j][i] = R(i, j), i <= j
 };

@@ -20,7 +20,7 @@ void IqnIls::change(bool longer) {
     columns_.clear();
     return;
   }
-  const FilteredQr qr = columns_.factorise();
+  const FilteredQr& qr = columns_.factorise();
   auto rows = qr.pseudo_inverse();
   std::vector<std::vector<double>> left;
   for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -49,7 +49,7 @@ void IqnIls::add_difference(const std::vector<double>& x, const std::vector<doub
 
 void IqnIls::correct(std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
-  const FilteredQr qr = columns_.factorise();
+  const FilteredQr& qr = columns_.factorise();
   if (columns_.empty() && before_.rank() == 0) {
     axpy(options_.relaxation, r, x);
     status_ = {options_.relaxation, 0};

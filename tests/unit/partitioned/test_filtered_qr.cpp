@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 
 #include "algebra/vector_operations.hpp"
@@ -54,6 +55,56 @@ TEST(FilteredQr, PseudoInverseIsTheLeastSquaresMap) {
     EXPECT_NEAR(dot(rows[i], b), c[i], 1e-11);
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(dot(rows[i], v[j]), i == j ? 1 : 0, 1e-11);
   }
+}
+
+/// One column after the other from the front, as passes give them: the same columns stay, and the same c comes out, as of
+/// a factorisation from the beginning. Every fifth column is nearly a combination of two others.
+TEST(FilteredQr, GrowsFromTheFrontAsIfFactorisedAnew) {
+  constexpr std::size_t size = 40, most = 25;
+  std::uint64_t seed = 1;
+  const auto random = [&seed] {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(seed >> 33) / 4294967296.0 - 0.25;
+  };
+  const auto any = [&] {
+    Vector v(size);
+    for (double& x : v) x = random();
+    return v;
+  };
+  std::vector<Vector> columns;
+  FilteredQr grown({}, 0.05);
+  const Vector b = any();
+  for (int k = 1; k <= 60; ++k) {
+    Vector v = any();
+    if (k % 5 == 0) {
+      scale(1e-2, v);
+      axpy(1.5, columns[1], v);
+      axpy(-0.5, columns[columns.size() / 2], v);
+    }
+    ASSERT_TRUE(grown.insert_first(v)) << k;
+    columns.insert(columns.begin(), std::move(v));
+    const FilteredQr anew(pointers(columns), 0.05);
+    ASSERT_EQ(grown.kept(), anew.kept()) << k;
+    std::vector<Vector> kept;
+    for (const std::size_t j : anew.kept()) kept.push_back(columns[j]);
+    columns = std::move(kept);
+    const auto c = grown.least_squares(b), expected = anew.least_squares(b);
+    ASSERT_EQ(c.size(), expected.size());
+    for (std::size_t j = 0; j < c.size(); ++j) EXPECT_NEAR(c[j], expected[j], 1e-11) << k;
+    if (columns.size() <= most) continue;
+    columns.pop_back();
+    grown.remove_last();
+  }
+  EXPECT_GT(columns.size(), 20u);
+}
+
+TEST(FilteredQr, LeavesACombinationOfTheOthersToAFactorisationAnew) {
+  const std::vector<Vector> v{{1, 0, 1}, {0, 1, 1}};
+  FilteredQr qr(pointers(v), 0.01);
+  EXPECT_FALSE(qr.insert_first({2, -3, -1}));
+  EXPECT_FALSE(qr.insert_first({0, 0, 0}));
+  EXPECT_EQ(qr.kept().size(), 2u);
+  EXPECT_NEAR(qr.least_squares({1, 2, 3})[1], 2, 1e-14);
 }
 
 TEST(LowRankMap, MultipliesAndTruncatesByTheLargestSingularValues) {
