@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "algebra/dense_threads.hpp"
 #include "algebra/factorisation_memory.hpp"
@@ -38,15 +39,16 @@ struct CholeskySolver::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
+  [[noreturn]] static void refuse() {
+    throw ConvergenceError("sparse factorisation: the matrix is not positive definite or holds NaN",
+                           "a smaller time step, and check the mesh");
+  }
   /// \throws as the last call ended
   void check(std::int64_t unknowns) const {
     if (common.status == CHOLMOD_OK) return;
     if (common.status == CHOLMOD_OUT_OF_MEMORY)
       throw OutOfMemory(fmt::format("the factor of {} unknowns does not fit", unknowns));
-    throw ConvergenceError(
-        fmt::format("sparse factorisation: the matrix is not positive definite or holds NaN (CHOLMOD status {})",
-                    common.status),
-        "a smaller time step, and check the mesh");
+    refuse();
   }
 };
 
@@ -64,6 +66,8 @@ void CholeskySolver::factorise(const SparseMatrix& a) {
   const Activity activity("factorising a matrix");
   auto& my = *implementation_;
   cholmod_l_free_factor(&my.factor, &my.common);
+  // CHOLMOD takes a pivot that is no number for a positive one.
+  if (!std::all_of(a.values.begin(), a.values.end(), [](double value) { return std::isfinite(value); })) my.refuse();
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(a.size());
   view.nzmax = static_cast<std::size_t>(a.nonzeros());

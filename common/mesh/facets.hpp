@@ -24,10 +24,10 @@ struct OutwardFacets {
       return {{{1, 2}, {2, 0}, {0, 1}}};
   }
   static constexpr Table make() {
-    Table table{};
+    Table facets{};
     for (int i = 0; i < count; ++i) {
       const auto corners = vertices()[i];
-      for (int k = 0; k < Dim; ++k) table[i][k] = corners[k];
+      for (int k = 0; k < Dim; ++k) facets[i][k] = corners[k];
       if constexpr (Order == 2) {
         const auto& facet_edges = SimplexEdges<Dim - 1>::vertices;
         const auto& cell_edges = SimplexEdges<Dim>::vertices;
@@ -35,11 +35,11 @@ struct OutwardFacets {
           const int a = corners[facet_edges[e][0]], b = corners[facet_edges[e][1]];
           for (std::size_t k = 0; k < cell_edges.size(); ++k)
             if ((cell_edges[k][0] == a && cell_edges[k][1] == b) || (cell_edges[k][0] == b && cell_edges[k][1] == a))
-              table[i][Dim + e] = Dim + 1 + static_cast<int>(k);
+              facets[i][Dim + e] = Dim + 1 + static_cast<int>(k);
         }
       }
     }
-    return table;
+    return facets;
   }
   static constexpr Table table = make();
 };

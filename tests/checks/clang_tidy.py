@@ -32,10 +32,11 @@ def compiler_flags(build: Path, compiler: str) -> dict[str, list[str]]:
     """Flags of each source that is compiled: without output and input, with those for the analysis.
 
     omp.h is clang's own where libomp-dev is installed, else that of the compiler. What warnings there are is the
-    compiler's affair, which knows others. Assertions are on: they tell the analyser what holds.
+    compiler's affair, which knows others; but names that hide others are looked for here, since a build that takes
+    several sources as one text cannot. Assertions are on: they tell the analyser what holds.
     """
     headers = subprocess.run([compiler, "-print-file-name=include"], stdout=subprocess.PIPE, text=True, check=True)
-    added = ["-Wno-everything", "-UNDEBUG", "-idirafter", headers.stdout.strip()]
+    added = ["-Wno-everything", "-Wshadow", "-UNDEBUG", "-idirafter", headers.stdout.strip()]
     added += ["-Xclang", "-analyzer-config", "-Xclang", f"max-nodes={STEPS}"]
     flags = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
@@ -92,7 +93,7 @@ def text_of(sources: list[Path]) -> tuple[str, list[tuple[Path, int]]]:
 def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path], analyser: bool) -> str:
     """What clang-tidy's analyser, or all else of it, writes of the sources as one text; empty: nothing is wrong."""
     without = re.findall(r"-clang-analyzer-\w[\w.]*", (root / ".clang-tidy").read_text())
-    checks = ",".join(["-*", "clang-analyzer-*", *without]) if analyser else "-clang-analyzer-*"
+    checks = ",".join(["-*", "clang-diagnostic-shadow", "clang-analyzer-*", *without]) if analyser else "-clang-analyzer-*"
     with tempfile.TemporaryDirectory() as folder:
         text, places = text_of(sources)
         file = Path(folder) / "text.cpp"

@@ -77,6 +77,19 @@ class ClangTidy(unittest.TestCase):
         (self.root / "common/other/beside.hpp").write_text("#pragma once\ninline int here() { return 1; }\n")
         self.assertEqual(self.found(a=GOOD, other__b='#include "beside.hpp"\nint b() { return here(); }\n'), "")
 
+    def test_a_name_that_hides_another(self) -> None:
+        hides = "int a(int x) {\n  if (x > 0) {\n    const int x = 3;\n    return x;\n  }\n  return x;\n}\n"
+        found = self.found(a=hides, b="int x = 1;\n")
+        self.assertIn("common/mesh/a.cpp:3:", found)
+        self.assertIn("clang-diagnostic-shadow", found)
+        other = self.found(a="int x = 1;\n", b="int b() {\n  const int x = 3;\n  return x;\n}\n")
+        self.assertEqual(other, "", "what is so of several sources as one text is not so of each alone")
+
+    def test_a_header_that_only_another_source_includes(self) -> None:
+        found = self.found(a=GOOD, b="int b() { return twice(2); }\n")
+        self.assertIn("common/mesh/b.cpp:1:", found)
+        self.assertIn("clang-diagnostic-error", found)
+
     def test_what_does_not_compile(self) -> None:
         self.assertIn("common/mesh/b.cpp:1:", self.found(a=GOOD, b="int broken( {\n"))
 

@@ -13,7 +13,7 @@ namespace fsi {
 
 namespace {
 
-constexpr bool axisymmetric = true, three_dimensional = false, measured = true;
+constexpr bool plane_section = true, three_dimensional = false, measured = true;
 constexpr Waves damped = Waves::damped, resolved = Waves::resolved;
 
 ArteryCells cells(int lumen, int media, int adventitia, int around, int axial, double lumen_grading,
@@ -40,20 +40,20 @@ const std::vector<RecommendedMesh>& recommended_meshes() {
   static const std::vector<RecommendedMesh> table{
       // element, geometry, waves, error in % of pressure, of displacement, how known,
       //   cells: lumen, media, adventitia, around, axial, grading of lumen, of axis
-      {"p2p1", axisymmetric, damped, 1.6, 2.4, measured, cells(4, 1, 1, 12, 24, 2, 8)},
-      {"p2p1", axisymmetric, damped, 1.7, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
-      {"p2p1", axisymmetric, damped, 0.6, 0.7, measured, cells(6, 2, 1, 12, 36, 2, 12)},
-      {"p2p1", axisymmetric, damped, 0.5, 0.3, measured, cells(8, 3, 2, 12, 144, 3, 4)},
-      {"p2p1", axisymmetric, damped, 0.2, 0.1, measured, cells(12, 4, 4, 12, 192, 3, 4)},
+      {"p2p1", plane_section, damped, 1.6, 2.4, measured, cells(4, 1, 1, 12, 24, 2, 8)},
+      {"p2p1", plane_section, damped, 1.7, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
+      {"p2p1", plane_section, damped, 0.6, 0.7, measured, cells(6, 2, 1, 12, 36, 2, 12)},
+      {"p2p1", plane_section, damped, 0.5, 0.3, measured, cells(8, 3, 2, 12, 144, 3, 4)},
+      {"p2p1", plane_section, damped, 0.2, 0.1, measured, cells(12, 4, 4, 12, 192, 3, 4)},
       {"p2p1", three_dimensional, damped, 1.3, 1.8, measured, cells(4, 1, 1, 12, 24, 2, 8)},
       {"p2p1", three_dimensional, damped, 1.4, 1.5, measured, cells(4, 1, 1, 12, 36, 2, 8)},
       {"p2p1", three_dimensional, damped, 0.6, 0.6, measured, cells(6, 2, 1, 16, 48, 2, 8)},
-      {"p2p1", axisymmetric, resolved, 5.7, 9.3, measured, cells(4, 1, 1, 12, 48, 2, 4)},
-      {"p2p1", axisymmetric, resolved, 3.8, 4.4, measured, cells(4, 1, 1, 12, 72, 2, 4)},
-      {"p2p1", axisymmetric, resolved, 1.9, 2.2, measured, cells(6, 2, 2, 12, 96, 3, 4)},
-      {"p2p1", axisymmetric, resolved, 1.5, 1.3, measured, cells(6, 2, 2, 12, 120, 3, 4)},
-      {"p2p1", axisymmetric, resolved, 1.1, 0.8, measured, cells(8, 3, 2, 12, 144, 3, 4)},
-      {"p2p1", axisymmetric, resolved, 0.6, 0.7, measured, cells(9, 3, 3, 12, 144, 3, 4)},
+      {"p2p1", plane_section, resolved, 5.7, 9.3, measured, cells(4, 1, 1, 12, 48, 2, 4)},
+      {"p2p1", plane_section, resolved, 3.8, 4.4, measured, cells(4, 1, 1, 12, 72, 2, 4)},
+      {"p2p1", plane_section, resolved, 1.9, 2.2, measured, cells(6, 2, 2, 12, 96, 3, 4)},
+      {"p2p1", plane_section, resolved, 1.5, 1.3, measured, cells(6, 2, 2, 12, 120, 3, 4)},
+      {"p2p1", plane_section, resolved, 1.1, 0.8, measured, cells(8, 3, 2, 12, 144, 3, 4)},
+      {"p2p1", plane_section, resolved, 0.6, 0.7, measured, cells(9, 3, 3, 12, 144, 3, 4)},
       {"p2p1", three_dimensional, resolved, 3.8, 4.4, !measured, cells(4, 1, 1, 12, 72, 2, 4)},
       {"p2p1", three_dimensional, resolved, 1.9, 2.2, !measured, cells(6, 2, 2, 12, 96, 3, 4)},
       {"p2p1", three_dimensional, resolved, 1.1, 0.8, !measured, cells(8, 3, 2, 16, 144, 3, 4)},

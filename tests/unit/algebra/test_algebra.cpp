@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algebra/block_matrix.hpp"
+#include "algebra/cholesky_solver.hpp"
 #include "algebra/direct_solver.hpp"
 #include "algebra/gathered_matrix.hpp"
 #include "algebra/node_graph.hpp"
@@ -202,6 +203,75 @@ TEST(DirectSolver, RefusesSingularAndUndefinedMatrices) {
   // The same solver recovers with a regular matrix of the pattern.
   solver.factorise(regular);
   EXPECT_TRUE(solver.factorised());
+}
+
+/// The Laplacian of a cube of size^3 nodes with values zero around it, and something on the diagonal.
+SparseMatrix laplacian_of_a_cube(int size, double diagonal) {
+  SparseMatrix a{{0}, {}, {}};
+  const auto inside = [size](int i) { return i >= 0 && i < size; };
+  for (int i = 0; i < size * size * size; ++i) {
+    const int x = i % size, y = i / size % size, z = i / size / size;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (std::abs(dx) + std::abs(dy) + std::abs(dz) > 1) continue;
+          if (!inside(x + dx) || !inside(y + dy) || !inside(z + dz)) continue;
+          a.rows.push_back(i + dx + size * (dy + size * dz));
+          a.values.push_back(dx == 0 && dy == 0 && dz == 0 ? 6 + diagonal : -1);
+        }
+    a.offsets.push_back(a.nonzeros());
+  }
+  return a;
+}
+
+// 4^3 numbers are factorised entry by entry, 14^3 in dense blocks.
+TEST(CholeskySolver, SolvesForSeveralRightHandSides) {
+  for (const int size : {4, 14}) {
+    const auto a = laplacian_of_a_cube(size, 0.1);
+    const auto rows = static_cast<std::size_t>(a.size());
+    CholeskySolver solver;
+    EXPECT_FALSE(solver.factorised());
+    EXPECT_EQ(solver.bytes(), 0);
+    solver.factorise(a);
+    EXPECT_TRUE(solver.factorised());
+    EXPECT_GE(solver.bytes(), 8.0 * static_cast<double>(a.nonzeros()) / 2);
+    for (const int count : {1, 3, 2}) {
+      const auto b = random_vector(rows * static_cast<std::size_t>(count), 4);
+      std::vector<double> x;
+      solver.solve(b, count, x);
+      ASSERT_EQ(x.size(), b.size());
+      for (int k = 0; k < count; ++k) {
+        const auto from = static_cast<std::ptrdiff_t>(rows) * k, to = from + static_cast<std::ptrdiff_t>(rows);
+        const auto product = fsi::product(a, {x.begin() + from, x.begin() + to});
+        for (std::size_t i = 0; i < rows; ++i) EXPECT_NEAR(product[i], b[static_cast<std::size_t>(from) + i], 1e-12);
+      }
+    }
+  }
+}
+
+TEST(CholeskySolver, TakesNewMatricesAndIsMoved) {
+  CholeskySolver first;
+  first.factorise(laplacian_of_a_cube(5, 0.1));
+  const auto a = laplacian_of_a_cube(3, 2);
+  first.factorise(a);
+  const auto b = random_vector(27, 4);
+  std::vector<double> x;
+  CholeskySolver second = std::move(first);
+  second.solve(b, 1, x);
+  EXPECT_LT(largest_difference(a, b, x), 1e-13);
+}
+
+TEST(CholeskySolver, RefusesWhatIsNotPositiveDefinite) {
+  for (const int size : {4, 14}) {
+    CholeskySolver solver;
+    EXPECT_THROW(solver.factorise(laplacian_of_a_cube(size, -6)), ConvergenceError);
+    EXPECT_FALSE(solver.factorised());
+    auto undefined = laplacian_of_a_cube(size, 1);
+    undefined.values[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(solver.factorise(undefined), ConvergenceError);
+    solver.factorise(laplacian_of_a_cube(size, 1));
+    EXPECT_TRUE(solver.factorised());
+  }
 }
 
 }  // namespace

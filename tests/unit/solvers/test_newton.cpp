@@ -287,6 +287,44 @@ TEST(Newton, EstimatesTheErrorThatItsLastIncrementLeft) {
   }
 }
 
+// The chord's errors from 1.4, relative to the change of 0.414: 3.4e-4, 3.5e-6, 3.6e-8. From a start that is good already one
+// increment does, where the rule that compares it with itself asks for a second.
+TEST(Newton, StopsByTheEstimatedError) {
+  for (const auto& [start, tolerance, count] :
+       {std::tuple{1.4, 1e-3, 1}, std::tuple{1.4, 1e-4, 2}, std::tuple{1.4, 1e-6, 3}, std::tuple{1.41421, 1e-3, 1}}) {
+    auto problem = square_root_of_two(start);
+    problem.before = 1;
+    NewtonOptions options;
+    options.tolerance = 1e-300;
+    options.error_tolerance = tolerance;
+    const auto report = newton(problem, options);
+    ASSERT_TRUE(report.converged);
+    EXPECT_EQ(report.count(), count) << start << " " << tolerance;
+    EXPECT_LE(error_of(problem), tolerance);
+  }
+  auto problem = square_root_of_two(1.41421);
+  NewtonOptions by_increment;
+  by_increment.tolerance = 1e-3;
+  EXPECT_EQ(newton(problem, by_increment).count(), 2);
+}
+
+/// Whose last solution nobody knows.
+class Statics : public Scalar {
+ public:
+  using Scalar::Scalar;
+  double relative_increment() const override { return std::numeric_limits<double>::infinity(); }
+};
+
+TEST(Newton, TheIncrementDecidesWhereNobodyKnowsWhatTheSolutionChanges) {
+  Statics problem([](double x) { return x * x - 2; }, [](double x) { return 2 * x; }, 1.4);
+  NewtonOptions options;
+  options.tolerance = 1e-3;
+  options.error_tolerance = 1e-12;
+  const auto report = newton(problem, options);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.count(), 3);
+}
+
 TEST(Newton, EstimatesNoErrorWhereOnlyRoundingIsLeft) {
   auto problem = square_root_of_two();
   problem.before = 1;
