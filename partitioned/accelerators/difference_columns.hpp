@@ -27,6 +27,8 @@ class DifferenceColumns {
 
   /// A time step, or a stage of it, begins.
   void start();
+  /// It has ended. What comes before the next one does not depend on the order of its passes, as a restart needs.
+  void finish() { qr_.reset(); }
   /// Forgets the columns of the step, or stage, in progress.
   void abandon();
   void add(std::vector<double> v, std::vector<double> w);

@@ -70,6 +70,7 @@ void IqnIls::correct(std::vector<double>& x, const std::vector<double>& r) {
 
 void IqnIls::accept(const std::vector<double>& x, const std::vector<double>& r) {
   add_difference(x, r);
+  columns_.finish();
 }
 
 void IqnIls::keep(Memory& memory) {

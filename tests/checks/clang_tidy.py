@@ -93,7 +93,8 @@ def text_of(sources: list[Path]) -> tuple[str, list[tuple[Path, int]]]:
 def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path], analyser: bool) -> str:
     """What clang-tidy's analyser, or all else of it, writes of the sources as one text; empty: nothing is wrong."""
     without = re.findall(r"-clang-analyzer-\w[\w.]*", (root / ".clang-tidy").read_text())
-    checks = ",".join(["-*", "clang-diagnostic-shadow", "clang-analyzer-*", *without]) if analyser else "-clang-analyzer-*"
+    alone = ["-*", "clang-diagnostic-shadow", "clang-analyzer-*", *without]
+    checks = ",".join(alone) if analyser else "-clang-analyzer-*"
     with tempfile.TemporaryDirectory() as folder:
         text, places = text_of(sources)
         file = Path(folder) / "text.cpp"
