@@ -1,4 +1,5 @@
-// One harmonic extension of the artery's mesh motion by triangular solves and by iteration, to all digits and to three, level by level.
+// One harmonic extension of the artery's mesh motion by triangular solves and by iteration, to all digits and to three,
+// level by level.
 #include <benchmark/benchmark.h>
 
 #include "algebra/dense_threads.hpp"

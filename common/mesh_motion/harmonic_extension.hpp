@@ -20,8 +20,9 @@ struct HarmonicExtensionOptions {
   int max_iterations = 100;  ///< of conjugate gradients; a solve that needs more is done by factorisation
 
   /// Inner nodes from which the iteration takes the place of the factor. To three digits both take the same time at
-  /// 18,000 inner nodes of an even mesh; on graded ones the iteration takes three times as long. Beyond 30,000 the factor
-  /// would be larger than the rest. Those of a plane graph hardly fill in.
+  /// 18,000 inner nodes of an even mesh; on a graded one of 12,000 the factor is three times as quick. The factor's memory
+  /// grows faster than the mesh, so that it ends somewhere: larger ones were not measured. Those of a plane graph hardly
+  /// fill in.
   /// \param dimension  components of a node
   static constexpr int standard_iterative_from(int dimension) { return dimension == 2 ? 200000 : 30000; }
 };

@@ -47,9 +47,9 @@ double forcing_term(const NewtonOptions& options, bool renewed, double ratio, do
 /// What an increment left of the residual tells what is left of the error: the increments to come, if each is `left` of
 /// the one before ([Deuflhard2011], section 2.1). The ratio of increments would tell it of the increment before, and of
 /// a new Jacobian nothing: its next increment is shorter by far.
-double estimated_error(const NewtonProblem& problem, double left) {
+double estimated_error(double relative_increment, double left) {
   if (!(left < 1)) return 0;  // it no longer falls: rounding
-  return problem.relative_increment() * left / (1 - left);
+  return relative_increment * left / (1 - left);
 }
 
 /// \param left             what the last increment left of the residual
@@ -58,7 +58,7 @@ bool is_accurate(const NewtonProblem& problem, const NewtonOptions& options, dou
   if (options.error_tolerance == 0) return small_increment;
   const double change = problem.relative_increment();
   if (!std::isfinite(change)) return small_increment;
-  return left < 1 && change * left / (1 - left) <= options.error_tolerance;
+  return left < 1 && estimated_error(change, left) <= options.error_tolerance;
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {
-      const double error = estimated_error(problem, new_residual / residual);
+      const double error = estimated_error(problem.relative_increment(), new_residual / residual);
       report.error = std::isfinite(error) ? error : 0;  // infinite: nobody knows what the solution changes
       report.converged = true;
       return report;

@@ -20,13 +20,7 @@ FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, d
     std::vector<double> v = *columns[j];
     const double length = lengths[j];
     if (!(length > 0) || !std::isfinite(length)) continue;
-    std::vector<double> r(q_.size() + 1, 0.0);
-    for (int pass = 0; pass < 2; ++pass) {  // the second, where much cancels, makes Q orthogonal to rounding
-      const std::vector<double> along = space_.subtract_projections(q_, v);
-      for (std::size_t i = 0; i < q_.size(); ++i) r[i] += along[i];
-      r.back() = space_.norm(v);
-      if (r.back() > 0.1 * length) break;
-    }
+    std::vector<double> r = orthogonalise(v, length);
     if (!(r.back() > filter * length)) continue;
     scale(1 / r.back(), v);
     q_.push_back(std::move(v));
@@ -36,20 +30,25 @@ FilteredQr::FilteredQr(const std::vector<const std::vector<double>*>& columns, d
   }
 }
 
+std::vector<double> FilteredQr::orthogonalise(std::vector<double>& v, double length) const {
+  std::vector<double> r(q_.size() + 1, 0.0);
+  for (int pass = 0; pass < 2; ++pass) {  // the second, where much cancels, makes Q orthogonal to rounding
+    const std::vector<double> along = space_.subtract_projections(q_, v);
+    for (std::size_t i = 0; i < q_.size(); ++i) r[i] += along[i];
+    r.back() = space_.norm(v);
+    if (r.back() > 0.1 * length) break;
+  }
+  return r;
+}
+
 bool FilteredQr::insert_first(const std::vector<double>& v) {
   const double length = space_.norm(v);
-  std::vector<double> direction = v, along(q_.size(), 0.0);
-  double rest = length;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::vector<double> part = space_.subtract_projections(q_, direction);
-    for (std::size_t i = 0; i < q_.size(); ++i) along[i] += part[i];
-    rest = space_.norm(direction);
-    if (rest > 0.1 * length) break;
-  }
+  std::vector<double> direction = v;
+  std::vector<double> along = orthogonalise(direction, length);
+  const double rest = along.back();
   if (!(rest > rounding * length) || !std::isfinite(length)) return false;
   scale(1 / rest, direction);
   q_.push_back(std::move(direction));
-  along.push_back(rest);
   for (auto& column : r_) column.push_back(0);
   r_.insert(r_.begin(), std::move(along));
   lengths_.insert(lengths_.begin(), length);

@@ -31,6 +31,8 @@ class FilteredQr {
   std::vector<std::vector<double>> pseudo_inverse() const;
 
  private:
+  /// Takes from v, of this length, what lies along the columns of Q. \returns that, and the length of what is left
+  std::vector<double> orthogonalise(std::vector<double>& v, double length) const;
   void remove(std::size_t j);
   /// Turns rows i and i + 1 of R so that column j has nothing in the second, and the columns of Q with them.
   void rotate(std::size_t i, std::size_t j);
