@@ -17,7 +17,7 @@ class Agreement {
   bool met_by(const CouplingReport& pass) const {
     const double residual =
         weighs_pressure() ? std::max(pass.displacement_residual, pass.pressure_residual) : pass.displacement_residual;
-    return (residual <= options_.tolerance || pass.displacement_residual <= displacement_rounding ||
+    return (residual <= options_.gap_tolerance() || pass.displacement_residual <= displacement_rounding ||
             pass.displacement_gap <= options_.absolute_tolerance) &&
            (options_.force_tolerance == 0 || pass.force_residual <= options_.force_tolerance);
   }
@@ -25,10 +25,10 @@ class Agreement {
   /// The tightest of the demands on the interface, as one on |d~ - d| / |d~|; that on the pressure as the last pass
   /// weighs it.
   double demand(const CouplingReport& pass) const {
-    double demand = options_.tolerance;
+    double demand = options_.gap_tolerance();
     if (options_.force_tolerance > 0) demand = std::min(demand, options_.force_tolerance);
     if (weighs_pressure() && pass.pressure_residual > pass.displacement_residual)
-      demand = std::min(demand, options_.tolerance * pass.displacement_residual / pass.pressure_residual);
+      demand = std::min(demand, options_.gap_tolerance() * pass.displacement_residual / pass.pressure_residual);
     return demand;
   }
 

@@ -160,7 +160,7 @@ void CouplingStepper<n>::note_period(double period) {
       fmt::format("interface: velocities over {:g} ms, where a gap between fluid and wall is worth {:.4g} kPa/mm; "
                   "tolerance {:g} of "
                   "the pressure and of the displacement",
-                  period, problem_->pressure_per_gap(), options_.tolerance));
+                  period, problem_->pressure_per_gap(), options_.gap_tolerance()));
 }
 
 template <int n>
@@ -196,8 +196,8 @@ void CouplingStepper<n>::give_up(const State& state, const StepData& data, const
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
                   "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
                   state.step + 1, data.time, scheme_.name, what, passes_, coupling_.displacement_residual,
-                  options_.tolerance, coupling_.pressure_residual,
-                  agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.tolerance) : "",
+                  options_.gap_tolerance(), coupling_.pressure_residual,
+                  agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.gap_tolerance()) : "",
                   coupling_.force_residual,
                   options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
       scheme_.advice);

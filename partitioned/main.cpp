@@ -1,4 +1,5 @@
 #include "linear_solvers/general_solvers.hpp"
+#include "partitioned/block_newton/block_newton_stepper.hpp"
 #include "partitioned/coupling_stepper.hpp"
 #include "run/driver.hpp"
 #include "system/newton_stepper.hpp"
@@ -8,7 +9,11 @@ namespace {
 
 template <int n>
 std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
-  if (scene.coupled()) return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
+  if (scene.coupled()) {
+    if (auto choice = chosen_scheme(setup, scene); choice.name == "block-newton")
+      return std::make_unique<BlockNewtonStepper<n>>(scene, loads, setup, std::move(choice));
+    return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
+  }
   // Nothing to couple: the part that there is, by Newton's method.
   return std::make_unique<NewtonStepper<n>>(scene, loads, setup.monolithic.newton, number_single_medium(scene),
                                             [&setup](const JacobianBlocks<n>& blocks) {

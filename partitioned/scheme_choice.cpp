@@ -33,6 +33,14 @@ std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<
 }
 
 template <int n>
+double robin_stiffness(const Case& setup, const Scene<n>& scene) {
+  constexpr double in_the_fluid = 1e4, in_long_steps = 10;
+  if (wetted_sides_of(scene).stands_in_the_fluid()) return in_the_fluid;
+  const auto steps = steps_over_answer(setup, scene);
+  return steps && steps->answers > (steps->adaptive ? long_adaptive_step : long_step) ? in_long_steps : 1;
+}
+
+template <int n>
 SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
   if (const auto& named = setup.partitioned.scheme) return {*named, "named by the case", true};
   if (scene.has_flow_only())
@@ -58,6 +66,7 @@ SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
 
 #define FSI_INSTANTIATE(n)                                                                                \
   template std::optional<StepsOverAnswer> steps_over_answer<n>(const Case& setup, const Scene<n>& scene); \
+  template double robin_stiffness<n>(const Case& setup, const Scene<n>& scene);                           \
   template SchemeChoice chosen_scheme<n>(const Case& setup, const Scene<n>& scene);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE

@@ -33,6 +33,12 @@ std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<
 /// where steps are short against the wall's answer, and where the flow is given at all openings; Dirichlet-Neumann where
 /// they are long, and where the wall stands in the fluid. What it goes by is the same in a run and its restart: case and
 /// mesh alone. For all processes together.
+/// How much stiffer than the membrane's inertia and hoop the Robin condition of block Newton is: where steps are long against
+/// the wall's answer its whole stiffness answers, and a wall that stands in the fluid is no membrane, nor does its added
+/// mass do harm to a fluid that is given its velocity. By trial (docs/coupling.md).
+template <int n>
+double robin_stiffness(const Case& setup, const Scene<n>& scene);
+
 template <int n>
 SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene);
 

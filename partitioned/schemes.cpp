@@ -65,8 +65,9 @@ Made robin_imvj(const Options& o, const Space& space) {
 }
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
-constexpr std::array<CouplingScheme, 9> coupling_schemes{{
+constexpr std::array<CouplingScheme, 10> coupling_schemes{{
     {"aitken", false, false, aitken, "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
+    {"block-newton", true, false, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
     {"constant", false, false, constant, "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation"},
     {"explicit", false, true, constant,
      "a scheme that iterates: partitioned.scheme = \"iqn-ils\"; one pass a step is unstable where the fluid's added "

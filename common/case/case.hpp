@@ -126,10 +126,13 @@ struct MonolithicData {
 
 /// [partitioned]
 struct PartitionedData {
-  std::optional<std::string> scheme;                 ///< one of coupling_scheme_names(); empty: by the scene
-  double tolerance = 1e-6;                           ///< ||d~ - d|| <= tolerance ||d~|| on the interface
-  ToleranceOf tolerance_of = ToleranceOf::pressure;  ///< pressure: alike for what the gap is worth as a pressure
-  double absolute_tolerance = 0;                     ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
+  std::optional<std::string> scheme;  ///< one of coupling_scheme_names(); empty: by the scene
+  /// ||d~ - d|| <= tolerance ||d~|| on the interface; of block-newton the error of a step that is demanded, in place of
+  /// what [monolithic] demands
+  std::optional<double> tolerance;
+  static constexpr double standard_tolerance = 1e-6;  ///< of the gap
+  ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: alike for what the gap is worth as a pressure
+  double absolute_tolerance = 0;                      ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
   double force_tolerance = 0;        ///< further demand: force residual relative to the interface force; 0: none
   double velocity_gap = 0.5;         ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
   std::optional<double> relaxation;  ///< constant factor, or the first of the scheme; empty: the scheme chooses
@@ -137,6 +140,8 @@ struct PartitionedData {
   QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
   std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()
   FastOptions fast;                    ///< of the sub-problems
+
+  double gap_tolerance() const { return tolerance.value_or(standard_tolerance); }
 };
 
 /// [petsc]: the linear solver `petsc`

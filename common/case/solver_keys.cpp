@@ -113,7 +113,11 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("scheme", optional,
            "coupling: {}; without it robin-neumann-iqn or iqn-ils by the scene and its steps, which run.log explains",
            name_from(at(&P::scheme), coupling_scheme_names())),
-      leaf("tolerance", optional, "gap between fluid and wall relative to the interface's displacement, default {}",
+      leaf("tolerance", optional,
+           fmt::format(
+               "gap between fluid and wall relative to the interface's displacement, default {:g}; block-newton: "
+               "error_tolerance of its Newton iteration, without it those of [monolithic] hold",
+               P::standard_tolerance),
            number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
            "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
@@ -131,7 +135,8 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            number(at(&P::velocity_gap), positive)),
       leaf("relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
            number(at(&P::relaxation), {0, 2, false, false})),
-      leaf("max_iterations", optional, "coupling iterations per step, default {}",
+      leaf("max_iterations", optional,
+           "coupling iterations per step, of block-newton passes per linear system, default {}",
            whole(at(&P::max_iterations), 1, most_iterations)),
       leaf("reused_steps", optional, "earlier time steps whose differences iqn-ils keeps, default {}",
            whole(at(&P::quasi_newton, &QuasiNewton::reused_steps), 0, most_directions)),

@@ -13,7 +13,7 @@ std::string remedy_by_solver(const Ringing& ringing, const Case& setup) {
   if (!ringing.coupled)
     return fmt::format("give monolithic.newton_tolerance = {:.0e}", tighter * setup.monolithic.newton.tolerance);
   if (setup.partitioned.tolerance_of != ToleranceOf::pressure) return "give partitioned.tolerance_of = \"pressure\"";
-  return fmt::format("give partitioned.tolerance = {:.0e}", tighter * setup.partitioned.tolerance);
+  return fmt::format("give partitioned.tolerance = {:.0e}", tighter * setup.partitioned.gap_tolerance());
 }
 
 }  // namespace

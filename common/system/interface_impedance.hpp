@@ -10,6 +10,9 @@ struct InterfaceImpedance {
   std::vector<int> nodes;         ///< of the fluid
   std::vector<double> impedance;  ///< c per node, kPa mm^2 / (mm/ms): any numbers, zero and negative ones too
   std::vector<double> velocity;   ///< v, n numbers per node, mm/ms
+  /// v is at each residual the one with which these rows vanish, and `velocity` is not read: what the fluid's own rows
+  /// lack is then another system's to balance.
+  bool balanced = false;
 };
 
 }  // namespace fsi

@@ -70,22 +70,21 @@ void keep_linearisation(const std::string& name, System<n>& system, Memory& memo
 }
 
 template <int n>
-NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
-                                const LinearSolverFactory<n>& make_solver)
-    : scene_(scene),
-      loads_(loads),
-      options_(std::move(options)),
-      system_("coupled", scene, std::move(numbering), make_solver) {}
+NewtonMarch<n>::NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options)
+    : scene_(scene), loads_(loads), options_(std::move(options)) {}
 
 template <int n>
-StepReport NewtonStepper<n>::advance(State& state) {
+StepReport NewtonMarch<n>::advance(State& state) {
   report_ = {};
   const int stages = scene_.integrator->stages(state);
   for (int stage = 0; stage < stages; ++stage) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
     scene_.settle_openings(state.now, data.rates);
-    if (rejects(state, data)) break;
+    if (rejects(state, data)) {
+      abandon();
+      break;
+    }
     if (keep_balances_) report_.balances.push_back({state.now, data});
     if (data.rates.last_stage)
       report_.level = accept_level(scene_, data, state, spare_);
@@ -96,32 +95,29 @@ StepReport NewtonStepper<n>::advance(State& state) {
 }
 
 template <int n>
-void NewtonStepper<n>::advance_stage(State& state, const StepData& data) {
+void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
   NewtonReport solved = solve(state, data, scene_.predictor);
   if (!solved.converged && scene_.predictor > 0 && state.step > 0) {
     // The extrapolated start can be the culprit, after a jump of the load for example.
+    abandon();
     report_.history.push_back(solved.failure + "; again from the last time level");
     solved = solve(state, data, 0);
   }
-  if (!solved.converged)
-    throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
-                                       solved.count(), solved.failure),
-                           remedy(solved));
+  if (solved.converged) return finish_stage(state, data);
+  abandon();
+  throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
+                                     solved.count(), solved.failure),
+                         remedy(solved));
 }
 
 template <int n>
-void NewtonStepper<n>::keep(Memory& memory) {
-  if (options_.mode != NewtonMode::full || memory.recalls()) keep_linearisation("kept", system_, memory);
-}
-
-template <int n>
-std::string NewtonStepper<n>::name_of_step(const State& state, const StepData& data) const {
+std::string NewtonMarch<n>::name_of_step(const State& state, const StepData& data) const {
   return scene_.is_static() ? fmt::format("load step {} (to {:g} of the load)", state.step + 1, data.time)
                             : fmt::format("step {} (to t = {:g} ms)", state.step + 1, data.time);
 }
 
 template <int n>
-std::string NewtonStepper<n>::remedy(const NewtonReport& failed) const {
+std::string NewtonMarch<n>::remedy(const NewtonReport& failed) const {
   std::string text = scene_.is_static() ? "more static.load_steps or a smaller load" : "a smaller time.step or load";
   if (options_.mode != NewtonMode::full) text += ", or monolithic.mode = \"full\"";
   if (failed.count() >= options_.max_iterations) text += ", or a larger monolithic.max_iterations";
@@ -129,13 +125,12 @@ std::string NewtonStepper<n>::remedy(const NewtonReport& failed) const {
 }
 
 template <int n>
-NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int predictor) {
+NewtonReport NewtonMarch<n>::solve(State& state, StepData& data, int predictor) {
   scene_.integrator->predict(state, predictor, data);
   scene_.impose_conditions(state.now);
   scene_.impose_inflows(state, data);
   scene_.impose_interface(state, data.rates);
-  system_.work_on(state, data);
-  NewtonReport solved = newton(system_, options_);
+  NewtonReport solved = newton(equations(state, data), options_);
   scene_.impose_interface(state, data.rates);  // exactly, not to the rounding of the increments
   report_.newton_iterations += solved.count();
   report_.linear_iterations += solved.linear_iterations();
@@ -145,9 +140,26 @@ NewtonReport NewtonStepper<n>::solve(State& state, const StepData& data, int pre
   return solved;
 }
 
+template <int n>
+NewtonStepper<n>::NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
+                                const LinearSolverFactory<n>& make_solver)
+    : NewtonMarch<n>(scene, loads, std::move(options)), system_("coupled", scene, std::move(numbering), make_solver) {}
+
+template <int n>
+NewtonProblem& NewtonStepper<n>::equations(State& state, StepData& data) {
+  system_.work_on(state, data);
+  return system_;
+}
+
+template <int n>
+void NewtonStepper<n>::keep(Memory& memory) {
+  if (this->options().mode != NewtonMode::full || memory.recalls()) keep_linearisation("kept", system_, memory);
+}
+
 #define FSI_INSTANTIATE(n)                                                           \
   template void keep_linearisation<n>(const std::string&, System<n>&, Memory&,       \
                                       const std::function<void(const StepRates&)>&); \
+  template class NewtonMarch<n>;                                                     \
   template class NewtonStepper<n>;
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 

@@ -19,20 +19,25 @@ template <int n>
 void keep_linearisation(const std::string& name, System<n>& system, Memory& memory,
                         const std::function<void(const StepRates&)>& prepare = {});
 
-/// Advances a whole scene at once by Newton's method: the monolithic method for fluid and wall, and the only one there
-/// is for a scene with one of them.
+/// Advances a scene by Newton's method, whatever its equations are to that.
 template <int n>
-class NewtonStepper : public Stepper {
+class NewtonMarch : public Stepper {
  public:
-  /// \param numbering  of the whole scene
-  NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
-                const LinearSolverFactory<n>& make_solver = {});
-
-  const System<n>& system() const { return system_; }
-
   StepReport advance(State& state) override;
 
-  void keep(Memory& memory) override;
+ protected:
+  NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions options);
+
+  /// The equations of a step, or of one stage of it; state.now holds the first guess.
+  virtual NewtonProblem& equations(State& state, StepData& data) = 0;
+  /// The stage is solved: state.now is its solution.
+  virtual void finish_stage(const State& /*state*/, const StepData& /*data*/) {}
+  /// The stage has no solution, or the step is refused, and may be taken again in another way.
+  virtual void abandon() {}
+
+  const NewtonOptions& options() const { return options_; }
+
+  Scene<n>& scene_;
 
  private:
   std::string name_of_step(const State& state, const StepData& data) const;
@@ -40,15 +45,32 @@ class NewtonStepper : public Stepper {
   std::string remedy(const NewtonReport& failed) const;
 
   /// Solves the equations of a step, or of one stage of it; leaves their solution in state.now.
-  void advance_stage(State& state, const StepData& data);
+  void advance_stage(State& state, StepData& data);
 
   /// \param predictor  order of the extrapolated start
-  NewtonReport solve(State& state, const StepData& data, int predictor);
+  NewtonReport solve(State& state, StepData& data, int predictor);
 
-  Scene<n>& scene_;
   State spare_;  ///< storage
   const Loads& loads_;
   NewtonOptions options_;
+};
+
+/// Advances a whole scene at once: the monolithic method for fluid and wall, and the only one there is for a scene with
+/// one of them.
+template <int n>
+class NewtonStepper : public NewtonMarch<n> {
+ public:
+  /// \param numbering  of the whole scene
+  NewtonStepper(Scene<n>& scene, const Loads& loads, NewtonOptions options, Numbering numbering,
+                const LinearSolverFactory<n>& make_solver = {});
+
+  const System<n>& system() const { return system_; }
+
+  void keep(Memory& memory) override;
+
+ private:
+  NewtonProblem& equations(State& state, StepData& data) override;
+
   System<n> system_;
 };
 

@@ -62,9 +62,19 @@ void OpeningTerms<n>::set_gaps() {
 }
 
 template <int n>
+void OpeningTerms<n>::close_gaps() {
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) terms_[term_of(i)].gap = 0;
+}
+
+template <int n>
 void OpeningTerms<n>::take_increments() {
   increments_.clear();
   for (std::size_t i = 0; i < given_flows_.count(); ++i) increments_.push_back(-solver_->pressures()[term_of(i)]);
+}
+
+template <int n>
+void OpeningTerms<n>::add_answers() {
+  for (std::size_t i = 0; i < given_flows_.count(); ++i) increments_[i] -= solver_->pressures()[term_of(i)];
 }
 
 template <int n>

@@ -35,8 +35,12 @@ class OpeningTerms {
   void linearise(const Solution& now, const StepRates& rates, bool of_mesh);
   /// Before a linear solve: what the equations of given flows lack.
   void set_gaps();
-  /// After it: the increments of the pressures.
+  /// Before a further one with other forces: nothing, they are solved for already.
+  void close_gaps();
+  /// After a linear solve: the increments of the pressures.
   void take_increments();
+  /// After a further one: what they change by.
+  void add_answers();
   /// Pressures that are unknowns += step times their increments.
   void add_increments(double step, Solution& now) const;
 

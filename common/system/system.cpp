@@ -123,16 +123,65 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
 
 template <int n>
 double System<n>::solve(double tolerance) {
+  return solve(tolerance, residual_);
+}
+
+template <int n>
+double System<n>::solve_with(const std::vector<double>& forces, double tolerance) {
+  other_ = residual_;
+  add_forces(forces, other_);
+  return solve(tolerance, other_);
+}
+
+template <int n>
+double System<n>::solve(double tolerance, const std::vector<double>& b) {
   stop_together(processes());
   const auto phase = scene_.profile.phase("solve: " + name_);
   openings_.set_gaps();
-  linear_report_ = solver_->solve(residual_, tolerance, increment_);
+  linear_report_ = solver_->solve(b, tolerance, increment_);
   if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
   openings_.take_increments();
   increment_.resize(numbering_.columns());
   numbering_.update_ghosts(increment_);
   for (double& x : increment_) x = -x;
-  return norms_.of_increment(increment_);
+  return increment_norm();
+}
+
+template <int n>
+bool System<n>::answer(const std::vector<double>& forces, double tolerance) {
+  stop_together(processes());
+  const auto phase = scene_.profile.phase("solve: " + name_);
+  other_.assign(static_cast<std::size_t>(numbering_.size), 0.0);
+  add_forces(forces, other_);
+  openings_.close_gaps();
+  linear_report_ = solver_->solve(other_, tolerance, answer_);
+  if (!linear_report_.converged) return false;
+  openings_.add_answers();
+  answer_.resize(numbering_.columns());
+  numbering_.update_ghosts(answer_);
+  for (std::size_t i = 0; i < increment_.size(); ++i) increment_[i] -= answer_[i];
+  return true;
+}
+
+template <int n>
+void System<n>::add_forces(const std::vector<double>& forces, std::vector<double>& equations) {
+  if (numbering_.has_fluid())
+    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, forces, equations);
+  else
+    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, forces, equations);
+}
+
+template <int n>
+Direction<n> System<n>::increment_at(int node) const {
+  const bool of_fluid = numbering_.has_fluid();
+  const UnknownMap& map = of_fluid ? numbering_.fluid : numbering_.wall;
+  Direction<n> increment{};
+  for (int k = 0; k < n; ++k)
+    if (const Unknown& unknown = map[Mixed::vector(node, k)]; unknown.index >= 0)
+      increment[k] = unknown.factor * increment_[unknown.index];
+  if (const auto* axes = (of_fluid ? scene_.fluid_frames : scene_.wall_frames).at(node))
+    NodalFrames<n>::to_space(*axes, increment.data());
+  return increment;
 }
 
 template <int n>
@@ -160,14 +209,15 @@ void System<n>::add_increment(const UnknownMap& map, const NodalFrames<n>& frame
 
 template <int n>
 template <class Layout>
-void System<n>::add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows) {
+void System<n>::add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows,
+                         std::vector<double>& equations) {
   if (frames.empty()) {
-    add_to_system(map, rows, residual_);
+    add_to_system(map, rows, equations);
     return;
   }
   rows_ = rows;
   frames.template to_frames<Layout>(rows_);
-  add_to_system(map, rows_, residual_);
+  add_to_system(map, rows_, equations);
 }
 
 template <int n>
@@ -201,13 +251,13 @@ AssemblyResult System<n>::assemble(bool derivatives) {
     } else {
       multiply_mesh_motion<n>(scene_.mesh_motion, state_->now.mesh, mesh_residual_);
     }
-    add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_);
+    add_rows<Vector>(numbering_.mesh_rows, scene_.fluid_frames, mesh_residual_, residual_);
   }
   if (numbering_.has_fluid()) {
     assert(scene_.fluid);
     result.include(scene_.assemble_fluid(state_->now, *data_, fluid_residual_,
                                          derivatives ? derivatives_ : FluidDerivatives::none));
-    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_);
+    add_rows<Mixed>(numbering_.fluid_rows, scene_.fluid_frames, fluid_residual_, residual_);
     if (derivatives) {
       auto& jacobian = scene_.fluid->jacobian(derivatives_);
       scene_.fluid_frames.turn_blocks(jacobian.fluid);
@@ -223,7 +273,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
                                          wall_residual_, derivatives));
     if (!data_->interface_load.empty())
       for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
-    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_);
+    add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_, residual_);
     if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
   }
   return result;
@@ -231,18 +281,22 @@ AssemblyResult System<n>::assemble(bool derivatives) {
 
 template <int n>
 void System<n>::add_impedance(bool derivatives) {
-  assert(impedance_->velocity.size() == impedance_->nodes.size() * n);
+  assert(impedance_->balanced || impedance_->velocity.size() == impedance_->nodes.size() * n);
   for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
     const int node = impedance_->nodes[i];
     const double c = impedance_->impedance[i];
-    Direction<n> slip;
-    for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
+    Direction<n> slip{};
+    if (!impedance_->balanced)
+      for (int k = 0; k < n; ++k) slip[k] = state_->now.fluid[Mixed::vector(node, k)] - impedance_->velocity[i * n + k];
     if (const auto* axes = scene_.fluid_frames.at(node)) NodalFrames<n>::to_frame(*axes, slip.data());
     for (int k = 0; k < n; ++k) {
       const std::size_t entry = Mixed::vector(node, k);
       const Unknown& row = numbering_.fluid_rows[entry];
       if (row.index < 0) continue;
-      residual_[row.index] += row.factor * c * slip[k];
+      if (impedance_->balanced)
+        residual_[row.index] = 0;
+      else
+        residual_[row.index] += row.factor * c * slip[k];
       if (!derivatives) continue;
       auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
       fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += c;

@@ -68,6 +68,17 @@ class System : public NewtonProblem {
   void linearise_at(const LinearisationPoint& point);
 
   double solve(double tolerance) override;
+  /// Of a system of one medium: the same with further forces f beside the residual, in nodal values of the medium along
+  /// the axes of space.
+  double solve_with(const std::vector<double>& forces, double tolerance);
+  /// Of a system of one medium, after these: increment -= J^-1 f, what its Jacobian answers to forces f alone, up
+  /// to |f - J x| <= tolerance |f|.
+  /// \returns false when the linear solver failed
+  bool answer(const std::vector<double>& forces, double tolerance);
+  /// Norm of the increment, as solve() returns it.
+  double increment_norm() const { return norms_.of_increment(increment_); }
+  /// Of a system of one medium: the last increment of the vector at a node, velocity or the wall's displacement.
+  Direction<n> increment_at(int node) const;
 
   double keep_contraction() const override { return solver_->keep_contraction(); }
   int linear_iterations() const override { return linear_report_.iterations; }
@@ -96,9 +107,15 @@ class System : public NewtonProblem {
   void add_increment(const UnknownMap& map, const NodalFrames<n>& frames, double step,
                      std::vector<double>& field) const;
 
-  /// The system's residual += the rows of a part, which are along the axes of space.
+  /// Equations += the rows of a part, which are along the axes of space.
   template <class Layout>
-  void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows);
+  void add_rows(const UnknownMap& map, const NodalFrames<n>& frames, const std::vector<double>& rows,
+                std::vector<double>& equations);
+  /// The same of a system of one medium.
+  void add_forces(const std::vector<double>& forces, std::vector<double>& equations);
+
+  /// Increment = -J^-1 b.
+  double solve(double tolerance, const std::vector<double>& b);
 
   /// Whether there is an opening that moves, on whose pressure derivatives depend.
   bool openings_move() const { return !numbering_.fluid_rows.empty() && openings_.move(); }
@@ -122,7 +139,8 @@ class System : public NewtonProblem {
   LinearisationPoint point_;
   bool usable_ = false;  ///< the solver's Jacobian belongs to the step's rates
   std::vector<double> residual_, increment_, mesh_residual_, fluid_residual_, wall_residual_;
-  std::vector<double> rows_;  ///< of a part in its frames
+  std::vector<double> rows_;            ///< of a part in its frames
+  std::vector<double> other_, answer_;  ///< storage of answer()
 };
 
 }  // namespace fsi

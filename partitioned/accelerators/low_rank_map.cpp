@@ -88,7 +88,7 @@ void LowRankMap::truncate(std::size_t rank, double tolerance) {
   const auto [qb, rb] = thin_qr(b_, space_);
   if (ra.rows() == 0 || rb.rows() == 0) return clear();
   const Eigen::MatrixXd core = ra * rb.transpose();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(core, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(core, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const auto& values = svd.singularValues();
   Eigen::Index keep = 0;
   while (keep < values.size() && keep < static_cast<Eigen::Index>(rank) && values[keep] > tolerance * values[0]) ++keep;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "base/error.hpp"
 #include "case/case.hpp"
 #include "linear_solvers/general_solvers.hpp"
+#include "partitioned/interface/gap_pressure.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface/mesh_motion_solver.hpp"
 #include "partitioned/interface/sub_problem.hpp"
@@ -87,20 +87,7 @@ class InterfaceProblem {
   double pressure_of_thickness() const { return pressure_per_gap() * membrane_.thickness; }
   /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
   double pressure_residual(const std::vector<double>& residual) const {
-    std::vector<double> loads = data_->interface_load;
-    scene_.wall_frames.template to_frames<MixedLayout<n>>(loads);  // where some components are free, and others held
-    double gap = 0, force = 0;
-    for (std::size_t i = 0; i < scene_.owned_interface(); ++i)
-      for (int k = 0; k < n; ++k) {
-        const auto entry = wall_entry(scene_.interface[i], k);
-        const double lack = membrane_.node_areas[i] * residual[i * n + k];
-        const double load = wall_.numbering().wall_rows[entry].index < 0 ? 0.0 : loads[entry];
-        gap += lack * lack;
-        force += load * load;
-      }
-    sum_over_processes(gap, force);
-    if (gap == 0) return 0;
-    return force > 0 ? pressure_per_gap() * std::sqrt(gap / force) : std::numeric_limits<double>::max();
+    return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, residual);
   }
 
   /// |d~ - d^{n-1}| of the last pass, mm.

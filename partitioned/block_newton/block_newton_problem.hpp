@@ -1,0 +1,120 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "partitioned/accelerators/affine_map.hpp"
+#include "partitioned/interface/membrane.hpp"
+#include "partitioned/interface_space.hpp"
+#include "scene/scene.hpp"
+#include "solvers/newton.hpp"
+#include "system/system.hpp"
+
+namespace fsi {
+
+/// What the passes of block Newton took so far.
+struct BlockNewtonCost {
+  int passes = 0;                         ///< each one linear solve of either medium
+  int fluid_linear = 0, wall_linear = 0;  ///< Krylov iterations; 0 with direct solvers
+  double fluid_seconds = 0, wall_seconds = 0, algebra_seconds = 0;
+};
+
+/// Fluid and wall as one problem for Newton's method whose linear systems are solved by passes between the two: the block
+/// Newton method of [Fernandez2005], with a Robin condition on the fluid (docs/theory.md, section 10.7). Each medium has a
+/// Jacobian and a linear solver of its own; they exchange velocities and loads of the interface, nothing else.
+///
+/// Unknowns are the fluid with its domain, which follows its velocity u on the interface, the wall with its displacement d,
+/// and the datum v of the Robin condition. F and W being the momentum rows of fluid and wall on the interface, and C nodal
+/// areas times an impedance, what lacks is
+///   F + W              the balance: rows of the wall, whose load is F,
+///   C (v(d) - u)       the kinematics as a force, v(d) being the wall's velocity,
+/// and the rows of both media away from the interface. The datum enters linearly, and alone F + C (u - v) = 0: at each
+/// residual it is taken so that this holds. A pass answers to a change dv of it,
+///   J_f du + C (du - dv) = -R_f,   J_w dd = -R_w + C (du - dv),
+/// and assembles nothing. The gap that it leaves is an affine function of dv, whose slope is the same for as long as both
+/// Jacobians are kept, over time steps too: what passes have told of it stays exact (affine_map.hpp).
+template <int n>
+class BlockNewtonProblem : public NewtonProblem {
+ public:
+  /// \param stiffness  C over what the membrane of the wall has it: 1 in steps that are short against the time within
+  ///                   which the wall answers; more where its stiffness answers, or where it is no tube
+  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness);
+
+  /// The step, or stage of it, that evaluate() and the others refer to from now on. Both must outlive that.
+  void work_on(State& state, StepData& data);
+
+  double evaluate() override;
+  void linearise() override;
+  bool linearised() const override { return fluid_.linearised() && wall_.linearised(); }
+  double solve(double tolerance) override;
+  double keep_contraction() const override { return wall_.keep_contraction(); }
+  int linear_iterations() const override { return linear_iterations_; }
+  std::string linear_failure() const override { return failure_; }
+  void move(double step) override;
+  double size() const override;
+  bool negligible(double increment, double share) const override;
+  double relative_increment() const override;
+  double rounding() override;
+
+  /// At the last residual, between the wall's displacement and the one that the fluid's velocity gives, mm.
+  double gap() const { return space_.norm(gap_); }
+  /// The same over the wall's displacement; 0 where there is neither.
+  double relative_gap() const;
+  /// And as a pressure, over the force between fluid and wall.
+  double relative_pressure() const;
+  /// All that lacks over the force between fluid and wall.
+  double relative_residual() const;
+  /// Pairs and rank that corrections of the datum are made of.
+  int columns() const { return map_.columns(); }
+  void keep(Memory& memory);
+
+  BlockNewtonCost cost;  ///< of the step; its owner sets it back
+
+ private:
+  /// Of what is tried when fluid and wall do not come to agree: C so much stiffer, so often.
+  static constexpr double stiffening = 10;
+  static constexpr int most_stiffenings = 4;
+
+  std::vector<double> impedance_of(const StepRates& rates) const;
+  std::vector<double> interface_gap() const;
+  /// C times velocities that displacements of the interface are worth, Euclidean norm.
+  double as_force(const std::vector<double>& displacements) const;
+  /// Norm of the fluid's force on the wall.
+  double load() const;
+  /// Both media's increments by passes until the gap is worth no more than target_. \returns whether they get there
+  bool solve_by_passes(double tolerance);
+  /// The first pass of a linear system: the datum as it is.
+  bool first_pass(double tolerance);
+  /// A pass with the datum changed by dx / period.
+  bool next_pass(const std::vector<double>& dx, double tolerance);
+  /// wall_forces_ becomes the change of -C (du - dv) since it was made last.
+  void load_wall();
+  /// Counts what the last solve of a medium took. \returns `solved`
+  bool note(const System<n>& medium, bool solved, int& iterations);
+  /// The gap that the increments so far leave.
+  std::vector<double> gap_left() const;
+  /// Of a medium's answer to a change of the datum that is worth this force.
+  double tolerance_of(double force) const;
+
+  Scene<n>& scene_;
+  Membrane membrane_;
+  double stiffness_;
+  int most_passes_;
+  InterfaceImpedance robin_;
+  System<n> fluid_, wall_;
+  InterfaceSpace space_;
+  AffineMap map_;      ///< from x_ to the gap
+  double period_ = 0;  ///< ms, for which it is
+  State* state_ = nullptr;
+  StepData* data_ = nullptr;
+  std::vector<double> gap_;                         ///< at the last residual, n numbers per interface node, mm
+  std::vector<double> x_;                           ///< period dv, likewise
+  std::vector<double> loads_;                       ///< -C (du - dv), likewise, kPa mm^2
+  std::vector<double> fluid_forces_, wall_forces_;  ///< nodal values of the media, zero away from the interface
+  double residual_ = 0, target_ = 0;                ///< norm of the last residual; where passes end
+  int linear_iterations_ = 0;
+  std::string failure_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,65 @@
+#include "partitioned/block_newton/block_newton_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "fem/dimensions.hpp"
+
+namespace fsi {
+
+namespace {
+
+NewtonOptions newton_options(const Case& setup) {
+  NewtonOptions options = setup.monolithic.newton;
+  if (setup.partitioned.tolerance) options.error_tolerance = *setup.partitioned.tolerance;
+  return options;
+}
+
+}  // namespace
+
+template <int n>
+BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, SchemeChoice choice)
+    : NewtonMarch<n>(scene, loads, newton_options(setup)),
+      choice_(std::move(choice)),
+      problem_(scene, setup.partitioned, robin_stiffness(setup, scene)) {}
+
+template <int n>
+StepReport BlockNewtonStepper<n>::advance(State& state) {
+  problem_.cost = {};
+  return NewtonMarch<n>::advance(state);
+}
+
+template <int n>
+NewtonProblem& BlockNewtonStepper<n>::equations(State& state, StepData& data) {
+  problem_.work_on(state, data);
+  return problem_;
+}
+
+template <int n>
+void BlockNewtonStepper<n>::finish_stage(const State&, const StepData&) {
+  const BlockNewtonCost& cost = problem_.cost;
+  CouplingReport coupling;
+  coupling.columns = problem_.columns();
+  coupling.displacement_residual = problem_.relative_gap();
+  coupling.displacement_gap = problem_.gap();
+  coupling.force_residual = problem_.relative_residual();
+  coupling.pressure_residual = problem_.relative_pressure();
+  coupling.fluid_newton_iterations = coupling.wall_newton_iterations = cost.passes;
+  coupling.fluid_linear_iterations = cost.fluid_linear;
+  coupling.wall_linear_iterations = cost.wall_linear;
+  coupling.fluid_seconds = cost.fluid_seconds;
+  coupling.wall_seconds = cost.wall_seconds;
+  coupling.algebra_seconds = cost.algebra_seconds;
+  StepReport& report = this->report_;
+  report.outer_iterations = cost.passes;
+  report.coupling = coupling;
+  report.history.push_back(fmt::format("passes {}  |d~ - d| / |d~| = {:.3e}  pressure {:.3e}  columns {}", cost.passes,
+                                       coupling.displacement_residual, coupling.pressure_residual, coupling.columns));
+}
+
+#define FSI_INSTANTIATE(n) template class BlockNewtonStepper<n>;
+FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
+#undef FSI_INSTANTIATE
+
+}  // namespace fsi

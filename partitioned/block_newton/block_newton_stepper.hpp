@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "partitioned/block_newton/block_newton_problem.hpp"
+#include "partitioned/scheme_choice.hpp"
+#include "system/newton_stepper.hpp"
+
+namespace fsi {
+
+/// Advances fluid and wall by Newton's method for both, its linear systems solved by passes between the two.
+template <int n>
+class BlockNewtonStepper : public NewtonMarch<n> {
+ public:
+  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, SchemeChoice choice);
+
+  bool reports_coupling() const override { return true; }
+  std::vector<StepperChoice> choices() const override { return {{"partitioned.scheme", choice_.name, choice_.reason}}; }
+  StepReport advance(State& state) override;
+  void keep(Memory& memory) override { problem_.keep(memory); }
+
+ private:
+  NewtonProblem& equations(State& state, StepData& data) override;
+  void finish_stage(const State& state, const StepData& data) override;
+
+  SchemeChoice choice_;
+  BlockNewtonProblem<n> problem_;
+};
+
+}  // namespace fsi
