@@ -26,7 +26,7 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       options_(setup.partitioned),
       agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
-      choice_(chosen_scheme(setup, scene)),
+      choice_(chosen_scheme(setup)),
       scheme_(coupling_scheme(choice_.name)),
       space_(scene.processes(), scene.owned_interface() * n),
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),

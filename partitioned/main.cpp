@@ -10,8 +10,8 @@ namespace {
 template <int n>
 std::unique_ptr<Stepper> stepper(Scene<n>& scene, const Loads& loads, const Case& setup) {
   if (scene.coupled()) {
-    if (auto choice = chosen_scheme(setup, scene); choice.name == "block-newton")
-      return std::make_unique<BlockNewtonStepper<n>>(scene, loads, setup, std::move(choice));
+    if (const auto choice = chosen_scheme(setup); choice.name == "block-newton")
+      return std::make_unique<BlockNewtonStepper<n>>(scene, loads, setup, choice);
     return std::make_unique<CouplingStepper<n>>(scene, loads, setup);
   }
   // Nothing to couple: the part that there is, by Newton's method.

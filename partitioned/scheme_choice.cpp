@@ -10,10 +10,7 @@ namespace fsi {
 
 namespace {
 
-constexpr auto for_short_steps = "robin-neumann-iqn", for_long_steps = "iqn-ils";
-
-/// Answer times of the wall in the period of a step up to which Robin-Neumann takes no more passes than the other
-/// (docs/coupling.md).
+/// Answer times of the wall in the period of a step up to which it is short (docs/coupling.md).
 constexpr double long_step = 2;
 /// The same for the longest that adaptive steps may be: most of them are less than half as long.
 constexpr double long_adaptive_step = 2 * long_step;
@@ -33,30 +30,15 @@ std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<
 }
 
 template <int n>
-double robin_stiffness(const Case& setup, const Scene<n>& scene) {
-  constexpr double in_the_fluid = 1e4, in_long_steps = 10;
-  if (wetted_sides_of(scene).stands_in_the_fluid()) return in_the_fluid;
-  const auto steps = steps_over_answer(setup, scene);
-  return steps && steps->answers > (steps->adaptive ? long_adaptive_step : long_step) ? in_long_steps : 1;
-}
-
-template <int n>
-SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
-  if (const auto& named = setup.partitioned.scheme) return {*named, "named by the case", true};
-  if (scene.has_flow_only())
-    return {
-        for_short_steps,
-        "the flow is given at every opening, and schemes that prescribe the fluid's velocity on the wall would leave "
-        "its pressure undetermined",
-        false};
+RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene) {
+  constexpr double in_short_steps = 1, in_long_steps = 10, in_the_fluid = 1e4;
   if (wetted_sides_of(scene).stands_in_the_fluid())
-    return {for_long_steps, "the wall stands in the fluid, and is no tube around it"};
+    return {in_the_fluid, "the wall stands in the fluid, and is no tube around it"};
   const auto steps = steps_over_answer(setup, scene);
-  if (!steps)
-    return {for_short_steps, "adaptive steps are mostly short against the time within which the wall answers"};
+  if (!steps) return {in_short_steps, "adaptive steps are mostly short against the time within which the wall answers"};
   const double limit = steps->adaptive ? long_adaptive_step : long_step;
   const bool is_long = steps->answers > limit;
-  return {is_long ? for_long_steps : for_short_steps,
+  return {is_long ? in_long_steps : in_short_steps,
           fmt::format(
               "{} of {:.3g} ms is, as its time scheme solves it, {:.3g} times as long as the wall takes to answer, {} "
               "than {:g}",
@@ -64,10 +46,14 @@ SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene) {
               is_long ? "more" : "no more", limit)};
 }
 
+SchemeChoice chosen_scheme(const Case& setup) {
+  if (const auto& named = setup.partitioned.scheme) return {*named, "named by the case", true};
+  return {"block-newton", "the case names none"};
+}
+
 #define FSI_INSTANTIATE(n)                                                                                \
   template std::optional<StepsOverAnswer> steps_over_answer<n>(const Case& setup, const Scene<n>& scene); \
-  template double robin_stiffness<n>(const Case& setup, const Scene<n>& scene);                           \
-  template SchemeChoice chosen_scheme<n>(const Case& setup, const Scene<n>& scene);
+  template RobinStiffness robin_stiffness<n>(const Case& setup, const Scene<n>& scene);
 FSI_FOR_EACH_DIMENSION(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

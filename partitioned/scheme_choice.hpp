@@ -29,17 +29,19 @@ struct StepsOverAnswer {
 template <int n>
 std::optional<StepsOverAnswer> steps_over_answer(const Case& setup, const Scene<n>& scene);
 
-/// The scheme that the case names. Where it names none, the one of two that suits the scene (docs/coupling.md): Robin-Neumann
-/// where steps are short against the wall's answer, and where the flow is given at all openings; Dirichlet-Neumann where
-/// they are long, and where the wall stands in the fluid. What it goes by is the same in a run and its restart: case and
-/// mesh alone. For all processes together.
-/// How much stiffer than the membrane's inertia and hoop the Robin condition of block Newton is: where steps are long against
-/// the wall's answer its whole stiffness answers, and a wall that stands in the fluid is no membrane, nor does its added
-/// mass do harm to a fluid that is given its velocity. By trial (docs/coupling.md).
+/// How much stiffer the Robin condition of block Newton is than the membrane's inertia and hoop (Membrane::impedance).
+struct RobinStiffness {
+  double factor;
+  std::string reason;  ///< a clause for the log
+};
+/// By trial (docs/coupling.md): 1 in steps that are short against the wall's answer. 10 where they are long, and all its
+/// stiffness answers. 1e4 where the wall stands in the fluid: it is no membrane then, and its added mass does no harm to
+/// a fluid that is all but given its velocity. What it goes by is the same in a run and its restart: case and mesh alone. For
+/// all processes together.
 template <int n>
-double robin_stiffness(const Case& setup, const Scene<n>& scene);
+RobinStiffness robin_stiffness(const Case& setup, const Scene<n>& scene);
 
-template <int n>
-SchemeChoice chosen_scheme(const Case& setup, const Scene<n>& scene);
+/// The scheme that the case names; block Newton where it names none.
+SchemeChoice chosen_scheme(const Case& setup);
 
 }  // namespace fsi

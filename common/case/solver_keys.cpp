@@ -111,7 +111,7 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using QuasiNewton = QuasiNewtonOptions;
   return {
       leaf("scheme", optional,
-           "coupling: {}; without it robin-neumann-iqn or iqn-ils by the scene and its steps, which run.log explains",
+           "coupling: {}; default block-newton",
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf("tolerance", optional,
            fmt::format(

@@ -19,10 +19,14 @@ NewtonOptions newton_options(const Case& setup) {
 }  // namespace
 
 template <int n>
-BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, SchemeChoice choice)
+BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
+                                          const SchemeChoice& choice)
     : NewtonMarch<n>(scene, loads, newton_options(setup)),
-      choice_(std::move(choice)),
-      problem_(scene, setup.partitioned, robin_stiffness(setup, scene)) {}
+      stiffness_(robin_stiffness(setup, scene)),
+      choices_{{"partitioned.scheme", choice.name,
+                fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}", choice.reason,
+                            stiffness_.factor, stiffness_.reason)}},
+      problem_(scene, setup.partitioned, stiffness_.factor) {}
 
 template <int n>
 StepReport BlockNewtonStepper<n>::advance(State& state) {

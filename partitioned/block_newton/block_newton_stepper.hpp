@@ -12,10 +12,10 @@ namespace fsi {
 template <int n>
 class BlockNewtonStepper : public NewtonMarch<n> {
  public:
-  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, SchemeChoice choice);
+  BlockNewtonStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const SchemeChoice& choice);
 
   bool reports_coupling() const override { return true; }
-  std::vector<StepperChoice> choices() const override { return {{"partitioned.scheme", choice_.name, choice_.reason}}; }
+  std::vector<StepperChoice> choices() const override { return choices_; }
   StepReport advance(State& state) override;
   void keep(Memory& memory) override { problem_.keep(memory); }
 
@@ -23,7 +23,8 @@ class BlockNewtonStepper : public NewtonMarch<n> {
   NewtonProblem& equations(State& state, StepData& data) override;
   void finish_stage(const State& state, const StepData& data) override;
 
-  SchemeChoice choice_;
+  RobinStiffness stiffness_;
+  std::vector<StepperChoice> choices_;
   BlockNewtonProblem<n> problem_;
 };
 

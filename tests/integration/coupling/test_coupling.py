@@ -313,17 +313,16 @@ class SchemeByTheScene(FolderTest):
 
     def test_short_and_long_steps(self):
         name, reason = self.chosen("short", self.case, *self.settings, "time.step=0.125", "time.end=0.25")
-        self.assertEqual(name, "robin-neumann-iqn")
-        self.assertIn("a step of 0.125 ms is, as its time scheme solves it, 0.", reason)
+        self.assertEqual(name, "block-newton")
+        self.assertIn("is 1 times the membrane's, as a step of 0.125 ms is, as its time scheme solves it, 0.", reason)
         long = (*self.settings, "time.step=2", "time.end=8")
         name, reason = self.chosen("long", self.case, *long)
-        self.assertEqual(name, "iqn-ils")
-        self.assertIn("a step of 2 ms is, as its time scheme solves it, 4.3 times as long", reason)
-        passes = table(self.base / "long", "iterations.csv")[:, 2]
-        named = run(PARTITIONED, self.case, self.base / "robin", *long, *scheme("robin-neumann-iqn"))
-        others = table(named, "iterations.csv")[:, 2]
-        print(f"passes in long steps: chosen {passes.tolist()}, robin-neumann-iqn {others.tolist()}")
-        self.assertLess(passes.sum(), others.sum())
+        self.assertEqual(name, "block-newton")
+        self.assertIn("is 10 times the membrane's, as a step of 2 ms is, as its time scheme solves it, 4.3 times", reason)
+        for folder in ("short", "long"):
+            passes = table(self.base / folder, "iterations.csv")[:, 2]
+            print(f"linear passes a step, {folder}: {passes.tolist()}")
+            self.assertLess(passes.max(), 60)
 
     def test_what_the_case_names_is_kept(self):
         settings = (*self.settings, "time.end=0.25", *scheme("iqn-imvj"))
@@ -331,12 +330,11 @@ class SchemeByTheScene(FolderTest):
 
     def test_adaptive_steps_go_by_the_longest(self):
         adaptive = (*self.settings, "time.step=adaptive", "time.end=1")
-        self.assertEqual(self.chosen("adaptive", self.case, *adaptive)[0], "robin-neumann-iqn")
-        name, reason = self.chosen(
+        self.assertIn("is 1 times the membrane's", self.chosen("adaptive", self.case, *adaptive)[1])
+        _, reason = self.chosen(
             "longest", self.case, *self.settings, "time.step=adaptive", "time.end=4", "time.largest_step=4"
         )
-        self.assertEqual(name, "iqn-ils")
-        self.assertIn("the longest step of 4 ms", reason)
+        self.assertIn("is 10 times the membrane's, as the longest step of 4 ms", reason)
 
     def test_a_wall_in_the_fluid(self):
         flag = GALLERY / "turek-hron-fsi3" / "turek-hron-fsi3.toml"
@@ -346,8 +344,8 @@ class SchemeByTheScene(FolderTest):
         for table_of_flow in flag.parent.glob("*.csv"):
             shutil.copy(table_of_flow, self.base)
         name, reason = self.chosen("flag", case, f"mesh.file={flag_mesh(self.base)}", "time.end=2")
-        self.assertEqual(name, "iqn-ils")
-        self.assertIn("stands in the fluid", reason)
+        self.assertEqual(name, "block-newton")
+        self.assertIn("is 10000 times the membrane's, as the wall stands in the fluid", reason)
 
     def test_goes_on_bit_for_bit(self):
         settings = (*self.settings, "time.step=0.5")
@@ -390,7 +388,7 @@ class SchemesThatDoNotSuit(FolderTest):
 
     def test_long_steps_want_another_scheme(self):
         settings = ("mesh.level=coarse", "time.step=4", "time.end=4", "time.scheme=euler")
-        said = self.warnings("long", AXISYMMETRIC, *settings)
+        said = self.warnings("long", AXISYMMETRIC, *settings, *scheme("robin-neumann-iqn"))
         for part in (f"{AXISYMMETRIC}: partitioned.scheme", "a step of 4 ms", '"robin-neumann-iqn"', '"iqn-ils"'):
             self.assertIn(part, said)
         self.assertEqual(len(said.splitlines()), 1, said)

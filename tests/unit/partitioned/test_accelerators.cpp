@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "model_maps.hpp"
+#include "partitioned/accelerators/affine_map.hpp"
 #include "partitioned/accelerators/iqn_ils.hpp"
 #include "partitioned/accelerators/iqn_imvj.hpp"
 #include "partitioned/accelerators/newton_krylov.hpp"
@@ -261,6 +262,69 @@ TEST(NewtonKrylov, SurvivesAZeroResidualAndAPassCutShort) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = base[i] + 0.25 * (x[i] - base[i]);
   for (int k = 0; k < 60 && norm(map.residual(x)) > 1e-9; ++k) method.correct(x, map.residual(x));
   EXPECT_LE(norm(map.residual(x)), 1e-9);
+}
+
+/// Corrections of a linear system until |r| <= tolerance.
+int linear_corrections(AffineMap& method, const AddedMassMap& map, std::vector<double> x, double tolerance) {
+  std::vector<double> r = map.residual(x);
+  int count = 0;
+  while (norm(r) > tolerance && count < 100) {
+    const std::vector<double> dx = method.correction(r);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += dx[i];
+    r = map.residual(x);
+    method.learn(r, 0);
+    ++count;
+  }
+  return count;
+}
+
+TEST(AffineMap, NeedsACorrectionPerDimensionAndOneMore) {
+  for (const int n : {1, 3, 8}) {
+    AffineMap method(50, 0);
+    const AddedMassMap map{n};
+    EXPECT_LE(linear_corrections(method, map, zero(map), 1e-9), n + 1) << n;
+  }
+}
+
+TEST(AffineMap, KnowsTheSlopeInTheNextSystem) {
+  AffineMap method(50, 0);
+  AddedMassMap map{8};
+  linear_corrections(method, map, zero(map), 1e-10);
+  map.shift = 1;
+  EXPECT_LE(linear_corrections(method, map, zero(map), 1e-8), 2);
+}
+
+// Of another slope the pairs are no more than a guess, but a good one where it is much alike.
+TEST(AffineMap, GuessesTheNextSlopeByTheLast) {
+  AffineMap method(50, 0), fresh(50, 0);
+  const AddedMassMap map{12, 1e-3};
+  linear_corrections(method, map, zero(map), 1e-10);
+  method.renew();
+  EXPECT_EQ(method.columns() > 0, true);
+  EXPECT_LT(linear_corrections(method, map, zero(map), 1e-4), linear_corrections(fresh, map, zero(map), 1e-4));
+  method.clear();
+  EXPECT_EQ(method.columns(), 0);
+}
+
+TEST(AffineMap, KeepsTheLatestPairs) {
+  AffineMap method(3, 0);
+  const AddedMassMap map{12};
+  linear_corrections(method, map, zero(map), 1e-6);
+  EXPECT_EQ(method.columns(), 3);
+}
+
+TEST(AffineMap, GoesOnBitForBitFromItsMemory) {
+  AffineMap method(5, 1e-2), restarted(5, 1e-2);
+  AddedMassMap map{12};
+  linear_corrections(method, map, zero(map), 1e-6);
+  WrittenMemory memory;
+  method.keep(memory, "map");
+  restarted.keep(memory.turn(), "map");
+  const std::vector<double> r = map.residual(zero(map));
+  EXPECT_EQ(method.correction(r), restarted.correction(r));
+  map.shift = 0.3;
+  EXPECT_EQ(linear_corrections(method, map, zero(map), 1e-8), linear_corrections(restarted, map, zero(map), 1e-8));
+  EXPECT_EQ(method.correction(r), restarted.correction(r));
 }
 
 TEST(CouplingSchemes, EveryNameOfTheCaseReaderHasAnAccelerator) {
