@@ -43,7 +43,7 @@ struct ReadMesh {
 };
 
 constexpr const char* other_sizes =
-    "for sizes in between, 1.4 times finer say, mesh the shape again: fsi-mesh geo SHAPE.geo --set NAME=SIZE, or the "
+    "For sizes in between, 1.4 times finer say, mesh the shape again: fsi-mesh geo SHAPE.geo --set NAME=SIZE, or the "
     "sizes "
     "of fsi-mesh artery and thicken";
 
@@ -165,14 +165,16 @@ void make(const RefineRequest& request) {
 }  // namespace
 
 MeshCommand refine_command(CLI::App& app) {
-  auto* options = app.add_subcommand(
-      "refine",
-      std::string("A mesh of cells half as long: each triangle cut in four, each tetrahedron in eight, physical "
-                  "groups kept.\nStraight triangles keep their mean ratio eta, no part of a straight "
-                  "tetrahedron has less than 0.75 of its eta, whatever --times is. Quadratic cells are cut "
-                  "along their own coordinates: curved edges and faces stay where they are, so that the error "
-                  "of a curved shape stays that of the file.\nOnly halving is possible: ") +
-          other_sizes);
+  auto* options = app.add_subcommand("refine", "A mesh that is there, its cells half as long");
+  options->footer(
+      std::string(
+          "Each triangle is cut in four, each tetrahedron in eight; physical groups are kept.\n"
+          "Quality: straight triangles keep their mean ratio eta. No part of a straight tetrahedron has less than "
+          "0.75 of its eta, whatever --times is.\n"
+          "Shape: quadratic cells are cut along their own coordinates. Curved edges and faces stay where they are, "
+          "so that the error of a curved shape stays that of the file.\n"
+          "Sizes: only halves are possible. ") +
+      other_sizes + ".");
   const auto request = std::make_shared<RefineRequest>();
   options->add_option("mesh", request->file, "The mesh, .msh, of first or second order")->required();
   options->add_option("--times", request->times, "Number of halvings, one after the other")
