@@ -2,23 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <variant>
-#include <vector>
 
-#include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
 #include "base/threads.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/uniform_refinement.hpp"
+#include "meshes/mesh_input.hpp"
 #include "meshes/mesh_report.hpp"
 #include "run/program.hpp"
 
@@ -34,78 +29,10 @@ struct RefineRequest {
   MeshOutput output;
 };
 
-/// A file's mesh, and what of the file the mesh does not know.
-struct ReadMesh {
-  AnyMesh mesh;
-  TriangleGeometry plane;  ///< where triangles lie
-  std::map<std::pair<int, std::string>, int> tags;
-  std::size_t left_out = 0;  ///< cells in no physical group with a name
-};
-
 constexpr const char* other_sizes =
     "For sizes in between, 1.4 times finer say, mesh the shape again: fsi-mesh geo SHAPE.geo --set NAME=SIZE, or the "
     "sizes "
     "of fsi-mesh artery and thicken";
-
-/// A script says how its shape is meshed, so there is nothing to cut.
-void require_mesh(const std::string& file) {
-  if (fs::path(file).extension() == ".geo")
-    throw InputError(file, "", "is a script, no mesh",
-                     "make a finer mesh of it by its constant for the size: fsi-mesh geo " + printable(file) +
-                         " -o FILE.msh --set NAME=SIZE");
-}
-
-/// Sections of axisymmetric bodies are written in the plane y = 0, all others drawn in the plane z = 0.
-TriangleGeometry plane_of(const GmshFile& file) {
-  Point most{0, 0, 0};
-  for (const auto& x : file.nodes)
-    for (int d = 0; d < 3; ++d) most[d] = std::max(most[d], std::abs(x[d]));
-  return most[1] < most[2] ? TriangleGeometry::axisymmetric : TriangleGeometry::plane;
-}
-
-std::vector<std::string> regions_of(const GmshFile& file, int dimension) {
-  std::vector<std::string> regions;
-  for (const auto& name : file.names)
-    if (name.dimension == dimension && std::find(regions.begin(), regions.end(), name.name) == regions.end())
-      regions.push_back(name.name);
-  return regions;
-}
-
-std::size_t cells_in(const GmshFile& file, int dimension) {
-  std::size_t cells = 0;
-  for (const auto& block : file.blocks)
-    if (gmsh_type(block.type)->dimension == dimension) cells += block.tags.size();
-  return cells;
-}
-
-AnyMesh read_any(const std::string& file, const std::vector<std::string>& regions, int dimension, int order,
-                 TriangleGeometry plane) {
-  if (dimension == 3)
-    return order == 1 ? AnyMesh(read_gmsh<3, 1>(file, regions)) : AnyMesh(read_gmsh<3, 2>(file, regions));
-  return order == 1 ? AnyMesh(read_gmsh<2, 1>(file, regions, plane)) : AnyMesh(read_gmsh<2, 2>(file, regions, plane));
-}
-
-ReadMesh read(const std::string& file) {
-  require_mesh(file);
-  ReadMesh result{{}, TriangleGeometry::plane, {}};
-  int dimension = 0, order = 0;
-  std::vector<std::string> regions;
-  {
-    const GmshFile parsed = parse_gmsh(file);
-    dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what a file without surfaces lacks
-    order = gmsh_order(parsed, dimension);
-    regions = regions_of(parsed, dimension);
-    if (dimension == 2) result.plane = plane_of(parsed);
-    for (const auto& name : parsed.names) result.tags.try_emplace({name.dimension, name.name}, name.tag);
-    result.left_out = cells_in(parsed, dimension);
-  }
-  if (regions.empty())
-    throw InputError(file, "$PhysicalNames", "the file names no physical volume and no physical surface",
-                     "name the parts in gmsh, e.g. Physical Volume(\"fluid\") = {1};");
-  result.mesh = read_any(file, regions, dimension, order, result.plane);
-  result.left_out -= std::visit([](const auto& mesh) { return mesh.cells.size(); }, result.mesh);
-  return result;
-}
 
 /// What the mesh was, and what became of its worst cell.
 std::string before_and_after(const RefineRequest& request, const MeshQuality& before, const MeshQuality& after) {
@@ -142,7 +69,7 @@ void make(const RefineRequest& request) {
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   regular_output_file(request.output.file);  // before anything is computed
-  const auto read_mesh = read(request.file);
+  const auto read_mesh = read_mesh_file(request.file);
   auto output = request.output;
   output.format.tags = read_mesh.tags;
   std::visit(
@@ -153,9 +80,7 @@ void make(const RefineRequest& request) {
           const auto before = measure_quality(mesh), after = measure_quality(refined);
           foreword = before_and_after(request, before, after);
           warn_of_lost_quality(request.file, before, after);
-          if (read_mesh.left_out > 0)
-            warn(mesh_program, fmt::format("{}: {} cells in no physical group with a name are left out",
-                                           printable(request.file), read_mesh.left_out));
+          warn_of_left_out(request.file, read_mesh);
         }
         write_and_report(refined, output, read_mesh.plane, foreword);
       },

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "mesh/cell_words.hpp"
+#include "mesh/child_cells.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/for_each_mesh.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/mid_edge_nodes.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/point_math.hpp"
@@ -43,44 +41,6 @@ struct Children<3> {
   static constexpr std::array<std::array<int, 4>, 8> vertices{
       {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}, {4, 6, 7, 8}, {4, 6, 5, 8}, {6, 7, 8, 9}, {6, 5, 8, 9}}};
 };
-
-/// Nodes in the middles of edges, by the edges' ends.
-class EdgeMiddles {
- public:
-  /// \return the node and whether it is new, then numbered `next`
-  std::pair<int, bool> find_or_add(int a, int b, int next) {
-    const auto [found, is_new] = node_.try_emplace(key(a, b), next);
-    return {found->second, is_new};
-  }
-  int at(int a, int b) const { return node_.at(key(a, b)); }
-
- private:
-  static std::uint64_t key(int a, int b) {
-    const auto [low, high] = std::minmax(a, b);
-    return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
-  }
-  std::unordered_map<std::uint64_t, int> node_;
-};
-
-/// Weights of a quadratic simplex's nodes half way between two of them, in its own coordinates.
-template <int Dim>
-std::array<double, nodes_of_simplex(Dim, 2)> weights_between(int p, int q) {
-  std::array<double, Dim + 1> lambda{};
-  for (const int place : {p, q}) {
-    if (place <= Dim) {
-      lambda[place] += 0.5;
-      continue;
-    }
-    for (const int vertex : SimplexEdges<Dim>::vertices[place - Dim - 1]) lambda[vertex] += 0.25;
-  }
-  std::array<double, nodes_of_simplex(Dim, 2)> weights;
-  for (int i = 0; i <= Dim; ++i) weights[i] = lambda[i] * (2 * lambda[i] - 1);
-  for (std::size_t e = 0; e < SimplexEdges<Dim>::vertices.size(); ++e) {
-    const auto& [a, b] = SimplexEdges<Dim>::vertices[e];
-    weights[Dim + 1 + e] = 4 * lambda[a] * lambda[b];
-  }
-  return weights;
-}
 
 /// +1 or -1 per child: whether it has its parent's orientation.
 template <int Dim>
@@ -175,7 +135,7 @@ class Refinement {
     mesh_.cells = std::move(cells);
     mesh_.cell_region = std::move(regions);
     sign_ = std::move(signs);
-    require_upright();
+    require_all_upright();
   }
 
   Mesh finish() {
@@ -248,10 +208,7 @@ class Refinement {
         const auto [node, is_new] = middles.find_or_add(child[a], child[b], static_cast<int>(mesh_.nodes.size()));
         child[Dim + 1 + e] = node;
         if (!is_new) continue;
-        const auto weights = weights_between<Dim>(vertices[a], vertices[b]);
-        Point x{0, 0, 0};
-        for (std::size_t i = 0; i < weights.size(); ++i) x = x + weights[i] * mesh_.nodes[parent[i]];
-        mesh_.nodes.push_back(x);
+        mesh_.nodes.push_back(point_between<Dim>(mesh_.nodes, parent, vertices[a], vertices[b]));
       }
     return child;
   }
@@ -276,24 +233,9 @@ class Refinement {
     }
   }
 
-  /// As the reader of meshes will ask.
-  void require_upright() const {
-    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      std::array<Point, Dim + 1> x;
-      for (int i = 0; i <= Dim; ++i) x[i] = mesh_.nodes[mesh_.cells[c][i]];
-      double least = smallest_relative_volume, longest = 0;
-      for (int a = 0; a <= Dim; ++a)
-        for (int b = a + 1; b <= Dim; ++b) longest = std::max(longest, distance(x[a], x[b]));
-      for (int d = 0; d < Dim; ++d) least *= longest;
-      const double volume = sign_[c] * simplex_volume<Dim>(x.data());
-      if (volume > least) continue;
-      const Point& at = x[0];
-      throw InputError(
-          file_, fmt::format("{} near ({:.6g}, {:.6g}, {:.6g}) mm", CellWords<Dim>::cell, at[0], at[1], at[2]),
-          fmt::format("cannot be refined: a part of it would be {}, {} {:.3g} {}",
-                      volume < -least ? "inverted" : "flat", CellWords<Dim>::measure, volume, CellWords<Dim>::unit),
-          Order == 1 ? "mesh again, with Mesh.Optimize = 1" : "its edges are curved too much: mesh finer there");
-    }
+  void require_all_upright() const {
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      require_upright<Dim, Order>(mesh_.nodes, mesh_.cells[c], sign_[c], file_);
   }
 
   std::string file_;
