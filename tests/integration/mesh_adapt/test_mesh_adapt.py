@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 from programs import CASES, MESH, MONOLITHIC, FolderTest, arrays, attempt, execute, make_mesh, run, summary
 
+GALLERY = CASES.parents[1] / "gallery"
 CASE = CASES / "axisymmetric" / "neo-hookean.toml"
 
 
@@ -69,6 +70,27 @@ class MeshAdapt(FolderTest):
         self.assertGreater(of_wall["media"][0], of_fluid["media"][0])
         self.assertGreater(of_fluid["fluid"][0], of_wall["fluid"][0])
 
+    def test_the_shape_of_a_script_is_meshed_anew(self):
+        script, mesh = GALLERY / "stenosis" / "stenosis.geo", self.base / "stenosis.msh"
+        made = execute(MESH, "geo", script, "-q", "--order", 2, "--set", "size=0.7", "-o", mesh)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        case = GALLERY / "stenosis" / "stenosis.toml"
+        settings = ("time.end=500", "output.every=10", "output.error_indicator=true")
+        folder = run(MONOLITHIC, case, self.base / "stenosis", f"mesh.file={mesh}", *settings)
+        nodes, regions = self.report(self.adapt("--geo", script, "--nodes", 3000, mesh=mesh, folder=folder))
+        self.assertTrue(2850 <= nodes <= 3150, nodes)
+        again = run(MONOLITHIC, case, self.base / "anew", f"mesh.file={self.base / 'adapted.msh'}", *settings)
+        even = self.base / "even.msh"  # of as many nodes, by the script's own size
+        self.assertEqual(
+            execute(MESH, "geo", script, "-q", "--order", 2, "--set", "size=0.505", "-o", even).returncode, 0
+        )
+        other = run(MONOLITHIC, case, self.base / "even", f"mesh.file={even}", *settings)
+        self.assertGreater(summary(other)["mesh"]["nodes"], 0.95 * nodes)
+        for quantity in ("velocity", "pressure"):
+            adapted, by_size = (self.error(folder, "fluid", quantity) for folder in (again, other))
+            print(f"stenosis, {quantity}: adapted {adapted:.3g}, by the script's size {by_size:.3g}")
+            self.assertLess(adapted, 0.8 * by_size)
+
     def test_what_is_wrong_is_named_and_nothing_is_left(self):
         other = make_mesh(self.base / "other.msh", "--axisymmetric", "--length", 5)
         without = run(MONOLITHIC, CASE, self.base / "without", f"mesh.file={self.mesh}", "time.end=0.125")
@@ -80,6 +102,8 @@ class MeshAdapt(FolderTest):
             ({"mesh": self.base / "none.msh"}, (), "none.msh: there is no such mesh file"),
             ({}, ("--nodes", 100), "--nodes: 100 are no more than the mesh has"),
             ({}, ("--of", "vorticity"), "--of"),
+            ({}, ("--set", "size=1"), "--set: is of a script's constants; give the script as well: --geo SHAPE.geo"),
+            ({}, ("--geo", self.base / "none.geo"), "the mesh lies in the plane y = 0, and no script"),
         ):
             with self.subTest(words=words):
                 process = self.adapt(*options, **how, to="new.msh")
