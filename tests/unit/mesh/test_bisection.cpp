@@ -53,7 +53,7 @@ double facet_measure(const SimplexMesh<Dim, Order>& mesh, const typename Simplex
 template <int Dim, int Order>
 SimplexMesh<Dim, Order> expect_the_same_shape(const SimplexMesh<Dim, Order>& mesh, std::size_t more) {
   const std::size_t most = mesh.nodes.size() + more;
-  const auto fine = bisect(mesh, towards(mesh, {0.3, 0, 0.2}, most), "test");
+  auto fine = bisect(mesh, towards(mesh, {0.3, 0, 0.2}, most), "test");
   EXPECT_GE(fine.nodes.size(), most);
   EXPECT_LE(fine.nodes.size(), most + 60);  // what one halving, with all around its edge, makes at the most here
   EXPECT_TRUE(std::equal(mesh.nodes.begin(), mesh.nodes.end(), fine.nodes.begin()));
