@@ -11,10 +11,12 @@
 #include "base/memory.hpp"
 #include "base/standard_streams.hpp"
 #include "base/version.hpp"
+#include "meshes/adapt_command.hpp"
 #include "meshes/artery_command.hpp"
 #include "meshes/geo_command.hpp"
 #include "meshes/import_command.hpp"
 #include "meshes/mesh_report.hpp"
+#include "meshes/refine_command.hpp"
 #include "meshes/thicken_command.hpp"
 #include "run/interruption.hpp"
 #include "run/program.hpp"
@@ -35,7 +37,8 @@ int run(int argc, const char* const* argv) {
   app.set_version_flag("--version", fsi::version_text(fsi::mesh_program));
   app.require_subcommand(1);
   const std::vector<fsi::MeshCommand> commands{fsi::artery_command(app), fsi::geo_command(app),
-                                               fsi::import_command(app), fsi::thicken_command(app)};
+                                               fsi::import_command(app), fsi::thicken_command(app),
+                                               fsi::refine_command(app), fsi::adapt_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

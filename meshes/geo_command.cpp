@@ -1,15 +1,14 @@
 #include "meshes/geo_command.hpp"
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/threads.hpp"
 #include "mesh/geo_script.hpp"
 #include "meshes/mesh_report.hpp"
+#include "meshes/options.hpp"
 
 namespace fsi {
 
@@ -21,18 +20,6 @@ struct GeoRequest {
   int order = 1;
   MeshOutput output;
 };
-
-std::map<std::string, double> numbers_of(const std::vector<std::string>& settings) {
-  std::map<std::string, double> numbers;
-  for (const auto& text : settings) {
-    const auto equals = text.find('=');
-    double value = 0;
-    if (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value))
-      throw InputError("--set", text, "is no name=number", "write, for one, --set size=0.2");
-    numbers[text.substr(0, equals)] = value;
-  }
-  return numbers;
-}
 
 void make(const GeoRequest& request) {
   require_known_extension(request.output.file);

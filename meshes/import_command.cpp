@@ -55,15 +55,6 @@ std::string convert(const ImportRequest& request, const std::vector<std::string>
   refuse_mesh(request.file, request.file, said.empty() ? "fsi-compare ended without a message" : said);
 }
 
-/// Second-order cells keep their order unless another is asked for.
-int order_of(const std::filesystem::path& file, int dimension) {
-  for (const auto& block : parse_gmsh(file).blocks) {
-    const auto* type = gmsh_type(block.type);
-    if (type && type->dimension == dimension && type->nodes > dimension + 1) return 2;
-  }
-  return 1;
-}
-
 template <int Dim, int Order>
 AnyMesh read_mesh(const std::filesystem::path& file, const std::vector<FlatPart>& openings) {
   auto mesh = read_gmsh<Dim, Order>(file, gmsh_regions(file, Dim), TriangleGeometry::plane);
@@ -76,7 +67,8 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
   const int dimension = gmsh_dimension(file);
   if (dimension != 3 && !openings.empty())
     throw InputError(request.file, "--opening", "is for meshes of volumes", "name curves by --group");
-  const int order = request.order > 0 ? request.order : order_of(file, dimension);
+  // Second-order cells keep their order unless another is asked for.
+  const int order = request.order > 0 ? request.order : gmsh_order(parse_gmsh(file), dimension);
   try {
     if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
     return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);

@@ -45,4 +45,16 @@ std::vector<Point> points_of(const std::string& option, const std::vector<std::s
   return points;
 }
 
+std::map<std::string, double> numbers_of(const std::vector<std::string>& settings) {
+  std::map<std::string, double> numbers;
+  for (const auto& text : settings) {
+    const auto equals = text.find('=');
+    double value = 0;
+    if (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value))
+      throw InputError("--set", text, "is no name=number", "write, for one, --set size=0.2");
+    numbers[text.substr(0, equals)] = value;
+  }
+  return numbers;
+}
+
 }  // namespace fsi

@@ -94,11 +94,19 @@ std::vector<CaseKey<OutputData>> derived_output_keys() {
            "openings "
            "that are periodic",
            number(at(&OutputData::derived, &D::period), positive, quantity::time())),
+      leaf("error_indicator", optional,
+           "where the mesh is too coarse, as fields of cells in fields.h5: velocity_error, displacement_error, "
+           "pressure_error, and their means over time; default {}",
+           flag(at(&OutputData::derived, &D::error_indicator))),
   };
 }
 
 void check_derived_output(const CaseEntry& whole_case, Case& scene) {
   auto& wanted = scene.output.derived;
+  if (wanted.error_indicator && scene.output.every == 0)
+    whole_case.child("output")
+        .child("error_indicator")
+        .refuse("asks for fields, and output.every = 0 writes none", "give another every");
   if (!wanted.statistics && !wanted.period && scene.output.fields == standard_output_fields()) return;
   const CaseEntry output = whole_case.child("output");
   const auto has = [&](const std::vector<std::string>& names) {

@@ -13,6 +13,7 @@ struct DerivedOutput {
   std::map<std::string, std::vector<std::string>> forces;  ///< [output.forces.NAME] surfaces: one row for them together
   bool statistics = false;                                 ///< of the wall shear stress over periods
   std::optional<double> period{};                          ///< ms
+  bool error_indicator = false;                            ///< of the cells of both media
 };
 
 }  // namespace fsi

@@ -5,12 +5,21 @@
 #include <optional>
 #include <string>
 
+#include "derived/error_indicator.hpp"
+#include "derived/mean_errors.hpp"
 #include "derived/period_statistics.hpp"
 #include "derived/surface_forces.hpp"
 #include "derived/wall_shear_stress.hpp"
 #include "derived/wall_stress.hpp"
 
 namespace fsi {
+
+/// The error indicator of a medium's cells, if it is wanted, and its mean over the run, of scenes in time.
+template <int n>
+struct MediumErrors {
+  std::unique_ptr<ErrorIndicator<n>> indicator;
+  std::optional<MeanErrors> mean{};
+};
 
 /// What a case asks for beyond the solution. Null, or empty, where it does not: then nothing of it is made or computed.
 template <int n>
@@ -19,6 +28,10 @@ struct DerivedQuantities {
   std::unique_ptr<WallStress<n>> stress;
   std::unique_ptr<SurfaceForces<n>> forces;
   std::optional<PeriodStatistics> statistics{};
+  MediumErrors<n> fluid_errors{}, wall_errors{};
+
+  bool has_errors() const { return fluid_errors.indicator || wall_errors.indicator; }
+  bool means_errors() const { return fluid_errors.mean || wall_errors.mean; }
 };
 
 /// \param mesh   that the scene was built on
@@ -49,6 +62,13 @@ DerivedQuantities<Element::components> make_derived_quantities(const Case& setup
   if (derived.forces)
     scene.profile.count("surfaces with forces", static_cast<std::int64_t>(derived.forces->names().size()));
   if (output.derived.statistics && output.derived.period) derived.statistics.emplace(*output.derived.period);
+  if (output.derived.error_indicator) {
+    const auto phase = scene.profile.phase("error indicator: setup");
+    derived.fluid_errors.indicator = make_fluid_indicator<Element>(mesh, scene, whole);
+    derived.wall_errors.indicator = make_wall_indicator<Element>(setup, mesh, scene, whole);
+    for (auto* medium : {&derived.fluid_errors, &derived.wall_errors})
+      if (medium->indicator && !scene.is_static()) medium->mean.emplace();
+  }
   return derived;
 }
 

@@ -73,6 +73,16 @@ class GradientRecovery {
     return h;
   }
 
+  /// Of the field's scalars, d p / d X_j in space. \param field  of reach()
+  template <class Layout>
+  Vec3<double> scalar_gradient(std::size_t i, const std::vector<double>& field) const {
+    Vec3<double> slope{};
+    for (std::size_t k = offsets_[i]; k < offsets_[i + 1]; ++k)
+      for (std::size_t j = 0; j < axes_.size(); ++j)
+        slope[axes_[j]] += weights_[k][j] * field[Layout::scalar(patch_[k])];
+    return slope;
+  }
+
  private:
   /// A component of the field at entry k of the patches: of a mirror image, of the mirrored vector.
   template <class Layout>

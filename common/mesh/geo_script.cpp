@@ -47,6 +47,19 @@ void require_constants(const std::filesystem::path& script, const std::map<std::
   throw InputError(script.string(), "", "its mesh: " + said, "correct the script; gmsh itself shows the mesh");
 }
 
+/// The sizes in place of those that the script gives points, curves and fields; its least and largest size stay.
+void set_sizes(const SizeField& sizes) {
+  const std::size_t numbers = 4 * (static_cast<std::size_t>(sizes.dimension) + 1);
+  const int view = gmsh::view::add("sizes");
+  gmsh::view::addListData(view, sizes.dimension == 3 ? "SS" : "ST", static_cast<int>(sizes.simplices.size() / numbers),
+                          sizes.simplices);
+  const int field = gmsh::model::mesh::field::add("PostView");
+  gmsh::model::mesh::field::setNumber(field, "ViewTag", view);
+  gmsh::model::mesh::field::setAsBackgroundMesh(field);
+  for (const char* other : {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
+    gmsh::option::setNumber(other, 0);
+}
+
 template <int Dim>
 AnyMesh read_any(const std::filesystem::path& file, int order) {
   const auto regions = gmsh_regions(file, Dim);
@@ -58,7 +71,7 @@ AnyMesh read_any(const std::filesystem::path& file, int order) {
 }  // namespace
 
 AnyMesh mesh_of_geo_script(const std::filesystem::path& script, const std::map<std::string, double>& numbers, int order,
-                           const std::filesystem::path& near) {
+                           const std::filesystem::path& near, const SizeField* sizes) {
   require_constants(script, numbers);
   std::vector<std::string> arguments;
   for (const auto& [name, value] : numbers)
@@ -74,6 +87,7 @@ AnyMesh mesh_of_geo_script(const std::filesystem::path& script, const std::map<s
       gmsh::option::setNumber("Mesh.ElementOrder", order);
       gmsh::option::setNumber("Mesh.HighOrderOptimize", order > 1 ? 1 : 0);  // edges bent without folding cells
       gmsh::open(script.string());
+      if (sizes != nullptr) set_sizes(*sizes);
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups);
       for (const auto& [group_dimension, tag] : groups) dimension = std::max(dimension, group_dimension);

@@ -404,9 +404,21 @@ std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dim
 }
 
 int gmsh_dimension(const std::filesystem::path& path) {
+  return gmsh_dimension(parse_gmsh(path));
+}
+
+int gmsh_dimension(const GmshFile& file) {
   int highest = 0;
-  for (const auto& name : parse_gmsh(path).names) highest = std::max(highest, name.dimension);
+  for (const auto& name : file.names) highest = std::max(highest, name.dimension);
   return highest;
+}
+
+int gmsh_order(const GmshFile& file, int dimension) {
+  for (const auto& block : file.blocks) {
+    const auto* type = gmsh_type(block.type);
+    if (type != nullptr && type->dimension == dimension && type->nodes > dimension + 1) return 2;
+  }
+  return 1;
 }
 
 #define INSTANTIATE(Dim, Order)                                                                             \

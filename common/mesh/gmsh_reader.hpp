@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/gmsh_file.hpp"
 #include "mesh/simplex_mesh.hpp"
 
 namespace fsi {
@@ -42,6 +43,10 @@ std::vector<std::string> gmsh_regions(const std::filesystem::path& path, int dim
 /// Highest dimension of the file's physical groups, 0 when it names none: 3 for a mesh of volumes, 2 for one of
 /// surfaces.
 int gmsh_dimension(const std::filesystem::path& path);
+int gmsh_dimension(const GmshFile& file);
+
+/// Order of the file's cells of a dimension: 2 where there are some of second order or more, else 1.
+int gmsh_order(const GmshFile& file, int dimension);
 
 /// A cell is degenerate when its volume is below this fraction of its longest edge cubed (regular tetrahedron: 0.118);
 /// a triangle when its area is below this fraction of its longest edge squared.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,7 @@ void add_tags(const std::array<int, Nodes>& simplex, std::vector<std::size_t>& t
 }
 
 template <int Dim, int Order>
-void fill_model(const SimplexMesh<Dim, Order>& mesh) {
+void fill_model(const SimplexMesh<Dim, Order>& mesh, const GmshFormat& format) {
   assert(mesh.cell_region.size() == mesh.cells.size());
   const int regions = static_cast<int>(mesh.regions.size()), groups = static_cast<int>(mesh.facet_groups.size());
 
@@ -49,6 +50,11 @@ void fill_model(const SimplexMesh<Dim, Order>& mesh) {
   for (int r = 0; r < regions; ++r) gmsh::model::addDiscreteEntity(Dim, r + 1);
   gmsh::model::mesh::addNodes(Dim, 1, node_tags, coordinates);
 
+  const auto add_physical_group = [&](int dimension, int entity, const std::string& name, int number) {
+    const int tag = format.tags.empty() ? number : format.tags.at({dimension, name});
+    gmsh::model::addPhysicalGroup(dimension, {entity}, tag);
+    gmsh::model::setPhysicalName(dimension, tag, name);
+  };
   std::size_t next_element = 1;
   const auto add_elements = [&](int entity, int type, const std::vector<std::size_t>& nodes, std::size_t count) {
     std::vector<std::size_t> tags(count);
@@ -59,8 +65,7 @@ void fill_model(const SimplexMesh<Dim, Order>& mesh) {
     std::vector<std::size_t> nodes;
     for (const auto& facet : mesh.facet_groups[g].facets) add_tags(facet, nodes);
     add_elements(g + 1, gmsh_simplex(Dim - 1, Order), nodes, mesh.facet_groups[g].facets.size());
-    gmsh::model::addPhysicalGroup(Dim - 1, {g + 1}, g + 1);
-    gmsh::model::setPhysicalName(Dim - 1, g + 1, mesh.facet_groups[g].name);
+    add_physical_group(Dim - 1, g + 1, mesh.facet_groups[g].name, g + 1);
   }
   for (int r = 0; r < regions; ++r) {
     std::vector<std::size_t> nodes;
@@ -71,8 +76,7 @@ void fill_model(const SimplexMesh<Dim, Order>& mesh) {
       add_tags(mesh.cells[c], nodes);
     }
     add_elements(r + 1, gmsh_simplex(Dim, Order), nodes, count);
-    gmsh::model::addPhysicalGroup(Dim, {r + 1}, groups + r + 1);
-    gmsh::model::setPhysicalName(Dim, groups + r + 1, mesh.regions[r]);
+    add_physical_group(Dim, r + 1, mesh.regions[r], groups + r + 1);
   }
 }
 
@@ -96,7 +100,7 @@ void write_gmsh(const SimplexMesh<Dim, Order>& mesh, const std::filesystem::path
   {
     const GmshSession session;
     try {
-      fill_model(mesh);
+      fill_model(mesh, format);
       gmsh::option::setNumber("Mesh.MshFileVersion", format.version == "4.1" ? 4.1 : 2.2);
       gmsh::option::setNumber("Mesh.Binary", format.binary ? 1 : 0);
       gmsh::write(temporary.path().string());

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "mesh/simplex_mesh.hpp"
 
@@ -10,6 +12,8 @@ namespace fsi {
 struct GmshFormat {
   std::string version = "4.1";  ///< "4.1" or "2.2"
   bool binary = false;
+  /// Tags of physical groups by dimension and name, distinct in a dimension; empty: numbered from 1.
+  std::map<std::pair<int, std::string>, int> tags = {};
 };
 
 /// Writes a mesh by the gmsh library: regions as physical volumes, facet groups as physical surfaces (in two dimensions

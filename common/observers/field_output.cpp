@@ -72,6 +72,15 @@ class Level {
     }
     return *stresses_;
   }
+  /// The error indicator of a medium's cells: at this level, or its mean up to here.
+  const CellErrors& errors(bool fluid, bool mean) const {
+    auto& found = errors_[fluid ? 0 : 1][mean ? 0 : 1];
+    if (found) return *found;
+    const auto& medium = fluid ? derived_.fluid_errors : derived_.wall_errors;
+    if (mean) return found.emplace(medium.mean->mean(medium.indicator->cells()));
+    const auto phase = profile_.phase("error indicator");
+    return found.emplace(medium.indicator->of_cells(fluid ? state.now.fluid : state.now.wall));
+  }
   /// make(stress of a node) appends its numbers to a field.
   template <class Make>
   std::vector<double> of_stresses(Make make) const {
@@ -86,21 +95,25 @@ class Level {
   const DerivedQuantities<n>& derived_;
   Profile& profile_;
   mutable std::optional<WallStresses> stresses_;
+  mutable std::array<std::array<std::optional<CellErrors>, 2>, 2> errors_;
 };
 
 /// What a grid has.
 struct GridFacts {
-  bool fluid, moves, flows, fibres, statistics;
+  bool fluid, moves, flows, fibres, statistics, errors, mean_errors;
 };
+
+/// At vertices: linear between them.
+enum class Place { nodes, vertices, cells };
 
 /// A field of fields.h5: the name in output.fields that asks for it, which grids have it, and its values.
 template <int n>
 struct OutputField {
   std::string_view name;
-  std::string_view asked_by;  ///< empty: by output.statistics
+  std::string_view asked_by;  ///< empty: by a key of its own, output.statistics or output.error_indicator
   int components;
   const char* unit;
-  bool of_vertices;  ///< known at vertices, linear between them
+  Place at;  ///< where it has values
   bool (*exists)(const GridFacts& grid);
   std::vector<double> (*values)(const Level<n>& level, bool fluid);
 };
@@ -118,52 +131,74 @@ constexpr bool in_statistics(const GridFacts& grid) {
   return grid.fluid && grid.statistics;
 }
 
+constexpr bool in_fluid_errors(const GridFacts& grid) {
+  return grid.fluid && grid.errors;
+}
+constexpr bool in_wall_errors(const GridFacts& grid) {
+  return !grid.fluid && grid.errors;
+}
+
 template <int n>
-constexpr std::array<OutputField<n>, 12> output_fields{
-    {{"displacement", "displacement", 3, "mm", false, [](const GridFacts& grid) { return grid.moves; },
+constexpr std::array<OutputField<n>, 18> output_fields{
+    {{"displacement", "displacement", 3, "mm", Place::nodes, [](const GridFacts& grid) { return grid.moves; },
       [](const Level<n>& level, bool fluid) {
         return fluid ? vectors<VectorLayout<n>>(level.state.now.mesh, level.axes)
                      : vectors<MixedLayout<n>>(level.state.now.wall, level.axes);
       }},
-     {"velocity", "velocity", 3, "mm/ms", false, [](const GridFacts& grid) { return grid.flows; },
+     {"velocity", "velocity", 3, "mm/ms", Place::nodes, [](const GridFacts& grid) { return grid.flows; },
       [](const Level<n>& level, bool fluid) {
         return fluid ? vectors<MixedLayout<n>>(level.state.now.fluid, level.axes)
                      : vectors<VectorLayout<n>>(level.state.wall_velocity, level.axes);
       }},
-     {"pressure", "pressure", 1, "kPa", true, [](const GridFacts&) { return true; },
+     {"pressure", "pressure", 1, "kPa", Place::vertices, [](const GridFacts&) { return true; },
       [](const Level<n>& level, bool fluid) {
         return scalars<MixedLayout<n>>(fluid ? level.state.now.fluid : level.state.now.wall);
       }},
-     {"wall_shear_stress", "wall_shear_stress", 3, "kPa", false, in_fluid,
+     {"wall_shear_stress", "wall_shear_stress", 3, "kPa", Place::nodes, in_fluid,
       [](const Level<n>& level, bool) { return level.shear(); }},
-     {"cauchy_stress", "cauchy_stress", 6, "kPa", true, in_wall,
+     {"cauchy_stress", "cauchy_stress", 6, "kPa", Place::vertices, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
           for (int i = 0; i < 3; ++i)
             for (int j = i; j < 3; ++j) field.push_back(s(i, j));
         });
       }},
-     {"principal_stress", "principal_stress", 3, "kPa", true, in_wall,
+     {"principal_stress", "principal_stress", 3, "kPa", Place::vertices, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses([](const Mat3<double>& s, std::vector<double>& field) {
           for (const double value : principal_stresses(s)) field.push_back(value);
         });
       }},
-     {"von_mises_stress", "von_mises_stress", 1, "kPa", true, in_wall,
+     {"von_mises_stress", "von_mises_stress", 1, "kPa", Place::vertices, in_wall,
       [](const Level<n>& level, bool) {
         return level.of_stresses(
             [](const Mat3<double>& s, std::vector<double>& field) { field.push_back(von_mises_stress(s)); });
       }},
-     {"fibre_stress_1", "fibre_stress", 1, "kPa", true, in_fibres,
+     {"fibre_stress_1", "fibre_stress", 1, "kPa", Place::vertices, in_fibres,
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[0]; }},
-     {"fibre_stress_2", "fibre_stress", 1, "kPa", true, in_fibres,
+     {"fibre_stress_2", "fibre_stress", 1, "kPa", Place::vertices, in_fibres,
       [](const Level<n>& level, bool) { return level.stresses().of_fibres[1]; }},
-     {"tawss", "", 1, "kPa", false, in_statistics,
+     {"tawss", "", 1, "kPa", Place::nodes, in_statistics,
       [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::mean); }},
-     {"osi", "", 1, "1", false, in_statistics,
+     {"osi", "", 1, "1", Place::nodes, in_statistics,
       [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::oscillation); }},
-     {"rrt", "", 1, "1/kPa", false, in_statistics,
-      [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::residence); }}}};
+     {"rrt", "", 1, "1/kPa", Place::nodes, in_statistics,
+      [](const Level<n>& level, bool) { return level.statistics(&ShearStatistics::residence); }},
+     {"velocity_error", "", 1, "mm/ms", Place::cells, in_fluid_errors,
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, false).vectors; }},
+     {"velocity_error_mean", "", 1, "mm/ms", Place::cells,
+      [](const GridFacts& grid) { return in_fluid_errors(grid) && grid.mean_errors; },
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, true).vectors; }},
+     {"displacement_error", "", 1, "mm", Place::cells, in_wall_errors,
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, false).vectors; }},
+     {"displacement_error_mean", "", 1, "mm", Place::cells,
+      [](const GridFacts& grid) { return in_wall_errors(grid) && grid.mean_errors; },
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, true).vectors; }},
+     {"pressure_error", "", 1, "kPa", Place::cells, [](const GridFacts& grid) { return grid.errors; },
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, false).pressure; }},
+     {"pressure_error_mean", "", 1, "kPa", Place::cells,
+      [](const GridFacts& grid) { return grid.errors && grid.mean_errors; },
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, true).pressure; }}}};
 
 /// Whether every name of output.fields asks for a field, and every field is asked for by one of these or by none.
 template <int n>
@@ -202,18 +237,23 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                             const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
                             double until)
     : axes_(scene.axes), derived_(derived), profile_(scene.profile) {
-  if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics)) return;
+  if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics && !derived.has_errors())) return;
   const auto& wanted = setup.output.fields;
   assert(shares.empty() || shares.size() == grids.size());
   for (std::size_t g = 0; g < grids.size(); ++g) {
     FieldGrid& grid = grids[g];
     const bool fluid = grid.name == "fluid";
-    const GridFacts facts{fluid, !fluid || scene.coupled(), fluid || !scene.is_static(),
-                          derived.stress && derived.stress->has_fibres(), derived.statistics.has_value()};
+    const GridFacts facts{fluid,
+                          !fluid || scene.coupled(),
+                          fluid || !scene.is_static(),
+                          derived.stress && derived.stress->has_fibres(),
+                          derived.statistics.has_value(),
+                          derived.has_errors(),
+                          derived.means_errors()};
     for (const auto& field : output_fields<n>)
       if ((field.asked_by.empty() || std::find(wanted.begin(), wanted.end(), field.asked_by) != wanted.end()) &&
           field.exists(facts))
-        grid.fields.push_back({std::string(field.name), field.components, field.unit});
+        grid.fields.push_back({std::string(field.name), field.components, field.unit, field.at == Place::cells});
     if (grid.fields.empty()) continue;
     grids_.push_back(std::move(grid));
     if (shares.empty())
@@ -250,7 +290,14 @@ bool FieldOutput<n>::write(const State& state) {
     for (const auto& field : grids_[g].fields)
       for (const auto& known : output_fields<n>) {
         if (known.name != field.name) continue;
-        auto numbers = known.values(level, grids_[g].name == "fluid");
+        const bool fluid = grids_[g].name == "fluid";
+        auto numbers = known.values(level, fluid);
+        if (field.of_cells) {
+          if (const auto* order = (fluid ? derived_.fluid_errors : derived_.wall_errors).indicator->order())
+            numbers = order->to_stretches(numbers.data(), 1);
+          values[{grids_[g].name, field.name}] = std::move(numbers);
+          continue;
+        }
         const auto components = static_cast<std::size_t>(field.components);
         const Grid& made = made_[g];
         const bool has_middles = grids_[g].nodes_per_cell > n + 1;  // of the whole grid: all processes agree
@@ -260,7 +307,7 @@ bool FieldOutput<n>::write(const State& state) {
           for (std::size_t k = 0; k < components; ++k) {
             const auto at = [&](int point) { return numbers[static_cast<std::size_t>(point) * components + k]; };
             numbers[static_cast<std::size_t>(middle.point) * components + k] =
-                known.of_vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(middle.node);
+                known.at == Place::vertices ? 0.5 * (at(middle.ends[0]) + at(middle.ends[1])) : at(middle.node);
           }
         if (made.order) numbers = made.order->to_stretches(numbers.data(), field.components);
         values[{grids_[g].name, field.name}] = std::move(numbers);

@@ -17,7 +17,8 @@ namespace fsi {
 /// Whether a case wants fields of any kind.
 inline bool writes_fields(const Case& setup) {
   const auto& output = setup.output;
-  return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period));
+  return output.every > 0 && (!output.fields.empty() || (output.derived.statistics && output.derived.period) ||
+                              output.derived.error_indicator);
 }
 
 /// fields.h5 and fields.xdmf of a run: the fields that the case asks for and the scene has, one grid per medium. Cells

@@ -4,6 +4,7 @@
 
 #include "fem/dimensions.hpp"
 #include "observers/energy_observer.hpp"
+#include "observers/error_observer.hpp"
 #include "observers/field_observer.hpp"
 #include "observers/force_observer.hpp"
 #include "observers/observables.hpp"
@@ -36,6 +37,7 @@ const std::vector<Kind<n>>& kinds() {
       {"", {centreline_file, wall_file, flow_file, points_file, lines_file, planes_file}, make_observables<n>},
       {"", {openings_file}, make_opening_observer<n>},
       {"statistics.", {}, make_statistics_observer<n>},
+      {"errors.", {}, make_error_observer<n>},
       {"", {}, make_field_observer<n>},
   };
   return rows;

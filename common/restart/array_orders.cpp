@@ -25,8 +25,11 @@ WholeOrder order_of(const PartNodes& part, const std::vector<int>& nodes) {
 }  // namespace
 
 template <int n>
-ArrayOrders<n>::ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes)
-    : scene_(scene), shear_nodes_(shear_nodes == nullptr ? 0 : shear_nodes->size()) {
+ArrayOrders<n>::ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes, CellShare fluid, CellShare wall)
+    : scene_(scene),
+      shear_nodes_(shear_nodes == nullptr ? 0 : shear_nodes->size()),
+      fluid_cells_(fluid),
+      wall_cells_(wall) {
   if (processes().is_alone()) return;
   if (scene.fluid) fluid_.emplace(*scene.fluid->nodes().share);
   if (scene.wall) wall_.emplace(*scene.wall->nodes().share);
@@ -67,6 +70,11 @@ std::optional<SharedArray> ArrayOrders<n>::of(ArrayKind kind) const {
       return shared(shear_, 3);
     case ArrayKind::shear_scalars:
       return shared(shear_, 1);
+    case ArrayKind::fluid_cells:
+    case ArrayKind::wall_cells:
+      if (const auto* order = (kind == ArrayKind::fluid_cells ? fluid_cells_ : wall_cells_).order)
+        return SharedArray{order, 2, false};
+      break;
   }
   return {};
 }
@@ -103,6 +111,10 @@ std::optional<std::size_t> ArrayOrders<n>::length(ArrayKind kind, const State& r
       return 3 * shear_nodes_;
     case ArrayKind::shear_scalars:
       return shear_nodes_;
+    case ArrayKind::fluid_cells:
+      return 2 * fluid_cells_.cells;
+    case ArrayKind::wall_cells:
+      return 2 * wall_cells_.cells;
   }
   return {};
 }

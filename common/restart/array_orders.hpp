@@ -11,13 +11,21 @@
 
 namespace fsi {
 
+/// The cells of a medium here that a checkpoint has numbers of, and how processes share them out.
+struct CellShare {
+  std::size_t cells = 0;
+  const WholeOrder* order = nullptr;  ///< null: all are here
+};
+
 /// How processes share the arrays of a scene's checkpoint out, and how long these are here, by what they have numbers of.
 /// Made by all processes together.
 template <int n>
 class ArrayOrders {
  public:
-  /// \param shear_nodes  of the fluid, with wall shear stress; null: there are none. Both must outlive this
-  explicit ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes = nullptr);
+  /// \param shear_nodes  of the fluid, with wall shear stress; null: there are none
+  /// \param fluid, wall  cells with numbers of their own. What all of these refer to must outlive this
+  explicit ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear_nodes = nullptr, CellShare fluid = {},
+                       CellShare wall = {});
 
   const Communicator& processes() const { return scene_.processes(); }
   /// None for what all processes have alike, and for all on one process.
@@ -31,6 +39,7 @@ class ArrayOrders {
  private:
   const Scene<n>& scene_;
   std::size_t shear_nodes_;
+  CellShare fluid_cells_, wall_cells_;
   std::optional<WholeOrder> fluid_, wall_, interface_, shear_;
 };
 

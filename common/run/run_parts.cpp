@@ -22,6 +22,13 @@ const Communicator& shared_by_all(const Scene<n>& scene) {
   throw InputError("mpirun", "", "this scene works on one process", "start the program by itself");
 }
 
+/// Cells with a mean of the error indicator.
+template <int n>
+CellShare cells_of(const MediumErrors<n>& medium) {
+  if (!medium.mean) return {};
+  return {medium.indicator->cells(), medium.indicator->order()};
+}
+
 }  // namespace
 
 template <int n>
@@ -41,7 +48,8 @@ RunParts<n>::RunParts(const std::string& named, const CommandLine& of_line, cons
       first(processes),
       about_processes(scene),
       work_unit(scene),
-      orders(scene, loaded.derived.statistics ? &loaded.derived.shear->nodes() : nullptr),
+      orders(scene, loaded.derived.statistics ? &loaded.derived.shear->nodes() : nullptr,
+             cells_of(loaded.derived.fluid_errors), cells_of(loaded.derived.wall_errors)),
       loads(setup),
       stepper(make_stepper.make(scene, loads, setup)),
       march(setup, scene, *stepper, loads, [this](const std::string& said) { voice.log_only(said); }),

@@ -23,7 +23,9 @@ enum class ArrayKind {
   interface,          ///< vectors per node between fluid and wall
   interface_columns,  ///< several of these, one after the other
   shear_vectors,      ///< vectors of space per node with wall shear stress
-  shear_scalars       ///< a number per node with wall shear stress
+  shear_scalars,      ///< a number per node with wall shear stress
+  fluid_cells,        ///< two numbers per cell of the fluid
+  wall_cells          ///< the same of the wall
 };
 
 /// What a number may be; finite in any case.

@@ -447,6 +447,8 @@ const std::vector<BadCase>& bad_cases() {
        "ms, opening.b.pressure of 3 ms; give output.period in ms"},
       {"StatisticsWithoutFields", coupled_case, "every = 8", "every = 0\nstatistics = true\nperiod = 1",
        "case.toml:36: output.statistics: are fields, and output.every = 0 writes none; give another every"},
+      {"ErrorIndicatorWithoutFields", coupled_case, "every = 8", "every = 0\nerror_indicator = true",
+       "case.toml:36: output.error_indicator: asks for fields, and output.every = 0 writes none; give another every"},
       {"StatisticsOfAWall", static_case, "[static]", "[output]\nstatistics = true\nperiod = 1\n[static]",
        "case.toml:13: output.statistics: are of a fluid in time, and the scene has none; leave them out"},
       {"PeriodWithoutStatistics", coupled_case, "every = 8", "period = 1.0",

@@ -1,6 +1,7 @@
 """What users read off: wall shear stress, stresses of the wall, forces on surfaces, averages over periods. Exact where a
 flow is known, the same from both drivers and after a restart, and nothing of it computed unless asked for."""
 
+import re
 import unittest
 from pathlib import Path
 
@@ -35,6 +36,7 @@ DERIVED = (
     "output.forces.all.surfaces=['walls']",
     "output.statistics=true",
     f"output.period={PERIOD}",
+    "output.error_indicator=true",
     "output.every=1",
 )
 
@@ -118,10 +120,19 @@ class Coupled(FolderTest):
         for name in a:
             self.assertEqual(a[name].shape, (6, 11))
             np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-5 * np.abs(a[name][:, 2:]).max())
-        for grid, name in (("fluid", "wall_shear_stress"), ("wall", "von_mises_stress"), ("fluid", "tawss")):
+        of_errors = (
+            *(("fluid", f"{name}_error{mean}") for name in ("velocity", "pressure") for mean in ("", "_mean")),
+            *(("wall", f"{name}_error{mean}") for name in ("displacement", "pressure") for mean in ("", "_mean")),
+        )
+        stresses = (("fluid", "wall_shear_stress"), ("wall", "von_mises_stress"), ("fluid", "tawss"))
+        for grid, name in (*stresses, *of_errors):
             x, y = (fields(folder, grid, name)[0][-1] for folder in folders)
             self.assertGreater(np.abs(x).max(), 0)
             np.testing.assert_allclose(x, y, rtol=0, atol=1e-4 * np.abs(x).max())
+        for grid, name in of_errors:
+            self.assertEqual(
+                fields(folders[0], grid, name)[0][-1].shape, arrays(folders[0] / "fields.h5")[f"{grid}/cells"].shape[:1]
+            )
         # Equivalent and principal stresses are those of the tensor.
         tensor, principal, mises = (
             fields(folders[0], "wall", name)[0][-1]
@@ -149,8 +160,14 @@ class Coupled(FolderTest):
                     for field in ("wall_shear_stress", "tawss", "osi", "rrt"):
                         x, y = (fields(folder, "fluid", field)[0] for folder in (whole, part))
                         self.assertEqual([v.tobytes() for v in x], [v.tobytes() for v in y], field)
-                    kept = [name for name in arrays(whole / "checkpoint.h5") if "statistics" in name]
-                    self.assertGreater(len(kept), 4)
+                    for grid, field in (("fluid", "velocity_error_mean"), ("wall", "pressure_error_mean")):
+                        x, y = (fields(folder, grid, field)[0] for folder in (whole, part))
+                        self.assertEqual([v.tobytes() for v in x], [v.tobytes() for v in y], field)
+                        self.assertGreater(np.abs(x[-1]).max(), 0)
+                    kept = [
+                        name for name in arrays(whole / "checkpoint.h5") if "statistics" in name or "errors" in name
+                    ]
+                    self.assertGreater(len(kept), 8)
                     self.assertFalse(set(kept) & set(differing_arrays(whole / "checkpoint.h5", part / "checkpoint.h5")))
                     entries = fields(whole, "fluid", "tawss")[0]
                     self.assertEqual(np.abs(entries[2]).max(), 0)  # no period has ended
@@ -186,12 +203,13 @@ class Coupled(FolderTest):
         folder = run(PARTITIONED, NEO_HOOKEAN, self.base / "plain", *settings, "time.end=0.25")
         asked = run(PARTITIONED, NEO_HOOKEAN, self.base / "asked", *settings, *DERIVED, "time.end=0.25")
         names = {"wall shear stress", "wall shear stress: setup", "wall stress", "wall stress: setup", "surface forces"}
+        names |= {"error indicator", "error indicator: setup"}
         self.assertFalse(names & set(calls(folder)))
         self.assertLessEqual(names, set(calls(asked)))
         self.assertFalse((folder / "surfaces.csv").exists())
         self.assertNotIn("nodes with wall shear stress", summary(folder)["counters"])
-        self.assertFalse([n for n in arrays(folder / "fields.h5") if "stress" in n or "tawss" in n])
-        self.assertFalse([n for n in arrays(folder / "checkpoint.h5") if "statistics" in n])
+        self.assertFalse([n for n in arrays(folder / "fields.h5") if re.search("stress|tawss|error", n)])
+        self.assertFalse([n for n in arrays(folder / "checkpoint.h5") if re.search("statistics|errors", n)])
         for file in ("centerline_pressure.csv", "wall_displacement.csv", "flow.csv", "energy.csv"):
             self.assertEqual((folder / file).read_bytes(), (asked / file).read_bytes(), "asking changes no solution")
 

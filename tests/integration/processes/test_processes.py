@@ -197,7 +197,7 @@ class Files(ProcessTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.settings += ("element=p2p1", *forms(ARTERY), f"output.fields={FIELDS}", "output.statistics=true")
-        cls.settings += ("output.period=0.25", "partitioned.tolerance=1e-10")
+        cls.settings += ("output.period=0.25", "output.error_indicator=true", "partitioned.tolerance=1e-10")
 
     def test_are_those_of_one_process(self):
         alone, both = (self.run_together(processes, self.base / f"by {processes}") for processes in (1, 2))
@@ -205,6 +205,7 @@ class Files(ProcessTest):
         self.assertEqual(one.keys(), two.keys())
         self.assertIn("wall/cauchy_stress/00000004", one)
         self.assertIn("fluid/osi/00000004", one)
+        self.assertIn("wall/displacement_error_mean/00000004", one)
         self.assertClose(one, two)
         for name in ("fields.xdmf", "fluid.xdmf", "wall.xdmf"):
             self.assertEqual((alone / name).read_text(), (both / name).read_text(), name)
@@ -249,9 +250,11 @@ class Files(ProcessTest):
                     self.assertLessEqual(np.abs(one - other).max(), 1e-8 * np.abs(one).max(), name)
                 one, other = (arrays(run / "checkpoint.h5") for run in (whole, part))
                 chosen = {
-                    name: array for name, array in one.items() if name.startswith(("arrays/level", "arrays/stat"))
+                    name: array
+                    for name, array in one.items()
+                    if name.startswith(("arrays/level", "arrays/stat", "arrays/errors"))
                 }
-                self.assertGreater(len(chosen), 9)
+                self.assertGreater(len(chosen), 13)
                 self.assertClose(chosen, other)
 
     def test_a_checkpoint_that_is_read_is_written_again_as_it_was(self):

@@ -1,0 +1,89 @@
+#include "meshes/mesh_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/printable.hpp"
+#include "mesh/gmsh_reader.hpp"
+#include "meshes/mesh_report.hpp"
+#include "run/program.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// A script says how its shape is meshed, so there is nothing to cut.
+void require_mesh(const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".geo")
+    throw InputError(file, "", "is a script, no mesh",
+                     "make a finer mesh of it by its constant for the size: fsi-mesh geo " + printable(file) +
+                         " -o FILE.msh --set NAME=SIZE");
+}
+
+/// Sections of axisymmetric bodies are written in the plane y = 0, all others drawn in the plane z = 0.
+TriangleGeometry plane_of(const GmshFile& file) {
+  Point most{0, 0, 0};
+  for (const auto& x : file.nodes)
+    for (int d = 0; d < 3; ++d) most[d] = std::max(most[d], std::abs(x[d]));
+  return most[1] < most[2] ? TriangleGeometry::axisymmetric : TriangleGeometry::plane;
+}
+
+std::vector<std::string> regions_of(const GmshFile& file, int dimension) {
+  std::vector<std::string> regions;
+  for (const auto& name : file.names)
+    if (name.dimension == dimension && std::find(regions.begin(), regions.end(), name.name) == regions.end())
+      regions.push_back(name.name);
+  return regions;
+}
+
+std::size_t cells_in(const GmshFile& file, int dimension) {
+  std::size_t cells = 0;
+  for (const auto& block : file.blocks)
+    if (gmsh_type(block.type)->dimension == dimension) cells += block.tags.size();
+  return cells;
+}
+
+AnyMesh read_whole(const std::string& file, const std::vector<std::string>& regions, int dimension, int order,
+                   TriangleGeometry plane) {
+  if (dimension == 3)
+    return order == 1 ? AnyMesh(read_gmsh<3, 1>(file, regions)) : AnyMesh(read_gmsh<3, 2>(file, regions));
+  return order == 1 ? AnyMesh(read_gmsh<2, 1>(file, regions, plane)) : AnyMesh(read_gmsh<2, 2>(file, regions, plane));
+}
+
+}  // namespace
+
+ReadMesh read_mesh_file(const std::string& file) {
+  require_mesh(file);
+  ReadMesh result{{}, TriangleGeometry::plane, {}};
+  int dimension = 0, order = 0;
+  std::vector<std::string> regions;
+  {
+    const GmshFile parsed = parse_gmsh(file);
+    dimension = std::max(2, gmsh_dimension(parsed));  // the reader says what a file without surfaces lacks
+    order = gmsh_order(parsed, dimension);
+    regions = regions_of(parsed, dimension);
+    if (dimension == 2) result.plane = plane_of(parsed);
+    for (const auto& name : parsed.names) result.tags.try_emplace({name.dimension, name.name}, name.tag);
+    result.left_out = cells_in(parsed, dimension);
+  }
+  if (regions.empty())
+    throw InputError(file, "$PhysicalNames", "the file names no physical volume and no physical surface",
+                     "name the parts in gmsh, e.g. Physical Volume(\"fluid\") = {1};");
+  result.mesh = read_whole(file, regions, dimension, order, result.plane);
+  result.left_out -= std::visit([](const auto& mesh) { return mesh.cells.size(); }, result.mesh);
+  return result;
+}
+
+void warn_of_left_out(const std::string& file, const ReadMesh& mesh) {
+  if (mesh.left_out == 0) return;
+  warn(mesh_program,
+       fmt::format("{}: {} cells in no physical group with a name are left out", printable(file), mesh.left_out));
+}
+
+}  // namespace fsi

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "mesh/geo_script.hpp"
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// A file's mesh, and what of the file the mesh does not know.
+struct ReadMesh {
+  AnyMesh mesh;
+  TriangleGeometry plane;  ///< where triangles lie
+  std::map<std::pair<int, std::string>, int> tags;
+  std::size_t left_out = 0;  ///< cells in no physical group with a name
+};
+
+/// The mesh of a .msh file: all of its physical groups, in the order of its cells.
+/// \throws InputError for a script, and for what read_gmsh() refuses
+ReadMesh read_mesh_file(const std::string& file);
+
+/// Says on the error stream what of the file the mesh does not have.
+void warn_of_left_out(const std::string& file, const ReadMesh& mesh);
+
+}  // namespace fsi
