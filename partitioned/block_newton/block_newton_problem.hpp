@@ -21,7 +21,7 @@ struct BlockNewtonCost {
 };
 
 /// Fluid and wall as one problem for Newton's method whose linear systems are solved by passes between the two: the block
-/// Newton method of [Fernandez2005], with a Robin condition on the fluid (docs/theory.md, section 10.7). Each medium has a
+/// Newton method of [Fernandez2005], with a Robin condition on the fluid (docs/theory.md, section 10.4). Each medium has a
 /// Jacobian and a linear solver of its own; they exchange velocities and loads of the interface, nothing else.
 ///
 /// Unknowns are the fluid with its domain, which follows its velocity u on the interface, the wall with its displacement d,
