@@ -75,7 +75,16 @@ STANDARD: dict[str, Any] = dict(
     scheme="midpoint",
 )
 BOUND = 2e-3  # relative difference of tables, in the Euclidean norm; tolerances are 1e-6, pressures feel them most
-SCHEMES = ("aitken", "iqn-ils", "iqn-imvj", "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj")
+SCHEMES = (
+    "aitken",
+    "block-newton",
+    "iqn-ils",
+    "iqn-imvj",
+    "newton-krylov",
+    "robin-neumann",
+    "robin-neumann-iqn",
+    "robin-neumann-imvj",
+)
 COUPLED_SOLVERS = ("amg_fgmres", "ilu_exact", "amli_gmres")
 TIME_SCHEMES = ("euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2")
 TABLES = {  # columns of pressure, length and flow

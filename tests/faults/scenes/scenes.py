@@ -1,0 +1,163 @@
+"""Random scenes: both drivers solve them by their defaults and agree.
+
+Densities of wall and fluid, stiffness, viscosity, step, material, time scheme, element and geometry are drawn from ranges
+that are far wider than those of vessels. No step may be halved. A scene is `right` when both drivers solve its six steps
+and their displacements agree to 1e-4, `unsolved` when one of them ends with one message and exit code 2. A difference, or
+an answer by one whose numbers are not finite, is wrong; so is a driver that leaves more than its part unsolved.
+"""
+
+import itertools
+import math
+import random
+from typing import Any
+
+import numpy as np
+from harness import DRIVERS, Harness, execute, is_one_message
+
+CASE = """
+title = "a random scene"
+element = "{element}"
+geometry = "{geometry}"
+[mesh]
+file = "{mesh}"
+[fluid]
+density = {rho!r}
+viscosity = {viscosity!r}
+[structure]
+density = {rho_s!r}
+{bulk}
+[structure.layers.media]
+{media}
+[structure.layers.adventitia]
+{adventitia}
+[inlet]
+pressure = {pressure!r}
+until = {until!r}
+[time]
+step = {step!r}
+end = {end!r}
+scheme = "{scheme}"
+retries = 0
+[monolithic]
+newton_tolerance = 1e-8
+[output]
+every = 0
+"""
+MESHES = {"section": ["--axisymmetric"], "quarter": ["--around", 16, "--sector", 90], "whole": ["--around", 16]}
+MATERIALS = ("neo-hookean", "mooney-rivlin", "artery", "saint-venant-kirchhoff")
+SCHEMES = ("euler", "midpoint", "bdf2", "generalised-alpha", "tr-bdf2")
+STEPS = 6
+BOUND = 1e-4  # relative difference of displacements
+UNSOLVED = 0.05  # part of the scenes that a driver may leave unsolved
+
+
+def layer(material, stiffness, first):
+    """Constants of the artery's layers, kPa, times the stiffness."""
+    c10 = (3.0 if first else 0.3) * stiffness
+    lines = {
+        "neo-hookean": [f"c10 = {c10!r}"],
+        "mooney-rivlin": [f"c10 = {c10!r}", f"c01 = {0.1 * c10!r}"],
+        "artery": [
+            f"c10 = {c10!r}",
+            f"k1 = {(2.3632 if first else 0.562) * stiffness!r}",
+            f"k2 = {0.8393 if first else 0.7112}",
+            f"alpha = {29.0 if first else 62.0}",
+        ],
+        "saint-venant-kirchhoff": [f"young = {6 * c10!r}", "poisson = 0.4"],
+    }
+    return "\n".join([f'material = "{material}"', *lines[material]])
+
+
+def scene(choose):
+    """Values of a case."""
+
+    def between(low, high):
+        return math.exp(choose.uniform(math.log(low), math.log(high)))
+
+    stiffness, material = between(0.03, 30), choose.choice(MATERIALS)
+    shape, step = choose.choice(list(MESHES)), between(1 / 128, 4)
+    return dict(
+        shape=shape,
+        element=choose.choice(("p1", "p2p1")),
+        geometry="axisymmetric" if shape == "section" else "3d",
+        rho=between(0.1, 10),
+        viscosity=between(3e-5, 1),
+        rho_s=between(0.003, 300),
+        bulk="" if material == "saint-venant-kirchhoff" else "bulk_modulus = 1e5",
+        media=layer(material, stiffness, True),
+        adventitia=layer(material, stiffness, False),
+        pressure=1.332 * min(1, stiffness),
+        until=max(0.125, step),
+        step=step,
+        end=STEPS * step,
+        scheme=choose.choice(SCHEMES),
+    )
+
+
+class Scenes:
+    def __init__(self, harness):
+        self.harness = harness
+        self.unsolved = {program: 0 for program in DRIVERS}
+        self.runs = itertools.count()
+
+    def mesh(self, shape, element):
+        """A tube of 6 mm."""
+        order = 2 if element == "p2p1" else 1
+        file = self.harness.base / f"{shape}-{order}.msh"
+        if not file.exists():
+            cells: list[Any] = ["--lumen-cells", 2, "--media-cells", 1, "--adventitia-cells", 1, "--axial-cells", 6]
+            words = ["--length", 6, *cells, *MESHES[shape], "--order", order]
+            made = execute(self.harness.program("fsi-mesh"), "artery", "-q", "-o", file, *words)
+            if made.returncode != 0:
+                raise SystemExit(f"cannot make the mesh: {made.stderr}")
+        return file
+
+    def solve(self, program, case, folder):
+        """Displacements of the wall, or None; what is wrong."""
+        words = (case, "-o", folder, "-q", "--threads", 1)
+        process = execute(self.harness.program(program), *words, timeout=600)
+        if process.returncode == 2 and is_one_message(process.stderr, program):
+            self.unsolved[program] += 1
+            return None, ""
+        if process.returncode != 0:
+            return None, f"{program}: exit code {process.returncode}: {process.stderr.strip()}"
+        moved = np.loadtxt(folder / "wall_displacement.csv", delimiter=",", skiprows=1)[:, 2:]
+        return moved, "" if np.isfinite(moved).all() else f"{program}: not finite"
+
+    def judge(self, values):
+        number = next(self.runs)
+        case = self.harness.base / f"{number}.toml"
+        case.write_text(CASE.format(mesh=self.mesh(values["shape"], values["element"]), **values))
+        answers, faults = [], []
+        for program in DRIVERS:
+            moved, fault = self.solve(program, case, self.harness.base / f"{number}-{program}")
+            answers.append(moved)
+            faults += [fault] if fault else []
+        name = f"scene {number}: {values}"
+        if faults:
+            return self.harness.count("wrong", f"{name}: {'; '.join(faults)}")
+        whole, parts = answers
+        if whole is None or parts is None:
+            return self.harness.count("unsolved", name)
+        apart = np.abs(whole - parts).max() / (np.abs(whole).max() or 1)
+        self.harness.count("right" if apart <= BOUND else "wrong", f"{name}: {apart:.1e} apart")
+
+
+def main():
+    def prepare(parser):
+        parser.add_argument("--scenes", type=int, help="how many; 12 unless given, 60 with --full")
+
+    harness = Harness("scenes", __doc__.splitlines()[0], ("right", "unsolved"), prepare)
+    scenes, choose = Scenes(harness), random.Random(harness.options.seed)
+    count = harness.options.scenes or (60 if harness.full else 12)
+    for _ in range(count):
+        scenes.judge(scene(choose))
+    for program, unsolved in scenes.unsolved.items():
+        print(f"{program}: {unsolved} of {count} scenes unsolved")
+        if unsolved > max(1, UNSOLVED * count):
+            harness.count("too many unsolved", program)
+    harness.finish()
+
+
+if __name__ == "__main__":
+    main()
