@@ -23,7 +23,7 @@ FLOORS = (
     ("studies.catalogue", "studies.starting"),
     ("studies.linear", "studies.gallery"),
     ("studies.running",),
-    ("studies.evidence",),
+    ("studies.evidence", "studies.verify"),
     ("studies.accuracy", "studies.coupling", "studies.paper", "studies.scaling", "studies.skip", "studies.stability"),
     ("studies",),
     ("",),
