@@ -13,6 +13,7 @@ from ...reporting.pressure import read_times
 from ...runs.verification import identity
 from ..running.runner import Runner, sweep_study
 from ..starting.folder_lock import locked
+from ..starting.progress import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .family import CaseFacts, Member, Requests, members, read_case
 from .making import Maker
@@ -137,11 +138,32 @@ def make(
     )
     facts = requests.facts
     dimension = 3 if facts.entries.get("geometry", "3d") == "3d" else 2
-    maker = Maker(runner, requests, dimension, options.budget and 60 * options.budget, options.quiet)
+    maker = Maker(runner, requests, dimension, options.quiet)
     tell_mesh(maker, requests.recipe)
-    maker.run(list(family))
+    if options.budget is not None:
+        family = within_budget(options, maker, family)
+    maker.run(family)
     judged, waves = look(maker, facts, times, options.of)
     return write(options, maker, facts, judged, waves)
+
+
+def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
+    """The family, or one without members finer than the case where that does not fit. Raises InputError where neither does."""
+    budget = 60 * options.budget
+    maker.run([member for member in family if member.is_own])
+    if maker.seconds + maker.predicted(family) <= budget:
+        return family
+    requests = maker.requests
+    whole = maker.seconds + maker.predicted(family)
+    if requests.recipe.coarsens and not options.coarser:
+        options.coarser = True
+        cheaper = plan(requests.recipe, requests.facts, options)
+        if maker.seconds + maker.predicted(cheaper) <= budget:
+            maker.note(f"no member is finer than the case: with them the family would take about {duration(whole)}")
+            return cheaper
+        whole = maker.seconds + maker.predicted(cheaper)
+    problem = f"{options.budget:g} min are too short: the cheapest family takes about {duration(whole)}"
+    raise InputError("", "--budget", problem, f"give {whole / 60:.2g} or more, or a coarser case")
 
 
 def tell_mesh(maker: Maker, recipe: Recipe) -> None:

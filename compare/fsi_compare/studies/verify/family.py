@@ -1,7 +1,9 @@
 """The members of a family: which runs are made around the user's own, and what the case says that decides it."""
 
+import copy
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
@@ -69,9 +71,25 @@ class Member:
         return ", ".join(parts + (["looser"] if self.looser else []))
 
 
-def read_case(path: Path) -> CaseFacts:
-    """Raises InputError; what the drivers check is left to them."""
-    entries = read_toml(path, GIVE, GIVE)
+def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> Dict[str, Any]:
+    """The entries of a case file with others over them, by their full keys."""
+    found = copy.deepcopy(dict(entries))
+    for key, value in settings.items():
+        *sections, name = key.split(".")
+        place = found
+        for section in sections:
+            inner = place.setdefault(section, {})
+            if not isinstance(inner, dict):  # [[opening]]: its keys decide nothing here
+                break
+            place = inner
+        else:
+            place[name] = value
+    return found
+
+
+def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) -> CaseFacts:
+    """`settings`: entries over those of the file. Raises InputError; what the drivers check is left to them."""
+    entries = with_settings(read_toml(path, GIVE, GIVE), settings)
     time = entries.get("time", {})
     if not isinstance(time, dict) or not ("time" in entries or "static" in entries):
         raise InputError(path, "time", "is missing", "a case has a section [time] or [static]")
@@ -123,8 +141,17 @@ class Requests:
     """What the runner is asked for by member and driver."""
 
     def __init__(
-        self, facts: CaseFacts, recipe: Recipe, folder: Path, drivers: Sequence[str], time_limit: float
+        self,
+        facts: CaseFacts,
+        recipe: Recipe,
+        folder: Path,
+        drivers: Sequence[str],
+        time_limit: float,
+        settings: Mapping[str, Any] = MappingProxyType({}),
+        name: str = "",
     ) -> None:
+        self.name = name or facts.path.stem
+        self.settings = dict(settings)  # of all members, over the case file's
         self.facts, self.recipe, self.folder = facts, recipe, folder
         self.methods = {name: Method(name, name, f"fsi-{name}", {}) for name in drivers}
         self.time_limit = time_limit
@@ -133,15 +160,15 @@ class Requests:
         """What the runner knows of all runs."""
         path = self.facts.path
         return Study(
-            path, path.stem, "verify", threads, 1, self.time_limit, {path.stem: path}, self.methods, {}, (), {}, False
+            path, self.name, "verify", threads, 1, self.time_limit, {self.name: path}, self.methods, {}, (), {}, False
         )
 
     def mesh(self, member: Member) -> Optional[StudyMesh]:
-        return self.recipe.mesh(1 / member.mesh, self.folder)
+        return self.recipe.mesh(1 / member.mesh, self.folder, self.name)
 
     def of(self, member: Member, driver: str) -> Request:
         method = self.methods[driver]
-        settings = dict(self._step(member))
+        settings = {**self.settings, **self._step(member)}
         if member.looser:
             settings.update(self._looser(method.program))
         case = self.facts.path
@@ -150,7 +177,7 @@ class Requests:
             "step": f"{member.step:.4g}",
             **({"looser": "yes"} if member.looser else {}),
         }
-        return Request("family", case.stem, method, values, case, self.mesh(member), settings, self.time_limit)
+        return Request("family", self.name, method, values, case, self.mesh(member), settings, self.time_limit)
 
     def _step(self, member: Member) -> Dict[str, Any]:
         facts = self.facts

@@ -1,24 +1,20 @@
 """Makes the runs of a family, whatever becomes of single members."""
 
-from typing import Dict, List, Optional, Sequence
+from typing import Dict, List, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
 from ..running.runner import Runner
 from ..running.study_run import REFUSED, StudyRun
-from ..starting.progress import duration
 from .cost import learn
 from .family import Member, Requests
 from .results import FamilyRuns
 
 
 class Maker:
-    """`budget`: s that all runs of this family may take, whenever they were made; None: as long as it takes."""
+    """Keeps what became of each member, by driver."""
 
-    def __init__(
-        self, runner: Runner, requests: Requests, dimension: int, budget: Optional[float], quiet: bool
-    ) -> None:
-        self.runner, self.requests, self.dimension = runner, requests, dimension
-        self.budget, self.quiet = budget, quiet
+    def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool) -> None:
+        self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
         self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
         self.notes: List[str] = []
         self._meshes: Dict[float, str] = {}  # why one cannot be made, by size; empty: it can
@@ -28,18 +24,11 @@ class Maker:
         return sum(run.seconds for family in self.families.values() for run in family.runs.values())
 
     def run(self, members: Sequence[Member]) -> None:
-        """Those that are not there yet; from cheap to dear where there is a budget. Raises InputError where the user's own
-        cannot run."""
+        """Those that are not there yet. Raises InputError where the user's own cannot run."""
         wanted = [(m, driver) for m in members for driver in self.families if m not in self.families[driver].runs]
-        wanted = [pair for pair in wanted if self._has_mesh(pair[0], pair[1])]
-        if self.budget is None:
-            self._together(wanted)
-            return
-        for member, driver in wanted:
-            if self._affordable(member, driver):
-                self._together([(member, driver)])
+        self._together([pair for pair in wanted if self._has_mesh(pair[0], pair[1])])
 
-    def _together(self, wanted: Sequence["tuple[Member, str]"]) -> None:
+    def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
         for (member, driver), run in zip(wanted, runs):
             self.families[driver].runs[member] = run
@@ -66,20 +55,14 @@ class Maker:
             self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
         return not problem
 
-    def _affordable(self, member: Member, driver: str) -> bool:
-        predicted = self.predicted(member, driver)
-        if predicted is None or self.budget is None or self.seconds + predicted <= self.budget:
-            return True
-        self.note(
-            f"the member '{member.name}' of the {driver} driver is left out: it would take about {duration(predicted)}, and "
-            f"{duration(max(0.0, self.budget - self.seconds))} of the budget are left"
-        )
-        return False
-
-    def predicted(self, member: Member, driver: str) -> Optional[float]:
-        """s; None: no member has run that would tell."""
-        costs = learn(self.families[driver].runs, self.dimension)
-        return None if costs is None else costs.seconds(member.mesh, member.step)
+    def predicted(self, members: Sequence[Member]) -> float:
+        """Seconds of those that are not there yet, by all drivers, from those that are."""
+        found = 0.0
+        for driver, family in self.families.items():
+            costs = learn(family.runs, self.dimension)
+            if costs is not None:
+                found += sum(costs.seconds(m.mesh, m.step) for m in members if m not in family.runs)
+        return found
 
     def note(self, text: str) -> None:
         self.notes.append(text)

@@ -16,7 +16,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, replacing
-from ..gallery.scene import read_scene
+from ..gallery.scene import Scene, read_scene
 from ..running.study_file import StudyMesh
 from ..starting.processes import answer
 from .geo_sizes import GeoSizes, graded_text, read_sizes
@@ -54,9 +54,9 @@ class Recipe:
         found = _options(self.words)
         return [float(found[name]) for name in CELLS if name in found]
 
-    def mesh(self, factor: float, folder: Path) -> Optional[StudyMesh]:
+    def mesh(self, factor: float, folder: Path, case: str) -> Optional[StudyMesh]:
         """Of the mesh finer by `factor`; None: the case's own file as it stands."""
-        name = f"{self.command}-x{factor:.4g}"
+        name = f"{case[:40]}-x{factor:.4g}"
         if self.command == "geo":
             return StudyMesh(name, f"{factor:.3g} times as fine", tuple(self._geo_words(factor, folder)), "geo")
         if self.command == "refine":
@@ -97,8 +97,7 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], me
     if named is not None:
         return _recipe(shlex.split(named), Path("."), "--mesh", mesh_maker)
     if is_file(case.parent / "scene.py") and case.parent.name == case.stem:
-        scene = read_scene(case.parent)
-        return _recipe(scene.mesh_words(False), scene.folder, str(case.parent / "scene.py"), mesh_maker)
+        return recipe_of_scene(read_scene(case.parent), mesh_maker)
     if "level" in section or "error" in section:
         words = ["artery", *(["--axisymmetric"] if geometry == "axisymmetric" else [])]
         if "error" in section:
@@ -117,6 +116,11 @@ def find_recipe(case: Path, entries: Mapping[str, Any], named: Optional[str], me
         remedy = 'make it, or say how it is made: --mesh "geo SCRIPT.geo", --mesh "artery --level coarse"'
         raise InputError(case, "mesh.file", f"there is no file {file}", remedy)
     return Recipe("refine", (), file=file)
+
+
+def recipe_of_scene(scene: Scene, mesh_maker: Path, quick: bool = False) -> Recipe:
+    """Of the mesh that a scene of the gallery names."""
+    return _recipe(scene.mesh_words(quick), scene.folder, str(scene.folder / "scene.py"), mesh_maker)
 
 
 def _recipe(words: Sequence[str], folder: Path, source: str, mesh_maker: Path) -> Recipe:
