@@ -2,6 +2,7 @@
 
 import json
 import unittest
+import unittest.mock
 
 from fake_family import A, B, behave, calls, install
 from folder_case import FolderCase
@@ -25,6 +26,8 @@ tip = [0, 0, 0]
 
 
 class VerifyCase(FolderCase):
+    pictures = False  # they take longer than all else
+
     def setUp(self):
         super().setUp()
         self.programs = install(self.base / "bin")
@@ -32,6 +35,10 @@ class VerifyCase(FolderCase):
         self.geo.write_text(GEO)
         self.case = self.base / "tube.toml"
         self.case.write_text(CASE)
+        if not self.pictures:
+            figure = unittest.mock.patch("fsi_compare.reporting.report.Report.figure")
+            figure.start()
+            self.addCleanup(figure.stop)
 
     def verify(self, *words, mesh=True):
         named = ["--mesh", f"geo {self.geo}"] if mesh else []
@@ -48,6 +55,7 @@ class Verified(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.case = case = VerifyCase()
+        case.pictures = True
         case.setUp()
         cls.addClassCleanup(case.doCleanups)
         cls.code, cls.text, cls.err = case.verify("--drivers", "monolithic,partitioned", "--times", "2,3")

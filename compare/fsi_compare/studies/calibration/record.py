@@ -6,7 +6,7 @@ from typing import List, Mapping, Optional, Sequence
 from ..running.study_run import StudyRun
 from ..verify.family import CaseFacts, Member
 from ..verify.quantities import chosen, curves_of, quantities_of
-from ..verify.results import FamilyRuns, judge
+from ..verify.results import FamilyRuns, about, judge
 from ..verify.verdict import CONVERGES, Bar
 
 EXACT_TO = 1e-6  # relative: below it the truth is not known
@@ -56,14 +56,9 @@ def records(
 ) -> List[Record]:
     """Of all quantities of the family about `centre`, whose members are given by their sizes relative to the case; the truth is
     read from the reference."""
-    about = {
-        Member(round(m.mesh / centre.mesh, 9), m.step / centre.step, m.looser): run
-        for m, run in runs.items()
-        if run.done
-    }
-    family = FamilyRuns("monolithic", about)
+    family = about(FamilyRuns("monolithic", {m: run for m, run in runs.items() if run.done}), centre)
     truth = curves_of(reference.folder)
-    own = next((run for member, run in about.items() if member.is_own), None)
+    own = next((run for member, run in family.runs.items() if member.is_own), None)
     if own is None:
         return []
     known = {q.name: q for q in chosen(quantities_of(curves_of(own.folder), facts.asked(())), ())}

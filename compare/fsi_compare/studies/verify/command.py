@@ -19,6 +19,7 @@ from .family import CaseFacts, Member, Requests, members, read_case
 from .making import Maker
 from .mesh_family import Recipe, find_recipe, ratio_for
 from .results import FamilyRuns, Judged, bands, judge
+from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
 
 DRIVERS = ("monolithic", "partitioned")
@@ -75,6 +76,12 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument(
         "--time-limit", metavar="S", type=float, default=3600.0, help="of each run (default: %(default)s)"
     )
+    command.add_argument(
+        "--error",
+        metavar="E",
+        type=_share,
+        help="go on to settings whose bars are within this, like 2%%: see found.toml",
+    )
     command.add_argument("--list", action="store_true", help="say which runs would be made, and make none")
     add_drivers(command)
     add_usual(command, version, "of each run (default: 1)")
@@ -100,8 +107,17 @@ def verify(options: argparse.Namespace) -> int:
         return 0
     place = options.output or Path("results", "verify", options.case.stem)
     with output_folder(place), locked(place):
-        requests = Requests(facts, recipe, place, names, options.time_limit)
+        members_of = names if options.error is None else names[:1]  # the others solve the same equations
+        requests = Requests(facts, recipe, place, members_of, options.time_limit)
         return make(options, requests, family, programs, mesh_maker, times)
+
+
+def _share(text: str) -> float:
+    """0.02 for 2% and for 0.02. Raises ValueError."""
+    value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
+    if not 0 < value < 1:
+        raise InputError("", "--error", f"{text} is no part of a value", "give a percentage, like 2%")
+    return value
 
 
 def _drivers(text: str) -> List[str]:
@@ -140,11 +156,38 @@ def make(
     dimension = 3 if facts.entries.get("geometry", "3d") == "3d" else 2
     maker = Maker(runner, requests, dimension, options.quiet)
     tell_mesh(maker, requests.recipe)
+    if options.error is not None:
+        return seek(options, maker, times, programs)
     if options.budget is not None:
         family = within_budget(options, maker, family)
     maker.run(family)
     judged, waves = look(maker, facts, times, options.of)
     return write(options, maker, facts, judged, waves)
+
+
+def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: Dict[str, Program]) -> int:
+    """--error: on to settings that reach it."""
+    requests = maker.requests
+    demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
+    levels = list(range(-1, options.levels))
+    ratio = ratio_for(requests.recipe.counts, levels) if requests.recipe.coarsens else 2.0
+    outcome = Search(maker, demand, ratio, options.levels).go()
+    others = [name.removeprefix("fsi-") for name in programs]
+    seconds = by_each_driver(maker, outcome, others)
+    for name, run in seconds.items():
+        took = duration(run.seconds) if run.done else f"{run.status}, {run.message}"
+        outcome.lines.append(f"fsi-{name} with these settings: {took}.")
+    outcome.lines.append(f"All runs took {duration(maker.seconds)}.")
+    for line in outcome.lines:
+        maker.notes.append(line)
+    with together(requests.folder) as inside:
+        written = [path.name for path in write_found(inside, maker, outcome, seconds)]
+    code = write(options, maker, requests.facts, outcome.judged, [])
+    if not options.quiet:
+        print("\n".join(map(printable, outcome.lines)))
+        if written:
+            print(f"The case with these settings: {printable(str(requests.folder / written[0]))}")
+    return code if outcome.reached else 2
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:

@@ -88,7 +88,7 @@ def _own(x: np.ndarray, y: np.ndarray) -> float:
 
 
 def observed(x: np.ndarray, y: np.ndarray) -> Tuple[Optional[float], float]:
-    """Order by least squares, weighted by 1/h as [EcaHoekstra2014] do, and the standard deviation that it leaves; of three
+    """Order by least squares, weighted by 1/h as [Eca2014] do, and the standard deviation that it leaves; of three
     members the order that meets them. None: the differences do not fall."""
     orders = np.linspace(0.05, LARGEST_ORDER, 160)
     left = np.array([fit(x, y, p)[1] for p in orders])

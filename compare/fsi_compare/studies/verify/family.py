@@ -128,13 +128,18 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     steps = [STEP_RATIO, 1.0, 1 / STEP_RATIO] if finer else [STEP_RATIO**2, STEP_RATIO, 1.0]
     found = [Member(m, 1.0) for m in meshes] + [Member(1.0, s) for s in steps if s != 1]
     corner = (min(meshes), min(steps)) if finer else (meshes[-2], steps[1])
-    found += [Member(1.0, 1.0, True), Member(*corner)]
+    loose = Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True)
+    found += [loose, Member(*corner)]
     return sorted(dict.fromkeys(found), key=lambda member: (work(member, 2.0), member.looser))
 
 
 def work(member: Member, dimensions: float) -> float:
     """About, relative to the user's own."""
     return float(member.mesh**-dimensions / member.step)
+
+
+def _method(driver: str) -> Method:
+    return Method(driver, driver, f"fsi-{driver}", {})
 
 
 class Requests:
@@ -153,7 +158,7 @@ class Requests:
         self.name = name or facts.path.stem
         self.settings = dict(settings)  # of all members, over the case file's
         self.facts, self.recipe, self.folder = facts, recipe, folder
-        self.methods = {name: Method(name, name, f"fsi-{name}", {}) for name in drivers}
+        self.methods = {name: _method(name) for name in drivers}
         self.time_limit = time_limit
 
     def study(self, threads: int) -> Study:
@@ -167,10 +172,10 @@ class Requests:
         return self.recipe.mesh(1 / member.mesh, self.folder, self.name)
 
     def of(self, member: Member, driver: str) -> Request:
-        method = self.methods[driver]
+        method = self.methods.get(driver) or _method(driver)
         settings = {**self.settings, **self._step(member)}
         if member.looser:
-            settings.update(self._looser(method.program))
+            settings.update(self.tolerances(method.program, LOOSER))
         case = self.facts.path
         values = {
             "mesh": f"{member.mesh:.4g}",
@@ -187,13 +192,14 @@ class Requests:
             return {"time.tolerance": facts.step * member.step**facts.time_order}
         return {"time.step": facts.step * member.step}
 
-    def _looser(self, program: str) -> Dict[str, Any]:
+    def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
+        """Those of a driver, changed by a factor."""
         found = {}
         for key, default in TOLERANCES[program].items():
             section, _, name = key.partition(".")
             given = self.facts.entries.get(section, {})
             value = given.get(name, default) if isinstance(given, dict) else default
-            found[key] = LOOSER * float(value)
+            found[key] = factor * float(value)
         return found
 
 

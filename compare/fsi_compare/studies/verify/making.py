@@ -1,6 +1,8 @@
 """Makes the runs of a family, whatever becomes of single members."""
 
-from typing import Dict, List, Sequence, Tuple
+import shlex
+from dataclasses import replace
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
 from ..running.runner import Runner
@@ -16,12 +18,14 @@ class Maker:
     def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool) -> None:
         self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
         self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
+        self.others: Dict[str, StudyRun] = {}
         self.notes: List[str] = []
         self._meshes: Dict[float, str] = {}  # why one cannot be made, by size; empty: it can
 
     @property
     def seconds(self) -> float:
-        return sum(run.seconds for family in self.families.values() for run in family.runs.values())
+        runs = [run for family in self.families.values() for run in family.runs.values()]
+        return sum(run.seconds for run in [*runs, *self.others.values()])
 
     def run(self, members: Sequence[Member]) -> None:
         """Those that are not there yet. Raises InputError where the user's own cannot run."""
@@ -36,6 +40,14 @@ class Maker:
             if member.is_own and not run.done:
                 key = f"{driver}, as the case says"
                 raise ProgramError(self.requests.facts.path, key, run.message or run.status, "mend the case first")
+
+    def single(self, member: Member, driver: str, settings: Mapping[str, Any]) -> StudyRun:
+        """A run that is no member: with settings of its own."""
+        request = self.requests.of(member, driver)
+        merged = {**request.settings, **settings}
+        run = self.runner.run([replace(request, settings=merged)])[0]
+        self.others[shlex.join([driver, str(run.folder)])] = run
+        return run
 
     def _has_mesh(self, member: Member, driver: str) -> bool:
         if member.mesh not in self._meshes:

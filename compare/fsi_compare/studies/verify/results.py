@@ -53,6 +53,19 @@ class FamilyRuns:
         return {member: curves_of(run.folder) for member, run in self.done.items()}
 
 
+def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
+    """The same runs with sizes relative to another member's."""
+    runs = {
+        Member(_same(m.mesh / centre.mesh), _same(m.step / centre.step), m.looser): run
+        for m, run in family.runs.items()
+    }
+    return FamilyRuns(family.driver, runs)
+
+
+def _same(size: float) -> float:
+    return 1.0 if abs(size - 1) < 1e-6 else round(size, 9)
+
+
 def sizes(runs: Mapping[Member, StudyRun]) -> Dict[float, float]:
     """Real sizes of elements relative to the user's own by their planned ones, from the numbers of cells: counts are whole,
     and a mesh generator makes of a size what it can. Cells go with size^-d; d, the number of directions that are refined,

@@ -73,8 +73,8 @@ def bar_of(values: Sequence[Value], scale: float, space_order: float, time_order
     own = table.get((1.0, 1.0))
     if own is None:
         return None
-    loose = [v.value for v in values if v.looser and (v.mesh, v.step) == (1.0, 1.0)]
-    solver = SOLVER_FACTOR * max((abs(y - own) for y in loose), default=0.0) / (LOOSER - 1)
+    loose = [(v.value, table[v.mesh, v.step]) for v in values if v.looser and (v.mesh, v.step) in table]
+    solver = SOLVER_FACTOR * max((abs(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
     noise = max(solver, DETECTED * scale)
     mesh = _along([(m, y) for (m, s), y in table.items() if s == 1.0], space_order, noise)
     step = _along([(s, y) for (m, s), y in table.items() if m == 1.0], time_order, noise)
