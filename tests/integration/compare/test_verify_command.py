@@ -1,10 +1,12 @@
 """`fsi-compare verify` with programs whose errors are known."""
 
 import json
+import tomllib
 import unittest
 import unittest.mock
+from pathlib import Path
 
-from fake_family import A, B, behave, calls, install
+from fake_family import A, B, SIZE, STEP, behave, calls, install
 from folder_case import FolderCase
 
 GEO = """\
@@ -107,6 +109,11 @@ class Verified(unittest.TestCase):
         self.assertEqual(len(again), 1, again)
         self.assertFalse(any("fsi-mesh" in line for line in calls(self.case.programs)[first:]))
 
+    def test_name_that_no_quantity_has(self):
+        code, _, err = self.case.verify("--drivers", "monolithic,partitioned", "--of", "vorticity")
+        self.assertEqual(code, 1)
+        self.assertIn("--of vorticity", err)
+
     def test_bars_stand_beside_the_run_in_its_report(self):
         runs = {r["member"]: self.case.out / "runs" / r["folder"] for r in self.members if r["driver"] == "monolithic"}
         code, _, err = self.case.call("report", runs["own"], runs["step 2"], "-o", self.case.base / "report")
@@ -139,11 +146,26 @@ class OtherFamilies(VerifyCase):
         self.assertIn("monolithic: mesh 1.5", out)
         self.assertEqual(calls(self.programs), [])
 
-    def test_coarser_family_has_nothing_finer(self):
-        self.verify("--coarser")
-        self.assertGreaterEqual(min(float(r["mesh"]) for r in self.csv("members.csv")), 1)
-        row = self.bars()["tip: displacement x, at the end"]
-        self.assertLessEqual(0.9 * (A + B) * abs(float(row["value"])), float(row["error"]))
+
+class DemandedError(VerifyCase):
+    def test_reaches_it_and_leaves_a_case_that_runs(self):
+        code, out, err = self.verify("--error", "2%", "--of", "displacement", "--drivers", "monolithic,partitioned")
+        self.assertEqual(code, 0, err)
+        self.assertTrue(all(float(row["error_percent"]) <= 2 for row in self.csv("bars.csv")))
+        self.assertIn("fsi-partitioned with these settings", out)
+        found = tomllib.loads((self.out / "found.toml").read_text())
+        step, size = found["time"]["step"], float(Path(found["mesh"]["file"]).read_text())
+        self.assertLess(A * size**3 + B * (step / STEP) ** 2, 0.02)
+        self.assertTrue(step < STEP or size < SIZE)
+        family = [line for line in calls(self.programs) if "fsi-partitioned" in line]
+        self.assertEqual(len(family), 1)  # the family is one driver's
+
+    def test_out_of_reach_of_the_budget(self):
+        code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.05")
+        self.assertEqual(code, 2)
+        self.assertIn("ut of reach", out)
+        self.assertIn("of the budget are left", out)
+        self.assertFalse((self.out / "found.toml").exists())
 
 
 class Trouble(VerifyCase):
@@ -163,12 +185,6 @@ class Trouble(VerifyCase):
         self.assertTrue(bad["verdict"].startswith("not in the range"))
         self.assertEqual(bad["error"], "")
         self.assertIn("no convergence", (self.out / "report.md").read_text())
-
-    def test_mesh_of_a_member_that_cannot_be_made(self):
-        behave(self.programs, end={"size=1.5": [1, "the shape is gone"]})
-        code, _, err = self.verify()
-        self.assertEqual(code, 2)
-        self.assertIn("the shape is gone", err)
 
     def test_swings_get_no_bar(self):
         behave(self.programs, swing=True)
@@ -203,10 +219,6 @@ class Trouble(VerifyCase):
         code, _, err = self.verify()
         self.one_line(code, err, "samples nothing", "output.points")
 
-    def test_name_that_no_quantity_has(self):
-        code, _, err = self.verify("--of", "vorticity")
-        self.one_line(code, err, "--of vorticity")
-
     def test_budget_that_is_too_small(self):
         code, _, err = self.verify("--budget", "0.00001")
         self.one_line(code, err, "--budget", "too short", "takes about")
@@ -216,6 +228,7 @@ class Trouble(VerifyCase):
             (("--drivers", "explicit"), "no driver"),
             (("--levels", "2"), "--levels"),
             (("--budget", "-1"), "--budget"),
+            (("--error", "200%"), "--error"),
         ):
             code, _, err = self.verify(*words)
             self.one_line(code, err, said)

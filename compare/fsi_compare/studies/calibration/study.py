@@ -2,8 +2,7 @@
 far finer run."""
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Dict, List, Mapping, Sequence, Tuple
+from typing import Dict, List, Mapping, Sequence, Tuple
 
 from matplotlib.figure import Figure
 

@@ -2,12 +2,12 @@
 
 import argparse
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Sequence
 
-from ...base.errors import InputError, printable, say_note
-from ...base.files import absolute, folder, is_file, output_folder, together
+from ...base.errors import InputError, printable
+from ...base.files import absolute, folder, output_folder, together
 from ...base.options import Commands, add_command, add_drivers, add_usual
-from ...reporting.layout import Table, say_written
+from ...reporting.layout import say_written
 from ...reporting.matplotlib_loader import load_matplotlib
 from ...reporting.pressure import read_times
 from ...runs.verification import identity
@@ -15,9 +15,10 @@ from ..running.runner import Runner, sweep_study
 from ..starting.folder_lock import locked
 from ..starting.progress import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
-from .family import CaseFacts, Member, Requests, members, read_case
+from .family import CaseFacts, Member, Requests, read_case
 from .making import Maker
-from .mesh_family import Recipe, find_recipe, ratio_for
+from .mesh_family import find_recipe, ratio_for
+from .preparing import plan, sample, tell_mesh, within_budget
 from .results import FamilyRuns, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -128,16 +129,6 @@ def _drivers(text: str) -> List[str]:
     return list(dict.fromkeys(names))
 
 
-def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
-    below = 0 if options.coarser else -1
-    ratio = ratio_for(recipe.counts, [-k for k in range(below, options.levels + below)]) if recipe.coarsens else 2.0
-    if not recipe.coarsens and options.coarser:
-        problem = "a mesh file alone has no coarser ones"
-        raise InputError(facts.path, "mesh.file", problem, 'say how it is made: --mesh "geo SCRIPT.geo"')
-    levels = options.levels if recipe.coarsens else 3
-    return members(recipe, facts, ratio, levels, not options.coarser)
-
-
 def make(
     options: argparse.Namespace,
     requests: Requests,
@@ -156,6 +147,7 @@ def make(
     dimension = 3 if facts.entries.get("geometry", "3d") == "3d" else 2
     maker = Maker(runner, requests, dimension, options.quiet)
     tell_mesh(maker, requests.recipe)
+    sample(maker)
     if options.error is not None:
         return seek(options, maker, times, programs)
     if options.budget is not None:
@@ -188,36 +180,6 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
         if written:
             print(f"The case with these settings: {printable(str(requests.folder / written[0]))}")
     return code if outcome.reached else 2
-
-
-def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
-    """The family, or one without members finer than the case where that does not fit. Raises InputError where neither does."""
-    budget = 60 * options.budget
-    maker.run([member for member in family if member.is_own])
-    if maker.seconds + maker.predicted(family) <= budget:
-        return family
-    requests = maker.requests
-    whole = maker.seconds + maker.predicted(family)
-    if requests.recipe.coarsens and not options.coarser:
-        options.coarser = True
-        cheaper = plan(requests.recipe, requests.facts, options)
-        if maker.seconds + maker.predicted(cheaper) <= budget:
-            maker.note(f"no member is finer than the case: with them the family would take about {duration(whole)}")
-            return cheaper
-        whole = maker.seconds + maker.predicted(cheaper)
-    problem = f"{options.budget:g} min are too short: the cheapest family takes about {duration(whole)}"
-    raise InputError("", "--budget", problem, f"give {whole / 60:.2g} or more, or a coarser case")
-
-
-def tell_mesh(maker: Maker, recipe: Recipe) -> None:
-    """What the family's meshes come from, where nobody has said it."""
-    if recipe.command == "refine":
-        maker.notes.append(
-            f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
-        )
-        return
-    words = [recipe.geo.script.name] if recipe.geo is not None else []
-    maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")
 
 
 def look(

@@ -1,15 +1,13 @@
 """Which sizes of elements and steps reach a demanded error at the lowest cost, as far as the family tells.
 
 The bars of the family fall with their orders, its seconds grow with theirs (cost.py). Of all pairs of sizes on a grid whose
-widest predicted bar is within the demand, the cheapest is taken. What the run then shows is held against what was predicted:
-its bar is wider by the difference.
+widest predicted bar is within the demand, the cheapest is taken. The family then moves there: a prediction is no bar.
 """
 
 from dataclasses import dataclass, replace
 from typing import List, Optional, Sequence
 
 from .cost import Costs
-from .direction import Part
 from .results import Judged
 from .verdict import Bar
 
@@ -17,7 +15,10 @@ RESERVE = 0.9  # of the demanded error, that a prediction is held to
 COARSEST, FINEST = -4, 12  # powers of a ratio
 STEPS_COARSEST, STEPS_FINEST = -3, 10  # powers of two
 SOLVER_SHARE = 0.1  # of the demanded error
-TOLERANCES = (1e-4, 10.0)  # by which a tolerance may be changed; looser ones than the family has tried are not taken
+TOLERANCES = (
+    1e-4,
+    10.0,
+)  # factors by which a tolerance may be changed; looser ones than the family has tried are not taken
 
 
 @dataclass(frozen=True)
@@ -58,31 +59,19 @@ def tolerance_factor(judged: Sequence[Judged], demand: float) -> float:
     """By which the solver's tolerances may change so that it has SOLVER_SHARE of the demanded error."""
     solver = max((one.bar.solver / one.bar.scale for one in judged if one.bar.given), default=0.0)
     least, most = TOLERANCES
-    return most if solver <= 0 else min(most, max(least, SOLVER_SHARE * demand / solver))
+    factor = most if solver <= 0 else min(most, max(least, SOLVER_SHARE * demand / solver))
+    return factor if factor < 0.5 or factor > 2 else 1.0
 
 
-def shown_by(one: Judged, value: float, mesh: float, step: float, tolerance: float) -> Judged:
-    """The bar of a run at these sizes, whose value is known by now: what the family predicts, and the distance of the value from
-    what it predicts for it."""
+def shown_by(one: Judged, value: float) -> Judged:
+    """The bar of another run, coarser than the family's centre or solved otherwise: that of the centre, and how far the two
+    are apart. Mesh and step share the distance as they share the bar."""
     bar = one.bar
-    expected = bar.best + bar.mesh.error * mesh**bar.mesh.used + bar.step.error * step**bar.step.used
-    together = bar.together * mesh**bar.mesh.used * step**bar.step.used
-    solver = bar.solver * tolerance
-    surprise = max(0.0, abs(value - expected) - together - solver)
-    half = 0.5 * surprise
-    made = replace(
-        bar,
-        value=value,
-        mesh=_part(bar.mesh, mesh, half),
-        step=_part(bar.step, step, surprise - half),
-        together=together,
-        solver=solver,
-    )
-    return replace(one, bar=made)
-
-
-def _part(part: Part, size: float, more: float) -> Part:
-    return replace(part, bar=part.at(size) + more, error=part.error * size**part.used)
+    apart = abs(value - bar.value)
+    share = bar.mesh.bar / (bar.mesh.bar + bar.step.bar) if bar.mesh.bar + bar.step.bar > 0 else 1.0
+    mesh = replace(bar.mesh, bar=bar.mesh.bar + share * apart)
+    step = replace(bar.step, bar=bar.step.bar + (1 - share) * apart)
+    return replace(one, bar=replace(bar, value=value, mesh=mesh, step=step))
 
 
 def reached(judged: Sequence[Judged], demand: float) -> bool:

@@ -30,7 +30,7 @@ class Part:
     state: str  # AS_EXPECTED, WIDENED, OUTSIDE or SILENT
     bar: float  # in the value's unit
     order: Optional[float] = None  # observed; None: none was
-    used: float = 1.0  # order that the bar falls with
+    used: float = 1.0  # order that the bar is expected to fall with, for predictions
     remaining: float = 0.0  # signed estimate of the finest member's error; 0 where nothing is extrapolated
     error: float = 0.0  # signed estimate of the error at size 1
 
@@ -56,11 +56,11 @@ def part_of(sizes: Sequence[float], values: Sequence[float], expected: float, no
     if spread <= 2 * noise:
         return Part(SILENT, max(spread, noise), None, expected)
     if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread, None, LEAST_ORDER)
+        return Part(OUTSIDE, SWING * spread)
     if _swings(steps, noise):
         falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
         last = float(np.max(np.abs(steps[-2:])))
-        return Part(WIDENED if falls else OUTSIDE, SWING * last + noise, None, LEAST_ORDER)
+        return Part(WIDENED if falls else OUTSIDE, SWING * last + noise)
     return _of_monotone(x, y, expected, noise, known)
 
 
@@ -75,12 +75,13 @@ def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, kn
         return Part(WIDENED, known + SWING * noise, None, expected, 0.0, _own(x, y) - float(y[-1]))
     order, scatter = observed(x, y)
     if order is None or order < LEAST_ORDER:
-        return Part(OUTSIDE, SWING * max(known, abs(last)), order, LEAST_ORDER)
+        return Part(OUTSIDE, SWING * max(known, abs(last)), order)
     used = min(order, expected)
     remaining = last / float((x[-2] / x[-1]) ** used - 1.0)
     state = AS_EXPECTED if SHARE_OF_ORDER * expected <= order <= expected / SHARE_OF_ORDER else WIDENED
     bar = known + FACTOR[state] * abs(remaining) + scatter + noise
-    return Part(state, bar, order, used, remaining, _own(x, y) - float(y[-1]) + remaining)
+    seen = order if order < LARGEST_ORDER - 0.1 else None  # faster than any power
+    return Part(state, bar, seen, used, remaining, _own(x, y) - float(y[-1]) + remaining)
 
 
 def _own(x: np.ndarray, y: np.ndarray) -> float:

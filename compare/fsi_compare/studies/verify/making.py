@@ -67,6 +67,12 @@ class Maker:
             self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
         return not problem
 
+    def begin_again(self, settings: Mapping[str, Any]) -> None:
+        """All members with further entries of the case."""
+        self.requests.settings.update(settings)
+        for family in self.families.values():
+            family.runs.clear()
+
     def predicted(self, members: Sequence[Member]) -> float:
         """Seconds of those that are not there yet, by all drivers, from those that are."""
         found = 0.0

@@ -17,9 +17,9 @@ from .quantities import curves_of
 from .results import Judged, about, judge
 
 FOUND, MESH = "found.toml", "found.msh"
-MOST_MOVES = 4  # of the family's centre
+MOST_MOVES = 6  # of the family's centre
+MOVES_FOR_BARS = 2  # of them for quantities that have no bar; then the others decide
 FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
-MOST_ROUNDS = 4
 
 
 @dataclass
@@ -50,19 +50,29 @@ class Search:
     def go(self) -> Outcome:
         """Raises InputError where the user's own run fails or nothing is sampled."""
         judged = self._family()
-        for _ in range(MOST_MOVES):
-            where = direction_of(judged) if outside(judged) else self._far(judged)
-            if not where or not self._move(where):
+        lines: List[str] = []
+        for move in range(MOST_MOVES):
+            asked = [one for one in judged if one.bar.given]
+            if outside(judged) and (move < MOVES_FOR_BARS or not asked):
+                target: Optional[Member] = self._finer(direction_of(judged))
+            elif reached(asked, self.demand.error):
+                break
+            else:
+                target = self._towards(asked)
+            if target is None or not self._move(target, lines):
                 break
             judged = self._family()
-        lines = [f"No error can be given of {one.quantity.name}: {one.bar.advice}." for one in outside(judged)]
+        lines += [f"No error can be given of {one.quantity.name}: {one.bar.advice}." for one in outside(judged)]
         asked = [one for one in judged if one.bar.given]
         if not asked:
+            return Outcome(judged, False, [*lines, "No quantity has a bar, so that no settings can be found."])
+        if not reached(asked, self.demand.error):
+            demand, far = 100 * self.demand.error, 100 * widest(asked)
             return Outcome(
-                judged, False, [*lines, "No quantity asked for has a bar, so that no settings can be found."]
+                judged, False, [*lines, f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %."]
             )
-        found = self._rounds(asked)
-        return replace(found, lines=lines + found.lines, reached=found.reached and not lines)
+        found = self._finish(asked)
+        return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
     def _members(self, finer: bool = False) -> List[Member]:
         requests = self.maker.requests
@@ -94,23 +104,40 @@ class Search:
             return None
         return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
 
-    def _far(self, judged: Sequence[Judged]) -> str:
-        """In which direction the settings lie further from the family than its own members do from each other; empty: in
-        none. There the family goes first: so far its orders tell little."""
-        best = self._best(judged, self.demand.error)
-        mesh = best is None or best.mesh < 0.99 * self.ratio**-FURTHEST
-        step = best is None or best.step < 0.99 * 2.0**-FURTHEST
-        return "both" if mesh and step else "mesh" if mesh else "step" if step else ""
+    def _finer(self, what: str) -> Member:
+        """The centre moved by one ratio."""
+        mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
+        step = self.centre.step / 2 if what != "mesh" else self.centre.step
+        return Member(_round(mesh), _round(step))
 
-    def _move(self, what: str) -> bool:
-        """The centre to finer sizes; False where that does not fit the budget."""
-        before = self.centre
-        mesh = before.mesh / self.ratio if what != "step" else before.mesh
-        step = before.step / 2 if what != "mesh" else before.step
-        self.centre = Member(_round(mesh), _round(step))
-        if self._fits(self.maker.predicted(self._members())):
-            self.maker.tell(f"the family moves to {self.centre.name}")
+    def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
+        """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST ratios: the
+        family's orders tell little beyond."""
+        best = self._best(asked, self.demand.error)
+        if best is None:
+            return self._finer("both")
+        mesh = max(best.mesh, self.ratio**-FURTHEST)
+        step = max(best.step, 2.0**-FURTHEST)
+        if mesh >= 1 and step >= 1:
+            return None
+        self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
+        return Member(_round(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
+
+    def _words(self, mesh: float, step: float) -> str:
+        return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
+
+    def _move(self, target: Member, lines: List[str]) -> bool:
+        """The family to another centre; False where that does not fit the budget."""
+        costs = learn(about(self.maker.families[self.driver], Member(1.0, 1.0)).runs, self.maker.dimension)
+        before, self.centre = self.centre, target
+        seconds = self.maker.predicted(self._members())
+        memory = f", {costs.memory(target.mesh):.0f} MiB" if costs is not None else ""
+        words = f"{self._words(1, 1)}: about {duration(seconds)}{memory} for the family"
+        if self._fits(seconds):
+            self.maker.tell(f"next, {words}")
             return True
+        left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
+        lines.append(f"Out of reach: {words}, and {duration(left)} of the budget are left.")
         self.centre = before
         return False
 
@@ -118,58 +145,32 @@ class Search:
         budget = self.demand.budget
         return budget is None or self.maker.seconds + seconds <= budget
 
-    def _rounds(self, asked: Sequence[Judged]) -> Outcome:
+    def _finish(self, asked: Sequence[Judged]) -> Outcome:
+        """The centre, or what is coarser and still good enough, with tolerances that suit the demand."""
         demand = self.demand.error
-        outcome = Outcome(list(asked), reached(asked, demand))
-        for _ in range(MOST_ROUNDS):
-            best = self._best(asked, demand)
-            if best is None:
-                outcome.lines.append(f"{100 * self.demand.error:g} % are out of reach of what the family predicts.")
-                return outcome
-            self._announce(best)
-            if not self._fits(best.seconds):
-                left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
-                outcome.lines.append(
-                    f"{100 * self.demand.error:g} % are out of reach: the run would take about {duration(best.seconds)}, and "
-                    f"{duration(left)} of the budget are left. The bar so far is {100 * widest(outcome.judged):.2g} %."
-                )
-                return outcome
-            outcome = self._run(asked, best)
-            if outcome.reached or outcome.final is None:
-                return outcome
-            demand *= 0.8 * self.demand.error / max(widest(outcome.judged), self.demand.error)
-        outcome.lines.append(
-            f"Not reached in {MOST_ROUNDS} runs; the bar so far is {100 * widest(outcome.judged):.2g} %."
-        )
+        best = self._best(asked, demand)
+        mesh, step = (max(best.mesh, 1.0), max(best.step, 1.0)) if best is not None else (1.0, 1.0)
+        tolerance = tolerance_factor(asked, demand)
+        outcome = self._run(asked, mesh, step, tolerance)
+        if not outcome.reached and (mesh, step) != (1.0, 1.0):
+            outcome = self._run(asked, 1.0, 1.0, tolerance)
+        if not outcome.reached:
+            outcome = self._run(asked, 1.0, 1.0, 1.0)
         return outcome
 
-    def _announce(self, best: Settings) -> None:
-        centre = self.centre
-        self.maker.tell(
-            f"next: elements of {best.mesh * centre.mesh:.3g}, steps of {best.step * centre.step:.3g} of the case's; predicted are "
-            f"{duration(best.seconds)}, {best.memory:.0f} MiB and {100 * best.error:.2g} %"
-        )
-
-    def _run(self, asked: Sequence[Judged], best: Settings) -> Outcome:
-        tolerance = tolerance_factor(asked, self.demand.error)
-        final = Member(_round(best.mesh * self.centre.mesh), _round(best.step * self.centre.step))
-        settings = self.maker.requests.tolerances(f"fsi-{self.driver}", tolerance)
+    def _run(self, asked: Sequence[Judged], mesh: float, step: float, tolerance: float) -> Outcome:
+        final = Member(_round(mesh * self.centre.mesh), _round(step * self.centre.step))
+        settings = {} if tolerance == 1 else self.maker.requests.tolerances(f"fsi-{self.driver}", tolerance)
         run = self.maker.single(final, self.driver, settings)
         if not run.done:
-            return Outcome(
-                list(asked), False, [f"The run with the settings found is missing: {run.status}, {run.message}."]
-            )
+            line = f"The run with {self._words(mesh, step)} is missing: {run.status}, {run.message}."
+            return Outcome(list(asked), False, [line])
         curves = curves_of(run.folder)
         judged = [
-            shown_by(one, one.quantity.of(curves[one.quantity.curve]), best.mesh, best.step, tolerance)
-            for one in asked
-            if one.quantity.curve in curves
+            shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves
         ]
-        took = f"It took {duration(run.seconds)}; {duration(best.seconds)} were predicted."
-        lines = [
-            f"Elements of {final.mesh:.3g} and steps of {final.step:.3g} of the case's leave {100 * widest(judged):.2g} %. {took}"
-        ]
-        return Outcome(judged, reached(judged, self.demand.error), lines, final, settings)
+        line = f"{self._words(mesh, step).capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
+        return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
 
 def _round(size: float) -> float:
