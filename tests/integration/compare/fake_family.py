@@ -72,7 +72,7 @@ def main(words):
 
 def mesh_size(words):
     if words[1] == "refine":
-        return float(Path(words[2]).read_text()) / float(words[words.index("--ratio") + 1])
+        return float(Path(words[2]).read_text()) / 2 ** int(words[words.index("--times") + 1])
     given = settings(words)
     return 8 / float(given["cells"]) if "cells" in given else float(given["size"])
 

@@ -69,6 +69,30 @@ class OneDirection(unittest.TestCase):
         self.assertGreaterEqual(part.bar, 2e-4)
 
 
+class ByElements(unittest.TestCase):
+    """One mesh and one finer one: the other element on the first stands in for a third."""
+
+    def bar(self, linear, quadratic, finer, element):
+        own, other = (linear, quadratic) if element == "p1" else (quadratic, linear)
+        values = [Value(1, 1, own), Value(0.5, 1, finer), Value(1, 1, other, other=True)]
+        return bar_of(values, EXACT, 2, 2, element)
+
+    def test_linear_result_is_off_by_less_than_twice_the_difference(self):
+        bar = self.bar(EXACT + 0.1, EXACT + 0.02, EXACT + 0.025, "p1")
+        self.assertEqual(bar.verdict, BAR_WIDENED)
+        self.assertTrue(0.1 <= bar.total <= 0.17)
+
+    def test_quadratic_result_is_off_by_less_than_the_difference(self):
+        self.assertAlmostEqual(self.bar(EXACT + 0.1, EXACT + 0.02, EXACT, "p2p1").total, 0.08, places=5)
+
+    def test_finer_mesh_that_goes_away_forbids_it(self):
+        self.assertEqual(self.bar(EXACT + 0.1, EXACT + 0.02, EXACT + 0.3, "p1").verdict, NOT_IN_RANGE)
+
+    def test_without_it_the_third_mesh_is_missing(self):
+        bar = bar_of([Value(1, 1, 1.0), Value(0.5, 1, 1.1)], 1.0, 2, 2)
+        self.assertEqual((bar.verdict, bar.advice), (NOT_IN_RANGE, "a third mesh is missing"))
+
+
 class WithNoise(unittest.TestCase):
     """Meshes of a generator: each value is off by chance, too."""
 

@@ -75,7 +75,7 @@ def families(recipe: Recipe, facts: CaseFacts, levels: int) -> List[Family]:
     for size, power in zip(SIZES, (0, 1)):
         centre = Member(ratio**power, 1.0 if facts.static else STEP_RATIO**power)
         about = members(recipe, facts, ratio, levels, True)
-        own = [Member(_same(m.mesh * centre.mesh), _same(m.step * centre.step), m.looser) for m in about]
+        own = [Member(_same(m.mesh * centre.mesh), _same(m.step * centre.step), m.looser, m.other) for m in about]
         found.append(Family(size, centre, own))
     return found
 

@@ -33,6 +33,7 @@ class Part:
     used: float = 1.0  # order that the bar is expected to fall with, for predictions
     remaining: float = 0.0  # signed estimate of the finest member's error; 0 where nothing is extrapolated
     error: float = 0.0  # signed estimate of the error at size 1
+    lacking: bool = False  # too few members
 
     def at(self, size: float) -> float:
         """The bar at another size."""
@@ -56,12 +57,23 @@ def part_of(sizes: Sequence[float], values: Sequence[float], expected: float, no
     if spread <= 2 * noise:
         return Part(SILENT, max(spread, noise), None, expected)
     if len(x) < 3:
-        return Part(OUTSIDE, SWING * spread)
+        return Part(OUTSIDE, SWING * spread, lacking=True)
     if _swings(steps, noise):
         falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
         last = float(np.max(np.abs(steps[-2:])))
         return Part(WIDENED if falls else OUTSIDE, SWING * last + noise)
     return _of_monotone(x, y, expected, noise, known)
+
+
+def by_elements(own: float, other: float, finer: Optional[float], own_is_linear: bool, noise: float) -> Part:
+    """Of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at most half of the
+    linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference d a linear result
+    may then be off by 2 d and a quadratic one by d. Where a linear result on a finer mesh is known it must be nearer to the
+    quadratic one."""
+    apart = abs(own - other)
+    if finer is not None and own_is_linear and abs(finer - other) > max(apart, noise):
+        return Part(OUTSIDE, SWING * abs(finer - other))
+    return Part(WIDENED, (2 if own_is_linear else 1) * apart + noise, error=own - other if own_is_linear else 0.0)
 
 
 def _swings(steps: np.ndarray, noise: float) -> bool:

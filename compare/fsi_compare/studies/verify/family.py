@@ -17,6 +17,7 @@ STEP_RATIO = 2.0
 ORDERS = {"euler": 1.0}  # of time schemes; all others are of second order
 # Of quantities by element: what is solved for, and pressures with all that is made of gradients.
 SPACE_ORDERS = {"p1": (2.0, 1.0), "p2p1": (3.0, 2.0)}
+OTHER_ELEMENT = {"p1": "p2p1", "p2p1": "p1"}
 TOLERANCES = {
     "fsi-monolithic": {"monolithic.newton_tolerance": 1e-3},
     "fsi-partitioned": {"partitioned.tolerance": 1e-6},
@@ -57,10 +58,11 @@ class Member:
     mesh: float
     step: float
     looser: bool = False
+    other: bool = False  # by the other element, on the same mesh
 
     @property
     def is_own(self) -> bool:
-        return self.mesh == 1 and self.step == 1 and not self.looser
+        return self.mesh == 1 and self.step == 1 and not self.looser and not self.other
 
     @property
     def name(self) -> str:
@@ -68,7 +70,7 @@ class Member:
             return "own"
         parts = [f"mesh {self.mesh:.3g}"] if self.mesh != 1 else []
         parts += [f"step {self.step:.3g}"] if self.step != 1 else []
-        return ", ".join(parts + (["looser"] if self.looser else []))
+        return ", ".join(parts + (["looser"] if self.looser else []) + (["other element"] if self.other else []))
 
 
 def with_settings(entries: Mapping[str, Any], settings: Mapping[str, Any]) -> Dict[str, Any]:
@@ -123,13 +125,14 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     below = -1 if finer else 0
     powers = [k for k in range(levels + below - 1, below - 1, -1)] if recipe.coarsens else list(range(0, -levels, -1))
     meshes = [ratio**k if k else 1.0 for k in powers]
+    beside = [] if recipe.coarsens else [Member(1.0, 1.0, False, True)]
     if facts.static:
-        return [Member(m, 1.0) for m in meshes] + [Member(1.0, 1.0, True)]
+        return [Member(m, 1.0) for m in meshes] + [Member(1.0, 1.0, True)] + beside
     steps = [STEP_RATIO, 1.0, 1 / STEP_RATIO] if finer else [STEP_RATIO**2, STEP_RATIO, 1.0]
     found = [Member(m, 1.0) for m in meshes] + [Member(1.0, s) for s in steps if s != 1]
     corner = (min(meshes), min(steps)) if finer else (meshes[-2], steps[1])
     loose = Member(1.0, 1.0, True) if finer else Member(1.0, steps[0], True)
-    found += [loose, Member(*corner)]
+    found += [loose, Member(*corner), *beside]
     return sorted(dict.fromkeys(found), key=lambda member: (work(member, 2.0), member.looser))
 
 
@@ -176,11 +179,14 @@ class Requests:
         settings = {**self.settings, **self._step(member)}
         if member.looser:
             settings.update(self.tolerances(method.program, LOOSER))
+        if member.other:
+            settings["element"] = OTHER_ELEMENT[self.facts.element]
         case = self.facts.path
         values = {
             "mesh": f"{member.mesh:.4g}",
             "step": f"{member.step:.4g}",
             **({"looser": "yes"} if member.looser else {}),
+            **({"element": OTHER_ELEMENT[self.facts.element]} if member.other else {}),
         }
         return Request("family", self.name, method, values, case, self.mesh(member), settings, self.time_limit)
 

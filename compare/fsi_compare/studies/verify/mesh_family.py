@@ -7,6 +7,7 @@
 | a mesh file | `fsi-mesh refine`, finer only |
 """
 
+import math
 import re
 import shlex
 import tempfile
@@ -60,7 +61,7 @@ class Recipe:
         if self.command == "geo":
             return StudyMesh(name, f"{factor:.3g} times as fine", tuple(self._geo_words(factor, folder)), "geo")
         if self.command == "refine":
-            words = (str(self.file), "--ratio", f"{factor:.6g}")
+            words = (str(self.file), "--times", str(round(math.log2(factor))))  # halves
             return None if factor == 1 else StudyMesh(name, f"{factor:.3g} times as fine", words, "refine")
         return StudyMesh(name, f"{factor:.3g} times as fine", tuple(_artery_words(self.words, factor)), "artery")
 

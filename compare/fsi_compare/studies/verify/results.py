@@ -56,7 +56,7 @@ class FamilyRuns:
 def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
     """The same runs with sizes relative to another member's."""
     runs = {
-        Member(_same(m.mesh / centre.mesh), _same(m.step / centre.step), m.looser): run
+        Member(_same(m.mesh / centre.mesh), _same(m.step / centre.step), m.looser, m.other): run
         for m, run in family.runs.items()
     }
     return FamilyRuns(family.driver, runs)
@@ -100,11 +100,18 @@ def judge(
     found = []
     for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names):
         values = tuple(
-            Value(real.get(member.mesh, member.mesh), member.step, quantity.of(of[quantity.curve]), member.looser)
+            Value(
+                real.get(member.mesh, member.mesh),
+                member.step,
+                quantity.of(of[quantity.curve]),
+                member.looser,
+                member.other,
+            )
             for member, of in curves.items()
             if quantity.curve in of
         )
-        bar = bar_of(values, quantity.scale, facts.space_order(quantity.is_pressure), facts.time_order)
+        orders = facts.space_order(quantity.is_pressure), facts.time_order
+        bar = bar_of(values, quantity.scale, *orders, facts.element)
         if bar is not None:
             found.append(Judged(family.driver, quantity, bar, values))
     return found
@@ -132,7 +139,7 @@ def bands(family: FamilyRuns, curves: Mapping[Member, Mapping[str, Curve]], judg
             line = [
                 m
                 for m in curves
-                if not m.looser and (m.step if along == 0 else m.mesh) == 1 and curve.name in curves[m]
+                if not (m.looser or m.other) and (m.step if along == 0 else m.mesh) == 1 and curve.name in curves[m]
             ]
             line.sort(key=lambda m: m.mesh if along == 0 else m.step)
             if len(line) < 2:

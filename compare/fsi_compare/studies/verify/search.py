@@ -80,7 +80,7 @@ class Search:
             requests.recipe, requests.facts, self.ratio, self.levels, finer or not requests.recipe.coarsens
         )
         centre = self.centre
-        return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser) for m in relative]
+        return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser, m.other) for m in relative]
 
     def _family(self) -> List[Judged]:
         self.maker.run(self._members())

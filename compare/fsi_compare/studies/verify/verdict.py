@@ -11,7 +11,7 @@ when the step does. The parts are added up, not their squares: nothing says that
 from dataclasses import dataclass
 from typing import List, Mapping, Optional, Sequence, Tuple
 
-from .direction import NOTHING, OUTSIDE, WIDENED, Part, part_of
+from .direction import NOTHING, OUTSIDE, WIDENED, Part, by_elements, part_of
 
 CONVERGES, BAR_WIDENED, NOT_IN_RANGE = (
     "converges as its elements do",
@@ -34,6 +34,7 @@ class Value:
     step: float  # the same of steps
     value: float
     looser: bool = False  # solved with looser tolerances
+    other: bool = False  # by the other element
 
 
 @dataclass(frozen=True)
@@ -67,9 +68,11 @@ class Bar:
         return self.mesh.at(mesh) + self.step.at(step) + both + self.solver
 
 
-def bar_of(values: Sequence[Value], scale: float, space_order: float, time_order: float) -> Optional[Bar]:
+def bar_of(
+    values: Sequence[Value], scale: float, space_order: float, time_order: float, element: str = "p2p1"
+) -> Optional[Bar]:
     """None where the user's own member is missing. `scale`: the largest of the curve that the value is of."""
-    table = {(v.mesh, v.step): v.value for v in values if not v.looser}
+    table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
     own = table.get((1.0, 1.0))
     if own is None:
         return None
@@ -77,6 +80,10 @@ def bar_of(values: Sequence[Value], scale: float, space_order: float, time_order
     solver = SOLVER_FACTOR * max((abs(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
     noise = max(solver, DETECTED * scale)
     mesh = _along([(m, y) for (m, s), y in table.items() if s == 1.0], space_order, noise)
+    others = [v.value for v in values if v.other and (v.mesh, v.step) == (1.0, 1.0)]
+    if others and (mesh is NOTHING or mesh.lacking):
+        finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
+        mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
     step = _along([(s, y) for (m, s), y in table.items() if m == 1.0], time_order, noise)
     together = _together(table, mesh, step, noise)
     best = own - mesh.error - step.error
@@ -109,14 +116,18 @@ def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: 
     counting = [(name, part) for name, part in named if part.bar > SMALL * total]
     outside = [name for name, part in counting if part.state == OUTSIDE and part.bar > negligible]
     if outside:
-        return NOT_IN_RANGE, _advice(outside)
+        return NOT_IN_RANGE, _advice(outside, [name for name, part in counting if part.lacking])
     if together > mesh.bar + step.bar + solver and together > negligible:
         return NOT_IN_RANGE, _advice(["mesh", "step"])
     widened = any(part.state in (WIDENED, OUTSIDE) for _, part in counting) or together > 0.5 * (mesh.bar + step.bar)
     return (BAR_WIDENED if widened else CONVERGES), ""
 
 
-def _advice(what: Sequence[str]) -> str:
+def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
+    if lacking:
+        return " and ".join(
+            {"mesh": "a third mesh is missing", "step": "a third step is missing"}[name] for name in lacking
+        )
     words: List[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
     return " and ".join(words) + (", both together" if len(words) > 1 else "")
 
