@@ -74,7 +74,9 @@ def mesh_size(words):
     if words[1] == "refine":
         return float(Path(words[2]).read_text()) / 2 ** int(words[words.index("--times") + 1])
     given = settings(words)
-    return 8 / float(given["cells"]) if "cells" in given else float(given["size"])
+    if "size" in given:
+        return float(given["size"])
+    return 8 / float(given.get("cells", given.get("media", 4)))  # 4: of the scene ring-in-time
 
 
 def run(words, place, name, behaviour):
