@@ -154,6 +154,7 @@ def _report(context: Context, found: Sequence[Record], traps: Mapping[str, str],
     report = context.report
     whole = Score("all", found)
     report.answer(_answer(whole))
+    report.section("Bars and true errors")
     report.list([f"**missing**: {one}" for one in missing])
     report.text(
         "Each family is judged as `fsi-compare verify` does. The truth is a run whose elements and steps are a fraction of the "
@@ -166,6 +167,7 @@ def _report(context: Context, found: Sequence[Record], traps: Mapping[str, str],
     rows = [Score(f"{s}, {z}", [r for r in found if (r.scene, r.size) == (s, z)]) for s, z in keys]
     table = Table("scores", "By scene", _scores(traps), [*rows, whole])
     report.table(table)
+    report.section("All quantities")
     report.folded("All quantities", [Table("records", "All quantities", RECORDS, found)])
     if not context.runner.quiet:
         print(table.text())
