@@ -37,7 +37,7 @@ class Record:
 
     @property
     def holds(self) -> bool:
-        return self.error <= self.bar.total + EXACT_TO * self.bar.scale
+        return self.error <= self.bar.total
 
     @property
     def misleads(self) -> bool:
@@ -84,14 +84,19 @@ class Score:
         return [one for one in self.records if one.bar.given]
 
     @property
+    def counted(self) -> List[Record]:
+        """Those whose true error can be seen: a flow that is prescribed has none, and any bar holds it."""
+        return [one for one in self.given if one.error > EXACT_TO * one.bar.scale]
+
+    @property
     def held(self) -> Optional[float]:
         """Share of the bars that hold the true error."""
-        return sum(one.holds for one in self.given) / len(self.given) if self.given else None
+        return sum(one.holds for one in self.counted) / len(self.counted) if self.counted else None
 
     @property
     def median(self) -> Optional[float]:
         """Of bar over true error."""
-        ratios = sorted(one.ratio for one in self.given)
+        ratios = sorted(one.ratio for one in self.counted)
         return ratios[len(ratios) // 2] if ratios else None
 
     @property

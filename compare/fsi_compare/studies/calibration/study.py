@@ -143,6 +143,7 @@ def _scores(traps: Mapping[str, str]) -> Sequence[Column[Score]]:
         Column("scene, family", "scene_family", lambda s: s.name, left=True),
         Column("quantities", "quantities", lambda s: len(s.records)),
         Column("with a bar", "given", lambda s: len(s.given)),
+        Column("of these counted", "counted", lambda s: len(s.counted)),
         Column("held [%]", "held_percent", lambda s: None if s.held is None else 100 * s.held, ".1f"),
         Column("bar / error, median", "median", lambda s: s.median, ".2f"),
         Column("said to converge, off by more than two bars", "misled", lambda s: s.misled),
@@ -177,8 +178,8 @@ def _answer(whole: Score) -> List[str]:
     if whole.held is None or whole.median is None:
         return ["No bar was given."]
     return [
-        f"Of {len(whole.records)} quantities {len(whole.given)} have a bar; it holds the true error of "
-        f"{100 * whole.held:.1f} % of them. Asked for are {100 * HELD:.0f} %.",
+        f"Of {len(whole.records)} quantities {len(whole.given)} have a bar. Of {len(whole.counted)} the true error can be seen; "
+        f"the bar holds {100 * whole.held:.1f} % of these. Asked for are {100 * HELD:.0f} %.",
         f"In the median the bar is {whole.median:.2f} times the true error. At most {WIDTH:g} is asked for.",
         f"{whole.misled} of those that are said to converge are off by more than twice their bar.",
     ]
