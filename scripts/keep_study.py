@@ -1,5 +1,5 @@
 """Keeps the report of a finished study under docs/: its text and tables as docs/studies/NAME.md, its pictures as
-docs/pictures/NAME-*.png. The section "All runs" stays behind, as do pictures that the report does not show.
+docs/pictures/NAME-*.png. The sections "All runs" and "All quantities" stay behind, as do pictures that the report does not show.
 
 usage: python3 scripts/keep_study.py FOLDER...    (results/studies/NAME, as fsi-compare study NAME leaves it)
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NoReturn
 
 TOP = Path(__file__).resolve().parents[1]
-LEFT_OUT = "All runs"
+LEFT_OUT = ("All runs", "All quantities")
 
 
 def keep(folder: Path, docs: Path) -> Path:
@@ -22,7 +22,9 @@ def keep(folder: Path, docs: Path) -> Path:
     except (OSError, UnicodeDecodeError) as error:
         fail(f"{folder}/report.md cannot be read: {error}; run fsi-compare study first")
     sections = re.split(r"(?m)^(?=## )", text)
-    text = "".join(section for section in sections if not section.startswith(f"## {LEFT_OUT}\n"))
+    text = "".join(
+        section for section in sections if not section.startswith(tuple(f"## {name}\n" for name in LEFT_OUT))
+    )
     text = with_pictures(text, folder, docs / "pictures", name, "../pictures")
     path = docs / "studies" / f"{name}.md"
     path.write_text(text, encoding="utf-8")

@@ -9,8 +9,9 @@ from .reporting import accuracy, cost, export, pressure, run_report
 from .studies import command as study
 from .studies.gallery import command as gallery
 from .studies.linear import command as linear
+from .studies.verify import command as verify
 
-COMMANDS = (pressure, run_report, cost, export, accuracy, linear, study, gallery, mesh_import)
+COMMANDS = (pressure, run_report, cost, export, accuracy, linear, study, gallery, verify, mesh_import)
 
 
 class _Parser(argparse.ArgumentParser):

@@ -68,7 +68,7 @@ def _loaded() -> Callable[[Sequence[str], str], int]:
 
 
 def _what_stays(arguments: Sequence[str]) -> str:
-    if arguments[:1] == ["study"] or arguments[:1] == ["solvers"]:
+    if arguments[:1] in (["study"], ["solvers"], ["verify"]):
         return "; finished runs are kept, the same command goes on"
     return ""
 

@@ -23,8 +23,8 @@ FLOORS = (
     ("studies.catalogue", "studies.starting"),
     ("studies.linear", "studies.gallery"),
     ("studies.running",),
-    ("studies.evidence",),
-    ("studies.accuracy", "studies.coupling", "studies.paper", "studies.scaling", "studies.skip", "studies.stability"),
+    ("studies.evidence", "studies.verify"),
+    ("studies.accuracy", "studies.calibration", "studies.coupling", "studies.paper", "studies.scaling", "studies.skip", "studies.stability"),
     ("studies",),
     ("",),
 )

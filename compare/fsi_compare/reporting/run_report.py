@@ -14,6 +14,7 @@ from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
+from .error_bars import add_error_bars, find_bars
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -62,6 +63,7 @@ def report(options: argparse.Namespace) -> int:
     labels = read_labels(options.labels, len(options.folders)) or folder_labels(options.folders)
     runs = [open_run(folder) for folder in options.folders]
     check_runs(runs, times)
+    bars = find_bars(runs)
     tables = [differences_table(runs, labels), sample_table(sample_differences(options.folders), labels)]
     title = printable(options.title) if options.title is not None else default_title(runs)
     with together(options.output) as place:
@@ -72,6 +74,7 @@ def report(options: argparse.Namespace) -> int:
         page = Report(place, title)
         page.section("Runs")
         page.table(runs_table(runs, labels))
+        add_error_bars(page, runs, labels, bars)
         page.section("Through time")
         add_waves(page, runs, labels, times)
         if len(runs) > 1:

@@ -15,6 +15,7 @@ MODULES = {
     "skip": "skip.study",
     "coupling": "coupling.study",
     "scaling": "scaling.study",
+    "calibration": "calibration.study",
     "scenes": "scenes",
     "runs": "plain_runs",
 }

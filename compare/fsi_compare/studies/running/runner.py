@@ -183,7 +183,7 @@ class Runner:
         return replace(run, request=request)
 
     def _what_decides(self, request: Request) -> Tuple[Request, Program, Optional[Path], int, int]:
-        mesh_file = self._mesh_file(request.mesh)
+        mesh_file = self.mesh_file(request.mesh)
         return request, self._program(request), mesh_file, self.threads, self.processes_of(request)
 
     def processes_of(self, request: Request) -> int:
@@ -192,7 +192,7 @@ class Runner:
     def _program(self, request: Request) -> Program:
         return self.programs[request.method.program]
 
-    def _mesh_file(self, mesh: Optional[StudyMesh]) -> Optional[Path]:
+    def mesh_file(self, mesh: Optional[StudyMesh]) -> Optional[Path]:
         """The mesh made for the study; None: the driver makes it, or the case names it."""
         if mesh is None or not mesh.options:
             return None
@@ -252,7 +252,7 @@ class Runner:
             "--threads",
             str(self.threads),
         ]
-        mesh = self._mesh_file(request.mesh)
+        mesh = self.mesh_file(request.mesh)
         settings = dict(request.settings)
         if mesh is not None:
             settings["mesh.file"] = str(absolute(mesh))
@@ -313,9 +313,9 @@ def is_interrupted(code: int) -> bool:
 
 
 def recipe(mesh: StudyMesh) -> List[str]:
-    """What decides a mesh: its options, and the text of the script that they name."""
-    scripts = [word for word in mesh.options if word.endswith(".geo") and is_file(Path(word))]
-    return [*mesh.options, *(hashlib.sha256(read_bytes(Path(s), AGAIN, AGAIN)).hexdigest() for s in scripts)]
+    """What decides a mesh: its options, and what is in the scripts and meshes that they name."""
+    named = [word for word in mesh.options if word.endswith((".geo", ".msh")) and is_file(Path(word))]
+    return [*mesh.options, *(hashlib.sha256(read_bytes(Path(n), AGAIN, AGAIN)).hexdigest() for n in named)]
 
 
 def write_record(folder: Path, record: Dict[str, Any]) -> None:

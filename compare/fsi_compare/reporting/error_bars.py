@@ -1,0 +1,56 @@
+"""What is known of the error of runs: bars that `fsi-compare verify` left beside them, or one line that says how to find it."""
+
+import shlex
+from typing import TYPE_CHECKING, List, Sequence, Tuple
+
+from ..results.run import RunResults
+from ..runs.verification import KeptBar, Verification, find_verification
+from .column import Column
+from .layout import Table
+
+if TYPE_CHECKING:
+    from .report import Report
+
+Row = Tuple[str, KeptBar]
+COLUMNS: Sequence[Column[Row]] = (
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("quantity", "quantity", lambda r: r[1].quantity, left=True),
+    Column("unit", "unit", lambda r: r[1].unit, left=True),
+    Column("value", "value", lambda r: r[1].value, ".6g"),
+    Column("±", "error", lambda r: r[1].error, ".2g"),
+    Column("± [%]", "error_percent", lambda r: r[1].error_percent, ".2g"),
+    Column("verdict", "verdict", lambda r: r[1].verdict, text=lambda r: _said(r[1]), left=True),
+)
+MOST_ROWS = 25  # of a table that is open from the start
+
+
+def _said(bar: KeptBar) -> str:
+    return f"{bar.verdict}: {bar.advice}" if bar.advice else bar.verdict
+
+
+def find_bars(runs: Sequence[RunResults]) -> "List[Verification | None]":
+    """Of each run; None: no family is beside it. Raises InputError for a broken file."""
+    return [find_verification(run.folder, run.summary) for run in runs]
+
+
+def unknown(run: RunResults, label: str) -> str:
+    """The line for a run without bars."""
+    case = shlex.quote(str(run.summary.get("case") or "CASE.toml"))
+    return f"How far {label} is from the exact solution is unknown. `fsi-compare verify {case}` finds out."
+
+
+def add_error_bars(
+    page: "Report", runs: Sequence[RunResults], labels: Sequence[str], found: "Sequence[Verification | None]"
+) -> None:
+    page.section("Error bars")
+    rows = [(label, bar) for label, of_run in zip(labels, found) if of_run is not None for bar in of_run.bars]
+    if rows:
+        table = Table("error_bars", "How far values may be from the exact ones", COLUMNS, rows)
+        table.notes.append(
+            "By fsi-compare verify. Percent are of the largest value of the curve that the quantity is of."
+        )
+        if len(rows) > MOST_ROWS:
+            page.folded(table.title, [table])
+        else:
+            page.table(table)
+    page.text(*(unknown(run, label) for run, label, of_run in zip(runs, labels, found) if of_run is None))

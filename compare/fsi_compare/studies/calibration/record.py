@@ -1,0 +1,104 @@
+"""One bar against the truth."""
+
+from dataclasses import dataclass
+from typing import List, Mapping, Optional, Sequence
+
+from ..running.study_run import StudyRun
+from ..verify.family import CaseFacts, Member
+from ..verify.quantities import chosen, curves_of, quantities_of
+from ..verify.results import FamilyRuns, about, judge
+from ..verify.verdict import CONVERGES, Bar
+
+EXACT_TO = 1e-6  # relative: below it the truth is not known
+
+
+@dataclass(frozen=True)
+class Record:
+    scene: str
+    size: str  # of the family
+    quantity: str
+    unit: str
+    bar: Bar
+    truth: float
+
+    @property
+    def error(self) -> float:
+        return abs(self.bar.value - self.truth)
+
+    @property
+    def known(self) -> float:
+        """The true error, or the smallest that can be seen."""
+        return max(self.error, EXACT_TO * self.bar.scale)
+
+    @property
+    def ratio(self) -> float:
+        """Of the bar to the true error."""
+        return self.bar.total / self.known
+
+    @property
+    def holds(self) -> bool:
+        return self.error <= self.bar.total
+
+    @property
+    def misleads(self) -> bool:
+        """Said to converge, and off by more than twice the bar."""
+        return self.bar.verdict == CONVERGES and self.error > 2 * self.bar.total + EXACT_TO * self.bar.scale
+
+
+def records(
+    scene: str,
+    size: str,
+    facts: CaseFacts,
+    centre: Member,
+    runs: Mapping[Member, StudyRun],
+    reference: StudyRun,
+    skipped: Sequence[str],
+) -> List[Record]:
+    """Of all quantities of the family about `centre`, whose members are given by their sizes relative to the case; the truth is
+    read from the reference."""
+    family = about(FamilyRuns("monolithic", {m: run for m, run in runs.items() if run.done}), centre)
+    truth = curves_of(reference.folder)
+    own = next((run for member, run in family.runs.items() if member.is_own), None)
+    if own is None:
+        return []
+    known = {q.name: q for q in chosen(quantities_of(curves_of(own.folder), facts.asked(())), ())}
+    found = []
+    for one in judge(family, family.read(), facts, (), ()):
+        quantity = known[one.quantity.name]
+        if quantity.curve not in truth or any(word in quantity.name for word in skipped):
+            continue
+        value = quantity.of(truth[quantity.curve])
+        found.append(Record(scene, size, quantity.name, quantity.unit, one.bar, value))
+    return found
+
+
+@dataclass(frozen=True)
+class Score:
+    """Of all bars, or those of a scene."""
+
+    name: str
+    records: Sequence[Record]
+
+    @property
+    def given(self) -> List[Record]:
+        return [one for one in self.records if one.bar.given]
+
+    @property
+    def counted(self) -> List[Record]:
+        """Those whose true error can be seen: a flow that is prescribed has none, and any bar holds it."""
+        return [one for one in self.given if one.error > EXACT_TO * one.bar.scale]
+
+    @property
+    def held(self) -> Optional[float]:
+        """Share of the bars that hold the true error."""
+        return sum(one.holds for one in self.counted) / len(self.counted) if self.counted else None
+
+    @property
+    def median(self) -> Optional[float]:
+        """Of bar over true error."""
+        ratios = sorted(one.ratio for one in self.counted)
+        return ratios[len(ratios) // 2] if ratios else None
+
+    @property
+    def misled(self) -> int:
+        return sum(one.misleads for one in self.records)

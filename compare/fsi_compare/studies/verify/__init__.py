@@ -1,0 +1,1 @@
+"""The command `verify`: how wrong a case's results are, from a family of runs around it."""

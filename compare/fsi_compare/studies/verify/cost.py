@@ -1,0 +1,61 @@
+"""Seconds and memory of a member before it is started, from those that have run.
+
+    seconds = c h^-alpha (steps)^1,    memory = m0 + m1 h^-beta
+
+alpha is fitted to the members of several meshes; of too few it is that of a sparse factorisation, DIMENSION_POWER times
+the dimension."""
+
+from dataclasses import dataclass
+from typing import Mapping, Optional
+
+import numpy as np
+
+from ..running.study_run import StudyRun
+from .family import Member
+
+USUAL_POWER = {2: 2.6, 3: 4.2}  # of 1/h, by dimension: a little more than the number of cells
+RANGE = {2: (1.5, 3.6), 3: (2.5, 6.5)}  # what a fit is held within
+
+
+@dataclass(frozen=True)
+class Costs:
+    """At sizes of elements and steps relative to the user's own."""
+
+    seconds_own: float
+    power: float
+    memory_own: float  # MiB
+    memory_power: float
+    step_power: float
+
+    def seconds(self, mesh: float, step: float) -> float:
+        return float(self.seconds_own * mesh**-self.power * step**-self.step_power)
+
+    def memory(self, mesh: float) -> float:
+        return float(self.memory_own * mesh**-self.memory_power)
+
+
+def learn(runs: Mapping[Member, StudyRun], dimension: int) -> Optional[Costs]:
+    """None where no member has run."""
+    done = {member: run for member, run in runs.items() if run.done and not member.looser and run.seconds > 0}
+    if not done:
+        return None
+    low, high = RANGE[dimension]
+    power = _slope({1 / m.mesh: r.seconds for m, r in done.items() if m.step == 1}, USUAL_POWER[dimension], low, high)
+    step_power = _slope({1 / m.step: r.seconds for m, r in done.items() if m.mesh == 1}, 1.0, 0.5, 1.0)
+    memory = {m: float(r.summary.get("peak_memory_MiB", 0.0)) for m, r in done.items()}
+    of_mesh = {1 / m.mesh: value for m, value in memory.items() if value > 0}
+    memory_power = _slope(of_mesh, power * 0.8, 0.0, high)
+    base = max(done, key=lambda m: done[m].seconds)  # the dearest tells most: start-up counts least in it
+    seconds_own = done[base].seconds * base.mesh**power * base.step**step_power
+    widest = min(memory, key=lambda m: m.mesh)
+    return Costs(seconds_own, power, memory[widest] * widest.mesh**memory_power, memory_power, step_power)
+
+
+def _slope(points: Mapping[float, float], usual: float, low: float, high: float) -> float:
+    """Of the logarithms, by the two dearest: a start-up time flattens the cheap end."""
+    if len(points) < 2:
+        return usual
+    (x0, y0), (x1, y1) = sorted(points.items())[-2:]
+    if x1 <= x0 or y0 <= 0 or y1 <= 0:
+        return usual
+    return float(np.clip(np.log(y1 / y0) / np.log(x1 / x0), low, high))

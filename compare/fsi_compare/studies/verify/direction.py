@@ -1,0 +1,128 @@
+"""The error of one value in one thing that is refined, mesh or step, from three or more members of a family.
+
+With y(h) = y0 + a h^p the differences of successive members give p (accuracy's observed order, [Celik2008]). What the finest
+member still lacks is then e = d / (r^p - 1), d the last difference and r the ratio of its sizes. The bar of the user's own
+member is what is known to be wrong, its difference from the finest, and FACTOR times what is not known, e:
+
+    bar = |y(1) - y(finest)| + FACTOR |e|.
+
+A sequence that swings is not extrapolated, neither is one whose differences do not fall. See docs/verification.md.
+"""
+
+from dataclasses import dataclass
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
+
+AS_EXPECTED, WIDENED, OUTSIDE, SILENT = "as expected", "widened", "outside", "silent"
+
+FACTOR = {AS_EXPECTED: 2.0, WIDENED: 3.0}  # on what is extrapolated
+SWING = 3.0  # times the largest difference, where a sequence swings
+LEAST_ORDER = 0.3  # below it the differences do not fall enough to say what is left
+SHARE_OF_ORDER = 0.7  # of the elements' order that must be observed for them to converge as they do
+LARGEST_ORDER = 8.0
+
+
+@dataclass(frozen=True)
+class Part:
+    """Of the error of a value at size 1, and at others by `share`."""
+
+    state: str  # AS_EXPECTED, WIDENED, OUTSIDE or SILENT
+    bar: float  # in the value's unit
+    order: Optional[float] = None  # observed; None: none was
+    used: float = 1.0  # order that the bar is expected to fall with, for predictions
+    remaining: float = 0.0  # signed estimate of the finest member's error; 0 where nothing is extrapolated
+    error: float = 0.0  # signed estimate of the error at size 1
+    lacking: bool = False  # too few members
+
+    def at(self, size: float) -> float:
+        """The bar at another size."""
+        return self.bar * float(size**self.used)
+
+
+NOTHING = Part(SILENT, 0.0)
+
+
+def part_of(sizes: Sequence[float], values: Sequence[float], expected: float, noise: float) -> Part:
+    """`sizes` relative to the user's own, which is 1 and among them; `expected`: the order of elements or scheme;
+    `noise`: what differences may be by chance, of the solver or of a mesh's making."""
+    order = np.argsort(-np.asarray(sizes, dtype=float))
+    x, y = np.asarray(sizes, dtype=float)[order], np.asarray(values, dtype=float)[order]
+    steps = y[:-1] - y[1:]
+    own = float(y[int(np.argmin(np.abs(x - 1.0)))])
+    known = abs(own - float(y[-1]))
+    spread = float(np.max(y) - np.min(y)) if len(y) else 0.0
+    if len(x) < 2 or np.any(x[:-1] <= x[1:]):
+        return NOTHING
+    if spread <= 2 * noise:
+        return Part(SILENT, max(spread, noise), None, expected)
+    if len(x) < 3:
+        return Part(OUTSIDE, SWING * spread, lacking=True)
+    if _swings(steps, noise):
+        falls = abs(steps[-1]) <= 0.7 * float(np.max(np.abs(steps[:-1]))) or abs(steps[-1]) <= noise
+        last = float(np.max(np.abs(steps[-2:])))
+        return Part(WIDENED if falls else OUTSIDE, SWING * last + noise)
+    return _of_monotone(x, y, expected, noise, known)
+
+
+def by_elements(own: float, other: float, finer: Optional[float], own_is_linear: bool, noise: float) -> Part:
+    """Of a mesh with too few others, by both elements on it. The quadratic element's error is taken to be at most half of the
+    linear one's (the saturation assumption of hierarchical estimates, [Bank1993]): of their difference d a linear result
+    may then be off by 2 d and a quadratic one by d. Where a linear result on a finer mesh is known it must be nearer to the
+    quadratic one."""
+    apart = abs(own - other)
+    if finer is not None and own_is_linear and abs(finer - other) > max(apart, noise):
+        return Part(OUTSIDE, SWING * abs(finer - other))
+    return Part(WIDENED, (2 if own_is_linear else 1) * apart + noise, error=own - other if own_is_linear else 0.0)
+
+
+def _swings(steps: np.ndarray, noise: float) -> bool:
+    seen = steps[np.abs(steps) > noise]
+    return bool(np.any(seen > 0) and np.any(seen < 0))
+
+
+def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float) -> Part:
+    last = float(y[-2] - y[-1])
+    if abs(last) <= noise:  # converged as far as can be seen
+        return Part(WIDENED, known + SWING * noise, None, expected, 0.0, _own(x, y) - float(y[-1]))
+    order, scatter = observed(x, y)
+    if order is None or order < LEAST_ORDER:
+        return Part(OUTSIDE, SWING * max(known, abs(last)), order)
+    used = min(order, expected)
+    remaining = last / float((x[-2] / x[-1]) ** used - 1.0)
+    state = AS_EXPECTED if SHARE_OF_ORDER * expected <= order <= expected / SHARE_OF_ORDER else WIDENED
+    bar = known + FACTOR[state] * abs(remaining) + scatter + noise
+    seen = order if order < LARGEST_ORDER - 0.1 else None  # faster than any power
+    return Part(state, bar, seen, used, remaining, _own(x, y) - float(y[-1]) + remaining)
+
+
+def _own(x: np.ndarray, y: np.ndarray) -> float:
+    return float(y[int(np.argmin(np.abs(x - 1.0)))])
+
+
+def observed(x: np.ndarray, y: np.ndarray) -> Tuple[Optional[float], float]:
+    """Order by least squares, weighted by 1/h as [Eca2014] do, and the standard deviation that it leaves; of three
+    members the order that meets them. None: the differences do not fall."""
+    orders = np.linspace(0.05, LARGEST_ORDER, 160)
+    left = np.array([fit(x, y, p)[1] for p in orders])
+    best = int(np.argmin(left))
+    low, high = orders[max(best - 1, 0)], orders[min(best + 1, len(orders) - 1)]
+    for _ in range(50):  # golden section
+        a, b = high - 0.618034 * (high - low), low + 0.618034 * (high - low)
+        low, high = (low, b) if fit(x, y, a)[1] < fit(x, y, b)[1] else (a, high)
+    order = 0.5 * (low + high)
+    if order < 0.06:
+        return None, float(left[best])
+    return float(order), fit(x, y, order)[1]
+
+
+def fit(x: np.ndarray, y: np.ndarray, order: float) -> Tuple[np.ndarray, float]:
+    """(y0, a) of y0 + a x^order, and the weighted standard deviation of what is left."""
+    weights = 1.0 / x
+    weights = weights / weights.sum()
+    matrix = np.column_stack([np.ones_like(x), x**order])
+    root = np.sqrt(weights)[:, None]
+    found = np.linalg.lstsq(matrix * root, y * root[:, 0], rcond=None)[0]
+    left = y - matrix @ found
+    freedom = max(len(x) - 3, 1)
+    return found, float(np.sqrt(len(x) * np.sum(weights * left**2) / freedom))

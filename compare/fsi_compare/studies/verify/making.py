@@ -1,0 +1,92 @@
+"""Makes the runs of a family, whatever becomes of single members."""
+
+import shlex
+from dataclasses import replace
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
+
+from ...base.errors import InputError, ProgramError, say_note, say_warning
+from ..running.runner import Runner
+from ..running.study_run import REFUSED, StudyRun
+from .cost import learn
+from .family import Member, Requests
+from .results import FamilyRuns
+
+
+class Maker:
+    """Keeps what became of each member, by driver."""
+
+    def __init__(self, runner: Runner, requests: Requests, dimension: int, quiet: bool) -> None:
+        self.runner, self.requests, self.dimension, self.quiet = runner, requests, dimension, quiet
+        self.families = {driver: FamilyRuns(driver, {}) for driver in requests.methods}
+        self.others: Dict[str, StudyRun] = {}
+        self.notes: List[str] = []
+        self._meshes: Dict[float, str] = {}  # why one cannot be made, by size; empty: it can
+
+    @property
+    def seconds(self) -> float:
+        runs = [run for family in self.families.values() for run in family.runs.values()]
+        return sum(run.seconds for run in [*runs, *self.others.values()])
+
+    def run(self, members: Sequence[Member]) -> None:
+        """Those that are not there yet. Raises InputError where the user's own cannot run."""
+        wanted = [(m, driver) for m in members for driver in self.families if m not in self.families[driver].runs]
+        self._together([pair for pair in wanted if self._has_mesh(pair[0], pair[1])])
+
+    def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
+        runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
+        for (member, driver), run in zip(wanted, runs):
+            self.families[driver].runs[member] = run
+        for (member, driver), run in zip(wanted, runs):
+            if member.is_own and not run.done:
+                key = f"{driver}, as the case says"
+                raise ProgramError(self.requests.facts.path, key, run.message or run.status, "mend the case first")
+
+    def single(self, member: Member, driver: str, settings: Mapping[str, Any]) -> StudyRun:
+        """A run that is no member: with settings of its own."""
+        request = self.requests.of(member, driver)
+        merged = {**request.settings, **settings}
+        run = self.runner.run([replace(request, settings=merged)])[0]
+        self.others[shlex.join([driver, str(run.folder)])] = run
+        return run
+
+    def _has_mesh(self, member: Member, driver: str) -> bool:
+        if member.mesh not in self._meshes:
+            self._meshes[member.mesh] = ""
+            mesh = self.requests.mesh(member)
+            try:
+                self.runner.mesh_file(mesh)
+            except InputError as error:
+                if member.mesh == 1:
+                    raise
+                self._meshes[member.mesh] = str(error)
+                self.note(f"the mesh of size {member.mesh:.3g} cannot be made: {error}")
+        problem = self._meshes[member.mesh]
+        if problem:
+            request = self.requests.of(Member(1.0, member.step, member.looser), driver)
+            place = self.requests.folder / "runs" / "none"
+            self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
+        return not problem
+
+    def begin_again(self, settings: Mapping[str, Any]) -> None:
+        """All members with further entries of the case."""
+        self.requests.settings.update(settings)
+        for family in self.families.values():
+            family.runs.clear()
+
+    def predicted(self, members: Sequence[Member]) -> float:
+        """Seconds of those that are not there yet, by all drivers, from those that are."""
+        found = 0.0
+        for driver, family in self.families.items():
+            costs = learn(family.runs, self.dimension)
+            if costs is not None:
+                found += sum(costs.seconds(m.mesh, m.step) for m in members if m not in family.runs)
+        return found
+
+    def note(self, text: str) -> None:
+        self.notes.append(text)
+        if not self.quiet:
+            say_warning(text)
+
+    def tell(self, text: str) -> None:
+        if not self.quiet:
+            say_note(text)

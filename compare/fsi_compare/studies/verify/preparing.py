@@ -1,0 +1,71 @@
+"""What is settled before a family is run: its members, the samples it is judged by, whether it fits the budget."""
+
+import argparse
+from typing import List, Sequence
+
+from ...base.errors import InputError
+from ..starting.progress import duration
+from .family import CaseFacts, Member, members
+from .making import Maker
+from .mesh_family import Recipe, ratio_for
+from .quantities import curves_of
+from .standard import standard_points
+
+
+def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
+    below = 0 if options.coarser else -1
+    ratio = ratio_for(recipe.counts, [-k for k in range(below, options.levels + below)]) if recipe.coarsens else 2.0
+    if not recipe.coarsens and options.coarser:
+        problem = "a mesh file alone has no coarser ones"
+        raise InputError(facts.path, "mesh.file", problem, 'say how it is made: --mesh "geo SCRIPT.geo"')
+    levels = options.levels if recipe.coarsens else 3
+    return members(recipe, facts, ratio, levels, not options.coarser)
+
+
+def sample(maker: Maker) -> None:
+    """Where the case asks for no samples and has none by itself, standard ones, and says which. Raises InputError where the
+    user's own run fails or has no fields to choose by."""
+    own = Member(1.0, 1.0)
+    maker.run([own])
+    run = next(iter(maker.families.values())).runs[own]
+    if curves_of(run.folder):
+        return
+    points = standard_points(run.folder)
+    if not points:
+        facts = maker.requests.facts
+        raise InputError(
+            facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]"
+        )
+    maker.begin_again(points)
+    places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
+    maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
+
+
+def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
+    """The family, or one without members finer than the case where that does not fit. Raises InputError where neither does."""
+    budget = 60 * options.budget
+    maker.run([member for member in family if member.is_own])
+    if maker.seconds + maker.predicted(family) <= budget:
+        return family
+    requests = maker.requests
+    whole = maker.seconds + maker.predicted(family)
+    if requests.recipe.coarsens and not options.coarser:
+        options.coarser = True
+        cheaper = plan(requests.recipe, requests.facts, options)
+        if maker.seconds + maker.predicted(cheaper) <= budget:
+            maker.note(f"no member is finer than the case: with them the family would take about {duration(whole)}")
+            return cheaper
+        whole = maker.seconds + maker.predicted(cheaper)
+    problem = f"{options.budget:g} min are too short: the cheapest family takes about {duration(whole)}"
+    raise InputError("", "--budget", problem, f"give {whole / 60:.2g} or more, or a coarser case")
+
+
+def tell_mesh(maker: Maker, recipe: Recipe) -> None:
+    """What the family's meshes come from, where nobody has said it."""
+    if recipe.command == "refine":
+        maker.notes.append(
+            f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
+        )
+        return
+    words = [recipe.geo.script.name] if recipe.geo is not None else []
+    maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")

@@ -1,0 +1,213 @@
+"""`verify --error`: from the family to settings that reach a demanded error, and the case file that has them."""
+
+import shutil
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Sequence
+
+from ...base.errors import InputError, printable
+from ..running.study_run import StudyRun
+from ..starting.progress import duration
+from .cost import learn
+from .demand import Settings, cheapest, direction_of, outside, reached, shown_by, tolerance_factor, widest
+from .family import Member, members, with_settings
+from .found_case import write_case
+from .making import Maker
+from .quantities import curves_of
+from .results import Judged, about, judge
+
+FOUND, MESH = "found.toml", "found.msh"
+MOST_MOVES = 6  # of the family's centre
+MOVES_FOR_BARS = 2  # of them for quantities that have no bar; then the others decide
+FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
+
+
+@dataclass
+class Outcome:
+    judged: List[Judged]  # of the last run
+    reached: bool
+    lines: List[str] = field(default_factory=list)  # what to say, in sentences
+    final: Optional[Member] = None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Demand:
+    error: float  # relative to the largest of each curve
+    budget: Optional[float]  # s
+    names: Sequence[str]
+    times: Sequence[float]
+
+
+class Search:
+    """One driver's: what it finds holds for the other, which solves the same equations."""
+
+    def __init__(self, maker: Maker, demand: Demand, ratio: float, levels: int) -> None:
+        self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
+        self.driver = next(iter(maker.families))
+        self.centre = Member(1.0, 1.0)
+
+    def go(self) -> Outcome:
+        """Raises InputError where the user's own run fails or nothing is sampled."""
+        judged = self._family()
+        lines: List[str] = []
+        for move in range(MOST_MOVES):
+            asked = [one for one in judged if one.bar.given]
+            if outside(judged) and (move < MOVES_FOR_BARS or not asked):
+                target: Optional[Member] = self._finer(direction_of(judged))
+            elif reached(asked, self.demand.error):
+                break
+            else:
+                target = self._towards(asked)
+            if target is None or not self._move(target, lines):
+                break
+            judged = self._family()
+        lines += [f"No error can be given of {one.quantity.name}: {one.bar.advice}." for one in outside(judged)]
+        asked = [one for one in judged if one.bar.given]
+        if not asked:
+            return Outcome(judged, False, [*lines, "No quantity has a bar, so that no settings can be found."])
+        if not reached(asked, self.demand.error):
+            demand, far = 100 * self.demand.error, 100 * widest(asked)
+            return Outcome(
+                judged, False, [*lines, f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %."]
+            )
+        found = self._finish(asked)
+        return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
+
+    def _members(self, finer: bool = False) -> List[Member]:
+        requests = self.maker.requests
+        relative = members(
+            requests.recipe, requests.facts, self.ratio, self.levels, finer or not requests.recipe.coarsens
+        )
+        centre = self.centre
+        return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser, m.other) for m in relative]
+
+    def _family(self) -> List[Judged]:
+        self.maker.run(self._members())
+        family = about(self.maker.families[self.driver], self.centre)
+        found = judge(family, family.read(), self.maker.requests.facts, self.demand.times, self.demand.names)
+        if not found:
+            names = " ".join(self.demand.names)
+            raise InputError(
+                self.maker.requests.facts.path,
+                f"--of {names}".strip(),
+                "no quantity to judge",
+                "see bars.csv of a call without --error",
+            )
+        return found
+
+    def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
+        family = about(self.maker.families[self.driver], self.centre)
+        costs = learn(family.runs, self.maker.dimension)
+        requests = self.maker.requests
+        if costs is None:
+            return None
+        return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
+
+    def _finer(self, what: str) -> Member:
+        """The centre moved by one ratio."""
+        mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
+        step = self.centre.step / 2 if what != "mesh" else self.centre.step
+        return Member(_round(mesh), _round(step))
+
+    def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
+        """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST ratios: the
+        family's orders tell little beyond."""
+        best = self._best(asked, self.demand.error)
+        if best is None:
+            return self._finer("both")
+        mesh = max(best.mesh, self.ratio**-FURTHEST)
+        step = max(best.step, 2.0**-FURTHEST)
+        if mesh >= 1 and step >= 1:
+            return None
+        self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
+        return Member(_round(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
+
+    def _words(self, mesh: float, step: float) -> str:
+        return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
+
+    def _move(self, target: Member, lines: List[str]) -> bool:
+        """The family to another centre; False where that does not fit the budget."""
+        costs = learn(about(self.maker.families[self.driver], Member(1.0, 1.0)).runs, self.maker.dimension)
+        before, self.centre = self.centre, target
+        seconds = self.maker.predicted(self._members())
+        memory = f", {costs.memory(target.mesh):.0f} MiB" if costs is not None else ""
+        words = f"{self._words(1, 1)}: about {duration(seconds)}{memory} for the family"
+        if self._fits(seconds):
+            self.maker.tell(f"next, {words}")
+            return True
+        left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
+        lines.append(f"Out of reach: {words}, and {duration(left)} of the budget are left.")
+        self.centre = before
+        return False
+
+    def _fits(self, seconds: float) -> bool:
+        budget = self.demand.budget
+        return budget is None or self.maker.seconds + seconds <= budget
+
+    def _finish(self, asked: Sequence[Judged]) -> Outcome:
+        """The centre, or what is coarser and still good enough, with tolerances that suit the demand."""
+        demand = self.demand.error
+        best = self._best(asked, demand)
+        mesh, step = (max(best.mesh, 1.0), max(best.step, 1.0)) if best is not None else (1.0, 1.0)
+        tolerance = tolerance_factor(asked, demand)
+        outcome = self._run(asked, mesh, step, tolerance)
+        if not outcome.reached and (mesh, step) != (1.0, 1.0):
+            outcome = self._run(asked, 1.0, 1.0, tolerance)
+        if not outcome.reached:
+            outcome = self._run(asked, 1.0, 1.0, 1.0)
+        return outcome
+
+    def _run(self, asked: Sequence[Judged], mesh: float, step: float, tolerance: float) -> Outcome:
+        final = Member(_round(mesh * self.centre.mesh), _round(step * self.centre.step))
+        settings = {} if tolerance == 1 else self.maker.requests.tolerances(f"fsi-{self.driver}", tolerance)
+        run = self.maker.single(final, self.driver, settings)
+        if not run.done:
+            line = f"The run with {self._words(mesh, step)} is missing: {run.status}, {run.message}."
+            return Outcome(list(asked), False, [line])
+        curves = curves_of(run.folder)
+        judged = [
+            shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves
+        ]
+        line = f"{self._words(mesh, step).capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
+        return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
+
+
+def _round(size: float) -> float:
+    return 1.0 if abs(size - 1) < 1e-9 else round(size, 9)
+
+
+def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[str, StudyRun]) -> List[Path]:
+    """`found.toml` with its mesh beside it; none where nothing was found."""
+    if outcome.final is None:
+        return []
+    requests = maker.requests
+    facts = requests.facts
+    settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
+    settings.update(outcome.settings)
+    mesh = maker.runner.mesh_file(requests.mesh(outcome.final))
+    written = [folder / FOUND]
+    entries = with_settings(facts.entries, settings)
+    if mesh is not None:
+        shutil.copyfile(mesh, folder / MESH)
+        entries["mesh"] = {"file": str((requests.folder / MESH).resolve())}
+        written.append(folder / MESH)
+    comments = [
+        f"{printable(str(facts.path))} with the settings that fsi-compare verify has found:",
+        *outcome.lines,
+        *(f"fsi-{name}: {duration(run.seconds) if run.done else run.status}" for name, run in seconds.items()),
+    ]
+    write_case(folder / FOUND, entries, facts.path.parent.resolve(), comments)
+    return written
+
+
+def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
+    """The settings found, run by each."""
+    if outcome.final is None:
+        return {}
+    own = next(iter(maker.families))
+    found = {}
+    for driver in dict.fromkeys([own, *drivers]):
+        settings = outcome.settings if driver == own else {}
+        found[driver] = maker.single(outcome.final, driver, settings)
+    return found

@@ -1,0 +1,138 @@
+"""The error bar of one value at the user's own settings: its parts by mesh, step, their product and the solver, and what
+can be said of it.
+
+    y(h, dt) = y0 + a h^p + b dt^q + c h^p dt^q
+
+a and b come from members that differ in one thing only (direction.py). c comes from members refined in both: of four members
+at the corners of a rectangle y11 - y10 - y01 + y00 = c (1 - h^p) (1 - dt^q), which is how much a difference of meshes changes
+when the step does. The parts are added up, not their squares: nothing says that they are independent.
+"""
+
+from dataclasses import dataclass
+from typing import List, Mapping, Optional, Sequence, Tuple
+
+from .direction import NOTHING, OUTSIDE, WIDENED, Part, by_elements, part_of
+
+CONVERGES, BAR_WIDENED, NOT_IN_RANGE = (
+    "converges as its elements do",
+    "converges, bar widened",
+    "not in the range where an error can be given",
+)
+TOGETHER_FACTOR = 2.0  # on the product's part
+SOLVER_FACTOR = 3.0  # on what a tolerance leaves, whose order in the tolerance is not observed
+LOOSER = 10.0  # by which the tolerances of a member are looser
+SMALL = 0.1  # share of the bar below which a part does not decide the verdict
+NEGLIGIBLE = 1e-3  # of the largest of the curve: so small a part without order widens the bar, and does not forbid it
+DETECTED = 1e-7  # relative to the curve's largest: differences below are round-off
+
+
+@dataclass(frozen=True)
+class Value:
+    """Of one member."""
+
+    mesh: float  # size of elements relative to the user's own
+    step: float  # the same of steps
+    value: float
+    looser: bool = False  # solved with looser tolerances
+    other: bool = False  # by the other element
+
+
+@dataclass(frozen=True)
+class Bar:
+    value: float  # of the user's own member
+    scale: float  # what a relative error is relative to
+    mesh: Part
+    step: Part
+    together: float
+    solver: float
+    verdict: str
+    advice: str  # what to refine; empty: nothing needs it
+    best: float  # estimate of the exact value; the finest member's where nothing is extrapolated
+
+    @property
+    def total(self) -> float:
+        return self.mesh.bar + self.step.bar + self.together + self.solver
+
+    @property
+    def given(self) -> bool:
+        """Whether there is a bar."""
+        return self.verdict != NOT_IN_RANGE
+
+    @property
+    def relative(self) -> float:
+        return self.total / self.scale if self.scale else 0.0
+
+    def at(self, mesh: float, step: float) -> float:
+        """What the bar becomes at other sizes of elements and steps."""
+        both = self.together * mesh**self.mesh.used * step**self.step.used
+        return self.mesh.at(mesh) + self.step.at(step) + both + self.solver
+
+
+def bar_of(
+    values: Sequence[Value], scale: float, space_order: float, time_order: float, element: str = "p2p1"
+) -> Optional[Bar]:
+    """None where the user's own member is missing. `scale`: the largest of the curve that the value is of."""
+    table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
+    own = table.get((1.0, 1.0))
+    if own is None:
+        return None
+    loose = [(v.value, table[v.mesh, v.step]) for v in values if v.looser and (v.mesh, v.step) in table]
+    solver = SOLVER_FACTOR * max((abs(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
+    noise = max(solver, DETECTED * scale)
+    mesh = _along([(m, y) for (m, s), y in table.items() if s == 1.0], space_order, noise)
+    others = [v.value for v in values if v.other and (v.mesh, v.step) == (1.0, 1.0)]
+    if others and (mesh is NOTHING or mesh.lacking):
+        finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
+        mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
+    step = _along([(s, y) for (m, s), y in table.items() if m == 1.0], time_order, noise)
+    together = _together(table, mesh, step, noise)
+    best = own - mesh.error - step.error
+    verdict, advice = _judged(mesh, step, together, solver, NEGLIGIBLE * scale)
+    return Bar(own, scale, mesh, step, together, solver, verdict, advice, best)
+
+
+def _along(points: Sequence[Tuple[float, float]], expected: float, noise: float) -> Part:
+    if len(points) < 2:
+        return NOTHING
+    return part_of([x for x, _ in points], [y for _, y in points], expected, noise)
+
+
+def _together(table: Mapping[Tuple[float, float], float], mesh: Part, step: Part, noise: float) -> float:
+    """Of the members refined in both the finest."""
+    corners = [(m, s) for m, s in table if m != 1.0 and s != 1.0 and (m, 1.0) in table and (1.0, s) in table]
+    if not corners:
+        return 0.0
+    m, s = min(corners, key=lambda corner: corner[0] * corner[1])
+    mixed = abs(table[m, s] - table[m, 1.0] - table[1.0, s] + table[1.0, 1.0])
+    if mixed <= 2 * noise:
+        return 0.0
+    share = abs(1 - m**mesh.used) * abs(1 - s**step.used)
+    return TOGETHER_FACTOR * mixed / max(share, 0.25)
+
+
+def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> Tuple[str, str]:
+    total = mesh.bar + step.bar + together + solver
+    named = (("mesh", mesh), ("step", step))
+    counting = [(name, part) for name, part in named if part.bar > SMALL * total]
+    outside = [name for name, part in counting if part.state == OUTSIDE and part.bar > negligible]
+    if outside:
+        return NOT_IN_RANGE, _advice(outside, [name for name, part in counting if part.lacking])
+    if together > mesh.bar + step.bar + solver and together > negligible:
+        return NOT_IN_RANGE, _advice(["mesh", "step"])
+    widened = any(part.state in (WIDENED, OUTSIDE) for _, part in counting) or together > 0.5 * (mesh.bar + step.bar)
+    return (BAR_WIDENED if widened else CONVERGES), ""
+
+
+def _advice(what: Sequence[str], lacking: Sequence[str] = ()) -> str:
+    if lacking:
+        return " and ".join(
+            {"mesh": "a third mesh is missing", "step": "a third step is missing"}[name] for name in lacking
+        )
+    words: List[str] = [{"mesh": "refine the mesh", "step": "shorten the step"}[name] for name in what]
+    return " and ".join(words) + (", both together" if len(words) > 1 else "")
+
+
+def dominating(bar: Bar) -> str:
+    """What refinement would gain most: "mesh", "step" or "solver"."""
+    parts = {"mesh": bar.mesh.bar, "step": bar.step.bar, "solver": bar.solver}
+    return max(parts, key=lambda name: parts[name])

@@ -1,0 +1,114 @@
+"""Stand in for fsi-mesh and both drivers in tests of `fsi-compare verify`: answer at once, with errors that are known.
+
+A mesh is a file with the size of its elements, from `--set size=` or `--set cells=` of a script, or half of that of the file
+that `refine` is given. A run has one point, whose values are
+
+    displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
+
+where the monolithic driver's tolerance adds 1e-3 of itself. `behaviour.json` beside the programs:
+  "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
+  "swing"     true: the displacement swings from mesh to mesh
+  "nothing"   true: no samples
+Each call adds its command line to `calls.txt`.
+"""
+
+import json
+import math
+import sys
+import tomllib
+from pathlib import Path
+
+import fake_monolithic
+
+A, B, SIZE, STEP = 0.02, 0.01, 1.0, 0.5
+
+
+def install(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("fsi-mesh", "fsi-monolithic", "fsi-partitioned"):
+        fake_monolithic.install(folder, name, "fake_family")
+    return folder
+
+
+def behave(folder, **behaviour):
+    (folder / "behaviour.json").write_text(json.dumps(behaviour))
+
+
+def calls(folder):
+    file = folder / "calls.txt"
+    return file.read_text().splitlines() if file.exists() else []
+
+
+def settings(words):
+    pairs = [words[i + 1] for i, word in enumerate(words) if word == "--set"]
+    return dict(pair.split("=", 1) for pair in pairs)
+
+
+def main(words):
+    program = Path(words[0])
+    home = program.parent
+    if words[1] == "--version":
+        print(f"{program.name} 0.1.0")
+        return 0
+    if words[1] == "--help":
+        print("  --linear-systems STEP:IT,...")
+        return 0
+    file = home / "behaviour.json"
+    behaviour = json.loads(file.read_text()) if file.exists() else {}
+    line = " ".join(words)
+    with open(home / "calls.txt", "a") as log:
+        log.write(line + "\n")
+    for word, (code, message) in behaviour.get("end", {}).items():
+        if word in line:
+            print(f"{program.name}: error: {message}", file=sys.stderr)
+            return code
+    place = Path(words[words.index("-o") + 1])
+    if program.name == "fsi-mesh":
+        place.write_text(repr(mesh_size(words)))
+    else:
+        run(words, place, program.name, behaviour)
+    return 0
+
+
+def mesh_size(words):
+    if words[1] == "refine":
+        return float(Path(words[2]).read_text()) / 2 ** int(words[words.index("--times") + 1])
+    given = settings(words)
+    if "size" in given:
+        return float(given["size"])
+    return 8 / float(given.get("cells", given.get("media", 4)))  # 4: of the scene ring-in-time
+
+
+def run(words, place, name, behaviour):
+    case = Path(words[1])
+    entries = tomllib.loads(case.read_text())
+    given = settings(words)
+    h = float((case.parent / given.get("mesh.file", entries["mesh"]["file"])).read_text()) / SIZE
+    step = float(given.get("time.step", entries["time"]["step"]))
+    end = float(given.get("time.end", entries["time"]["end"]))
+    tolerance = float(given.get("monolithic.newton_tolerance", 1e-3)) if name == "fsi-monolithic" else 0.0
+    sign = (-1) ** round(math.log2(h) * 2) if behaviour.get("swing") else 1
+    factor = 1 + sign * A * h**3 + B * (step / STEP) ** 2 + 1e-3 * tolerance
+    steps = round(end / step)
+    times = [(n + 1) * step for n in range(steps)]
+    place.mkdir(parents=True, exist_ok=True)
+    if not behaviour.get("nothing"):
+        rows = [f"{t!r},tip,0,0,0,{factor * math.sin(t / 4)!r},{100 + 10 * h**2!r}" for t in times]
+        head = "time_ms,point,x_mm,y_mm,z_mm,displacement_x_mm,pressure_Pa"
+        (place / "points.csv").write_text("\n".join([head, *rows]) + "\n")
+    rows = [f"{n + 1},{t!r},1,3,9,0.01" for n, t in enumerate(times)]
+    head = "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s"
+    (place / "iterations.csv").write_text("\n".join([head, *rows]) + "\n")
+    cells = round(1e4 / h**2)
+    summary = {
+        "program": name,
+        "version": "0.1.0",
+        "title": "A tube",
+        "status": "done",
+        "case": str(case),
+        "case_hash": "0123",
+        "peak_memory_MiB": 50 + 10 / h**2,
+        "mesh": {"name": "mesh", "nodes": cells // 2, "triangles": cells, "hash": f"{h:.6g}"},
+        "totals": {"steps": steps, "wall_s": 0.01 * steps},
+    }
+    (place / "summary.json").write_text(json.dumps(summary))

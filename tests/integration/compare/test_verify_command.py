@@ -1,0 +1,241 @@
+"""`fsi-compare verify` with programs whose errors are known."""
+
+import json
+import tomllib
+import unittest
+import unittest.mock
+from pathlib import Path
+
+from fake_family import A, B, SIZE, STEP, behave, calls, install
+from folder_case import FolderCase
+
+GEO = """\
+DefineConstant[ size = 1.0, wall = 0.3 ];
+Point(1) = {0, 0, 0, size};
+"""
+CASE = """\
+title = "A tube"
+element = "p2p1"
+geometry = "plane"
+[mesh]
+file = "tube.msh"
+[time]
+step = 0.5
+end = 8.0
+[output.points]
+tip = [0, 0, 0]
+"""
+
+
+class VerifyCase(FolderCase):
+    pictures = False  # they take longer than all else
+
+    def setUp(self):
+        super().setUp()
+        self.programs = install(self.base / "bin")
+        self.geo = self.base / "shape.geo"
+        self.geo.write_text(GEO)
+        self.case = self.base / "tube.toml"
+        self.case.write_text(CASE)
+        if not self.pictures:
+            figure = unittest.mock.patch("fsi_compare.reporting.report.Report.figure")
+            figure.start()
+            self.addCleanup(figure.stop)
+
+    def verify(self, *words, mesh=True):
+        named = ["--mesh", f"geo {self.geo}"] if mesh else []
+        programs = [f"--{n}={self.programs / ('fsi-' + n)}" for n in ("monolithic", "partitioned")]
+        return self.call("verify", self.case, "-o", self.out, *programs, *named, *words)
+
+    def bars(self):
+        return {row["quantity"]: row for row in self.csv("bars.csv")}
+
+
+class Verified(unittest.TestCase):
+    """One verification, looked at from all sides."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.case = case = VerifyCase()
+        case.pictures = True
+        case.setUp()
+        cls.addClassCleanup(case.doCleanups)
+        cls.code, cls.text, cls.err = case.verify("--drivers", "monolithic,partitioned", "--times", "2,3")
+        cls.bars, cls.members = case.bars(), case.csv("members.csv")
+
+    def test_bars_hold_the_errors_and_their_orders_are_observed(self):
+        self.assertEqual(self.code, 0, self.err)
+        row = self.bars["tip: displacement x, at the end"]
+        self.assertEqual(row["verdict"], "converges as its elements do")
+        self.assertAlmostEqual(float(row["order_mesh"]), 3, delta=0.05)
+        self.assertAlmostEqual(float(row["order_step"]), 2, delta=0.05)
+        value = abs(float(row["value"]))
+        self.assertTrue(A * value * 0.9 <= float(row["error_mesh"]) <= 2.1 * A * value)
+        self.assertTrue(B * value * 0.9 <= float(row["error_step"]) <= 2.1 * B * value)
+        pressure = self.bars["tip: pressure, at the end"]
+        self.assertTrue(10 <= float(pressure["error"]) <= 20.1)
+        self.assertAlmostEqual(float(pressure["estimate_of_exact"]), 100, delta=0.1)
+        self.assertIn("tip: displacement x, largest", self.text)
+
+    def test_has_the_members_that_are_promised(self):
+        members = {(round(float(r["mesh"]), 3), float(r["step"])) for r in self.members}
+        self.assertEqual(members, {(1.5, 1), (1, 1), (0.667, 1), (1, 2), (1, 0.5), (0.667, 0.5)})
+        self.assertEqual(sum(r["member"] == "looser" for r in self.members), 2)
+        self.assertEqual({row["driver"] for row in self.case.csv("bars.csv")}, {"monolithic", "partitioned"})
+
+    def test_solver_has_a_part_where_its_tolerance_shows(self):
+        rows = {row["driver"]: row for row in self.case.csv("bars.csv") if "x, largest" in row["quantity"]}
+        self.assertGreater(float(rows["monolithic"]["error_solver"]), 0)
+        self.assertEqual(float(rows["partitioned"]["error_solver"]), 0)
+
+    def test_times_that_are_asked_for(self):
+        self.assertIn("tip: displacement x, at 2 ms", self.bars)
+
+    def test_writes_all_forms(self):
+        page = (self.case.out / "report.html").read_text()
+        self.assertIn("tip: displacement x", page)
+        self.assertTrue((self.case.out / "waves_1.svg").exists())
+        data = json.loads((self.case.out / "verification.json").read_text())
+        self.assertEqual(data["own"]["monolithic"]["mesh_hash"], "1")
+        self.assertEqual(len(data["quantities"]), len(self.case.csv("bars.csv")))
+
+    def test_goes_on_where_it_stopped(self):
+        first = len(calls(self.case.programs))
+        lost = next(self.case.out.glob("runs/tube-monolithic-*"))
+        (lost / "study_run.json").unlink()  # as a call that was killed leaves it
+        self.case.verify("--drivers", "monolithic,partitioned", "--of", "displacement")
+        self.assertTrue(all("displacement" in name for name in self.case.bars()))
+        again = [line for line in calls(self.case.programs)[first:] if "fsi-monolithic" in line]
+        self.assertEqual(len(again), 1, again)
+        self.assertFalse(any("fsi-mesh" in line for line in calls(self.case.programs)[first:]))
+
+    def test_name_that_no_quantity_has(self):
+        code, _, err = self.case.verify("--drivers", "monolithic,partitioned", "--of", "vorticity")
+        self.assertEqual(code, 1)
+        self.assertIn("--of vorticity", err)
+
+    def test_bars_stand_beside_the_run_in_its_report(self):
+        runs = {r["member"]: self.case.out / "runs" / r["folder"] for r in self.members if r["driver"] == "monolithic"}
+        code, _, err = self.case.call("report", runs["own"], runs["step 2"], "-o", self.case.base / "report")
+        self.assertEqual(code, 0, err)
+        text = (self.case.base / "report" / "report.md").read_text()
+        self.assertIn("tip: displacement x, at the end", text)
+        self.assertEqual(text.count("is unknown. `fsi-compare verify"), 1)
+
+
+class OtherFamilies(VerifyCase):
+    def test_counts_of_cells_are_multiplied(self):
+        self.geo.write_text("DefineConstant[ cells = 8 ];\nTransfinite Curve{1} = cells + 1;\n")
+        code, _, err = self.verify("--list")
+        self.assertEqual(code, 0, err)
+        from fsi_compare.studies.verify.geo_sizes import read_sizes
+
+        self.assertEqual(read_sizes(self.geo).settings(2.0, {}), {"cells": 16})
+
+    def test_mesh_file_is_refined(self):
+        (self.base / "tube.msh").write_text("1.0")
+        code, _, err = self.verify("--coarser", mesh=False)
+        self.assertEqual(code, 1)
+        code, _, err = self.verify(mesh=False)
+        self.assertEqual(code, 0, err)
+        self.assertEqual(sorted({float(r["mesh"]) for r in self.csv("members.csv")}), [0.25, 0.5, 1])
+
+    def test_list_runs_nothing(self):
+        code, out, _ = self.verify("--list")
+        self.assertEqual(code, 0)
+        self.assertIn("monolithic: mesh 1.5", out)
+        self.assertEqual(calls(self.programs), [])
+
+
+class DemandedError(VerifyCase):
+    def test_reaches_it_and_leaves_a_case_that_runs(self):
+        code, out, err = self.verify("--error", "2%", "--of", "displacement", "--drivers", "monolithic,partitioned")
+        self.assertEqual(code, 0, err)
+        self.assertTrue(all(float(row["error_percent"]) <= 2 for row in self.csv("bars.csv")))
+        self.assertIn("fsi-partitioned with these settings", out)
+        found = tomllib.loads((self.out / "found.toml").read_text())
+        step, size = found["time"]["step"], float(Path(found["mesh"]["file"]).read_text())
+        self.assertLess(A * size**3 + B * (step / STEP) ** 2, 0.02)
+        self.assertTrue(step < STEP or size < SIZE)
+        family = [line for line in calls(self.programs) if "fsi-partitioned" in line]
+        self.assertEqual(len(family), 1)  # the family is one driver's
+
+    def test_out_of_reach_of_the_budget(self):
+        code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.05")
+        self.assertEqual(code, 2)
+        self.assertIn("ut of reach", out)
+        self.assertIn("of the budget are left", out)
+        self.assertFalse((self.out / "found.toml").exists())
+
+
+class Trouble(VerifyCase):
+    def one_line(self, code, err, *words):
+        self.assertEqual(code, 1)
+        self.assertEqual(len([line for line in err.splitlines() if "error:" in line]), 1, err)
+        for word in words:
+            self.assertIn(word, err)
+
+    def test_member_that_fails_leaves_the_others(self):
+        behave(self.programs, end={"time.step=0.25": [2, "step 3: no convergence"]})
+        code, _, err = self.verify()
+        self.assertEqual(code, 2)
+        row = self.bars()["tip: pressure, at the end"]
+        self.assertEqual(row["verdict"], "converges as its elements do")
+        bad = self.bars()["tip: displacement x, at the end"]
+        self.assertTrue(bad["verdict"].startswith("not in the range"))
+        self.assertEqual(bad["error"], "")
+        self.assertIn("no convergence", (self.out / "report.md").read_text())
+
+    def test_swings_get_no_bar(self):
+        behave(self.programs, swing=True)
+        self.verify()
+        row = self.bars()["tip: displacement x, at the end"]
+        self.assertNotEqual(row["verdict"], "converges as its elements do")
+
+    def test_own_run_that_fails(self):
+        behave(self.programs, end={"fsi-monolithic": [2, "step 1: no convergence"]})
+        code, _, err = self.verify()
+        self.one_line(code, err, "no convergence", "mend the case first")
+
+    def test_script_without_sizes(self):
+        self.geo.write_text("Point(1) = {0, 0, 0, 0.5};\n")
+        code, _, err = self.verify()
+        self.one_line(code, err, "DefineConstant", "no constant that says how fine")
+        self.assertFalse(self.out.exists())
+
+    def test_mesh_that_cannot_be_refined(self):
+        (self.base / "tube.msh").write_text("1.0")
+        behave(self.programs, end={"refine": [1, "a cell would fold"]})
+        code, _, err = self.verify(mesh=False)
+        self.assertEqual(code, 2)
+        self.assertIn("a cell would fold", err)
+
+    def test_missing_mesh(self):
+        code, _, err = self.verify(mesh=False)
+        self.one_line(code, err, "mesh.file", "--mesh")
+
+    def test_nothing_sampled(self):
+        behave(self.programs, nothing=True)
+        code, _, err = self.verify()
+        self.one_line(code, err, "samples nothing", "output.points")
+
+    def test_budget_that_is_too_small(self):
+        code, _, err = self.verify("--budget", "0.00001")
+        self.one_line(code, err, "--budget", "too short", "takes about")
+
+    def test_wrong_words(self):
+        for words, said in (
+            (("--drivers", "explicit"), "no driver"),
+            (("--levels", "2"), "--levels"),
+            (("--budget", "-1"), "--budget"),
+            (("--error", "200%"), "--error"),
+        ):
+            code, _, err = self.verify(*words)
+            self.one_line(code, err, said)
+        self.case.write_text('title = "no time"\n')
+        code, _, err = self.verify()
+        self.one_line(code, err, "time", "is missing")
+
+
+if __name__ == "__main__":
+    unittest.main()

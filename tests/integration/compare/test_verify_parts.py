@@ -1,0 +1,227 @@
+"""Parts of `fsi-compare verify`: quantities of curves, scripts and words of meshes, costs, demands, case files."""
+
+import math
+import tomllib
+import types
+import unittest
+import unittest.mock
+from pathlib import Path
+
+import numpy as np
+from folder_case import FolderCase
+
+from fsi_compare.base.errors import InputError
+from fsi_compare.studies.verify import standard
+from fsi_compare.studies.verify.cost import Costs, learn
+from fsi_compare.studies.verify.demand import cheapest, shown_by, tolerance_factor
+from fsi_compare.studies.verify.family import Member, read_case, with_settings
+from fsi_compare.studies.verify.found_case import write_case
+from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
+from fsi_compare.studies.verify.mesh_family import RECOMMENDED, _artery_words, ratio_for
+from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
+from fsi_compare.studies.verify.results import Judged, about
+from fsi_compare.studies.verify.verdict import Value, bar_of
+
+
+def curve(of, step=0.1, end=10.0, name="tip: displacement x"):
+    times = np.arange(1, round(end / step) + 1) * step
+    return Curve(name, "mm", times, np.array([[of(t)] for t in times]), np.zeros(1))
+
+
+def values(one, **asked):
+    return {q.name.partition(", ")[2]: q.of(one) for q in quantities_of({one.name: one}, Asked(**asked))}
+
+
+class Quantities(unittest.TestCase):
+    def test_of_a_sine_over_two_periods(self):
+        found = values(curve(lambda t: 3 + 2 * math.sin(2 * math.pi * t / 5)), period=5.0, times=(2.5,))
+        self.assertAlmostEqual(found["largest"], 5, delta=1e-4)
+        self.assertNotIn("smallest", found)  # it is positive
+        self.assertAlmostEqual(found["at the end"], 3, places=9)
+        self.assertAlmostEqual(found["at 2.5 ms"], 3, places=9)
+        self.assertAlmostEqual(found["mean of the last period"], 3, places=9)
+        self.assertAlmostEqual(found["swing of the last period"], 2, delta=1e-4)
+        self.assertAlmostEqual(found["L2 norm"], math.sqrt(9 + 2), delta=0.02)
+
+    def test_extreme_between_levels_does_not_jump_with_the_step(self):
+        exact = [peak(t, np.sin(t)) for t in (np.arange(1, 40) * h for h in (0.2, 0.1, 0.05))]
+        for found, h in zip(exact, (0.2, 0.1, 0.05)):
+            self.assertAlmostEqual(found, 1, delta=h**3)
+
+    def test_static_case_has_its_end_only(self):
+        self.assertEqual(list(values(curve(lambda t: t), static=True)), ["at the end"])
+
+    def test_zeros_are_no_quantities(self):
+        zero, big = curve(lambda t: 1e-7, name="rim: displacement x"), curve(lambda t: 1.0)
+        names = [q.curve for q in quantities_of({zero.name: zero, big.name: big}, Asked())]
+        self.assertNotIn("rim: displacement x", names)
+
+    def test_norm_along_a_line_of_uneven_points(self):
+        line = Curve("wall: radial", "mm", np.array([1.0]), np.array([[2.0, 2.0, 2.0]]), np.array([0.0, 1.0, 4.0]))
+        self.assertAlmostEqual(values(line)["L2 norm at the end"], 2)
+
+    def test_order_of_what_is_made_of_gradients(self):
+        for name, lower in (("a: pressure", True), ("a: velocity z", False), ("a: force x", True), ("p: flow", False)):
+            self.assertEqual(curve(abs, name=name).is_pressure, lower)
+
+
+class Scripts(FolderCase):
+    def script(self, text):
+        path = self.base / "shape.geo"
+        path.write_text(text)
+        return path
+
+    def test_sizes_and_counts_are_told_apart(self):
+        text = """// sizes: wall in a comment
+        DefineConstant[ size = 0.4, fine = {0.1, Name "finest"}, wall = 0.3, across = 6, along = 20 ];
+        Point(1) = {0, wall, 0, 0.6 * size};
+        Mesh.MeshSizeMin = fine;
+        Transfinite Curve{1} = across + 1 Using Progression 0.8;
+        f[] = Extrude { 0, 50, 0 } { Curve{1}; Layers{along}; };
+        """
+        found = read_sizes(self.script(text))
+        self.assertEqual(found.sizes, {"size": 0.4, "fine": 0.1})
+        self.assertEqual(found.counts, {"across": 6, "along": 20})
+        self.assertEqual(found.settings(2.0, {"across": 8}), {"size": 0.2, "fine": 0.05, "across": 16, "along": 40})
+
+    def test_grading_keeps_its_shape(self):
+        """n cells of ratio q and 2 n of ratio q^(1/2) have the same first to last."""
+        path = self.script("DefineConstant[ n = 6 ];\nTransfinite Curve{1} = n + 1 Using Progression 0.8;\n")
+        self.assertTrue(read_sizes(path).graded)
+        text, changed = graded_text(path, 2.0)
+        self.assertTrue(changed)
+        self.assertIn(f"Progression {0.8**0.5:.12g}", text)
+
+    def test_what_cannot_be_refined_is_refused(self):
+        for text, said in (
+            ("DefineConstant[ wall = 0.3 ];\n", "no constant"),
+            ("DefineConstant[ n = 3 ];\nMesh.MeshSizeMax = n;\nTransfinite Curve{1} = n;\n", "both a size and a count"),
+            (
+                'DefineConstant[ n = 3 ];\nMerge "a.step";\nTransfinite Curve{1} = n Using Progression 1.1;\n',
+                "other files",
+            ),
+        ):
+            with self.assertRaisesRegex(InputError, said):
+                read_sizes(self.script(text))
+
+
+class MeshWords(unittest.TestCase):
+    def test_artery_by_numbers_sizes_and_level(self):
+        words = _artery_words(("--lumen-cells", "4", "--axial-cells=24", "--order", "2"), 1.5)
+        self.assertEqual(words, ["--order", "2", "--lumen-cells", "6", "--axial-cells", "36"])
+        self.assertEqual(_artery_words(("--size", "0.5"), 2.0), ["--size", "0.25"])
+        self.assertEqual(_artery_words(("--level", "coarse"), 2.0), ["--size", "0.375", "--axial-size", "0.39"])
+
+    def test_numbers_of_a_recommended_mesh(self):
+        said = "p2p1: cells through lumen 4 (graded 2 to the wall), media 1, adventitia 1, along the axis 24 (graded 8 to the inlet)"
+        self.assertEqual(RECOMMENDED.search(said).groups(), ("4", "2", "1", "1", None, "24", "8"))
+
+    def test_ratio_leaves_numbers_whole(self):
+        self.assertEqual(ratio_for([16, 4], [1, -1]), 2.0)
+        self.assertEqual(ratio_for([6, 12], [1, -1]), 1.5)
+        self.assertEqual(ratio_for([], [1, -1]), 1.5)
+
+
+def run(nodes, seconds, memory=100.0, done=True):
+    summary = {"mesh": {"nodes": nodes, "triangles": 2 * nodes}, "peak_memory_MiB": memory}
+    return types.SimpleNamespace(done=done, seconds=seconds, summary=summary)
+
+
+def judged(a, b, scale=1.0, name="tip: displacement x, largest"):
+    family = ((2, 1), (1, 1), (0.5, 1), (1, 2), (1, 0.5))
+    data = tuple(Value(h, s, 1 + a * h**2 + b * s**2) for h, s in family)
+    quantity = types.SimpleNamespace(name=name, curve="tip: displacement x", scale=scale)
+    return Judged("monolithic", quantity, bar_of(data, scale, 2, 2), data)
+
+
+class Demands(unittest.TestCase):
+    COSTS = Costs(10.0, 3.0, 100.0, 2.0, 1.0)
+
+    def test_costs_follow_the_members(self):
+        runs = {Member(1.0, 1.0): run(1000, 10.0), Member(2.0, 1.0): run(250, 1.25), Member(1.0, 0.5): run(1000, 20.0)}
+        costs = learn(runs, 2)
+        self.assertAlmostEqual(costs.power, 3)
+        self.assertAlmostEqual(costs.seconds(0.5, 0.5), 160, delta=1)
+        self.assertIsNone(learn({Member(1.0, 1.0): run(1, 1.0, done=False)}, 2))
+
+    def test_refines_what_dominates(self):
+        of_mesh = cheapest([judged(0.1, 0.001)], self.COSTS, 0.05, 2.0, False, True)
+        self.assertLess(of_mesh.mesh, 1)
+        self.assertGreaterEqual(of_mesh.step, 1)
+        of_step = cheapest([judged(0.001, 0.1)], self.COSTS, 0.05, 2.0, False, True)
+        self.assertLess(of_step.step, 1)
+        self.assertGreaterEqual(of_step.mesh, 1)
+
+    def test_coarser_where_the_case_is_better_than_asked(self):
+        found = cheapest([judged(0.001, 0.001)], self.COSTS, 0.1, 2.0, False, True)
+        self.assertTrue(found.mesh > 1 and found.step > 1)
+        self.assertEqual(cheapest([judged(0.001, 0.001)], self.COSTS, 0.1, 2.0, False, False).mesh, 1)
+
+    def test_bar_of_another_run_counts_its_distance(self):
+        one = judged(0.1, 0.02)
+        self.assertAlmostEqual(shown_by(one, one.bar.value + 0.3).bar.total, one.bar.total + 0.3)
+
+    def test_solver_gets_a_tenth(self):
+        loose = bar_of([*judged(0.1, 0.0).values, Value(1, 1, 1.1 + 0.03, True)], 1.0, 2, 2)
+        one = Judged("monolithic", judged(0.1, 0.0).quantity, loose, ())
+        self.assertAlmostEqual(tolerance_factor([one], 0.02) * loose.solver, 0.1 * 0.02)
+        self.assertEqual(tolerance_factor([judged(0.1, 0.0)], 0.02), 10.0)
+
+    def test_family_about_another_member(self):
+        family = types.SimpleNamespace(driver="monolithic", runs={Member(0.5, 0.25): 1, Member(1.0, 0.25, True): 2})
+        self.assertEqual(set(about(family, Member(0.5, 0.25)).runs), {Member(1.0, 1.0), Member(2.0, 1.0, True)})
+
+
+class CaseFiles(FolderCase):
+    TEXT = """\
+title = "A \\"tube\\""
+[mesh]
+file = "tube.msh"
+[structure.layers.media]
+c10 = 3.0
+[[opening]]
+surface = "inlet"
+flow_rate = { file = "beat.csv" }
+[[opening]]
+surface = "outlet"
+pressure = [[0.0, 0.0], [1.0, 2.0]]
+[time]
+step = 0.5
+end = 2
+[output.points]
+tip = [0, 1, 2]
+"""
+
+    def test_comes_back_as_it_went_with_full_names(self):
+        entries = tomllib.loads(self.TEXT)
+        write_case(self.base / "found.toml", with_settings(entries, {"time.step": 0.25}), self.base, ["note"])
+        found = tomllib.loads((self.base / "found.toml").read_text())
+        entries["time"]["step"] = 0.25
+        entries["mesh"]["file"] = str((self.base / "tube.msh").resolve())
+        entries["opening"][0]["flow_rate"]["file"] = str((self.base / "beat.csv").resolve())
+        self.assertEqual(found, entries)
+
+    def test_facts_of_a_case(self):
+        path = self.base / "case.toml"
+        path.write_text(self.TEXT.replace("step = 0.5", 'step = "adaptive"\nscheme = "euler"\ntolerance = 0.02'))
+        facts = read_case(path)
+        self.assertTrue(facts.adaptive)
+        self.assertEqual((facts.step, facts.time_order, facts.space_order(True)), (0.02, 1.0, 2.0))
+        self.assertEqual(read_case(path, {"time.scheme": "bdf2"}).time_order, 2.0)
+
+
+class StandardPoints(unittest.TestCase):
+    def test_lies_where_most_happens(self):
+        wall = types.SimpleNamespace(
+            names=["displacement"],
+            cells=np.array([[0, 1, 2], [1, 2, 3]]),
+            points=np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0], [3, 3, 0]]),
+            times_of=lambda field: np.array([1.0]),
+            at=lambda time, field: np.array([[0.0, 0, 0], [0, 0, 1], [0, 0, 1], [0, 0, 5]]),
+        )
+        with unittest.mock.patch.object(standard, "read_fields", lambda folder: {"wall": wall}):
+            self.assertEqual(standard.standard_points(Path(".")), {"output.points.wall_most": [2.0, 2.0, 0.0]})
+
+
+if __name__ == "__main__":
+    unittest.main()
