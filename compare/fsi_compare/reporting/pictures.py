@@ -18,6 +18,7 @@ from ..base.files import replacing
 from ..runs.pressure_waves import PressureWaves
 
 DPI = 200
+PICTURE_DPI = 150
 LONGEST_TEXT = 500  # characters of a heading or a label: what is longer would make a picture of its own
 PANEL_INCHES = (3.7, 2.15)
 
@@ -73,16 +74,27 @@ def write_pressure_waves(
 def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
     """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
     paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
+    _save(paths, draw, DPI)
+    return paths
+
+
+def write_picture(folder: Path, stem: str, draw: Callable[[], Figure]) -> Path:
+    """Writes `stem.png` alone: of what is made of pixels."""
+    _save([folder / f"{stem}.png"], draw, PICTURE_DPI)
+    return folder / f"{stem}.png"
+
+
+def _save(paths: Sequence[Path], draw: Callable[[], Figure], dpi: int) -> None:
     with matplotlib.rc_context(), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
         interruption.check()
         figure = draw()
-        for path, metadata in zip(paths, ({"Software": None}, {"Date": None, "Creator": None})):
+        for path in paths:
+            metadata = {"Date": None, "Creator": None} if path.suffix == ".svg" else {"Software": None}
             with replacing(path) as temporary:
-                figure.savefig(temporary, dpi=DPI, format=path.suffix[1:], metadata=metadata)
-    return paths
+                figure.savefig(temporary, dpi=dpi, format=path.suffix[1:], metadata=metadata)
 
 
 def pressure_figure(

@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 
 from ..base.files import replacing
 from .layout import Table
-from .pictures import write_figure
+from .pictures import write_figure, write_picture
 from .player import Player
+from .scene import ReportScene
 from .templating import render
+from .vessel_library import library
 
 
 class Report:
@@ -66,13 +68,25 @@ class Report:
         how to get them."""
         self._add("player", **player.values())
 
+    def scene(self, scene: ReportScene, stills: Sequence[Tuple[str, Callable[[], Figure], str]]) -> None:
+        """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for browsers without
+        JavaScript or WebGL."""
+        self._add("scene", library=library(), **scene.values())
+        shown = []
+        for stem, draw, caption in stills:
+            png = write_picture(self.folder, stem, draw)
+            self.written.append(png)
+            shown.append({"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")})
+        self._add("stills", images=shown)
+
     def image(self, png: Path, caption: str) -> None:
         self._add("image", caption=caption, name=png.name, data=base64.b64encode(png.read_bytes()).decode("ascii"))
 
     def write(self) -> Path:
         """Writes `report.md` and `report.html`; the latter's path."""
         plays = any(kind == "player" for kind, _ in self._blocks)
-        values = {"title": self.title, "sections": self._sections, "blocks": self._blocks, "plays": plays}
+        shows = any(kind == "scene" for kind, _ in self._blocks)
+        values = {"title": self.title, "sections": self._sections, "blocks": self._blocks, "plays": plays, "shows": shows}
         for name in ("report.md", "report.html"):
             with replacing(self.folder / name) as temporary:
                 temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")

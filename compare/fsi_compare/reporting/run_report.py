@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual, positive
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
@@ -49,6 +49,8 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
     command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
     command.add_argument("--title", help="heading of the report (default: the runs' title)")
+    text = "times at which the vessel is shown (default: up to 100, fewer of large meshes)"
+    command.add_argument("--frames", metavar="N", type=positive("--frames"), help=text)
     add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
@@ -68,10 +70,14 @@ def report(options: argparse.Namespace) -> int:
         load_matplotlib()
         from .report import Report
         from .run_player import add_waves
+        from .vessel import add_vessel, vessel_of
 
+        vessel = vessel_of(runs, labels)
         page = Report(place, title)
         page.section("Runs")
         page.table(runs_table(runs, labels))
+        page.section("The vessel")
+        add_vessel(page, runs, labels, vessel, options.frames)
         page.section("Through time")
         add_waves(page, runs, labels, times)
         if len(runs) > 1:

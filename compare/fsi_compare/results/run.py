@@ -16,6 +16,7 @@ from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
 from .line import Line, line_of, lines_of
 from .openings import Opening, inlet_and_outlet, openings_of
+from .surfaces import Surface, Surfaces
 from .table import Table, read_table
 
 NOT_WRITTEN = "ask for it in the case, or see summary.json for why it is not there"
@@ -165,6 +166,17 @@ class RunResults:
     def fields(self) -> Dict[str, MediumFields]:
         """By medium, 'fluid' and 'wall'; empty when the run has written none. Values are read when they are asked for."""
         return read_fields(self.folder)
+
+    def surface(self, name: str) -> Surface:
+        """Points, triangles (edges of a two-dimensional mesh) and fields over time of the 'interface', the 'lumen' (all of
+        the fluid's boundary but its openings), the 'openings' or one by its name, the wall's 'inner' and 'outer' side, or a
+        two-dimensional 'fluid section', 'wall section'. Raises InputError for one that is not there."""
+        return self.meshes.get(name)
+
+    @cached_property
+    def meshes(self) -> Surfaces:
+        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields."""
+        return Surfaces(self.folder, self.fields, self.openings, str(self.summary.get("geometry", "3d")))
 
 
 def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> RunResults:
