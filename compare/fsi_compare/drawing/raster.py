@@ -27,7 +27,12 @@ class Mesh:
 
 
 def rendered(
-    meshes: Sequence[Mesh], camera: Camera, width: int, height: int, colours: np.ndarray, fit: Optional[np.ndarray] = None
+    meshes: Sequence[Mesh],
+    camera: Camera,
+    width: int,
+    height: int,
+    colours: np.ndarray,
+    fit: Optional[np.ndarray] = None,
 ) -> Tuple[np.ndarray, float]:
     """Red, green, blue of 0 to 255, (height, width, 3), and the pixels for each mm. `colours` (256, 3). The picture holds all
     points, or those of `fit` (points, 3)."""

@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -46,6 +46,13 @@ MARKED_LINES = (
     {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
 )
 
+# Nothing of the day or the version of a program: the same data give the same file.
+METADATA: Dict[str, Dict[str, None]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+
 # Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
 STYLE = {
     "font.family": ["DejaVu Sans", "sans-serif"],
@@ -80,8 +87,13 @@ def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Pa
 
 def write_picture(folder: Path, stem: str, draw: Callable[[], Figure]) -> Path:
     """Writes `stem.png` alone: of what is made of pixels."""
-    _save([folder / f"{stem}.png"], draw, PICTURE_DPI)
-    return folder / f"{stem}.png"
+    return write_plot(folder / f"{stem}.png", draw)
+
+
+def write_plot(path: Path, draw: Callable[[], Figure]) -> Path:
+    """In the format that the file's name ends with: .png, .svg or .pdf."""
+    _save([path], draw, PICTURE_DPI)
+    return path
 
 
 def _save(paths: Sequence[Path], draw: Callable[[], Figure], dpi: int) -> None:
@@ -92,7 +104,7 @@ def _save(paths: Sequence[Path], draw: Callable[[], Figure], dpi: int) -> None:
         interruption.check()
         figure = draw()
         for path in paths:
-            metadata = {"Date": None, "Creator": None} if path.suffix == ".svg" else {"Software": None}
+            metadata = METADATA[path.suffix]
             with replacing(path) as temporary:
                 figure.savefig(temporary, dpi=dpi, format=path.suffix[1:], metadata=metadata)
 

@@ -57,6 +57,11 @@ class Report:
         self.written.append(table.write_csv(self.folder))
         self._add("table", table=table)
 
+    def places(self, table: Table, looks: Sequence[Dict[str, Any]]) -> None:
+        """A table whose rows turn the view of the scene, to what `looks` says of each."""
+        self.written.append(table.write_csv(self.folder))
+        self._add("places", table=table, looks=looks)
+
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
         """`draw` makes the figure under the common style (see pictures.write_figure)."""
         png, svg = write_figure(self.folder, stem, draw)
@@ -76,7 +81,9 @@ class Report:
         for stem, draw, caption in stills:
             png = write_picture(self.folder, stem, draw)
             self.written.append(png)
-            shown.append({"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")})
+            shown.append(
+                {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}
+            )
         self._add("stills", images=shown)
 
     def image(self, png: Path, caption: str) -> None:
@@ -86,7 +93,13 @@ class Report:
         """Writes `report.md` and `report.html`; the latter's path."""
         plays = any(kind == "player" for kind, _ in self._blocks)
         shows = any(kind == "scene" for kind, _ in self._blocks)
-        values = {"title": self.title, "sections": self._sections, "blocks": self._blocks, "plays": plays, "shows": shows}
+        values = {
+            "title": self.title,
+            "sections": self._sections,
+            "blocks": self._blocks,
+            "plays": plays,
+            "shows": shows,
+        }
         for name in ("report.md", "report.html"):
             with replacing(self.folder / name) as temporary:
                 temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")

@@ -14,6 +14,7 @@ from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
+from .first_read import case_lines, cost_table, cycles_table, openings_table, trust_table
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -74,15 +75,17 @@ def report(options: argparse.Namespace) -> int:
 
         vessel = vessel_of(runs, labels)
         page = Report(place, title)
-        page.section("Runs")
-        page.table(runs_table(runs, labels))
+        page.section("What was computed")
+        add_first_read(page, runs, labels)
         page.section("The vessel")
-        add_vessel(page, runs, labels, vessel, options.frames)
+        of_fields = add_vessel(page, runs, labels, vessel, options.frames)
         page.section("Through time")
         add_waves(page, runs, labels, times)
         if len(runs) > 1:
             page.section("Differences")
             add_differences(page, *tables)
+            if of_fields is not None and of_fields.rows:
+                page.table(of_fields)
         page.write()
     if not options.quiet:
         machines = about_machines([run.summary for run in runs])
@@ -90,6 +93,17 @@ def report(options: argparse.Namespace) -> int:
             say_note(machines)
         say_written(options.output, page.written)
     return 0
+
+
+def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[str]) -> None:
+    """What one reads first."""
+    page.list(case_lines(runs, labels))
+    page.table(runs_table(runs, labels))
+    page.table(trust_table(runs, labels))
+    for table in (openings_table(runs, labels), cycles_table(runs, labels)):
+        if table.rows:
+            page.table(table)
+    page.table(cost_table(runs, labels))
 
 
 def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:

@@ -7,15 +7,13 @@ from typing import Any, Dict, List, Optional, Sequence
 import numpy as np
 
 from ..base import interruption
-from ..drawing.camera import Camera
 from ..drawing.colours import DIVERGING, PERCENTILE, SEQUENTIAL, Scale, scale_of, scale_of_difference, table
 from ..drawing.sweep import angles
-from ..results.opening_faces import middle_of
 from ..results.picture import Scene
 from ..results.quantities import Quantity
-from ..results.scene_parts import Part, camera_of
+from ..results.scene_parts import Part, views_of
 from .player import thinned
-from .scene_packing import packed_counts, packed_numbers, unpacked_bytes
+from .scene_packing import packed_counts, packed_numbers, plain_bytes
 from .scene_thinning import MOST_TRIANGLES, thinned_part
 
 MOST_NUMBERS = 8_000_000  # of all fields in a page, 16 bits each; 1 to 1.5 bytes each when deflated, in base64
@@ -74,7 +72,11 @@ class ReportScene:
 
     def _numbers(self, run: RunScene) -> int:
         """16-bit numbers of one time."""
-        return sum(len(part.surface.ends) * part.surface.medium.width(name) for part in run.parts for name in self._fields(part))
+        return sum(
+            len(part.surface.ends) * part.surface.medium.width(name)
+            for part in run.parts
+            for name in self._fields(part)
+        )
 
     @staticmethod
     def _fields(part: Part) -> List[str]:
@@ -86,7 +88,7 @@ class ReportScene:
             for name in medium.names:
                 parts = [part for part in run.parts if part.surface.medium is medium and part.shows(name)]
                 levels: List[List[np.ndarray]] = [[] for _ in parts]
-                for time in _within(run.times, medium.times_of(name)) if parts else ():
+                for time in _within(run.times, medium.times_of(name)) if parts else np.zeros(0):
                     interruption.check()
                     values = medium.at(float(time), name)
                     for found, part in zip(levels, parts):
@@ -96,15 +98,19 @@ class ReportScene:
     def _compare(self, run: RunScene) -> None:
         first = self.runs[0]
         if not same_points(first, run):
-            self.notes.append(f"{run.name}: its fields are on another mesh than those of {first.name}; no difference is shown.")
+            self.notes.append(
+                f"{run.name}: its fields are on another mesh than those of {first.name}; no difference is shown."
+            )
         elif first.times.shape != run.times.shape or not np.allclose(first.times, run.times, rtol=1e-6):
-            self.notes.append(f"{run.name}: its fields are at other times than those of {first.name}; no difference is shown.")
+            self.notes.append(
+                f"{run.name}: its fields are at other times than those of {first.name}; no difference is shown."
+            )
         else:
             run.apart = set(run.fields) == set(first.fields)
 
     def values(self) -> Dict[str, Any]:
         """Of the element of the page."""
-        content = {
+        content: Dict[str, Any] = {
             "runs": [self._run(run) for run in self.runs],
             "quantities": self._quantities(),
             "first": self.runs[0].scene.first,
@@ -115,7 +121,7 @@ class ReportScene:
             "turned": self.runs[0].scene.meshes.geometry == "axisymmetric",
             "angles": _short(angles()),
             "percentile": PERCENTILE,
-            "maps": {name: unpacked_bytes(table(name)) for name in (SEQUENTIAL, DIVERGING)},
+            "maps": {name: plain_bytes(table(name)) for name in (SEQUENTIAL, DIVERGING)},
         }
         return {"content": content, "notes": list(dict.fromkeys(self.notes))}
 
@@ -134,7 +140,9 @@ class ReportScene:
                     "nodes": packed_counts(part.surface.nodes),
                     "between": part.group == "cut",
                     "fields": {
-                        name.removeprefix(prefix): packed_numbers(values - self.runs[0].fields[name] if run.apart else values)
+                        name.removeprefix(prefix): packed_numbers(
+                            values - self.runs[0].fields[name] if run.apart else values
+                        )
                         for name, values in run.fields.items()
                         if name.startswith(prefix)
                     },
@@ -152,7 +160,7 @@ class ReportScene:
     def _quantity(self, key: str, quantity: Quantity) -> Dict[str, Any]:
         media = sorted({name for run in self.runs for name in run.scene.quantities.get(key, {})})
         words = quantity.words + (" in the wall" if key.startswith("wall_pressure") else "")
-        scale = scale_of((level for run in self.runs for level in self._levels(run, key)), quantity.signed)
+        scale = scale_of((level for run in self.runs for level in self.levels(run, key)), quantity.signed)
         part = quantity.key.partition(":")[2]
         return {
             "key": key,
@@ -162,10 +170,10 @@ class ReportScene:
             "words": words,
             "unit": "" if quantity.unit == "1" else quantity.unit,
             **_scale(scale),
-            "apart": [_scale(scale_of_difference(self._apart(run, key))) for run in self.runs[1:]],
+            "apart": [_scale(scale_of_difference(self.apart(run, key))) for run in self.runs[1:]],
         }
 
-    def _levels(self, run: RunScene, key: str) -> List[np.ndarray]:
+    def levels(self, run: RunScene, key: str) -> List[np.ndarray]:
         """Values of each part at each time."""
         found = []
         for part in run.parts:
@@ -175,9 +183,9 @@ class ReportScene:
                 found += [quantity.of(level) for level in values]
         return found
 
-    def _apart(self, run: RunScene, key: str) -> List[np.ndarray]:
+    def apart(self, run: RunScene, key: str) -> List[np.ndarray]:
         """Differences from the first run."""
-        return [b - a for a, b in zip(self._levels(self.runs[0], key), self._levels(run, key))] if run.apart else []
+        return [b - a for a, b in zip(self.levels(self.runs[0], key), self.levels(run, key))] if run.apart else []
 
     def _box(self) -> Dict[str, Any]:
         points = np.concatenate([part.surface.points for run in self.runs for part in run.parts])
@@ -188,21 +196,10 @@ class ReportScene:
         return None if plane is None else {"origin": _short(plane.origin), "normal": _short(plane.normal)}
 
     def _views(self) -> List[Dict[str, Any]]:
-        """Directions to look from: the one of the stills, along the axes, from the openings."""
-        meshes = self.runs[0].scene.meshes
-        found = [_view("oblique" if not meshes.flat else "section", camera_of(meshes))]
-        if meshes.geometry == "axisymmetric":
-            found.append(_view("swept", camera_of(meshes, swept=True)))
-        if meshes.flat:
-            return found
-        for i, axis in enumerate("xyz"):
-            for sign, word in ((1.0, ""), (-1.0, "-")):
-                eye = sign * np.eye(3)[i]
-                found.append(_view(f"from {word}{axis}", Camera(eye, np.eye(3)[1 if i == 2 else 2])))
-        for name in meshes.openings:
-            middle, normal = middle_of(meshes.media["fluid"].points, meshes.faces(name), meshes.up)
-            up = np.eye(3)[int(np.argmin(np.abs(normal)))]
-            found.append({**_view(f"from {name}", Camera(normal, up)), "target": _short(middle)})
+        found = []
+        for name, camera, target in views_of(self.runs[0].scene.meshes):
+            view = {"name": name, "towards": _short(camera.axes[2]), "up": _short(camera.axes[1])}
+            found.append(view if target is None else {**view, "target": _short(target)})
         return found
 
 
@@ -219,12 +216,8 @@ def _within(times: np.ndarray, of_field: np.ndarray) -> np.ndarray:
     return np.clip(times, of_field[0], of_field[-1])
 
 
-def _view(name: str, camera: Camera) -> Dict[str, Any]:
-    return {"name": name, "towards": _short(camera.axes[2]), "up": _short(camera.axes[1])}
-
-
 def _scale(scale: Scale) -> Dict[str, Any]:
-    ends = {"low": scale.low, "high": scale.high, "least": scale.least, "largest": scale.largest}
+    ends: Dict[str, float] = {"low": scale.low, "high": scale.high, "least": scale.least, "largest": scale.largest}
     found: Dict[str, Any] = {name: float(f"{end:.6g}") if np.isfinite(end) else None for name, end in ends.items()}
     return {**found, "diverging": scale.diverging, "map": scale.map}
 

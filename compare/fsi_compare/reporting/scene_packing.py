@@ -29,7 +29,7 @@ def packed_counts(numbers: np.ndarray) -> Dict[str, Any]:
     return {"count": len(row), "data": _text(_planes((row - before).astype(np.int32).view(np.uint32), 4))}
 
 
-def unpacked_bytes(numbers: np.ndarray) -> str:
+def plain_bytes(numbers: np.ndarray) -> str:
     """Small tables as they are."""
     return base64.b64encode(np.ascontiguousarray(numbers, dtype=np.uint8).tobytes()).decode("ascii")
 

@@ -49,5 +49,9 @@ def _merged(surface: Surface, side: float) -> Surface:
     used, local = np.unique(cells[np.sort(alone)], return_inverse=True)
     nodes = kept[used]
     return Surface(
-        surface.name, surface.medium, surface.ends[nodes], surface.weight[nodes], local.reshape(-1, surface.triangles.shape[1])
+        surface.name,
+        surface.medium,
+        surface.ends[nodes],
+        surface.weight[nodes],
+        local.reshape(-1, surface.triangles.shape[1]),
     )

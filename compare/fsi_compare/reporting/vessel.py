@@ -8,6 +8,8 @@ from matplotlib.figure import Figure
 from ..results.picture import Scene, picture
 from ..results.run import RunResults
 from ..results.surfaces import ASK
+from .layout import Table
+from .places import apart_table, places_table
 from .report import Report
 from .scene import ReportScene
 from .vessel_library import MISSING, library
@@ -35,7 +37,8 @@ def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
 
 def add_vessel(
     report: Report, runs: Sequence[RunResults], labels: Sequence[str], vessel: Vessel, frames: Optional[int] = None
-) -> None:
+) -> Optional[Table]:
+    """The table of differences of the runs' fields; None where no run has fields."""
     for run, label in zip(runs, labels):
         if not run.fields:
             report.text(f"{label} has no fields, so that its vessel is not shown: {ASK}.")
@@ -43,10 +46,14 @@ def add_vessel(
     if left_out > 0:
         report.text(f"The first {MOST_RUNS} runs with fields are shown; {left_out} more would make the page too large.")
     if not vessel.scenes:
-        return
+        return None
     if library() is None:
         report.text(f"{MISSING[0].upper()}{MISSING[1:]}.")
-    report.scene(ReportScene(vessel.names, vessel.scenes, frames), stills_of(vessel))
+    scene = ReportScene(vessel.names, vessel.scenes, frames)
+    report.scene(scene, stills_of(vessel))
+    table, looks = places_table(scene)
+    report.places(table, looks)
+    return apart_table(scene)
 
 
 def stills_of(vessel: Vessel) -> List[Still]:
@@ -58,5 +65,9 @@ def stills_of(vessel: Vessel) -> List[Still]:
         time = scene.peak(key)
         words = scene.quantity(key).words
         draw = functools.partial(picture, scene, key, time, title=name)
-        found[key] = (f"vessel_{key}", draw, f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest.")
+        found[key] = (
+            f"vessel_{key}",
+            draw,
+            f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest.",
+        )
     return list(found.values())

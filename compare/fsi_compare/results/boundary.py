@@ -9,10 +9,7 @@ import numpy as np
 # Corners of the faces of a cell, outwards by the right hand, and the cell's corner opposite each; by the cell's corners.
 FACES = {4: ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)), 3: ((0, 1), (1, 2), (2, 0))}
 # The node in the middle of each edge of a quadratic cell, in VTK's order.
-MIDDLES = {
-    10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9},
-    6: {(0, 1): 3, (1, 2): 4, (0, 2): 5},
-}
+MIDDLES = {10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}, 6: {(0, 1): 3, (1, 2): 4, (0, 2): 5}}
 CORNERS = {3: 3, 6: 3, 4: 4, 10: 4}  # by the nodes of a cell
 SMOOTH = 0.94  # cosine of the angle between faces of one piece, 20 degrees
 
@@ -59,7 +56,9 @@ def _parts(face: Tuple[int, ...], nodes: int) -> List[List[int]]:
     """Straight parts of a face of a cell, in the cell's own numbers."""
     if nodes not in MIDDLES:
         return [list(face)]
-    middle = [MIDDLES[nodes][_sorted(face[i], face[(i + 1) % len(face)])] for i in range(len(face) if len(face) > 2 else 1)]
+    middle = [
+        MIDDLES[nodes][_sorted(face[i], face[(i + 1) % len(face)])] for i in range(len(face) if len(face) > 2 else 1)
+    ]
     if len(face) == 2:
         return [[face[0], middle[0]], [middle[0], face[1]]]
     a, b, c = face

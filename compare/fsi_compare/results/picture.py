@@ -11,7 +11,7 @@ from ..drawing.colours import PERCENTILE, Scale, scale_of, table
 from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
 from .quantities import Quantity
-from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities
+from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
 from .surfaces import Surfaces, displaced
 
 if TYPE_CHECKING:
@@ -75,7 +75,10 @@ class Scene:
             times = self.times(key)
             times = times[np.unique(np.linspace(0, len(times) - 1, MOST_LEVELS).round().astype(int))]
             levels = [self._level(key, float(time)) for time in times]
-            sizes = [max((float(np.percentile(np.abs(v), PERCENTILE)) for v in level if len(v)), default=0.0) for level in levels]
+            sizes = [
+                max((float(np.percentile(np.abs(v), PERCENTILE)) for v in level if len(v)), default=0.0)
+                for level in levels
+            ]
             scale = scale_of((v for level in levels for v in level), self.quantity(key).signed)
             self._ranges[key] = scale, float(times[int(np.nanargmax(sizes))])
         return self._ranges[key]
@@ -100,14 +103,20 @@ class Scene:
             groups = {"cut", "lumen", "openings", "wall"}
             return [part for part in self.parts if part.group in groups]
         solid = [part for part in has if part.group != "cut"]
-        return [part for part in solid if not (part.group == "wall" and "fluid" in fields)] if self._inside(fields) else solid
+        return (
+            [part for part in solid if not (part.group == "wall" and "fluid" in fields)]
+            if self._inside(fields)
+            else solid
+        )
 
     def _inside(self, fields: Dict[str, str]) -> bool:
         """Whether it is a quantity of the fluid alone."""
         return "fluid" in fields and "wall" not in fields
 
 
-def meshes_to_draw(scene: Scene, key: str, time: float, scale: Scale, factor: float, cut: bool, eye: np.ndarray) -> List[Mesh]:
+def meshes_to_draw(
+    scene: Scene, key: str, time: float, scale: Scale, factor: float, cut: bool, eye: np.ndarray
+) -> List[Mesh]:
     """Triangles with the places of their colours."""
     found: List[Mesh] = []
     turns = scene.meshes.geometry == "axisymmetric"
@@ -149,7 +158,8 @@ def picture(
     size: Tuple[int, int] = PIXELS,
 ) -> "Figure":
     """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement. `cut`: opened
-    by a plane (default: where the field is of the inside, velocity). `span`: range of colours in `unit`. Raises InputError."""
+    by a plane (default: where the field is of the inside, velocity). `span`: range of colours in `unit`. Raises InputError.
+    """
     key = field or scene.first
     scene.check(key)
     quantity = scene.quantity(key)
@@ -166,6 +176,21 @@ def picture(
     return framed(image, scale, times_unit, words, " · ".join(([title] if title else []) + notes), span is None)
 
 
+def camera_named(scene: Scene, view: Optional[str]) -> Optional[Camera]:
+    """One of views_of(); None for none. Raises InputError."""
+    if view is None:
+        return None
+    views = {name: camera for name, camera, _ in views_of(scene.meshes)}
+    if view not in views:
+        raise InputError(
+            "",
+            "view",
+            f"'{view}' is unknown",
+            f"did you mean '{nearest(view, list(views))}'? It has {', '.join(views)}",
+        )
+    return views[view]
+
+
 def _moves(scene: Scene) -> bool:
     return any("displacement" in medium.names for medium in scene.meshes.media.values())
 
@@ -175,7 +200,9 @@ def unit_of(own: str, wanted: Optional[str]) -> Tuple[str, float]:
     if wanted is None or wanted == own:
         return own, 1.0
     if wanted not in UNITS.get(own, ()):
-        raise InputError("", "unit", f"'{wanted}' does not fit a field in {own}", f"give {' or '.join(UNITS.get(own, (own,)))}")
+        raise InputError(
+            "", "unit", f"'{wanted}' does not fit a field in {own}", f"give {' or '.join(UNITS.get(own, (own,)))}"
+        )
     return wanted, PER_KPA[wanted] / PER_KPA[own]
 
 
@@ -209,7 +236,11 @@ def framed(image: np.ndarray, scale: Scale, per_own: float, words: str, title: s
     extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
     figure.colorbar(shades, cax=bar, orientation="horizontal", extend=extend).ax.tick_params(labelsize=8)
     how = f"colours end at the {PERCENTILE:g}th percentile" if robust else "range as asked for"
-    occurs = f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur" if scale.least == scale.least else ""
+    occurs = (
+        f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur"
+        if scale.least == scale.least
+        else ""
+    )
     figure.text(0.5, 0.08 / height, f"{words} ({occurs})", fontsize=8, ha="center", va="bottom", parse_math=False)
     return figure
 

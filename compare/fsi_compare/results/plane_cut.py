@@ -28,9 +28,9 @@ def cut_by_plane(points: np.ndarray, cells: np.ndarray, origin: np.ndarray, norm
     pattern = above[straight] @ (1 << np.arange(4))
     pieces: List[np.ndarray] = []
     owners: List[np.ndarray] = []
-    for code, triangles in _patterns().items():
+    for code, joined in _patterns().items():
         some = np.flatnonzero(pattern == code)
-        for triangle in triangles:
+        for triangle in joined:
             pieces.append(straight[some][:, [list(EDGES[e]) for e in triangle]])
             owners.append(owner[some])
     edges = np.concatenate(pieces) if pieces else np.zeros((0, 3, 2), dtype=straight.dtype)

@@ -67,7 +67,9 @@ def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
             for i, name in enumerate(names)
         ]
     found = [Quantity(field, field, words, unit, False, _magnitude)]
-    parts = [Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)]
+    parts = [
+        Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
+    ]
     return found + parts
 
 

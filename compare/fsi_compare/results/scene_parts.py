@@ -6,6 +6,7 @@ from typing import Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from ..drawing.camera import Camera, best_camera, longest_directions
+from .opening_faces import middle_of
 from .quantities import Quantity, quantities_of
 from .surfaces import Surface, Surfaces
 
@@ -101,3 +102,22 @@ def camera_of(meshes: Surfaces, swept: bool = False) -> Camera:
     if swept:
         return Camera(np.array([1.0, -0.45, -0.35]), np.array([0.0, -1.0, 0.0]))
     return Camera(np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+
+
+def views_of(meshes: Surfaces) -> List[Tuple[str, Camera, Optional[np.ndarray]]]:
+    """Names and directions to look from: the usual one, along the axes, from the openings, of which the third is the middle in
+    mm."""
+    found: List[Tuple[str, Camera, Optional[np.ndarray]]] = [
+        ("section" if meshes.flat else "oblique", camera_of(meshes), None)
+    ]
+    if meshes.geometry == "axisymmetric":
+        found.append(("swept", camera_of(meshes, swept=True), None))
+    if meshes.flat:
+        return found
+    for i, axis in enumerate("xyz"):
+        for sign, word in ((1.0, ""), (-1.0, "-")):
+            found.append((f"{word}{axis}", Camera(sign * np.eye(3)[i], np.eye(3)[1 if i == 2 else 2]), None))
+    for name in meshes.openings:
+        middle, normal = middle_of(meshes.media["fluid"].points, meshes.faces(name), meshes.up)
+        found.append((name, Camera(normal, np.eye(3)[int(np.argmin(np.abs(normal)))]), middle))
+    return found

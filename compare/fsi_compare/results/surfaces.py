@@ -207,9 +207,7 @@ class Surfaces:
 def made(name: str, medium: MediumFields, parts: np.ndarray) -> Surface:
     """Of triangles or edges by nodes of the medium."""
     nodes, local = np.unique(parts, return_inverse=True)
-    return Surface(
-        name, medium, np.stack([nodes, nodes], axis=1), np.zeros(len(nodes)), local.reshape(parts.shape)
-    )
+    return Surface(name, medium, np.stack([nodes, nodes], axis=1), np.zeros(len(nodes)), local.reshape(parts.shape))
 
 
 def displaced(surface: Surface, time: float, factor: float = 1.0) -> np.ndarray:

@@ -79,7 +79,7 @@
     });
     this.runList = this.select(top, "Run", shows, state.show, function (show) { state.show = show; self.rebuild(); });
     this.runList.parentNode.hidden = shows.length < 2;
-    this.viewList = this.select(top, "View", data.views.map(function (v, i) { return [i, v.name]; }), 0, function (i) {
+    this.viewList = this.select(top, "View", data.views.map(function (v, i) { return [i, i ? "from " + v.name : v.name]; }), 0, function (i) {
       self.look(data.views[i]);
     });
     var moves = data.quantities.some(function (q) { return q.field === "displacement"; });
@@ -401,6 +401,7 @@
       return root.vessel.ready;
     }).then(function () {
       document.body.classList.add("turns");
+      performance.mark("vessel");
       root.dataset.ready = "yes";
     });
   }
