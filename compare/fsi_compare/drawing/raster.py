@@ -12,7 +12,7 @@ BACKGROUND = 255
 GREY = np.array([205.0, 205.0, 205.0])  # of surfaces without values
 AMBIENT = 0.58  # of the light; the rest comes from the eye
 SAMPLES = 2  # in each direction of a pixel
-MOST_AT_ONCE = 2_000_000  # candidates for pixels
+MOST_AT_ONCE = 4_000_000  # pixels of the rectangles around triangles
 
 
 @dataclass(frozen=True)
@@ -61,19 +61,21 @@ def _draw(
     colours: np.ndarray,
 ) -> None:
     light = _light(mesh, eye) if mesh.lit else np.ones(len(mesh.points))
-    corners = screen[mesh.triangles]  # (triangles, 3, 3)
-    low = np.clip(np.floor(corners[:, :, :2].min(axis=1)), 0, np.array(size) - 1).astype(int)
-    high = np.clip(np.ceil(corners[:, :, :2].max(axis=1)), 0, np.array(size) - 1).astype(int)
-    span = (high - low).max(axis=1) + 1
-    for some, side in _classes(span):
-        pixel, weights, triangle = _covered(corners[some], low[some], side, size)
+    for some in _chunks(screen[mesh.triangles]):
+        triangles = mesh.triangles[some]
+        pixel, weights, triangle = _covered(screen[triangles], size)
+        nodes = triangles[triangle]
         if mesh.beyond is not None:
-            kept = np.einsum("ij,ij->i", weights, mesh.beyond[mesh.triangles[some][triangle]]) <= 0
-            pixel, weights, triangle = pixel[kept], weights[kept], triangle[kept]
-        near = np.einsum("ij,ij->i", weights, corners[some][triangle, :, 2])
-        np.maximum.at(depth, pixel, near)
-        front = near >= depth[pixel]
-        pixel, weights, nodes = pixel[front], weights[front], mesh.triangles[some][triangle[front]]
+            kept = np.einsum("ij,ij->i", weights, mesh.beyond[nodes]) <= 0
+            pixel, weights, nodes = pixel[kept], weights[kept], nodes[kept]
+        near = np.einsum("ij,ij->i", weights, screen[nodes, 2])
+        order = np.argsort(near, kind="stable")
+        nearest = np.full(len(depth), -1)
+        nearest[pixel[order]] = order  # of several the last stays
+        found = nearest[pixel[order]] == order
+        front = order[found][near[order[found]] > depth[pixel[order[found]]]]
+        pixel, weights, nodes = pixel[front], weights[front], nodes[front]
+        depth[pixel] = near[front]
         shade = np.einsum("ij,ij->i", weights, light[nodes])[:, None]
         if mesh.places is None:
             image[pixel] = GREY * shade
@@ -84,38 +86,56 @@ def _draw(
             image[pixel] = np.where(known[:, None], colours[at], GREY) * shade
 
 
-def _classes(span: np.ndarray) -> List[Tuple[np.ndarray, int]]:
-    """Triangles of about the same size, few enough to be drawn at once: their numbers and the side of a square that covers
-    each."""
-    found = []
-    side = 2
-    done = np.zeros(len(span), dtype=bool)
-    while not done.all():
-        some = np.flatnonzero(~done & (span <= side))
-        done[some] = True
-        step = max(1, MOST_AT_ONCE // side**2)
-        found += [(some[at : at + step], side) for at in range(0, len(some), step)]
-        side *= 2
-    return found
+def _chunks(corners: np.ndarray) -> List[np.ndarray]:
+    """Triangles that cover few enough pixels to be drawn at once."""
+    spans = np.ptp(corners[:, :, :2], axis=1) + 1
+    covered = np.cumsum(spans[:, 0] * spans[:, 1])
+    return [
+        part
+        for part in np.split(np.arange(len(corners)), np.flatnonzero(np.diff(covered // MOST_AT_ONCE)) + 1)
+        if len(part)
+    ]
 
 
-def _covered(
-    corners: np.ndarray, low: np.ndarray, side: int, size: Tuple[int, int]
-) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pixels whose middles are in a triangle: (numbers, weights of the corners, triangle)."""
-    y, x = np.divmod(np.arange(side * side), side)
-    px, py = low[:, :1] + x, low[:, 1:] + y
-    (x0, y0), (x1, y1), (x2, y2) = (corners[:, i, :2].T[:, :, None] for i in range(3))
-    area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
-    safe = np.where(area == 0, 1.0, area)
-    cx, cy = px + 0.5, py + 0.5
-    w1 = ((cx - x0) * (y2 - y0) - (x2 - x0) * (cy - y0)) / safe
-    w2 = ((x1 - x0) * (cy - y0) - (cx - x0) * (y1 - y0)) / safe
-    inside = (w1 >= 0) & (w2 >= 0) & (w1 + w2 <= 1) & (area != 0) & (px < size[0]) & (py < size[1])
-    triangle, place = np.nonzero(inside)
-    first, second = w1[triangle, place], w2[triangle, place]
-    weights = np.stack([1 - first - second, first, second], axis=1)
-    return py[triangle, place] * size[0] + px[triangle, place], weights, triangle
+def _covered(corners: np.ndarray, size: Tuple[int, int]) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pixels whose middles are in a triangle: (numbers, weights of the corners, triangle). Row by row: a row of pixels meets a
+    triangle in the interval between its sides."""
+    x, y = corners[:, :, 0], corners[:, :, 1]
+    low = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, size[1]).astype(int)
+    high = np.clip(np.floor(y.max(axis=1) - 0.5) + 1, 0, size[1]).astype(int)
+    triangle, row = _enumerated(low, high)
+    middle = row + 0.5
+    first, last = np.full(len(row), np.inf), np.full(len(row), -np.inf)
+    for i in range(3):
+        xa, ya, xb, yb = (values[triangle] for values in (x[:, i], y[:, i], x[:, i - 1], y[:, i - 1]))
+        meets = (np.minimum(ya, yb) <= middle) & (middle <= np.maximum(ya, yb)) & (ya != yb)
+        at = xa + (xb - xa) * (middle - ya) / np.where(meets, yb - ya, 1.0)
+        first, last = np.where(meets, np.minimum(first, at), first), np.where(meets, np.maximum(last, at), last)
+    left = np.clip(np.ceil(np.where(np.isfinite(first), first, 1.0) - 0.5), 0, size[0]).astype(int)
+    right = np.clip(np.floor(np.where(np.isfinite(first), last, 0.0) - 0.5) + 1, 0, size[0]).astype(int)
+    line, column = _enumerated(left, right)
+    row, triangle = row[line], triangle[line]
+    weights = _weights(corners[:, :, :2], triangle, column + 0.5, row + 0.5)
+    return row * size[0] + column, weights, triangle
+
+
+def _enumerated(first: np.ndarray, end: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """(which, number): all numbers from first[which] to below end[which]."""
+    counts = np.maximum(end - first, 0)
+    which = np.repeat(np.arange(len(first)), counts)
+    begins = np.cumsum(counts) - counts
+    return which, np.arange(len(which)) - np.repeat(begins, counts) + first[which]
+
+
+def _weights(corners: np.ndarray, triangle: np.ndarray, px: np.ndarray, py: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates of points, (points, 3)."""
+    origin, along, across = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = along[:, 0] * across[:, 1] - across[:, 0] * along[:, 1]
+    safe = np.where(area == 0, 1.0, area)[triangle]
+    dx, dy = px - origin[triangle, 0], py - origin[triangle, 1]
+    first = (dx * across[triangle, 1] - across[triangle, 0] * dy) / safe
+    second = (along[triangle, 0] * dy - dx * along[triangle, 1]) / safe
+    return np.stack([1 - first - second, first, second], axis=1)
 
 
 def _light(mesh: Mesh, eye: np.ndarray) -> np.ndarray:

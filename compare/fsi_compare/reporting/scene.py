@@ -50,7 +50,8 @@ class ReportScene:
         parts = []
         count = sum(len(part.surface.triangles) for part in scene.parts)
         for part in scene.parts:
-            parts.append(thinned_part(part, count))
+            thin = thinned_part(part, count)
+            parts += [thin] if len(thin.surface.triangles) else []
         kept = sum(len(part.surface.triangles) for part in parts)
         if kept < count:
             self.notes.append(
@@ -196,7 +197,7 @@ class ReportScene:
         return None if plane is None else {"origin": _short(plane.origin), "normal": _short(plane.normal)}
 
     def _views(self) -> List[Dict[str, Any]]:
-        found = []
+        found: List[Dict[str, Any]] = []
         for name, camera, target in views_of(self.runs[0].scene.meshes):
             view = {"name": name, "towards": _short(camera.axes[2]), "up": _short(camera.axes[1])}
             found.append(view if target is None else {**view, "target": _short(target)})

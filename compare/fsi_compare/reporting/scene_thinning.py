@@ -53,5 +53,5 @@ def _merged(surface: Surface, side: float) -> Surface:
         surface.medium,
         surface.ends[nodes],
         surface.weight[nodes],
-        local.reshape(-1, surface.triangles.shape[1]),
+        local.reshape(len(alone), surface.triangles.shape[1]),
     )

@@ -80,8 +80,8 @@ def _measured(fluid: MediumFields, piece: Boundary, levels: np.ndarray, up: np.n
     normals = normals_of(fluid.points, parts, up)
     area = np.linalg.norm(normals, axis=1)
     if turned:
-        around = 2 * np.pi * fluid.points[parts][:, :, 0]
-        weights = area[:, None] * around / 2
+        radius = fluid.points[parts][:, :, 0]  # values and radius are linear along an edge
+        weights = 2 * np.pi * area[:, None] * (radius / 6 + radius.sum(axis=1, keepdims=True) / 6)
     else:
         weights = np.repeat(area[:, None] / parts.shape[1], parts.shape[1], axis=1)
     units = normals / np.maximum(area[:, None], 1e-300)

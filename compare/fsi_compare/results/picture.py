@@ -17,7 +17,7 @@ from .surfaces import Surfaces, displaced
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-PIXELS = (1100, 700)
+PIXELS = (900, 580)
 MOST_LEVELS = 40  # that the range of colours is found from
 UNITS = {"kPa": ("kPa", "Pa", "mmHg")}  # that a unit can be shown in
 PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}
@@ -231,6 +231,7 @@ def framed(image: np.ndarray, scale: Scale, per_own: float, words: str, title: s
     axes.set_axis_off()
     figure.text(0.02, 1 - 0.22 / height, title, fontsize=9, va="center", parse_math=False)
     bar = figure.add_axes((0.14, 0.62 / height, 0.72, 0.14 / height))
+    bar.grid(False)
     shades = ScalarMappable(Normalize(scale.low * per_own, scale.high * per_own), scale.map)
     below, above = scale.least < scale.low * (1 + 1e-9), scale.largest > scale.high * (1 + 1e-9)
     extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
