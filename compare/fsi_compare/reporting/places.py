@@ -89,11 +89,16 @@ def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
             node = int(np.nanargmax(numbers))
             if numbers[node] > (best.value if best else 0.0):
                 unit = "" if quantity.unit == "1" else quantity.unit
-                point = part.surface.points[node]
+                point = rounded(part.surface.points[node], float(np.ptp(part.surface.points)))
                 best = Place(
                     run.name, number, key, quantity.words, unit, float(numbers[node]), float(time), part.name, point
                 )
     return best
+
+
+def rounded(point: np.ndarray, size: float) -> np.ndarray:
+    """Without round-off of zeros."""
+    return np.where(np.abs(point) < 1e-9 * size, 0.0, point)
 
 
 def apart_table(scene: ReportScene) -> Table:
