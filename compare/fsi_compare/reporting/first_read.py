@@ -157,7 +157,14 @@ def _pressure(head: str, kind: str, per_kpa: float, unit: str) -> Column[OfOpeni
         levels = record.opening.mean_pressure[record.window] / PA_PER_KPA
         return per_kpa * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
 
-    return Column(head, f"{kind}_pressure", value, ".3f" if unit == "kPa" else ".2f", unit, "mean pressure over the opening, {unit}")
+    return Column(
+        head,
+        f"{kind}_pressure",
+        value,
+        ".3f" if unit == "kPa" else ".2f",
+        unit,
+        "mean pressure over the opening, {unit}",
+    )
 
 
 OPENINGS: Sequence[Column[OfOpening]] = (

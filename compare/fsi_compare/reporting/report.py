@@ -73,6 +73,12 @@ class Report:
         how to get them."""
         self._add("player", **player.values())
 
+    def still(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
+        """A picture that is made of pixels, PNG alone."""
+        png = write_picture(self.folder, stem, draw)
+        self.written.append(png)
+        self.image(png, caption)
+
     def scene(self, scene: ReportScene, stills: Sequence[Tuple[str, Callable[[], Figure], str]]) -> None:
         """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for browsers without
         JavaScript or WebGL."""

@@ -21,6 +21,7 @@ PIXELS = (900, 580)
 MOST_LEVELS = 40  # that the range of colours is found from
 UNITS = {"kPa": ("kPa", "Pa", "mmHg")}  # that a unit can be shown in
 PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}
+VISIBLE = 0.05  # of the scene's size
 INCHES_WIDE, MOST_HIGH = 7.0, 4.6
 
 
@@ -69,6 +70,17 @@ class Scene:
     def peak(self, key: str) -> float:
         """The time in ms at which the 99th percentile of its size is largest."""
         return self._range(key)[1]
+
+    def visible_factor(self) -> float:
+        """1, 2 or 5 times a power of ten by which the largest displacement is a twentieth of the scene's size; 1 where it is
+        as large by itself, or where there is none."""
+        if "displacement" not in self.quantities:
+            return 1.0
+        size = max(float(np.ptp(medium.points, axis=0).max()) for medium in self.meshes.media.values())
+        largest = self.scale("displacement").largest
+        wanted = VISIBLE * size / largest if largest > 0 else 1.0
+        power = 10.0 ** np.floor(np.log10(wanted)) if wanted > 1 else 1.0
+        return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= max(wanted, 1.0)))
 
     def _range(self, key: str) -> Tuple[Scale, float]:
         if key not in self._ranges:
