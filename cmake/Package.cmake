@@ -17,10 +17,10 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME fsi-duo)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-# Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found; what fsi-mesh import
-# reads other formats with.
+# Beside the shared libraries: what fsi-compare imports, for the interpreter that configuring found, and
+# libjs-three, which it puts into reports; what fsi-mesh import reads other formats with.
 string(CONCAT CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3 (>= 3.11), python3-matplotlib, python3-numpy, python3-h5py, "
-  "python3-jinja2, python3-meshio, python3-netcdf4")
+  "python3-jinja2, libjs-three, python3-meshio, python3-netcdf4")
 if(FSI_MPI)  # mpirun, which asks for ssh
   string(APPEND CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS ", openmpi-bin, openssh-client")
 endif()

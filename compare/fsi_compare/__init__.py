@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .results.line import Line as Line
     from .results.openings import Opening as Opening
     from .results.run import RunResults as RunResults, open_run as open_run
+    from .results.surfaces import Surface as Surface
     from .results.table import MissingColumn as MissingColumn, Table as Table
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "MissingColumn",
     "Opening",
     "RunResults",
+    "Surface",
     "Table",
     "difference",
     "open_run",

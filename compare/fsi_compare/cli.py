@@ -5,13 +5,26 @@ from typing import NoReturn, Sequence
 
 from .base.errors import InputError
 from .mesh_import import command as mesh_import
-from .reporting import accuracy, cost, export, pressure, run_report
+from .reporting import accuracy, cost, export, picture_command, pressure, run_report, watch
 from .studies import command as study
 from .studies.gallery import command as gallery
 from .studies.linear import command as linear
 from .studies.verify import command as verify
 
-COMMANDS = (pressure, run_report, cost, export, accuracy, linear, study, gallery, verify, mesh_import)
+COMMANDS = (
+    pressure,
+    run_report,
+    picture_command,
+    watch,
+    cost,
+    export,
+    accuracy,
+    linear,
+    study,
+    gallery,
+    verify,
+    mesh_import,
+)
 
 
 class _Parser(argparse.ArgumentParser):

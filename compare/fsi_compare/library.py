@@ -7,4 +7,5 @@ from .results.fields import MediumFields as MediumFields
 from .results.line import Line as Line
 from .results.openings import Opening as Opening
 from .results.run import RunResults as RunResults, open_run as open_run
+from .results.surfaces import Surface as Surface
 from .results.table import MissingColumn as MissingColumn, Table as Table

@@ -17,7 +17,7 @@ FOLDER = f"compare/{PACKAGE}"
 # Lowest first. Packages of one line share a floor; "" is fsi_compare itself, with its command line.
 FLOORS = (
     ("base",),
-    ("runs", "mesh_import"),
+    ("runs", "mesh_import", "drawing"),
     ("results",),
     ("reporting",),
     ("studies.catalogue", "studies.starting"),

@@ -3,7 +3,7 @@
 import textwrap
 import warnings
 from pathlib import Path
-from typing import Callable, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 from matplotlib.artist import Artist
 import matplotlib
@@ -18,6 +18,7 @@ from ..base.files import replacing
 from ..runs.pressure_waves import PressureWaves
 
 DPI = 200
+PICTURE_DPI = 150
 LONGEST_TEXT = 500  # characters of a heading or a label: what is longer would make a picture of its own
 PANEL_INCHES = (3.7, 2.15)
 
@@ -44,6 +45,13 @@ MARKED_LINES = (
     {"linestyle": (0, (9, 1, 1, 1)), "marker": "<", "color": "#00798c"},
     {"linestyle": (0, (3, 3)), "marker": ">", "color": "#8a6d00"},
 )
+
+# Nothing of the day or the version of a program: the same data give the same file.
+METADATA: Dict[str, Dict[str, None]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
 
 # Whatever the user's own matplotlib settings say, the same data give the same picture, byte by byte.
 STYLE = {
@@ -73,16 +81,32 @@ def write_pressure_waves(
 def write_figure(folder: Path, stem: str, draw: Callable[[], Figure]) -> List[Path]:
     """Writes `stem.png` and `.svg` of the figure that `draw` makes."""
     paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
+    _save(paths, draw, DPI)
+    return paths
+
+
+def write_picture(folder: Path, stem: str, draw: Callable[[], Figure]) -> Path:
+    """Writes `stem.png` alone: of what is made of pixels."""
+    return write_plot(folder / f"{stem}.png", draw)
+
+
+def write_plot(path: Path, draw: Callable[[], Figure]) -> Path:
+    """In the format that the file's name ends with: .png, .svg or .pdf."""
+    _save([path], draw, PICTURE_DPI)
+    return path
+
+
+def _save(paths: Sequence[Path], draw: Callable[[], Figure], dpi: int) -> None:
     with matplotlib.rc_context(), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
         interruption.check()
         figure = draw()
-        for path, metadata in zip(paths, ({"Software": None}, {"Date": None, "Creator": None})):
+        for path in paths:
+            metadata = METADATA[path.suffix]
             with replacing(path) as temporary:
-                figure.savefig(temporary, dpi=DPI, format=path.suffix[1:], metadata=metadata)
-    return paths
+                figure.savefig(temporary, dpi=dpi, format=path.suffix[1:], metadata=metadata)
 
 
 def pressure_figure(

@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 
 from ..base.files import replacing
 from .layout import Table
-from .pictures import write_figure
+from .pictures import write_figure, write_picture
 from .player import Player
+from .scene import ReportScene
 from .templating import render
+from .vessel_library import library
 
 
 class Report:
@@ -55,6 +57,11 @@ class Report:
         self.written.append(table.write_csv(self.folder))
         self._add("table", table=table)
 
+    def places(self, table: Table, looks: Sequence[Dict[str, Any]]) -> None:
+        """A table whose rows turn the view of the scene, to what `looks` says of each."""
+        self.written.append(table.write_csv(self.folder))
+        self._add("places", table=table, looks=looks)
+
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
         """`draw` makes the figure under the common style (see pictures.write_figure)."""
         png, svg = write_figure(self.folder, stem, draw)
@@ -66,13 +73,39 @@ class Report:
         how to get them."""
         self._add("player", **player.values())
 
+    def still(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
+        """A picture that is made of pixels, PNG alone."""
+        png = write_picture(self.folder, stem, draw)
+        self.written.append(png)
+        self.image(png, caption)
+
+    def scene(self, scene: ReportScene, stills: Sequence[Tuple[str, Callable[[], Figure], str]]) -> None:
+        """The vessel in space, drawn in the browser, and stills (stem, figure, caption) of it for print and for browsers without
+        JavaScript or WebGL."""
+        self._add("scene", library=library(), **scene.values())
+        shown = []
+        for stem, draw, caption in stills:
+            png = write_picture(self.folder, stem, draw)
+            self.written.append(png)
+            shown.append(
+                {"name": png.name, "caption": caption, "data": base64.b64encode(png.read_bytes()).decode("ascii")}
+            )
+        self._add("stills", images=shown)
+
     def image(self, png: Path, caption: str) -> None:
         self._add("image", caption=caption, name=png.name, data=base64.b64encode(png.read_bytes()).decode("ascii"))
 
     def write(self) -> Path:
         """Writes `report.md` and `report.html`; the latter's path."""
         plays = any(kind == "player" for kind, _ in self._blocks)
-        values = {"title": self.title, "sections": self._sections, "blocks": self._blocks, "plays": plays}
+        shows = any(kind == "scene" for kind, _ in self._blocks)
+        values = {
+            "title": self.title,
+            "sections": self._sections,
+            "blocks": self._blocks,
+            "plays": plays,
+            "shows": shows,
+        }
         for name in ("report.md", "report.html"):
             with replacing(self.folder / name) as temporary:
                 temporary.write_text(render(f"{name}.j2", **values).rstrip("\n") + "\n", encoding="utf-8")

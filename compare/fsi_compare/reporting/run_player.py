@@ -47,7 +47,13 @@ def add_waves(report: Report, runs: Sequence[RunResults], labels: Sequence[str],
     for first in range(0, len(series), MOST_PANELS):
         stems.append(stem_of("over time", stems))
         some = series[first : first + MOST_PANELS]
-        report.figure(stems[-1], functools.partial(series_figure, some, labels), "Over time.")
+        report.figure(stems[-1], functools.partial(series_figure, some, labels), caption_of(some))
+
+
+def caption_of(shown: Sequence[Panel]) -> str:
+    """What the diagrams of a picture are of; that they are over time its title says."""
+    words = list(dict.fromkeys(panel.title.partition(":")[0] for panel in shown))
+    return f"{', '.join([words[0], *(word[0].lower() + word[1:] for word in words[1:])])}."
 
 
 def stem_of(title: str, taken: Sequence[str]) -> str:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple, Optional, Sequence, Tuple
 
 from ..base.errors import InputError, printable, say_note
 from ..base.files import folder, together
-from ..base.options import Commands, add_command, add_folders, add_output, add_usual
+from ..base.options import Commands, add_command, add_folders, add_output, add_usual, positive
 from ..results.comparison import difference
 from ..results.line import Line
 from ..results.run import RunResults, open_run
@@ -15,6 +15,7 @@ from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
 from .column import Column
 from .error_bars import add_error_bars, find_bars
+from .first_read import case_lines, cost_table, cycles_table, openings_table, trust_table
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -50,6 +51,8 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("--times", metavar="T,T,...", help="times of the pictures in ms (default: six over the runs)")
     command.add_argument("--labels", metavar="A,B,...", help="names of the runs (default: their folders')")
     command.add_argument("--title", help="heading of the report (default: the runs' title)")
+    text = "times at which the vessel is shown (default: up to 100, fewer of large meshes)"
+    command.add_argument("--frames", metavar="N", type=positive("--frames"), help=text)
     add_usual(command, version, "accepted as by all programs; a report is quick on one thread")
 
 
@@ -70,16 +73,22 @@ def report(options: argparse.Namespace) -> int:
         load_matplotlib()
         from .report import Report
         from .run_player import add_waves
+        from .vessel import add_vessel, vessel_of
 
+        vessel = vessel_of(runs, labels)
         page = Report(place, title)
-        page.section("Runs")
-        page.table(runs_table(runs, labels))
+        page.section("What was computed")
+        add_first_read(page, runs, labels)
         add_error_bars(page, runs, labels, bars)
+        page.section("The vessel")
+        of_fields = add_vessel(page, runs, labels, vessel, options.frames)
         page.section("Through time")
         add_waves(page, runs, labels, times)
         if len(runs) > 1:
             page.section("Differences")
             add_differences(page, *tables)
+            if of_fields is not None and of_fields.rows:
+                page.table(of_fields)
         page.write()
     if not options.quiet:
         machines = about_machines([run.summary for run in runs])
@@ -87,6 +96,17 @@ def report(options: argparse.Namespace) -> int:
             say_note(machines)
         say_written(options.output, page.written)
     return 0
+
+
+def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[str]) -> None:
+    """What one reads first."""
+    page.list(case_lines(runs, labels))
+    page.table(runs_table(runs, labels))
+    page.table(trust_table(runs, labels))
+    for table in (openings_table(runs, labels), cycles_table(runs, labels)):
+        if table.rows:
+            page.table(table)
+    page.table(cost_table(runs, labels))
 
 
 def check_runs(runs: Sequence[RunResults], times: Sequence[float]) -> None:

@@ -34,6 +34,7 @@ class MediumFields:
         self._file = file
         self._entries = entries
         self._mesh: Dict[str, np.ndarray] = {}
+        self._widths: Dict[str, int] = {}
 
     def __repr__(self) -> str:
         fields = ", ".join(f"{name} in {self.units[name]}" for name in self.names)
@@ -71,6 +72,13 @@ class MediumFields:
     def times_of(self, field: str) -> np.ndarray:
         """Of the entries that have this field, ms, (entries,). Raises InputError."""
         return np.array([entry.time for entry in self._of(field)])
+
+    def width(self, field: str) -> int:
+        """Components of a field: 1, 3 or 6. Raises InputError."""
+        if field not in self._widths:
+            shape = self._values(field, self._of(field)[0]).shape
+            self._widths[field] = int(shape[1]) if len(shape) == 2 else 1
+        return self._widths[field]
 
     def at(self, time: float, field: str) -> np.ndarray:
         """Values at a time in ms, linear between entries: (nodes,) or (cells,) of a scalar, (..., 3) of a vector, (..., 6)

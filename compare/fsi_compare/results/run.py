@@ -3,7 +3,7 @@
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -16,7 +16,12 @@ from ..runs.summary import AGAIN, FILE, FINISHED, PROGRAMS, checked
 from .fields import MediumFields, read_fields
 from .line import Line, line_of, lines_of
 from .openings import Opening, inlet_and_outlet, openings_of
+from .picture import Scene, camera_named, picture
+from .surfaces import Surface, Surfaces
 from .table import Table, read_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 NOT_WRITTEN = "ask for it in the case, or see summary.json for why it is not there"
 
@@ -165,6 +170,37 @@ class RunResults:
     def fields(self) -> Dict[str, MediumFields]:
         """By medium, 'fluid' and 'wall'; empty when the run has written none. Values are read when they are asked for."""
         return read_fields(self.folder)
+
+    def surface(self, name: str) -> Surface:
+        """Points, triangles (edges of a two-dimensional mesh) and fields over time of the 'interface', the 'lumen' (all of
+        the fluid's boundary but its openings), the 'openings' or one by its name, the wall's 'inner' and 'outer' side, or a
+        two-dimensional 'fluid section', 'wall section'. Raises InputError for one that is not there."""
+        return self.meshes.get(name)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """What pictures are made from, and its quantities by name: `run.scene.quantities`. Raises InputError."""
+        return Scene(self.meshes, str(self.folder / "fields.h5"))
+
+    def picture(
+        self,
+        field: Optional[str] = None,
+        time: Optional[float] = None,
+        factor: float = 1.0,
+        cut: Optional[bool] = None,
+        unit: Optional[str] = None,
+        span: Optional[Tuple[float, float]] = None,
+        view: Optional[str] = None,
+    ) -> "Figure":
+        """The vessel coloured by a field as a matplotlib figure: at a time in ms (default: the last), moved by `factor` times the
+        displacement, `cut` open by a plane through its middle or not (default: for the velocity), in 'kPa', 'Pa' or 'mmHg',
+        with the range of colours `span`, seen from 'x', '-x', ... or an opening. Raises InputError."""
+        return picture(self.scene, field, time, factor, cut, unit, span, camera_named(self.scene, view), self.label)
+
+    @cached_property
+    def meshes(self) -> Surfaces:
+        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields."""
+        return Surfaces(self.folder, self.fields, self.openings, str(self.summary.get("geometry", "3d")))
 
 
 def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> RunResults:

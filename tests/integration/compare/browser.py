@@ -15,9 +15,9 @@ PATIENCE = 60  # seconds for an answer, on a busy machine
 
 
 class Browser:
-    """Closes with its `with` block."""
+    """Closes with its `with` block. `webgl`: it draws in space, by the processor."""
 
-    def __init__(self, width=1200, height=1000):
+    def __init__(self, width=1200, height=1000, webgl=False):
         self._home = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         its_input, self._to = os.pipe()
         self._from, its_output = os.pipe()
@@ -32,7 +32,7 @@ class Browser:
                 PROGRAM,
                 "--headless",
                 "--no-sandbox",
-                "--disable-gpu",
+                *(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else ["--disable-gpu"]),
                 "--disable-dev-shm-usage",
                 "--remote-debugging-pipe",
                 f"--user-data-dir={self._home.name}",
@@ -119,6 +119,13 @@ class Browser:
     def evaluate(self, expression):
         """Value of a JavaScript expression in the page."""
         answer = self.send("Runtime.evaluate", expression=expression, returnByValue=True)
+        if "exceptionDetails" in answer:
+            raise AssertionError(answer["exceptionDetails"])
+        return answer["result"].get("value")
+
+    def await_(self, expression):
+        """Value of a promise in the page, once it is kept."""
+        answer = self.send("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             raise AssertionError(answer["exceptionDetails"])
         return answer["result"].get("value")

@@ -2,11 +2,12 @@
 
 from os.path import normpath
 from pathlib import Path
-from typing import Any, List, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 from ...reporting.column import Column
 from ...reporting.layout import Table
 from ...reporting.report import Report
+from ...results.run import RunResults
 from ...runs.work_units import NOTE, per_step
 from .running import Outcome
 from .scene import Number, SceneRun
@@ -49,6 +50,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     runs = outcome.finished(quick)
     if outcome.failures:
         return []
+    add_still(report, f"{stem}_vessel", runs.first.results, getattr(scene.module, "STILL", {}))
     report.figure(stem, lambda: scene.module.draw(runs), scene.title + ".")
     numbers = scene.numbers(runs)
     report.table(Table(f"{stem}_numbers", "What is known", NUMBERS, numbers))
@@ -58,6 +60,18 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
         notes.append(NOTE)
     report.table(Table(f"{stem}_cost", "What it costs", COSTS, list(outcome.runs.items()), notes=notes))
     return numbers
+
+
+def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:
+    """The geometry with a result on it: what the scene asks for in STILL (the words of RunResults.picture), else its first
+    quantity when it is largest, with a displacement that is seen. Nothing of a run without fields."""
+    if not run.fields:
+        return
+    key = asked.get("field", run.scene.first)
+    run.scene.check(key)
+    words: Dict[str, Any] = {"time": run.scene.peak(key), "factor": run.scene.visible_factor(), **asked}
+    caption = run.scene.quantity(key).words
+    report.still(stem, lambda: run.picture(**words), f"{caption[0].upper()}{caption[1:]} at {words['time']:g} ms.")
 
 
 def driver(program: str) -> str:

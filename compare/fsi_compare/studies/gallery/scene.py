@@ -10,6 +10,7 @@ and may hold
   DRIVERS         the drivers that run it, both unless said otherwise: a static wall knows one
   QUICK           entries of the case that make a run of the scene's test, a second or two
   QUICK_MESH      the words of the command that makes that run's mesh
+  STILL           words of RunResults.picture: which field, time, view its picture shows
   LONG            True: takes minutes, run when it is named or all are asked for by --long
 """
 

@@ -1,0 +1,1 @@
+"""Pictures of surfaces: colours, views, and a renderer that needs no graphics."""

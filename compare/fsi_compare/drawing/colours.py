@@ -1,0 +1,73 @@
+"""Colours of values: maps of even perceived steps, and the range that they span."""
+
+from dataclasses import dataclass
+from typing import Iterable, List
+
+import numpy as np
+
+SEQUENTIAL = "viridis"  # lightness grows evenly: readable in grey and by the colour-blind
+DIVERGING = "RdBu_r"  # about zero; both halves darken evenly [ColorBrewer: safe for the colour-blind]
+PERCENTILE = 99.0
+BOTH_SIGNS = 0.02  # of the larger side, that the smaller one must have at least
+COLOURS = 256
+
+
+@dataclass(frozen=True)
+class Scale:
+    """From what value to what value colours go; what is outside has the last colour."""
+
+    low: float
+    high: float
+    diverging: bool
+    least: float  # that occurs
+    largest: float
+
+    @property
+    def map(self) -> str:
+        return DIVERGING if self.diverging else SEQUENTIAL
+
+    def places(self, values: np.ndarray) -> np.ndarray:
+        """0 to 1 within the range."""
+        return np.clip((values - self.low) / (self.high - self.low), 0.0, 1.0)
+
+
+def table(name: str) -> np.ndarray:
+    """Red, green and blue of 0 to 255, (256, 3)."""
+    import matplotlib
+
+    colours: np.ndarray = matplotlib.colormaps[name](np.arange(COLOURS) / (COLOURS - 1))
+    return np.round(255 * colours[:, :3]).astype(np.uint8)
+
+
+def scale_of(levels: Iterable[np.ndarray], signed: bool) -> Scale:
+    """Of values at some times and places. A single node cannot stretch it: of each array the 99th percentile counts, and of these
+    the largest (below: the 1st, the least). Unsigned values begin at zero. Signed ones are centred about zero when both signs
+    matter."""
+    lows: List[float] = []
+    highs: List[float] = []
+    ends: List[float] = []
+    for values in levels:
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            lows.append(float(np.percentile(finite, 100 - PERCENTILE)))
+            highs.append(float(np.percentile(finite, PERCENTILE)))
+            ends += [float(finite.min()), float(finite.max())]
+    if not ends:
+        return Scale(0.0, 1.0, False, float("nan"), float("nan"))
+    low, high, least, largest = min(lows), max(highs), min(ends), max(ends)
+    if not signed:
+        return Scale(0.0, _above(0.0, high if high > 0 else largest), False, least, largest)
+    smaller, larger = sorted((abs(low), abs(high)))
+    if low < 0 < high and smaller >= BOTH_SIGNS * larger:
+        return Scale(-larger, larger, True, least, largest)
+    return Scale(low, _above(low, high), False, least, largest)
+
+
+def scale_of_difference(levels: Iterable[np.ndarray]) -> Scale:
+    """About zero, whatever the signs."""
+    found = scale_of((np.abs(values) for values in levels), signed=False)
+    return Scale(-found.high, found.high, True, -found.largest, found.largest)
+
+
+def _above(low: float, high: float) -> float:
+    return high if high > low else low + (abs(low) or 1.0)

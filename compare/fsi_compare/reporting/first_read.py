@@ -1,0 +1,273 @@
+"""What a reader of a report is told first: what was computed, whether it can be trusted, flows and pressures of the openings,
+what it cost."""
+
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ..base.errors import printable
+from ..results.openings import Opening
+from ..results.run import RunResults
+from ..runs.steadiness import cycle_change, period_of, sawtooth
+from .column import Column
+from .layout import Table
+
+PA_PER_KPA, MMHG_PER_KPA = 1000.0, 7.50062
+SUPPLIED = ("inlet_work", "load_work", "inlet_kinetic_inflow", "support_work")  # columns of energy.csv
+Labelled = Tuple[str, RunResults]
+
+
+def case_lines(runs: Sequence[RunResults], labels: Sequence[str]) -> List[str]:
+    """What was computed, one fact a line; a fact that differs between runs is said of each."""
+    facts = {
+        "case": [run.title for run in runs],
+        "program": [run.program for run in runs],
+        "element": [_entry(run, "element") for run in runs],
+        "geometry": [_entry(run, "geometry") for run in runs],
+        "mesh": [_mesh(run) for run in runs],
+        "unknowns": [_count(run.summary.get("unknowns", {}).get("coupled")) for run in runs],
+        "steps": [_steps(run) for run in runs],
+        "openings": [", ".join(run.openings) for run in runs],
+        "chosen by the program": [_choices(run) for run in runs],
+    }
+    lines = []
+    for name, values in facts.items():
+        if len(set(values)) == 1:
+            lines += [f"**{name}**: {values[0]}"] if values[0] else []
+        else:
+            lines.append(
+                f"**{name}**: " + "; ".join(f"{label}: {value or 'none'}" for label, value in zip(labels, values))
+            )
+    return lines
+
+
+def _entry(run: RunResults, name: str) -> str:
+    return printable(str(run.summary.get(name, "")))
+
+
+def _count(number: Any) -> str:
+    return f"{number:,}" if isinstance(number, int) else ""
+
+
+def _mesh(run: RunResults) -> str:
+    mesh = run.summary.get("mesh", {})
+    cells = next(
+        (f"{mesh[kind]:,} {kind}" for kind in ("tetrahedra", "triangles") if isinstance(mesh.get(kind), int)), ""
+    )
+    nodes = f"{mesh['nodes']:,} nodes" if isinstance(mesh.get("nodes"), int) else ""
+    return ", ".join(part for part in (printable(str(mesh.get("name", ""))), nodes, cells) if part)
+
+
+def _steps(run: RunResults) -> str:
+    if "iterations.csv" not in run.tables:
+        return ""
+    time = run.time
+    if not len(time):
+        return "none"
+    sizes = np.diff(np.concatenate([[0.0], time]))
+    size = f"{sizes[0]:g}" if np.ptp(sizes) < 1e-6 * sizes.mean() else f"{sizes.min():.3g} to {sizes.max():.3g}"
+    return f"{len(time):,} of {size} ms, to {time[-1]:g} ms"
+
+
+def _choices(run: RunResults) -> str:
+    found = run.summary.get("choices", {})
+    if not isinstance(found, dict):
+        return ""
+    return ", ".join(
+        f"{printable(k)} = {printable(str(v.get('value', '')))}" for k, v in found.items() if isinstance(v, dict)
+    )
+
+
+def _total(run: RunResults, name: str) -> Optional[float]:
+    value = run.summary.get("totals", {}).get(name)
+    return float(value) if isinstance(value, (int, float)) else None
+
+
+def _share_of_supply(run: RunResults, column: str) -> Optional[float]:
+    """Sum of the sizes of a column of the energy balance over that of all that was supplied."""
+    energy = run.energy
+    if energy is None or column not in energy:
+        return None
+    supply = sum(float(np.abs(energy[name]).sum()) for name in SUPPLIED if name in energy)
+    return float(np.abs(energy[column]).sum()) / supply if supply > 0 else None
+
+
+def _ringing(run: RunResults) -> Optional[float]:
+    """Largest sawtooth of a mean pressure, relative to the largest range of one."""
+    curves = [opening.mean_pressure for opening in run.openings.values()]
+    span = max((float(np.ptp(curve)) for curve in curves), default=0.0)
+    return max(sawtooth(curve) for curve in curves) / span if span > 0 else None
+
+
+TRUST: Sequence[Column[Labelled]] = (
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("steps", "steps", lambda r: _total(r[1], "steps"), "g"),
+    Column(
+        "above tolerance",
+        "steps_above_tolerance",
+        lambda r: _total(r[1], "steps_above_tolerance"),
+        "g",
+        group="of them",
+    ),
+    Column("failed, halved", "failed_steps", lambda r: _total(r[1], "failed_steps"), "g", group="of them"),
+    Column("rejected", "rejected_steps", lambda r: _total(r[1], "rejected_steps"), "g", group="of them"),
+    Column(
+        "solver", "largest_solver_error", lambda r: _total(r[1], "largest_solver_error"), ".1e", group="largest error"
+    ),
+    Column(
+        "left over",
+        "remainder_of_supply",
+        lambda r: _share_of_supply(r[1], "remainder"),
+        ".1e",
+        group="energy over supply",
+    ),
+    Column(
+        "numerical dissipation",
+        "numerical_dissipation_of_supply",
+        lambda r: _share_of_supply(r[1], "numerical_dissipation"),
+        ".1e",
+        group="energy over supply",
+    ),
+    Column("ringing", "sawtooth_of_range", lambda r: _ringing(r[1]), ".1e"),
+)
+
+
+def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    notes = [
+        "`left over`: what the energy balance does not explain, the solver's error. `ringing`: the largest part of an opening's mean "
+        "pressure that changes its sign from step to step, over the largest range of one."
+    ]
+    return Table("trust", "Whether it can be trusted", TRUST, list(zip(labels, runs)), notes=notes)
+
+
+class OfOpening(NamedTuple):
+    run: str
+    opening: Opening
+    share: Optional[float]  # of what flows out, over the last cycle or the run
+    window: np.ndarray  # levels that count
+
+
+def _pressure(head: str, kind: str, per_kpa: float, unit: str) -> Column[OfOpening]:
+    def value(record: OfOpening) -> float:
+        levels = record.opening.mean_pressure[record.window] / PA_PER_KPA
+        return per_kpa * float({"minimum": levels.min, "mean": levels.mean, "maximum": levels.max}[kind]())
+
+    return Column(
+        head,
+        f"{kind}_pressure",
+        value,
+        ".3f" if unit == "kPa" else ".2f",
+        unit,
+        "mean pressure over the opening, {unit}",
+    )
+
+
+OPENINGS: Sequence[Column[OfOpening]] = (
+    Column("run", "run", lambda r: r.run, left=True),
+    Column("opening", "opening", lambda r: r.opening.name, left=True),
+    Column("share of outflow", "share_of_outflow", lambda r: r.share, ".1%"),
+    Column(
+        "mean", "mean_flow", lambda r: float(r.opening.flow[r.window].mean()), ".4g", "mm^3/ms", "flow outwards, {unit}"
+    ),
+    Column(
+        "largest",
+        "largest_flow",
+        lambda r: float(np.abs(r.opening.flow[r.window]).max()),
+        ".4g",
+        "mm^3/ms",
+        "flow outwards, {unit}",
+    ),
+    *(_pressure(kind, kind, 1.0, "kPa") for kind in ("minimum", "mean", "maximum")),
+    *(_pressure(kind, kind, MMHG_PER_KPA, "mmHg") for kind in ("minimum", "mean", "maximum")),
+)
+
+
+def openings_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    """Of the last cycle of runs that repeat, else of all times."""
+    records = []
+    cycles: Dict[str, float] = {}
+    for run, label in zip(runs, labels):
+        if not run.openings:
+            continue
+        period = _period(run)
+        if period:
+            cycles[label] = period
+        outflow = {}
+        for name, opening in run.openings.items():
+            window = opening.time > opening.time[-1] - period * (1 - 1e-9) if period else opening.time >= 0
+            outflow[name] = max(_mean(opening, window), 0.0)
+        total = sum(outflow.values())
+        for name, opening in run.openings.items():
+            window = opening.time > opening.time[-1] - period * (1 - 1e-9) if period else opening.time >= 0
+            share = outflow[name] / total if total > 0 and outflow[name] > 0 else None
+            records.append(OfOpening(label, opening, share, window))
+    of = "; ".join(f"of the last cycle of {period:g} ms of {label}" for label, period in cycles.items())
+    note = f"Values are {of}, else of all steps." if of else "Values are of all steps: no flow repeats."
+    return Table(
+        "openings", "Flow split and pressures", OPENINGS, records, notes=[note, "Means weigh all steps alike."]
+    )
+
+
+def _mean(opening: Opening, window: np.ndarray) -> float:
+    return float(opening.flow[window].mean())
+
+
+def _period(run: RunResults) -> Optional[float]:
+    openings = list(run.openings.values())
+    return period_of(openings[0].time, {o.name: o.flow for o in openings}) if openings else None
+
+
+class Change(NamedTuple):
+    run: str
+    opening: str
+    period: float
+    flow: float
+    pressure: float
+
+
+CHANGES: Sequence[Column[Change]] = (
+    Column("run", "run", lambda r: r.run, left=True),
+    Column("opening", "opening", lambda r: r.opening, left=True),
+    Column("cycle, {unit}", "cycle", lambda r: r.period, "g", "ms"),
+    Column("flow", "flow_change", lambda r: r.flow, ".1e", group="change"),
+    Column("mean pressure", "mean_pressure_change", lambda r: r.pressure, ".1e", group="change"),
+)
+
+
+def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    """Empty where no flow repeats."""
+    records = []
+    for run, label in zip(runs, labels):
+        period = _period(run)
+        for name, o in run.openings.items() if period else ():
+            changes = (cycle_change(o.time, values, float(period or 0)) for values in (o.flow, o.mean_pressure))
+            records.append(Change(label, name, float(period or 0), *changes))
+    note = "The largest difference of the last cycle from the one before, over the range of the last."
+    return Table("cycles", "From cycle to cycle", CHANGES, records, notes=[note])
+
+
+def _each_step(run: RunResults, name: str) -> Optional[float]:
+    total, steps = _total(run, name), _total(run, "steps")
+    return total / steps if total is not None and steps else None
+
+
+COST: Sequence[Column[Labelled]] = (
+    Column("run", "run", lambda r: r[0], left=True),
+    Column("program", "program", lambda r: r[1].program, left=True),
+    Column("seconds", "wall", lambda r: _total(r[1], "wall_s"), ".1f", "s"),
+    Column(
+        "coupling passes",
+        "passes_per_step",
+        lambda r: _each_step(r[1], "outer_iterations") if r[1].program == "fsi-partitioned" else None,
+        ".1f",
+        group="per step",
+    ),
+    Column(
+        "Newton iterations", "newton_per_step", lambda r: _each_step(r[1], "newton_iterations"), ".1f", group="per step"
+    ),
+    Column("memory, {unit}", "peak_memory", lambda r: r[1].summary.get("peak_memory_MiB"), ".0f", "MiB"),
+)
+
+
+def cost_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    return Table("seconds", "What it cost", COST, list(zip(labels, runs)), notes=["`fsi-compare cost` says more."])

@@ -1,0 +1,118 @@
+"""Where the largest values of a run are: a table whose rows turn the view to their place."""
+
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from .column import Column
+from .layout import Table
+from .scene import ReportScene, RunScene
+
+KEYS = ("displacement", "wall_shear_stress", "tawss", "osi", "von_mises_stress", "velocity", "pressure")
+
+
+class Place(NamedTuple):
+    run: str
+    number: int  # of the run in the scene
+    key: str
+    words: str
+    unit: str
+    value: float
+    time: float
+    part: str
+    point: np.ndarray  # mm, (3,), reference
+
+    @property
+    def look(self) -> Dict[str, Any]:
+        """What the page's view turns to."""
+        point = [float(f"{x:.7g}") for x in self.point]
+        return {"quantity": self.key, "time": self.time, "run": self.number, "part": self.part, "point": point}
+
+
+class Apart(NamedTuple):
+    run: str
+    words: str
+    unit: str
+    largest: float
+    of: float  # the largest value of the first run
+
+
+def _coordinate(i: int) -> Column[Place]:
+    return Column("xyz"[i], "xyz"[i], lambda r: float(r.point[i]), ".4g", "mm", "place, {unit}")
+
+
+PLACES: Sequence[Column[Place]] = (
+    Column("run", "run", lambda r: r.run, left=True),
+    Column("quantity", "quantity", lambda r: r.words, left=True),
+    Column("largest", "largest", lambda r: r.value, ".4g"),
+    Column("unit", "unit", lambda r: r.unit, left=True),
+    Column("time, {unit}", "time", lambda r: r.time, ".4g", "ms"),
+    Column("on", "surface", lambda r: r.part, left=True),
+    *(_coordinate(i) for i in range(3)),
+)
+APART: Sequence[Column[Apart]] = (
+    Column("run", "run", lambda r: r.run, left=True),
+    Column("quantity", "quantity", lambda r: r.words, left=True),
+    Column("difference", "largest_difference", lambda r: r.largest, ".3e"),
+    Column("of", "largest_value", lambda r: r.of, ".3e"),
+    Column("unit", "unit", lambda r: r.unit, left=True),
+)
+
+
+def places_table(scene: ReportScene) -> Tuple[Table, List[Dict[str, Any]]]:
+    """The table, and what each row turns the view to."""
+    records = []
+    for number, run in enumerate(scene.runs):
+        for key in KEYS:
+            found = largest_of(run, number, key)
+            if found is not None:
+                records.append(found)
+    notes = [
+        "Of the times and points that the scene shows: surfaces, and the cut through the middle. Places are those of the mesh at rest."
+    ]
+    table = Table("places", "Largest values and their places", PLACES, records, notes=notes)
+    return table, [record.look for record in records]
+
+
+def largest_of(run: RunScene, number: int, key: str) -> Optional[Place]:
+    """None where the run has no such quantity, or where it is zero throughout."""
+    best: Optional[Place] = None
+    for part in run.parts:
+        quantity = run.scene.quantities.get(key, {}).get(part.surface.medium.name)
+        values = None if quantity is None else run.fields.get(f"{part.name}/{quantity.field}")
+        if quantity is None or values is None:
+            continue
+        for time, level in zip(run.times, values):
+            numbers = quantity.of(level)
+            if not np.isfinite(numbers).any():
+                continue
+            node = int(np.nanargmax(numbers))
+            if numbers[node] > (best.value if best else 0.0):
+                unit = "" if quantity.unit == "1" else quantity.unit
+                point = rounded(part.surface.points[node], float(np.ptp(part.surface.points)))
+                best = Place(
+                    run.name, number, key, quantity.words, unit, float(numbers[node]), float(time), part.name, point
+                )
+    return best
+
+
+def rounded(point: np.ndarray, size: float) -> np.ndarray:
+    """Without round-off of zeros."""
+    return np.where(np.abs(point) < 1e-9 * size, 0.0, point)
+
+
+def apart_table(scene: ReportScene) -> Table:
+    """Largest differences of fields of runs on the same mesh; empty where there are none."""
+    records = []
+    for run in scene.runs[1:]:
+        for key, quantities in run.scene.quantities.items() if run.apart else ():
+            levels = scene.apart(run, key)
+            if ":" not in key and levels:
+                quantity = next(iter(quantities.values()))
+                of = max(float(np.nanmax(np.abs(level))) for level in scene.levels(scene.runs[0], key))
+                largest = max(float(np.nanmax(np.abs(level))) for level in levels)
+                words = quantity.words + (" in the wall" if key.startswith("wall_pressure") else "")
+                records.append(Apart(run.name, words, "" if quantity.unit == "1" else quantity.unit, largest, of))
+    title = f"Largest differences of fields from {scene.runs[0].name}"
+    notes = ["At the times and points that the scene shows. `of`: the largest value of the first run."]
+    return Table("field_differences", title, APART, records, notes=notes)

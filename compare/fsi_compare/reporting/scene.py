@@ -1,0 +1,227 @@
+"""The part of a report that shows the vessel in space: surfaces of the runs with their fields over time, packed for
+templates/scene*.js."""
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Optional, Sequence
+
+import numpy as np
+
+from ..base import interruption
+from ..drawing.colours import DIVERGING, PERCENTILE, SEQUENTIAL, Scale, scale_of, scale_of_difference, table
+from ..drawing.sweep import angles
+from ..results.picture import Scene
+from ..results.quantities import Quantity
+from ..results.scene_parts import Part, views_of
+from .player import thinned
+from .scene_packing import packed_counts, packed_numbers, plain_bytes
+from .scene_thinning import MOST_TRIANGLES, thinned_part
+
+MOST_NUMBERS = 8_000_000  # of all fields in a page, 16 bits each; 1 to 1.5 bytes each when deflated, in base64
+MOST_FRAMES = 100  # times, unless asked otherwise
+FEWEST_FRAMES = 8
+DECIMALS = 9
+
+
+@dataclass
+class RunScene:
+    """A run, as much of it as a page holds."""
+
+    name: str
+    scene: Scene
+    parts: List[Part]
+    times: np.ndarray  # ms, (frames,)
+    fields: Dict[str, np.ndarray] = field(default_factory=dict)  # "part/field" -> (frames, points[, components])
+    apart: bool = False  # stored as differences from the first run, which has the same points and times
+
+
+class ReportScene:
+    """Of one or several runs of one scene, or of different ones. `notes` say what was left out."""
+
+    def __init__(self, names: Sequence[str], scenes: Sequence[Scene], frames: Optional[int] = None) -> None:
+        self.notes: List[str] = []
+        self.runs = [RunScene(name, scene, *self._thinned(name, scene)) for name, scene in zip(names, scenes)]
+        self._choose_times(frames)
+        for run in self.runs:
+            self._read(run)
+        for run in self.runs[1:]:
+            self._compare(run)
+
+    def _thinned(self, name: str, scene: Scene) -> Any:
+        parts = []
+        count = sum(len(part.surface.triangles) for part in scene.parts)
+        for part in scene.parts:
+            thin = thinned_part(part, count)
+            parts += [thin] if len(thin.surface.triangles) else []
+        kept = sum(len(part.surface.triangles) for part in parts)
+        if kept < count:
+            self.notes.append(
+                f"{name}: {kept:,} of {count:,} triangles are shown, since a page is kept to {MOST_TRIANGLES:,}; their corners are "
+                "nodes of the mesh, with their own values."
+            )
+        return parts, np.zeros(0)
+
+    def _choose_times(self, frames: Optional[int]) -> None:
+        """At most what was asked for, and as many as the page may hold."""
+        a_time = sum(self._numbers(run) for run in self.runs)
+        most = max(FEWEST_FRAMES, min(frames or MOST_FRAMES, MOST_NUMBERS // max(a_time, 1)))
+        for run in self.runs:
+            times = np.unique(np.concatenate([medium.times for medium in run.scene.meshes.media.values()]))
+            run.times = times[thinned(len(times), most)]
+            if len(run.times) < len(times):
+                asked = "" if frames and most >= frames else f" (a page holds {MOST_NUMBERS:,} numbers)"
+                self.notes.append(f"{run.name}: {len(run.times)} of {len(times)} times of fields.h5 are shown{asked}.")
+
+    def _numbers(self, run: RunScene) -> int:
+        """16-bit numbers of one time."""
+        return sum(
+            len(part.surface.ends) * part.surface.medium.width(name)
+            for part in run.parts
+            for name in self._fields(part)
+        )
+
+    @staticmethod
+    def _fields(part: Part) -> List[str]:
+        return [name for name in part.surface.names if part.shows(name)]
+
+    def _read(self, run: RunScene) -> None:
+        """Each field of a medium once, for all parts."""
+        for medium in run.scene.meshes.media.values():
+            for name in medium.names:
+                parts = [part for part in run.parts if part.surface.medium is medium and part.shows(name)]
+                levels: List[List[np.ndarray]] = [[] for _ in parts]
+                for time in _within(run.times, medium.times_of(name)) if parts else np.zeros(0):
+                    interruption.check()
+                    values = medium.at(float(time), name)
+                    for found, part in zip(levels, parts):
+                        found.append(part.surface.take(values))
+                run.fields.update({f"{part.name}/{name}": np.array(found) for part, found in zip(parts, levels)})
+
+    def _compare(self, run: RunScene) -> None:
+        first = self.runs[0]
+        if not same_points(first, run):
+            self.notes.append(
+                f"{run.name}: its fields are on another mesh than those of {first.name}; no difference is shown."
+            )
+        elif first.times.shape != run.times.shape or not np.allclose(first.times, run.times, rtol=1e-6):
+            self.notes.append(
+                f"{run.name}: its fields are at other times than those of {first.name}; no difference is shown."
+            )
+        else:
+            run.apart = set(run.fields) == set(first.fields)
+
+    def values(self) -> Dict[str, Any]:
+        """Of the element of the page."""
+        content: Dict[str, Any] = {
+            "runs": [self._run(run) for run in self.runs],
+            "quantities": self._quantities(),
+            "first": self.runs[0].scene.first,
+            "views": self._views(),
+            "plane": self._plane(),
+            "box": self._box(),
+            "flat": self.runs[0].scene.meshes.flat,
+            "turned": self.runs[0].scene.meshes.geometry == "axisymmetric",
+            "angles": _short(angles()),
+            "percentile": PERCENTILE,
+            "maps": {name: plain_bytes(table(name)) for name in (SEQUENTIAL, DIVERGING)},
+        }
+        return {"content": content, "notes": list(dict.fromkeys(self.notes))}
+
+    def _run(self, run: RunScene) -> Dict[str, Any]:
+        parts = []
+        for part in run.parts:
+            prefix = f"{part.name}/"
+            parts.append(
+                {
+                    "name": part.name,
+                    "group": part.group,
+                    "medium": part.surface.medium.name,
+                    "corners": part.surface.triangles.shape[1],
+                    "points": packed_numbers(part.surface.points),
+                    "cells": packed_counts(part.surface.triangles),
+                    "nodes": packed_counts(part.surface.nodes),
+                    "between": part.group == "cut",
+                    "fields": {
+                        name.removeprefix(prefix): packed_numbers(
+                            values - self.runs[0].fields[name] if run.apart else values
+                        )
+                        for name, values in run.fields.items()
+                        if name.startswith(prefix)
+                    },
+                }
+            )
+        return {"name": run.name, "times": _short(run.times), "parts": parts, "apart": run.apart}
+
+    def _quantities(self) -> List[Dict[str, Any]]:
+        keys: Dict[str, Quantity] = {}
+        for run in self.runs:
+            for key in run.scene.quantities:
+                keys.setdefault(key, run.scene.quantity(key))
+        return [self._quantity(key, quantity) for key, quantity in keys.items()]
+
+    def _quantity(self, key: str, quantity: Quantity) -> Dict[str, Any]:
+        media = sorted({name for run in self.runs for name in run.scene.quantities.get(key, {})})
+        words = quantity.words + (" in the wall" if key.startswith("wall_pressure") else "")
+        scale = scale_of((level for run in self.runs for level in self.levels(run, key)), quantity.signed)
+        part = quantity.key.partition(":")[2]
+        return {
+            "key": key,
+            "field": quantity.field,
+            "part": {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}.get(part, -1),
+            "media": media,
+            "words": words,
+            "unit": "" if quantity.unit == "1" else quantity.unit,
+            **_scale(scale),
+            "apart": [_scale(scale_of_difference(self.apart(run, key))) for run in self.runs[1:]],
+        }
+
+    def levels(self, run: RunScene, key: str) -> List[np.ndarray]:
+        """Values of each part at each time."""
+        found = []
+        for part in run.parts:
+            quantity = run.scene.quantities.get(key, {}).get(part.surface.medium.name)
+            values = None if quantity is None else run.fields.get(f"{part.name}/{quantity.field}")
+            if quantity is not None and values is not None:
+                found += [quantity.of(level) for level in values]
+        return found
+
+    def apart(self, run: RunScene, key: str) -> List[np.ndarray]:
+        """Differences from the first run."""
+        return [b - a for a, b in zip(self.levels(self.runs[0], key), self.levels(run, key))] if run.apart else []
+
+    def _box(self) -> Dict[str, Any]:
+        points = np.concatenate([part.surface.points for run in self.runs for part in run.parts])
+        return {"low": _short(points.min(axis=0)), "high": _short(points.max(axis=0))}
+
+    def _plane(self) -> Optional[Dict[str, Any]]:
+        plane = self.runs[0].scene.plane
+        return None if plane is None else {"origin": _short(plane.origin), "normal": _short(plane.normal)}
+
+    def _views(self) -> List[Dict[str, Any]]:
+        found: List[Dict[str, Any]] = []
+        for name, camera, target in views_of(self.runs[0].scene.meshes):
+            view = {"name": name, "towards": _short(camera.axes[2]), "up": _short(camera.axes[1])}
+            found.append(view if target is None else {**view, "target": _short(target)})
+        return found
+
+
+def same_points(first: RunScene, other: RunScene) -> bool:
+    """Whether two runs have the same parts of the same mesh."""
+    if [part.name for part in first.parts] != [part.name for part in other.parts]:
+        return False
+    pairs = [(a.surface.points, b.surface.points) for a, b in zip(first.parts, other.parts)]
+    return all(a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-9 * np.ptp(a)) for a, b in pairs)
+
+
+def _within(times: np.ndarray, of_field: np.ndarray) -> np.ndarray:
+    """Times, where a field begins later or ends earlier its own first or last."""
+    return np.clip(times, of_field[0], of_field[-1])
+
+
+def _scale(scale: Scale) -> Dict[str, Any]:
+    ends: Dict[str, float] = {"low": scale.low, "high": scale.high, "least": scale.least, "largest": scale.largest}
+    found: Dict[str, Any] = {name: float(f"{end:.6g}") if np.isfinite(end) else None for name, end in ends.items()}
+    return {**found, "diverging": scale.diverging, "map": scale.map}
+
+
+def _short(numbers: np.ndarray) -> List[float]:
+    return [float(f"{number:.{DECIMALS}g}") for number in numbers]

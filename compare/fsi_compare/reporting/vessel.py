@@ -1,0 +1,73 @@
+"""The section of a report that shows the vessel: which runs and fields, stills of them, and what is left out."""
+
+import functools
+from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+from matplotlib.figure import Figure
+
+from ..results.picture import Scene, picture
+from ..results.run import RunResults
+from ..results.surfaces import ASK
+from .layout import Table
+from .places import apart_table, places_table
+from .report import Report
+from .scene import ReportScene
+from .vessel_library import MISSING, library
+
+MOST_RUNS = 4  # in one page
+STILLS = 4
+STILL_FIELDS = ("wall_shear_stress", "displacement", "von_mises_stress", "velocity", "pressure", "tawss", "osi")
+Still = Tuple[str, Callable[[], Figure], str]
+
+
+class Vessel(NamedTuple):
+    """Runs that have fields: places among the report's runs, names, and what is shown of them."""
+
+    places: List[int]
+    names: List[str]
+    scenes: List[Scene]
+
+
+def vessel_of(runs: Sequence[RunResults], labels: Sequence[str]) -> Vessel:
+    """Reads the meshes of the first few runs that have fields. Raises InputError for files that cannot be read."""
+    places = [i for i, run in enumerate(runs) if run.fields][:MOST_RUNS]
+    scenes = [Scene(runs[i].meshes, str(runs[i].folder / "fields.h5")) for i in places]
+    return Vessel(places, [labels[i] for i in places], scenes)
+
+
+def add_vessel(
+    report: Report, runs: Sequence[RunResults], labels: Sequence[str], vessel: Vessel, frames: Optional[int] = None
+) -> Optional[Table]:
+    """The table of differences of the runs' fields; None where no run has fields."""
+    for run, label in zip(runs, labels):
+        if not run.fields:
+            report.text(f"{label} has no fields, so that its vessel is not shown: {ASK}.")
+    left_out = sum(1 for run in runs if run.fields) - len(vessel.scenes)
+    if left_out > 0:
+        report.text(f"The first {MOST_RUNS} runs with fields are shown; {left_out} more would make the page too large.")
+    if not vessel.scenes:
+        return None
+    if library() is None:
+        report.text(f"{MISSING[0].upper()}{MISSING[1:]}.")
+    scene = ReportScene(vessel.names, vessel.scenes, frames)
+    report.scene(scene, stills_of(vessel))
+    table, looks = places_table(scene)
+    report.places(table, looks)
+    return apart_table(scene)
+
+
+def stills_of(vessel: Vessel) -> List[Still]:
+    """Of the first run, each at the time at which the field is largest."""
+    scene, name = vessel.scenes[0], vessel.names[0]
+    keys = [key for key in STILL_FIELDS if key in scene.quantities][:STILLS] or [scene.first]
+    found: Dict[str, Still] = {}
+    for key in keys:
+        time = scene.peak(key)
+        words = scene.quantity(key).words
+        draw = functools.partial(picture, scene, key, time, title=name)
+        found[key] = (
+            f"vessel_{key}",
+            draw,
+            f"{words[0].upper()}{words[1:]} of {name} at {time:g} ms, where it is largest.",
+        )
+    return list(found.values())

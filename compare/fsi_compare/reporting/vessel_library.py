@@ -1,0 +1,56 @@
+"""The library that draws the scene in a browser: three.js of Debian's package libjs-three, put into a page when it is made."""
+
+import json
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+from .scene_packing import deflated_text
+
+PACKAGE = "libjs-three"
+PROGRAM = Path("/usr/share/javascript/three/three.min.js")
+ABOUT = Path("/usr/share/nodejs/three/package.json")
+COPYRIGHT = Path("/usr/share/doc/libjs-three/copyright")
+MISSING = (
+    f"the vessel is shown as still pictures: install the Debian package {PACKAGE} and make the report again to turn it"
+)
+
+
+class Library(NamedTuple):
+    name: str
+    version: str
+    licence_name: str
+    licence: str  # its words
+    program: str  # deflated, in base64
+
+
+def library() -> Optional[Library]:
+    """None where the package is not installed."""
+    try:
+        program = PROGRAM.read_text(encoding="utf-8")
+    except OSError:
+        return None
+    return Library("three.js", _version(), "MIT", _licence(), deflated_text(program))
+
+
+def _version() -> str:
+    try:
+        return str(json.loads(ABOUT.read_text(encoding="utf-8"))["version"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return "of Debian"
+
+
+def _licence() -> str:
+    """The holders and the words of the licence, from the package's own file."""
+    try:
+        text = COPYRIGHT.read_text(encoding="utf-8")
+    except OSError:
+        return "MIT licence (Expat): see the Debian package libjs-three."
+    holders = next(
+        (line for line in text.splitlines() if line.startswith("Copyright:") and "three.js authors" in line), ""
+    )
+    words = text.partition("\nLicense: Expat\n Permission")[2]
+    lines = ("Permission" + words).split("\n\n")[0].splitlines() if words else []
+    return "\n".join(
+        [holders.removeprefix("Copyright:").strip(), ""]
+        + ["" if line.strip() == "." else line.strip() for line in lines]
+    )

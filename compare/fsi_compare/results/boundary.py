@@ -1,0 +1,105 @@
+"""Boundary of a mesh of simplices: faces that one cell has alone, as triangles (edges in two dimensions), and pieces of it that
+are smooth."""
+
+from dataclasses import dataclass
+from typing import List, Tuple
+
+import numpy as np
+
+# Corners of the faces of a cell, outwards by the right hand, and the cell's corner opposite each; by the cell's corners.
+FACES = {4: ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)), 3: ((0, 1), (1, 2), (2, 0))}
+# The node in the middle of each edge of a quadratic cell, in VTK's order.
+MIDDLES = {10: {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}, 6: {(0, 1): 3, (1, 2): 4, (0, 2): 5}}
+CORNERS = {3: 3, 6: 3, 4: 4, 10: 4}  # by the nodes of a cell
+SMOOTH = 0.94  # cosine of the angle between faces of one piece, 20 degrees
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """Faces of cells, by the numbers of the mesh's nodes."""
+
+    faces: np.ndarray  # corners, (faces, dimension), outwards by the right hand
+    parts: np.ndarray  # straight parts of each face, (faces, parts, dimension): one of a linear cell
+
+    def some(self, which: np.ndarray) -> "Boundary":
+        """Those that a mask or numbers choose."""
+        return Boundary(self.faces[which], self.parts[which])
+
+    def straight(self) -> np.ndarray:
+        """(faces * parts, dimension)."""
+        return self.parts.reshape(-1, self.parts.shape[-1])
+
+
+def boundary_of(points: np.ndarray, cells: np.ndarray, up: np.ndarray) -> Boundary:
+    """Of cells with 3, 4, 6 or 10 nodes (see MediumFields.cells); `up`: see normals_of()."""
+    corners = CORNERS[cells.shape[1]]
+    local = FACES[corners]
+    faces = np.concatenate([cells[:, list(face)] for face in local])
+    parts = np.concatenate([cells[:, _parts(face, cells.shape[1])] for face in local])
+    _, first, counts = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    alone = np.sort(first[counts == 1])
+    faces, parts, owners = faces[alone], parts[alone], cells[alone % len(cells)][:, :corners]
+    outwards = points[faces].mean(axis=1) - points[owners].mean(axis=1)
+    inside_out = np.einsum("ij,ij->i", normals_of(points, faces, up), outwards) < 0
+    faces[inside_out], parts[inside_out] = faces[inside_out, ::-1], parts[inside_out, :, ::-1]
+    return Boundary(faces, parts)
+
+
+def straight_cells(cells: np.ndarray) -> np.ndarray:
+    """Triangles of a two-dimensional mesh with straight sides, (triangles, 3): four of each quadratic one."""
+    if cells.shape[1] == 3:
+        return cells
+    return cells[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]]].reshape(-1, 3)
+
+
+def _parts(face: Tuple[int, ...], nodes: int) -> List[List[int]]:
+    """Straight parts of a face of a cell, in the cell's own numbers."""
+    if nodes not in MIDDLES:
+        return [list(face)]
+    middle = [
+        MIDDLES[nodes][_sorted(face[i], face[(i + 1) % len(face)])] for i in range(len(face) if len(face) > 2 else 1)
+    ]
+    if len(face) == 2:
+        return [[face[0], middle[0]], [middle[0], face[1]]]
+    a, b, c = face
+    ab, bc, ca = middle
+    return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+
+
+def _sorted(a: int, b: int) -> Tuple[int, int]:
+    return (a, b) if a < b else (b, a)
+
+
+def normals_of(points: np.ndarray, faces: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """Area vectors of triangles, or length vectors of edges in the plane that `up` is normal to: (faces, 3)."""
+    first = points[faces[:, 0]]
+    along = points[faces[:, 1]] - first
+    return np.cross(along, up) if faces.shape[1] == 2 else 0.5 * np.cross(along, points[faces[:, 2]] - first)
+
+
+def smooth_pieces(faces: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """A number for each face: neighbours across a common edge (corner) have the same where the surface has no crease."""
+    size = faces.shape[1]
+    units = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    sides = np.concatenate([np.delete(faces, i, axis=1) for i in range(size)])
+    owners = np.tile(np.arange(len(faces)), size)
+    order = np.lexsort(np.sort(sides, axis=1).T[::-1])
+    sides, owners = np.sort(sides, axis=1)[order], owners[order]
+    same = np.all(sides[1:] == sides[:-1], axis=1)
+    pairs = np.stack([owners[:-1][same], owners[1:][same]], axis=1)
+    pairs = pairs[np.einsum("ij,ij->i", units[pairs[:, 0]], units[pairs[:, 1]]) > SMOOTH]
+    return components(len(faces), pairs)
+
+
+def components(count: int, pairs: np.ndarray) -> np.ndarray:
+    """Numbers 0, 1, ... of the connected parts of a graph with `count` nodes and these edges (edges, 2)."""
+    label = np.arange(count)
+    while True:
+        low = np.minimum(label[pairs[:, 0]], label[pairs[:, 1]])
+        found = label.copy()
+        for side in (0, 1):
+            np.minimum.at(found, label[pairs[:, side]], low)
+        found = found[found]
+        if np.array_equal(found, label):
+            return np.unique(label, return_inverse=True)[1]
+        label = found

@@ -1,0 +1,267 @@
+"""A run's vessel with a result on it, as a figure."""
+
+from typing import TYPE_CHECKING, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ..base.errors import InputError
+from ..base.suggestions import nearest
+from ..drawing.camera import Camera
+from ..drawing.colours import PERCENTILE, Scale, scale_of, table
+from ..drawing.raster import Mesh, rendered
+from ..drawing.sweep import angles, swept, turned
+from .quantities import Quantity
+from .scene_parts import CutPlane, Part, camera_of, first_quantity, middle_plane, parts_of, scene_quantities, views_of
+from .surfaces import Surfaces, displaced
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PIXELS = (900, 580)
+MOST_LEVELS = 40  # that the range of colours is found from
+UNITS = {"kPa": ("kPa", "Pa", "mmHg")}  # that a unit can be shown in
+PER_KPA = {"kPa": 1.0, "Pa": 1000.0, "mmHg": 7.50062}
+VISIBLE = 0.05  # of the scene's size
+INCHES_WIDE, MOST_HIGH = 7.0, 4.6
+
+
+class Scene:
+    """Of one run: what a picture is made from, read once for many pictures."""
+
+    def __init__(self, meshes: Surfaces, file: str, plane: Optional[CutPlane] = None) -> None:
+        self.meshes = meshes
+        self.file = file
+        self.plane = plane or middle_plane(meshes)
+        self.parts = parts_of(meshes, self.plane)
+        self.quantities = scene_quantities(meshes)
+        self._ranges: Dict[str, Tuple[Scale, float]] = {}
+        if not self.quantities:
+            raise InputError(file, "", "holds no field that can be shown", "set output.fields in the case")
+
+    @property
+    def first(self) -> str:
+        return first_quantity(list(self.quantities), self.meshes.flat)
+
+    def check(self, key: str) -> None:
+        if key not in self.quantities:
+            known = list(self.quantities)
+            remedy = f"did you mean '{nearest(key, known)}'? It has {', '.join(known)}"
+            raise InputError(self.file, "", f"has no field '{key}'", remedy)
+
+    def times(self, key: str) -> np.ndarray:
+        """Of the entries that have it, ms."""
+        (name, quantity), *_ = self.quantities[key].items()
+        return self.meshes.media[name].times_of(quantity.field)
+
+    def quantity(self, key: str) -> Quantity:
+        return next(iter(self.quantities[key].values()))
+
+    def values(self, part: Part, key: str, time: float) -> Optional[np.ndarray]:
+        """At the points of a part; None where it has none."""
+        quantity = self.quantities[key].get(part.surface.medium.name)
+        if quantity is None or not part.shows(quantity.field):
+            return None
+        return quantity.of(part.surface.at(time, quantity.field))
+
+    def scale(self, key: str) -> Scale:
+        """One for all times."""
+        return self._range(key)[0]
+
+    def peak(self, key: str) -> float:
+        """The time in ms at which the 99th percentile of its size is largest."""
+        return self._range(key)[1]
+
+    def visible_factor(self) -> float:
+        """1, 2 or 5 times a power of ten by which the largest displacement is a twentieth of the scene's size; 1 where it is
+        as large by itself, or where there is none."""
+        if "displacement" not in self.quantities:
+            return 1.0
+        size = max(float(np.ptp(medium.points, axis=0).max()) for medium in self.meshes.media.values())
+        largest = self.scale("displacement").largest
+        wanted = VISIBLE * size / largest if largest > 0 else 1.0
+        power = 10.0 ** np.floor(np.log10(wanted)) if wanted > 1 else 1.0
+        return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= max(wanted, 1.0)))
+
+    def _range(self, key: str) -> Tuple[Scale, float]:
+        if key not in self._ranges:
+            times = self.times(key)
+            times = times[np.unique(np.linspace(0, len(times) - 1, MOST_LEVELS).round().astype(int))]
+            levels = [self._level(key, float(time)) for time in times]
+            sizes = [
+                max((float(np.percentile(np.abs(v), PERCENTILE)) for v in level if len(v)), default=0.0)
+                for level in levels
+            ]
+            scale = scale_of((v for level in levels for v in level), self.quantity(key).signed)
+            self._ranges[key] = scale, float(times[int(np.nanargmax(sizes))])
+        return self._ranges[key]
+
+    def _level(self, key: str, time: float) -> List[np.ndarray]:
+        """Values of all parts; each medium is read once."""
+        found: List[np.ndarray] = []
+        for name, quantity in self.quantities[key].items():
+            values = self.meshes.media[name].at(time, quantity.field)
+            parts = [part for part in self.parts if part.surface.medium.name == name and part.shows(quantity.field)]
+            found += [quantity.of(part.surface.take(values)) for part in parts]
+        return found
+
+    def shown(self, key: str, cut: bool) -> List[Part]:
+        """Of a section in two dimensions; else the surfaces that have the quantity, or what a cut leaves of them."""
+        quantity = self.quantities[key]
+        fields = {name: q.field for name, q in quantity.items()}
+        has = [part for part in self.parts if part.shows(fields.get(part.surface.medium.name, ""))]
+        if self.meshes.flat:
+            return self.parts
+        if cut:
+            groups = {"cut", "lumen", "openings", "wall"}
+            return [part for part in self.parts if part.group in groups]
+        solid = [part for part in has if part.group != "cut"]
+        return (
+            [part for part in solid if not (part.group == "wall" and "fluid" in fields)]
+            if self._inside(fields)
+            else solid
+        )
+
+    def _inside(self, fields: Dict[str, str]) -> bool:
+        """Whether it is a quantity of the fluid alone."""
+        return "fluid" in fields and "wall" not in fields
+
+
+def meshes_to_draw(
+    scene: Scene, key: str, time: float, scale: Scale, factor: float, cut: bool, eye: np.ndarray
+) -> List[Mesh]:
+    """Triangles with the places of their colours."""
+    found: List[Mesh] = []
+    turns = scene.meshes.geometry == "axisymmetric"
+    for part in scene.shown(key, cut):
+        values = scene.values(part, key, time)
+        places = None if values is None else scale.places(values)
+        points, cells = displaced(part.surface, time, factor), part.surface.triangles
+        if cells.shape[1] == 2:
+            if turns and not (part.group == "wall" and part.name == "inner"):
+                points, cells, source = swept(points, cells)
+                found.append(Mesh(points, cells, None if places is None else places[source]))
+        elif part.group == "section" and turns:
+            found += [Mesh(turned(points, angle), cells, places, lit=False) for angle in angles()[[0, -1]]]
+        elif part.group in ("section", "cut"):
+            found.append(Mesh(points, cells, places, lit=False))
+        else:
+            found.append(Mesh(points, cells, places, beyond=_beyond(part, scene.plane, eye) if cut else None))
+    return found
+
+
+def _beyond(part: Part, plane: Optional[CutPlane], eye: np.ndarray) -> Optional[np.ndarray]:
+    """How far each point is from the plane, towards the eye."""
+    if plane is None:
+        return None
+    normal = plane.normal if plane.normal @ eye > 0 else -plane.normal
+    return (part.surface.points - plane.origin) @ normal
+
+
+def picture(
+    scene: Scene,
+    field: Optional[str] = None,
+    time: Optional[float] = None,
+    factor: float = 1.0,
+    cut: Optional[bool] = None,
+    unit: Optional[str] = None,
+    span: Optional[Tuple[float, float]] = None,
+    camera: Optional[Camera] = None,
+    title: str = "",
+    size: Tuple[int, int] = PIXELS,
+) -> "Figure":
+    """The vessel at a time in ms (default: the last) coloured by a field, moved by `factor` times the displacement. `cut`: opened
+    by a plane (default: where the field is of the inside, velocity). `span`: range of colours in `unit`. Raises InputError.
+    """
+    key = field or scene.first
+    scene.check(key)
+    quantity = scene.quantity(key)
+    times = scene.times(key)
+    at = float(times[-1]) if time is None else time
+    shown_unit, times_unit = unit_of(quantity.unit, unit)
+    scale = scale_in(scene.scale(key), span, times_unit)
+    opened = quantity.field == "velocity" if cut is None else cut
+    eye = camera or camera_of(scene.meshes, swept=True)
+    meshes = meshes_to_draw(scene, key, at, scale, factor, opened, eye.towards)
+    image, pixels = rendered(meshes, eye, size[0], size[1], table(scale.map))
+    words = quantity.words + (f" in {shown_unit}" if shown_unit not in ("", "1") else "")
+    notes = [f"t = {at:g} ms"] + ([f"displacement x {factor:g}"] if factor != 1 and _moves(scene) else [])
+    return framed(image, scale, times_unit, words, " · ".join(([title] if title else []) + notes), span is None)
+
+
+def camera_named(scene: Scene, view: Optional[str]) -> Optional[Camera]:
+    """One of views_of(); None for none. Raises InputError."""
+    if view is None:
+        return None
+    views = {name: camera for name, camera, _ in views_of(scene.meshes)}
+    if view not in views:
+        raise InputError(
+            "",
+            "view",
+            f"'{view}' is unknown",
+            f"did you mean '{nearest(view, list(views))}'? It has {', '.join(views)}",
+        )
+    return views[view]
+
+
+def _moves(scene: Scene) -> bool:
+    return any("displacement" in medium.names for medium in scene.meshes.media.values())
+
+
+def unit_of(own: str, wanted: Optional[str]) -> Tuple[str, float]:
+    """(unit, how many of it are one of the own). Raises InputError."""
+    if wanted is None or wanted == own:
+        return own, 1.0
+    if wanted not in UNITS.get(own, ()):
+        raise InputError(
+            "", "unit", f"'{wanted}' does not fit a field in {own}", f"give {' or '.join(UNITS.get(own, (own,)))}"
+        )
+    return wanted, PER_KPA[wanted] / PER_KPA[own]
+
+
+def scale_in(scale: Scale, span: Optional[Sequence[float]], per_own: float) -> Scale:
+    """With a range that was asked for."""
+    if span is None:
+        return scale
+    low, high = (end / per_own for end in span)
+    return Scale(low, high, low < 0 < high and abs(low + high) < 1e-9 * high, scale.least, scale.largest)
+
+
+def framed(image: np.ndarray, scale: Scale, per_own: float, words: str, title: str, robust: bool) -> "Figure":
+    """With its legend: what the colours mean, and what occurs."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+    from matplotlib.figure import Figure
+
+    image = cropped(image)
+    ratio = image.shape[0] / image.shape[1]
+    figure = Figure(figsize=(INCHES_WIDE, 1.35 + min(INCHES_WIDE * 0.96 * ratio, MOST_HIGH)))
+    FigureCanvasAgg(figure)
+    height = figure.get_size_inches()[1]
+    axes = figure.add_axes((0.02, 0.95 / height, 0.96, 1 - 1.3 / height))
+    axes.imshow(image, interpolation="lanczos")
+    axes.set_axis_off()
+    figure.text(0.02, 1 - 0.22 / height, title, fontsize=9, va="center", parse_math=False)
+    bar = figure.add_axes((0.14, 0.62 / height, 0.72, 0.14 / height))
+    bar.grid(False)
+    shades = ScalarMappable(Normalize(scale.low * per_own, scale.high * per_own), scale.map)
+    below, above = scale.least < scale.low * (1 + 1e-9), scale.largest > scale.high * (1 + 1e-9)
+    extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
+    figure.colorbar(shades, cax=bar, orientation="horizontal", extend=extend).ax.tick_params(labelsize=8)
+    how = f"colours end at the {PERCENTILE:g}th percentile" if robust else "range as asked for"
+    occurs = (
+        f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur"
+        if scale.least == scale.least
+        else ""
+    )
+    figure.text(0.5, 0.08 / height, f"{words} ({occurs})", fontsize=8, ha="center", va="bottom", parse_math=False)
+    return figure
+
+
+def cropped(image: np.ndarray, border: int = 8) -> np.ndarray:
+    """Without the empty rows and columns around it."""
+    rows, columns = np.flatnonzero((image < 255).any(axis=(1, 2))), np.flatnonzero((image < 255).any(axis=(0, 2)))
+    if not len(rows):
+        return image
+    top, left = max(rows[0] - border, 0), max(columns[0] - border, 0)
+    return image[top : rows[-1] + 1 + border, left : columns[-1] + 1 + border]

@@ -1,0 +1,79 @@
+"""What of a field is shown as one number for each node: magnitudes and components of vectors, stresses of tensors."""
+
+from dataclasses import dataclass
+from typing import Callable, Dict, List, Optional
+
+import numpy as np
+
+from .fields import MediumFields
+
+COMPONENTS = ("x", "y", "z")
+WORDS = {
+    "rrt": "relative residence time",
+    "osi": "oscillatory shear index",
+    "tawss": "time-averaged wall shear stress",
+    "von_mises_stress": "von Mises stress",
+    "fibre_stress_1": "stress of the first fibres",
+    "fibre_stress_2": "stress of the second fibres",
+}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number for each node, of one field."""
+
+    key: str  # of the field, or field:part
+    field: str
+    words: str
+    unit: str
+    signed: bool  # negative values mean something else than small ones
+    of: Callable[[np.ndarray], np.ndarray]
+
+
+def _component(i: int) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda values: values[:, i]
+
+
+def _itself(values: np.ndarray) -> np.ndarray:
+    return values
+
+
+def _magnitude(values: np.ndarray) -> np.ndarray:
+    return np.sqrt(np.einsum("ij,ij->i", values, values))
+
+
+def _von_mises(values: np.ndarray) -> np.ndarray:
+    xx, xy, xz, yy, yz, zz = values.T
+    return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + xz**2 + yz**2))
+
+
+def quantities_of(medium: MediumFields) -> List[Quantity]:
+    """Of all fields of a medium, in the order of their names."""
+    return [quantity for field in medium.names for quantity in quantities_of_field(medium, field)]
+
+
+def quantities_of_field(medium: MediumFields, field: str) -> List[Quantity]:
+    words, unit = WORDS.get(field, field.replace("_", " ")), medium.units[field]
+    width = medium.width(field)
+    if width == 1:
+        return [Quantity(field, field, words, unit, field.endswith("pressure") or field.startswith("fibre"), _itself)]
+    if width == 6:
+        made = Quantity(field, field, f"von Mises stress of the {words}", unit, False, _von_mises)
+        return [made] if "von_mises_stress" not in medium.names else []
+    if field == "principal_stress":
+        names = ("largest", "middle", "least")
+        return [
+            Quantity(f"{field}:{i + 1}", field, f"{name} principal stress", unit, True, _component(i))
+            for i, name in enumerate(names)
+        ]
+    found = [Quantity(field, field, words, unit, False, _magnitude)]
+    parts = [
+        Quantity(f"{field}:{c}", field, f"{words}, {c}", unit, True, _component(i)) for i, c in enumerate(COMPONENTS)
+    ]
+    return found + parts
+
+
+def quantity_named(medium: MediumFields, name: str) -> Optional[Quantity]:
+    """By its key; None for another name."""
+    known: Dict[str, Quantity] = {quantity.key: quantity for quantity in quantities_of(medium)}
+    return known.get(name)
