@@ -110,8 +110,7 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
   using P = PartitionedData;
   using QuasiNewton = QuasiNewtonOptions;
   return {
-      leaf("scheme", optional,
-           "coupling: {}; default block-newton",
+      leaf("scheme", optional, "coupling: {}; default block-newton",
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf("tolerance", optional,
            fmt::format(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fsi {
 
@@ -52,14 +53,26 @@ double estimated_error(double relative_increment, double left) {
   return relative_increment * left / (1 - left);
 }
 
-/// \param left             what the last increment left of the residual
-/// \param small_increment  whether the increment is small enough where that decides
-bool is_accurate(const NewtonProblem& problem, const NewtonOptions& options, double left, bool small_increment) {
-  if (options.error_tolerance == 0) return small_increment;
-  const double change = problem.relative_increment();
-  if (!std::isfinite(change)) return small_increment;
-  return left < 1 && estimated_error(change, left) <= options.error_tolerance;
-}
+/// What the increments of one call tell of the error. The residual adds up rows of different units: where one kind of them
+/// is most of it, it falls though the others' error does not. So the ratio of the increments, squared for a new Jacobian,
+/// has a say in what is left; of a first one, which has none, no more than this is believed.
+class ErrorWatch {
+ public:
+  /// \param change   NewtonProblem::relative_increment() of the last increment
+  /// \param left     of the residual by it
+  /// \param renewed  it came of a new Jacobian
+  double estimate(double change, double left, bool renewed) {
+    double ratio = first_ratio;
+    if (last_change_ > 0) ratio = renewed ? change * change / (last_change_ * last_change_) : change / last_change_;
+    last_change_ = change;
+    const double worst = std::max(left, ratio);
+    return worst < 1 ? change * worst / (1 - worst) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static constexpr double first_ratio = 0.1;
+  double last_change_ = 0;
+};
 
 }  // namespace
 
@@ -94,6 +107,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   int kept_iterations = 0;
   double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
   bool renew = !keep || !problem.linearised();
+  ErrorWatch watch;
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
     iteration.linearised = renew;
@@ -128,8 +142,9 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (options.observe_iteration) options.observe_iteration(report);
     if (reference == 0) reference = increment;
 
-    const bool accurate =
-        is_accurate(problem, options, new_residual / residual, iteration.increment <= options.tolerance * reference);
+    bool accurate = iteration.increment <= options.tolerance * reference;
+    if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
+      accurate = watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance;
     const bool small = iteration.step == 1 && (accurate || problem.negligible(increment, rounding_increment) ||
                                                (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||

@@ -17,9 +17,10 @@ namespace fsi {
 
 namespace {
 
-constexpr double pass_share = 0.5;  // of a linear tolerance: what passes may leave of the gap, the rest is the media's
+constexpr double pass_share = 0.5;  // of a linear tolerance, for the gap that passes leave; the rest is the media's
 constexpr double loosest_answer = 1e-2;  // of a medium to a change of the datum: pairs are as exact as that
 constexpr double tightest_answer = 1e-8;
+constexpr double rounding_of_gap = 1e-14, rounding_of_load = 1e-13;  // relative: no pass makes less of them
 
 }  // namespace
 
@@ -127,11 +128,26 @@ double BlockNewtonProblem<n>::load() const {
 }
 
 template <int n>
-double BlockNewtonProblem<n>::relative_gap() const {
+double BlockNewtonProblem<n>::displacement() const {
   std::vector<double> d(scene_.interface.size() * n);
   for (std::size_t i = 0; i < scene_.interface.size(); ++i)
     for (int k = 0; k < n; ++k) d[i * n + k] = state_->now.wall[MixedLayout<n>::vector(scene_.interface[i].wall, k)];
-  const double size = space_.norm(d);
+  return space_.norm(d);
+}
+
+template <int n>
+double BlockNewtonProblem<n>::displacement_increment() const {
+  std::vector<double> d(scene_.interface.size() * n);
+  for (std::size_t i = 0; i < scene_.interface.size(); ++i) {
+    const Direction<n> dd = wall_.increment_at(scene_.interface[i].wall);
+    for (int k = 0; k < n; ++k) d[i * n + k] = dd[k];
+  }
+  return space_.norm(d);
+}
+
+template <int n>
+double BlockNewtonProblem<n>::relative_gap() const {
+  const double size = displacement();
   return size > 0 ? gap() / size : 0.0;
 }
 
@@ -149,7 +165,6 @@ double BlockNewtonProblem<n>::relative_residual() const {
 template <int n>
 double BlockNewtonProblem<n>::solve(double tolerance) {
   linear_iterations_ = 0;
-  target_ = pass_share * tolerance * residual_;
   for (int stiffenings = 0; !solve_by_passes(tolerance); ++stiffenings) {
     if (stiffenings == most_stiffenings) return std::numeric_limits<double>::quiet_NaN();
     stiffness_ *= stiffening;
@@ -164,11 +179,15 @@ double BlockNewtonProblem<n>::solve(double tolerance) {
 template <int n>
 bool BlockNewtonProblem<n>::solve_by_passes(double tolerance) {
   if (!first_pass(tolerance)) return false;
+  const double part = pass_share * tolerance;
+  const double least_gap = rounding_of_gap * displacement(), least_force = rounding_of_load * load();
   std::vector<double> r = gap_left();
   for (int pass = 1;; ++pass) {
     ++cost.passes;
-    const double left = as_force(r);
-    if (left <= target_) return true;
+    const double left = space_.norm(r), left_force = as_force(r), force = space_.norm(loads_);
+    if (left <= std::max(part * displacement_increment(), least_gap) &&
+        left_force <= std::max(part * force, least_force))
+      return true;
     if (pass == most_passes_ || !std::isfinite(left)) {
       failure_ = fmt::format("fluid and wall do not agree in {} linear passes", pass);
       return false;
@@ -179,7 +198,7 @@ bool BlockNewtonProblem<n>::solve_by_passes(double tolerance) {
       dx = map_.correction(r);
       axpy(1, dx, x_);
     }
-    const double accuracy = tolerance_of(as_force(dx));
+    const double accuracy = std::clamp(part * force / as_force(dx), tightest_answer, loosest_answer);
     const int iterations = linear_iterations_;
     if (!next_pass(dx, accuracy)) return false;
     r = gap_left();
@@ -242,11 +261,6 @@ bool BlockNewtonProblem<n>::note(const System<n>& medium, bool solved, int& iter
 }
 
 template <int n>
-double BlockNewtonProblem<n>::tolerance_of(double force) const {
-  return force > 0 ? std::clamp(target_ / force, tightest_answer, loosest_answer) : loosest_answer;
-}
-
-template <int n>
 void BlockNewtonProblem<n>::move(double step) {
   fluid_.move(step);
   wall_.move(step);
@@ -269,7 +283,11 @@ double BlockNewtonProblem<n>::relative_increment() const {
 
 template <int n>
 double BlockNewtonProblem<n>::rounding() {
-  return std::hypot(fluid_.rounding(), wall_.rounding());
+  std::vector<double> d(scene_.interface.size() * n);
+  for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+    for (int k = 0; k < n; ++k) d[i * n + k] = state_->now.wall[MixedLayout<n>::vector(scene_.interface[i].wall, k)];
+  const double of_gap = std::numeric_limits<double>::epsilon() * as_force(d);
+  return std::hypot(fluid_.rounding(), wall_.rounding(), of_gap);
 }
 
 template <int n>

@@ -80,9 +80,13 @@ class BlockNewtonProblem : public NewtonProblem {
   std::vector<double> interface_gap() const;
   /// C times velocities that displacements of the interface are worth, Euclidean norm.
   double as_force(const std::vector<double>& displacements) const;
-  /// Norm of the fluid's force on the wall.
+  /// Norms of the fluid's force on the wall, of the wall's displacement there, and of its increment.
   double load() const;
-  /// Both media's increments by passes until the gap is worth no more than target_. \returns whether they get there
+  double displacement() const;
+  double displacement_increment() const;
+  /// Both media's increments by passes until the gap is small beside the increments of the interface, as a displacement and
+  /// as a force. Beside the residual it would not do: that adds up forces and volumes in units that anybody may choose.
+  /// \returns whether they get there
   bool solve_by_passes(double tolerance);
   /// The first pass of a linear system: the datum as it is.
   bool first_pass(double tolerance);
@@ -94,8 +98,6 @@ class BlockNewtonProblem : public NewtonProblem {
   bool note(const System<n>& medium, bool solved, int& iterations);
   /// The gap that the increments so far leave.
   std::vector<double> gap_left() const;
-  /// Of a medium's answer to a change of the datum that is worth this force.
-  double tolerance_of(double force) const;
 
   Scene<n>& scene_;
   Membrane membrane_;
@@ -112,7 +114,7 @@ class BlockNewtonProblem : public NewtonProblem {
   std::vector<double> x_;                           ///< period dv, likewise
   std::vector<double> loads_;                       ///< -C (du - dv), likewise, kPa mm^2
   std::vector<double> fluid_forces_, wall_forces_;  ///< nodal values of the media, zero away from the interface
-  double residual_ = 0, target_ = 0;                ///< norm of the last residual; where passes end
+  double residual_ = 0;                             ///< norm of the last one
   int linear_iterations_ = 0;
   std::string failure_;
 };
