@@ -283,11 +283,17 @@ double BlockNewtonProblem<n>::relative_increment() const {
 
 template <int n>
 double BlockNewtonProblem<n>::rounding() {
-  std::vector<double> d(scene_.interface.size() * n);
+  // Of the interface's forces, which passes add up.
+  constexpr double sums = 16;
+  std::vector<double> d(scene_.interface.size() * n), moved(d.size());
   for (std::size_t i = 0; i < scene_.interface.size(); ++i)
-    for (int k = 0; k < n; ++k) d[i * n + k] = state_->now.wall[MixedLayout<n>::vector(scene_.interface[i].wall, k)];
-  const double of_gap = std::numeric_limits<double>::epsilon() * as_force(d);
-  return std::hypot(fluid_.rounding(), wall_.rounding(), of_gap);
+    for (int k = 0; k < n; ++k) {
+      d[i * n + k] = state_->now.wall[MixedLayout<n>::vector(scene_.interface[i].wall, k)];
+      moved[i * n + k] = data_->rates.interface.displacement(
+          state_->now.fluid[MixedLayout<n>::vector(scene_.interface[i].fluid, k)], 0.0);
+    }
+  const double forces = sums * std::numeric_limits<double>::epsilon() * (as_force(d) + as_force(moved) + load());
+  return std::hypot(fluid_.rounding(), wall_.rounding(), forces);
 }
 
 template <int n>
