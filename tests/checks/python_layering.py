@@ -24,7 +24,15 @@ FLOORS = (
     ("studies.linear", "studies.gallery"),
     ("studies.running",),
     ("studies.evidence", "studies.verify"),
-    ("studies.accuracy", "studies.calibration", "studies.coupling", "studies.paper", "studies.scaling", "studies.skip", "studies.stability"),
+    (
+        "studies.accuracy",
+        "studies.calibration",
+        "studies.coupling",
+        "studies.paper",
+        "studies.scaling",
+        "studies.skip",
+        "studies.stability",
+    ),
     ("studies",),
     ("",),
 )

@@ -318,7 +318,9 @@ class SchemeByTheScene(FolderTest):
         long = (*self.settings, "time.step=2", "time.end=8")
         name, reason = self.chosen("long", self.case, *long)
         self.assertEqual(name, "block-newton")
-        self.assertIn("is 10 times the membrane's, as a step of 2 ms is, as its time scheme solves it, 4.3 times", reason)
+        self.assertIn(
+            "is 10 times the membrane's, as a step of 2 ms is, as its time scheme solves it, 4.3 times", reason
+        )
         for folder in ("short", "long"):
             passes = table(self.base / folder, "iterations.csv")[:, 2]
             print(f"linear passes a step, {folder}: {passes.tolist()}")
