@@ -14,7 +14,7 @@ from .family import Member, members, with_settings
 from .found_case import write_case
 from .making import Maker
 from .quantities import curves_of
-from .results import Judged, about, judge
+from .results import BarsOfRun, Judged, about, judge
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
@@ -46,6 +46,7 @@ class Search:
         self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
         self.driver = next(iter(maker.families))
         self.centre = Member(1.0, 1.0)
+        self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
         """Raises InputError where the user's own run fails or nothing is sampled."""
@@ -68,9 +69,8 @@ class Search:
             return Outcome(judged, False, [*lines, "No quantity has a bar, so that no settings can be found."])
         if not reached(asked, self.demand.error):
             demand, far = 100 * self.demand.error, 100 * widest(asked)
-            return Outcome(
-                judged, False, [*lines, f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %."]
-            )
+            lines.append(f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %, of {self._words(1, 1)}.")
+            return Outcome(judged, False, lines)
         found = self._finish(asked)
         return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
@@ -94,7 +94,12 @@ class Search:
                 "no quantity to judge",
                 "see bars.csv of a call without --error",
             )
+        self._keep(family.own, found)
         return found
+
+    def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
+        if run is not None:
+            self.sets.setdefault(run.folder, BarsOfRun(self.driver, run, judged))
 
     def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
         family = about(self.maker.families[self.driver], self.centre)
@@ -169,6 +174,7 @@ class Search:
         judged = [
             shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves
         ]
+        self._keep(run, judged)
         line = f"{self._words(mesh, step).capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
@@ -202,12 +208,15 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
 
 
 def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
-    """The settings found, run by each."""
+    """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not among
+    them a line says so."""
     if outcome.final is None:
         return {}
     own = next(iter(maker.families))
     found = {}
     for driver in dict.fromkeys([own, *drivers]):
-        settings = outcome.settings if driver == own else {}
-        found[driver] = maker.single(outcome.final, driver, settings)
+        found[driver] = maker.single(outcome.final, driver, outcome.settings)
+        kept = [key for key in maker.requests.tolerances(f"fsi-{driver}", 1.0) if key not in outcome.settings]
+        if outcome.settings and kept:
+            outcome.lines.append(f"fsi-{driver} stops by {' and '.join(kept)}, which is as in the case.")
     return found
