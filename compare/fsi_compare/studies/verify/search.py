@@ -1,5 +1,6 @@
 """`verify --error`: from the family to settings that reach a demanded error, and the case file that has them."""
 
+import shlex
 import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -191,7 +192,8 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     facts = requests.facts
     settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
     settings.update(outcome.settings)
-    mesh = maker.runner.mesh_file(requests.mesh(outcome.final))
+    made = requests.mesh(outcome.final)
+    mesh = maker.runner.mesh_file(made)
     written = [folder / FOUND]
     entries = with_settings(facts.entries, settings)
     if mesh is not None:
@@ -201,6 +203,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     comments = [
         f"{printable(str(facts.path))} with the settings that fsi-compare verify has found:",
         *outcome.lines,
+        *([f"{MESH}: {printable(shlex.join(['fsi-mesh', made.command, *made.options]))}"] if made is not None else []),
         *(f"fsi-{name}: {duration(run.seconds) if run.done else run.status}" for name, run in seconds.items()),
     ]
     write_case(folder / FOUND, entries, facts.path.parent.resolve(), comments)
@@ -218,5 +221,5 @@ def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Di
         found[driver] = maker.single(outcome.final, driver, outcome.settings)
         kept = [key for key in maker.requests.tolerances(f"fsi-{driver}", 1.0) if key not in outcome.settings]
         if outcome.settings and kept:
-            outcome.lines.append(f"fsi-{driver} stops by {' and '.join(kept)}, which is as in the case.")
+            outcome.lines.append(f"fsi-{driver} stops by {' and '.join(kept)}, as in the case.")
     return found
