@@ -1,13 +1,16 @@
 """`verification.json`, the bars that `fsi-compare verify` left: read, and found beside an ordinary run."""
 
+import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping, Optional
 
 from ..base.files import is_file, listed, read_object
+from .columns import ITERATIONS, read_fields
 
 FILE = "verification.json"
 AGAIN = "verify the case again"
+STEP_COLUMNS = ("time_ms", "outer_iterations", "newton_iterations", "linear_iterations")
 
 
 @dataclass(frozen=True)
@@ -31,11 +34,13 @@ class Verification:
 
 
 def find_verification(folder: Path, summary: Mapping[str, Any]) -> Optional[Verification]:
-    """Of the run in `folder`: in its own folder or in those around it, of a family whose own member has the same case, mesh
-    and number of steps. None where there is none. Raises InputError for a broken file."""
+    """Of the run in `folder`: in its own folder or in those around it, the bars that were made for a run of the same
+    `identity`. None where there are none. Raises InputError for a broken file."""
+    mine: Optional[Dict[str, Optional[str]]] = None
     for path in _candidates(folder):
         data = read_object(path, AGAIN, AGAIN)
-        found = _fitting(path, data, summary)
+        mine = mine or identity(folder, summary)
+        found = _fitting(path, data, mine)
         if found is not None:
             return found
     return None
@@ -53,28 +58,39 @@ def _candidates(folder: Path) -> Iterator[Path]:
             yield candidate / FILE
 
 
-def _fitting(path: Path, data: Dict[str, Any], summary: Mapping[str, Any]) -> Optional[Verification]:
-    driver = str(summary.get("program", "")).removeprefix("fsi-")
-    own = data.get("own", {})
-    mine = own.get(driver) if isinstance(own, dict) else None
-    mesh, totals = summary.get("mesh", {}), summary.get("totals", {})
-    if not isinstance(mine, dict) or mine.get("case_hash") != summary.get("case_hash"):
-        return None
-    if mine.get("mesh_hash") != mesh.get("hash") or mine.get("steps") != totals.get("steps"):
-        return None
-    entries = [
-        entry for entry in data.get("quantities", []) if isinstance(entry, dict) and entry.get("driver") == driver
-    ]
-    return Verification(path, driver, [_bar(entry) for entry in entries])
+def _fitting(path: Path, data: Dict[str, Any], mine: Mapping[str, Any]) -> Optional[Verification]:
+    sets = data.get("sets")
+    for one in sets if isinstance(sets, list) else []:
+        if isinstance(one, dict) and isinstance(one.get("run"), dict) and _same(mine, one["run"]):
+            entries = [entry for entry in one.get("quantities") or [] if isinstance(entry, dict)]
+            return Verification(path, str(one.get("driver") or ""), [_bar(entry) for entry in entries])
+    return None
 
 
-def identity(summary: Mapping[str, Any]) -> Dict[str, Any]:
-    """What a run is recognised by."""
+def identity(folder: Path, summary: Mapping[str, Any]) -> Dict[str, Optional[str]]:
+    """What a run is recognised by: program, case, mesh, its steps and the iterations of each. The hash of a case holds what is
+    solved, not how: step, end and tolerances are not in it. Newton's and the coupling's iterates are the same from run to
+    run; runs that made equally many of them in each step were stopped at the same ones, whatever their tolerances are
+    called. Raises InputError for a broken table."""
     return {
-        "case_hash": summary.get("case_hash"),
+        **{name: summary.get(name) for name in ("program", "version", "case_hash")},
         "mesh_hash": summary.get("mesh", {}).get("hash"),
-        "steps": summary.get("totals", {}).get("steps"),
+        "steps_hash": _steps_hash(folder / ITERATIONS),
     }
+
+
+def _steps_hash(table: Path) -> Optional[str]:
+    """None: the run has not kept its steps."""
+    if not is_file(table):
+        return None
+    fields = read_fields(table)
+    text = "\n".join(",".join([name, *fields.get(name, [])]) for name in STEP_COLUMNS)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _same(mine: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """What is not known of either is not the same."""
+    return all(value is not None and value == other.get(name) for name, value in mine.items())
 
 
 def _bar(entry: Mapping[str, Any]) -> KeptBar:

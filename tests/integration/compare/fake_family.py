@@ -5,7 +5,9 @@ that `refine` is given. A run has one point, whose values are
 
     displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
 
-where the monolithic driver's tolerance adds 1e-3 of itself. `behaviour.json` beside the programs:
+where the tolerance that a driver stops by adds 1e-3 of itself: the monolithic one by `monolithic.newton_tolerance`, and so the
+partitioned one, unless the case names `partitioned.tolerance` or another scheme than `block-newton`. Newton's iterations of a
+step are 6 less the tolerance's power of ten. `behaviour.json` beside the programs:
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
   "swing"     true: the displacement swings from mesh to mesh
   "nothing"   true: no samples
@@ -79,6 +81,17 @@ def mesh_size(words):
     return 8 / float(given.get("cells", given.get("media", 4)))  # 4: of the scene ring-in-time
 
 
+def tolerance_of(name, entries, given):
+    def entry(section, key, default):
+        return given.get(f"{section}.{key}", entries.get(section, {}).get(key, default))
+
+    if name == "fsi-partitioned":
+        gap = entry("partitioned", "tolerance", None)
+        if gap is not None or entry("partitioned", "scheme", "block-newton") != "block-newton":
+            return float(1e-6 if gap is None else gap)
+    return float(entry("monolithic", "newton_tolerance", 1e-3))
+
+
 def run(words, place, name, behaviour):
     case = Path(words[1])
     entries = tomllib.loads(case.read_text())
@@ -86,7 +99,7 @@ def run(words, place, name, behaviour):
     h = float((case.parent / given.get("mesh.file", entries["mesh"]["file"])).read_text()) / SIZE
     step = float(given.get("time.step", entries["time"]["step"]))
     end = float(given.get("time.end", entries["time"]["end"]))
-    tolerance = float(given.get("monolithic.newton_tolerance", 1e-3)) if name == "fsi-monolithic" else 0.0
+    tolerance = tolerance_of(name, entries, given)
     sign = (-1) ** round(math.log2(h) * 2) if behaviour.get("swing") else 1
     factor = 1 + sign * A * h**3 + B * (step / STEP) ** 2 + 1e-3 * tolerance
     steps = round(end / step)
@@ -96,7 +109,8 @@ def run(words, place, name, behaviour):
         rows = [f"{t!r},tip,0,0,0,{factor * math.sin(t / 4)!r},{100 + 10 * h**2!r}" for t in times]
         head = "time_ms,point,x_mm,y_mm,z_mm,displacement_x_mm,pressure_Pa"
         (place / "points.csv").write_text("\n".join([head, *rows]) + "\n")
-    rows = [f"{n + 1},{t!r},1,3,9,0.01" for n, t in enumerate(times)]
+    newton = 6 - round(math.log10(tolerance))
+    rows = [f"{n + 1},{t!r},1,{newton},9,0.01" for n, t in enumerate(times)]
     head = "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s"
     (place / "iterations.csv").write_text("\n".join([head, *rows]) + "\n")
     cells = round(1e4 / h**2)

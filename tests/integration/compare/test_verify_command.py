@@ -1,11 +1,13 @@
 """`fsi-compare verify` with programs whose errors are known."""
 
+import csv
 import json
 import tomllib
 import unittest
 import unittest.mock
 from pathlib import Path
 
+import fake_family
 from fake_family import A, B, SIZE, STEP, behave, calls, install
 from folder_case import FolderCase
 
@@ -47,8 +49,33 @@ class VerifyCase(FolderCase):
         programs = [f"--{n}={self.programs / ('fsi-' + n)}" for n in ("monolithic", "partitioned")]
         return self.call("verify", self.case, "-o", self.out, *programs, *named, *words)
 
+    def run_case(self, case, place, *settings):
+        """By hand, as one who knows nothing of the family."""
+        words = [word for setting in settings for word in ("--set", setting)]
+        fake_family.main([str(self.programs / "fsi-monolithic"), str(case), "-o", str(place), *words])
+
+    def mesh_of_size(self, size):
+        path = self.base / "mine.msh"
+        path.write_text(repr(size))
+        return path
+
+    def rows(self, path):
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
     def bars(self):
         return {row["quantity"]: row for row in self.csv("bars.csv")}
+
+
+def bars_beside(case, run):
+    """By quantity, as the report of a run has them; empty where it says that the error is unknown."""
+    place = case.base / "reports" / run.name
+    code, _, err = case.call("report", run, "-o", place)
+    case.assertEqual(code, 0, err)
+    table = place / "error_bars.csv"
+    unknown = (place / "report.md").read_text().count("is unknown. `fsi-compare verify")
+    case.assertEqual(unknown, 0 if table.exists() else 1)
+    return {row["quantity"]: row for row in case.rows(table)} if table.exists() else {}
 
 
 class Verified(unittest.TestCase):
@@ -85,8 +112,9 @@ class Verified(unittest.TestCase):
 
     def test_solver_has_a_part_where_its_tolerance_shows(self):
         rows = {row["driver"]: row for row in self.case.csv("bars.csv") if "x, largest" in row["quantity"]}
-        self.assertGreater(float(rows["monolithic"]["error_solver"]), 0)
-        self.assertEqual(float(rows["partitioned"]["error_solver"]), 0)
+        solver = 3 * 1e-3 * 9e-3 / 9  # three times what the tolerance of the case leaves
+        for driver in ("monolithic", "partitioned"):  # both stop by Newton's, for the case names no scheme
+            self.assertAlmostEqual(float(rows[driver]["error_solver"]), solver, delta=0.01 * solver)
 
     def test_times_that_are_asked_for(self):
         self.assertIn("tip: displacement x, at 2 ms", self.bars)
@@ -96,8 +124,9 @@ class Verified(unittest.TestCase):
         self.assertIn("tip: displacement x", page)
         self.assertTrue((self.case.out / "waves_1.svg").exists())
         data = json.loads((self.case.out / "verification.json").read_text())
-        self.assertEqual(data["own"]["monolithic"]["mesh_hash"], "1")
-        self.assertEqual(len(data["quantities"]), len(self.case.csv("bars.csv")))
+        self.assertEqual([one["driver"] for one in data["sets"]], ["monolithic", "partitioned"])
+        self.assertEqual({one["run"]["mesh_hash"] for one in data["sets"]}, {"1"})
+        self.assertEqual(sum(len(one["quantities"]) for one in data["sets"]), len(self.case.csv("bars.csv")))
 
     def test_goes_on_where_it_stopped(self):
         first = len(calls(self.case.programs))
@@ -122,6 +151,12 @@ class Verified(unittest.TestCase):
         self.assertIn("tip: displacement x, at the end", text)
         self.assertEqual(text.count("is unknown. `fsi-compare verify"), 1)
 
+    def test_run_of_other_tolerances_has_no_bars(self):
+        """Case, mesh and steps are the same."""
+        runs = {r["member"]: self.case.out / "runs" / r["folder"] for r in self.members if r["driver"] == "partitioned"}
+        self.assertEqual(bars_beside(self.case, runs["looser"]), {})
+        self.assertNotEqual(bars_beside(self.case, runs["own"]), {})
+
 
 class OtherFamilies(VerifyCase):
     def test_counts_of_cells_are_multiplied(self):
@@ -139,6 +174,21 @@ class OtherFamilies(VerifyCase):
         code, _, err = self.verify(mesh=False)
         self.assertEqual(code, 0, err)
         self.assertEqual(sorted({float(r["mesh"]) for r in self.csv("members.csv")}), [0.25, 0.5, 1])
+        refined = [line.split(" refine ")[1] for line in calls(self.programs) if " refine " in line]
+        self.assertEqual({line.split()[0] for line in refined}, {str(self.base / "tube.msh")})
+        self.assertEqual({line.split("--times ")[1].split()[0] for line in refined}, {"1", "2"})
+
+    def test_says_that_the_shape_is_in_no_bar_of_a_mesh_file(self):
+        (self.base / "tube.msh").write_text("1.0")
+        said = "is in no bar"
+        _, out, _ = self.verify("--of", "pressure", mesh=False)
+        self.assertIn(said, out)
+        self.assertEqual(
+            sum(said in note for note in json.loads((self.out / "verification.json").read_text())["notes"]), 1
+        )
+        self.assertIn(said, (self.out / "report.html").read_text())
+        _, out, _ = self.verify("--of", "pressure")
+        self.assertNotIn(said, out + (self.out / "report.html").read_text())
 
     def test_list_runs_nothing(self):
         code, out, _ = self.verify("--list")
@@ -159,6 +209,30 @@ class DemandedError(VerifyCase):
         self.assertTrue(step < STEP or size < SIZE)
         family = [line for line in calls(self.programs) if "fsi-partitioned" in line]
         self.assertEqual(len(family), 1)  # the family is one driver's
+        newton = found["monolithic"]["newton_tolerance"]  # the other driver has it, too: it stops by the same
+        self.assertIn(f"monolithic.newton_tolerance={newton}", family[0])
+        self.assertNotIn("partitioned", found)
+        self.assertIn(f"# found.msh: fsi-mesh geo {self.geo.resolve()}", (self.out / "found.toml").read_text())
+
+    def test_other_scheme_keeps_its_tolerance_and_says_so(self):
+        self.case.write_text(CASE + '[partitioned]\nscheme = "iqn-ils"\n')
+        _, out, _ = self.verify("--error", "2%", "--of", "displacement", "--drivers", "monolithic,partitioned")
+        self.assertIn("fsi-partitioned stops by partitioned.tolerance, as in the case", out)
+
+    def test_each_run_has_its_own_bars(self):
+        """The case's own beside the case's own run, those of the settings found beside a run of these."""
+        self.verify("--error", "1%", "--of", "displacement")
+        found = self.csv("bars.csv")
+        runs = {name: self.base / name for name in ("as_it_was", "as_found")}
+        self.run_case(self.case, runs["as_it_was"], f"mesh.file={self.mesh_of_size(SIZE)}")
+        self.run_case(self.out / "found.toml", runs["as_found"])
+        own, best = (bars_beside(self, run) for run in runs.values())
+        self.assertEqual({row["quantity"]: row["error"] for row in found}, {n: row["error"] for n, row in best.items()})
+        name = "tip: displacement x, at the end"
+        for bars, run in ((own, "as_it_was"), (best, "as_found")):
+            last = self.rows(runs[run] / "points.csv")[-1]
+            self.assertAlmostEqual(float(bars[name]["value"]), float(last["displacement_x_mm"]), places=12)
+        self.assertLess(float(best[name]["error"]), 0.7 * float(own[name]["error"]))
 
     def test_out_of_reach_of_the_budget(self):
         code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.05")

@@ -1,6 +1,7 @@
 """Parts of `fsi-compare verify`: quantities of curves, scripts and words of meshes, costs, demands, case files."""
 
 import math
+import re
 import tomllib
 import types
 import unittest
@@ -17,10 +18,14 @@ from fsi_compare.studies.verify.demand import cheapest, shown_by, tolerance_fact
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
-from fsi_compare.studies.verify.mesh_family import RECOMMENDED, _artery_words, ratio_for
+from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_words, ratio_for
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
+from fsi_compare.studies.verify.tolerances import DEFAULT_SCHEME, GAP_TOLERANCE, NEWTON_TOLERANCE, governing
 from fsi_compare.studies.verify.verdict import Value, bar_of
+
+
+SOURCES = Path(__file__).resolve().parents[3]  # of the drivers and of fsi-mesh
 
 
 def curve(of, step=0.1, end=10.0, name="tip: displacement x"):
@@ -105,7 +110,58 @@ class Scripts(FolderCase):
                 read_sizes(self.script(text))
 
 
+class Tolerances(unittest.TestCase):
+    BOTH = ("fsi-monolithic", "fsi-partitioned")
+
+    def keys(self, program, **entries):
+        return sorted(governing(program, entries))
+
+    def test_case_without_a_scheme_governs_both_drivers_alike(self):
+        for newton in ({}, {"newton_tolerance": 1e-5}, {"error_tolerance": 1e-3}, {"residual_tolerance": 1e-8}):
+            monolithic, partitioned = (governing(program, {"monolithic": newton}) for program in self.BOTH)
+            self.assertEqual(monolithic, partitioned)
+        self.assertEqual(governing(self.BOTH[1], {}), {"monolithic.newton_tolerance": 1e-3})
+
+    def test_demanded_error_and_residual(self):
+        newton = {"newton_tolerance": 1e-5, "error_tolerance": 1e-3, "residual_tolerance": 1e-8}
+        self.assertEqual(
+            governing("fsi-monolithic", {"monolithic": newton}),
+            {"monolithic.error_tolerance": 1e-3, "monolithic.residual_tolerance": 1e-8},
+        )
+        self.assertEqual(
+            self.keys("fsi-monolithic", monolithic={"error_tolerance": 0}), ["monolithic.newton_tolerance"]
+        )
+
+    def test_tolerance_that_a_case_names_is_the_partitioned_driver_s(self):
+        for coupling in ({}, {"scheme": "block-newton"}):
+            entries = {"partitioned": {**coupling, "tolerance": 1e-7}, "monolithic": {"newton_tolerance": 1e-5}}
+            self.assertEqual(governing("fsi-partitioned", entries), {"partitioned.tolerance": 1e-7})
+            self.assertEqual(governing("fsi-monolithic", entries), {"monolithic.newton_tolerance": 1e-5})
+
+    def test_other_schemes_stop_by_the_gap(self):
+        entries = {"partitioned": {"scheme": "iqn-ils"}, "monolithic": {"error_tolerance": 1e-3}}
+        self.assertEqual(governing("fsi-partitioned", entries), {"partitioned.tolerance": 1e-6})
+        self.assertEqual(
+            self.keys("fsi-partitioned", partitioned={"scheme": "aitken", "force_tolerance": 1e-4}),
+            ["partitioned.force_tolerance", "partitioned.tolerance"],
+        )
+
+    def test_defaults_are_those_of_the_drivers(self):
+        data = (SOURCES / "common/case/case.hpp").read_text()
+        newton = re.search(r"standard_newton\(\) \{\s*NewtonOptions options;\s*options\.tolerance = (\S+);", data)
+        gap = re.search(r"standard_tolerance = (\S+);", data)
+        self.assertEqual((float(newton[1]), float(gap[1])), (NEWTON_TOLERANCE, GAP_TOLERANCE))
+        choice = (SOURCES / "partitioned/scheme_choice.cpp").read_text()
+        self.assertIn(f'return {{"{DEFAULT_SCHEME}", "the case names none"}};', choice)
+
+
 class MeshWords(unittest.TestCase):
+    def test_sizes_of_levels_are_those_of_fsi_mesh(self):
+        source = (SOURCES / "common/mesh/artery/options.cpp").read_text()
+        table = re.search(r"constexpr Level levels\[\] = \{(.*)\};", source)[1]
+        found = re.findall(r'\{"(\w+)", ([\d.]+), ([\d.]+)\}', table)
+        self.assertEqual({name: (float(size), float(along)) for name, size, along in found}, LEVELS)
+
     def test_artery_by_numbers_sizes_and_level(self):
         words = _artery_words(("--lumen-cells", "4", "--axial-cells=24", "--order", "2"), 1.5)
         self.assertEqual(words, ["--order", "2", "--lumen-cells", "6", "--axial-cells", "36"])

@@ -10,7 +10,6 @@ from ...base.options import Commands, add_command, add_drivers, add_usual
 from ...reporting.layout import say_written
 from ...reporting.matplotlib_loader import load_matplotlib
 from ...reporting.pressure import read_times
-from ...runs.verification import identity
 from ..running.runner import Runner, sweep_study
 from ..starting.folder_lock import locked
 from ..starting.progress import duration
@@ -18,8 +17,8 @@ from ..starting.programs import Program, find_mesh_maker, find_program
 from .family import CaseFacts, Member, Requests, read_case
 from .making import Maker
 from .mesh_family import find_recipe, ratio_for
-from .preparing import plan, sample, tell_mesh, within_budget
-from .results import FamilyRuns, Judged, bands, judge
+from .preparing import SHAPE, plan, sample, tell_mesh, within_budget
+from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
 
@@ -153,8 +152,8 @@ def make(
     if options.budget is not None:
         family = within_budget(options, maker, family)
     maker.run(family)
-    judged, waves = look(maker, facts, times, options.of)
-    return write(options, maker, facts, judged, waves)
+    sets, waves = look(maker, facts, times, options.of)
+    return write(options, maker, [one for each in sets for one in each.judged], waves, sets)
 
 
 def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], programs: Dict[str, Program]) -> int:
@@ -163,7 +162,8 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
     levels = list(range(-1, options.levels))
     ratio = ratio_for(requests.recipe.counts, levels) if requests.recipe.coarsens else 2.0
-    outcome = Search(maker, demand, ratio, options.levels).go()
+    search = Search(maker, demand, ratio, options.levels)
+    outcome = search.go()
     others = [name.removeprefix("fsi-") for name in programs]
     seconds = by_each_driver(maker, outcome, others)
     for name, run in seconds.items():
@@ -174,7 +174,7 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
         maker.notes.append(line)
     with together(requests.folder) as inside:
         written = [path.name for path in write_found(inside, maker, outcome, seconds)]
-    code = write(options, maker, requests.facts, outcome.judged, [])
+    code = write(options, maker, outcome.judged, [], list(search.sets.values()))
     if not options.quiet:
         print("\n".join(map(printable, outcome.lines)))
         if written:
@@ -184,28 +184,31 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
 
 def look(
     maker: Maker, facts: CaseFacts, times: Sequence[float], names: Sequence[str]
-) -> "tuple[List[Judged], List[Any]]":
-    """All bars and bands. Raises InputError where nothing is sampled, or nothing of that name."""
-    judged: List[Judged] = []
+) -> "tuple[List[BarsOfRun], List[Any]]":
+    """All bars, by driver, and bands. Raises InputError where nothing is sampled, or nothing of that name."""
+    sets: List[BarsOfRun] = []
     waves: List[Any] = []
     for family in maker.families.values():
         curves = family.read()
         found = judge(family, curves, facts, times, names)
-        judged += found
+        if family.own is not None and found:
+            sets.append(BarsOfRun(family.driver, family.own, found))
         waves += bands(family, curves, found)
-    if not judged:
+    if not sets:
         if names:
             problem = "no quantity has this in its name"
             raise InputError("", f"--of {' '.join(names)}", problem, "leave it out to see all names")
         raise InputError(
             facts.path, "output", "samples nothing", "ask for a point: [output.points] with NAME = [x, y, z]"
         )
-    return judged, waves
+    return sets, waves
 
 
 def write(
-    options: argparse.Namespace, maker: Maker, facts: CaseFacts, judged: Sequence[Judged], waves: Sequence[Any]
+    options: argparse.Namespace, maker: Maker, judged: Sequence[Judged], waves: Sequence[Any], sets: Sequence[BarsOfRun]
 ) -> int:
+    """`judged`: the bars to show; `sets`: all that were made, each with its run."""
+    facts = maker.requests.facts
     place = maker.requests.folder
     families = list(maker.families.values())
     title = printable(str(facts.entries.get("title") or facts.path.stem))
@@ -214,15 +217,10 @@ def write(
         from .page import write_page
 
         report = write_page(inside, title, [printable(note) for note in maker.notes], judged, waves, families)
-        about = {"case": str(absolute(facts.path)), "title": title, "own": own_of(families), "notes": maker.notes}
-        report.written.append(write_json(inside, about, judged, families))
+        about = {"case": str(absolute(facts.path)), "title": title, "notes": maker.notes}
+        report.written.append(write_json(inside, about, sets, families))
     if not options.quiet:
         print(bars_table(judged).text())
-        print("\n".join(counts(judged)))
+        print("\n".join([*counts(judged), *(note for note in maker.notes if note == SHAPE)]))
         say_written(place, [path for path in report.written if path.suffix in (".csv", ".html", ".json", ".md")])
     return 2 if any(family.failures for family in families) else 0
-
-
-def own_of(families: Sequence[FamilyRuns]) -> Dict[str, Any]:
-    """By which the bars are found again beside a run."""
-    return {f.driver: identity(run.summary) for f in families for member, run in f.done.items() if member.is_own}

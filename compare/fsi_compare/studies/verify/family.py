@@ -11,6 +11,7 @@ from ...base.files import read_toml
 from ..running.study_file import Method, Request, Study, StudyMesh
 from .mesh_family import Recipe
 from .quantities import Asked
+from .tolerances import governing
 from .verdict import LOOSER
 
 STEP_RATIO = 2.0
@@ -18,10 +19,6 @@ ORDERS = {"euler": 1.0}  # of time schemes; all others are of second order
 # Of quantities by element: what is solved for, and pressures with all that is made of gradients.
 SPACE_ORDERS = {"p1": (2.0, 1.0), "p2p1": (3.0, 2.0)}
 OTHER_ELEMENT = {"p1": "p2p1", "p2p1": "p1"}
-TOLERANCES = {
-    "fsi-monolithic": {"monolithic.newton_tolerance": 1e-3},
-    "fsi-partitioned": {"partitioned.tolerance": 1e-6},
-}
 GIVE = "give a case file that a driver runs"
 
 
@@ -199,14 +196,8 @@ class Requests:
         return {"time.step": facts.step * member.step}
 
     def tolerances(self, program: str, factor: float) -> Dict[str, Any]:
-        """Those of a driver, changed by a factor."""
-        found = {}
-        for key, default in TOLERANCES[program].items():
-            section, _, name = key.partition(".")
-            given = self.facts.entries.get(section, {})
-            value = given.get(name, default) if isinstance(given, dict) else default
-            found[key] = factor * float(value)
-        return found
+        """Those that a driver stops by, changed by a factor."""
+        return {key: factor * value for key, value in governing(program, self.facts.entries).items()}
 
 
 def corner_sizes(found: Sequence[Member]) -> Tuple[float, float]:

@@ -30,7 +30,7 @@ RECOMMENDED = re.compile(
 )
 CELLS = ("--lumen-cells", "--media-cells", "--adventitia-cells", "--around", "--axial-cells")
 SIZE_OPTIONS = ("--size", "--axial-size")
-# mm across and along, of common/mesh/artery/options.cpp
+# mm across and along, as common/mesh/artery/options.cpp has them: fsi-mesh says them nowhere
 LEVELS = {"coarse": (0.75, 0.78), "intermediate": (0.375, 0.34), "fine": (0.1875, 0.168)}
 
 

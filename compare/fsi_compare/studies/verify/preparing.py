@@ -12,6 +12,12 @@ from .quantities import curves_of
 from .standard import standard_points
 
 
+SHAPE = (
+    "Curved surfaces stay where the mesh file has them, however fine the elements become: what the vessel's shape is off by is in "
+    'no bar. It is where the meshes are made of the shape: --mesh "geo SCRIPT.geo".'
+)
+
+
 def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
     below = 0 if options.coarser else -1
     ratio = ratio_for(recipe.counts, [-k for k in range(below, options.levels + below)]) if recipe.coarsens else 2.0
@@ -66,6 +72,7 @@ def tell_mesh(maker: Maker, recipe: Recipe) -> None:
         maker.notes.append(
             f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."
         )
+        maker.notes.append(SHAPE)
         return
     words = [recipe.geo.script.name] if recipe.geo is not None else []
     maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")

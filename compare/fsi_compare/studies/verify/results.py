@@ -1,7 +1,7 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
 from dataclasses import dataclass
-from typing import Dict, List, Mapping, Sequence, Tuple
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -49,8 +49,22 @@ class FamilyRuns:
     def failures(self) -> Dict[Member, StudyRun]:
         return {member: run for member, run in self.runs.items() if not run.done}
 
+    @property
+    def own(self) -> Optional[StudyRun]:
+        """The run that the bars are of; None: it is missing."""
+        return next((run for member, run in self.done.items() if member.is_own), None)
+
     def read(self) -> Dict[Member, Dict[str, Curve]]:
         return {member: curves_of(run.folder) for member, run in self.done.items()}
+
+
+@dataclass(frozen=True)
+class BarsOfRun:
+    """Bars with the one run that they are of: another mesh, step or tolerance has others."""
+
+    driver: str
+    run: StudyRun
+    judged: Sequence[Judged]
 
 
 def about(family: FamilyRuns, centre: Member) -> FamilyRuns:

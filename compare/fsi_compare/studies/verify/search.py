@@ -1,5 +1,6 @@
 """`verify --error`: from the family to settings that reach a demanded error, and the case file that has them."""
 
+import shlex
 import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -14,7 +15,7 @@ from .family import Member, members, with_settings
 from .found_case import write_case
 from .making import Maker
 from .quantities import curves_of
-from .results import Judged, about, judge
+from .results import BarsOfRun, Judged, about, judge
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
@@ -46,6 +47,7 @@ class Search:
         self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
         self.driver = next(iter(maker.families))
         self.centre = Member(1.0, 1.0)
+        self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
         """Raises InputError where the user's own run fails or nothing is sampled."""
@@ -68,9 +70,8 @@ class Search:
             return Outcome(judged, False, [*lines, "No quantity has a bar, so that no settings can be found."])
         if not reached(asked, self.demand.error):
             demand, far = 100 * self.demand.error, 100 * widest(asked)
-            return Outcome(
-                judged, False, [*lines, f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %."]
-            )
+            lines.append(f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %, of {self._words(1, 1)}.")
+            return Outcome(judged, False, lines)
         found = self._finish(asked)
         return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
@@ -94,7 +95,12 @@ class Search:
                 "no quantity to judge",
                 "see bars.csv of a call without --error",
             )
+        self._keep(family.own, found)
         return found
+
+    def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
+        if run is not None:
+            self.sets.setdefault(run.folder, BarsOfRun(self.driver, run, judged))
 
     def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
         family = about(self.maker.families[self.driver], self.centre)
@@ -169,6 +175,7 @@ class Search:
         judged = [
             shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves
         ]
+        self._keep(run, judged)
         line = f"{self._words(mesh, step).capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
 
@@ -185,7 +192,8 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     facts = requests.facts
     settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
     settings.update(outcome.settings)
-    mesh = maker.runner.mesh_file(requests.mesh(outcome.final))
+    made = requests.mesh(outcome.final)
+    mesh = maker.runner.mesh_file(made)
     written = [folder / FOUND]
     entries = with_settings(facts.entries, settings)
     if mesh is not None:
@@ -195,6 +203,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     comments = [
         f"{printable(str(facts.path))} with the settings that fsi-compare verify has found:",
         *outcome.lines,
+        *([f"{MESH}: {printable(shlex.join(['fsi-mesh', made.command, *made.options]))}"] if made is not None else []),
         *(f"fsi-{name}: {duration(run.seconds) if run.done else run.status}" for name, run in seconds.items()),
     ]
     write_case(folder / FOUND, entries, facts.path.parent.resolve(), comments)
@@ -202,12 +211,15 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
 
 
 def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
-    """The settings found, run by each."""
+    """The settings found, as `found.toml` has them, run by each. Where another driver stops by tolerances that are not among
+    them a line says so."""
     if outcome.final is None:
         return {}
     own = next(iter(maker.families))
     found = {}
     for driver in dict.fromkeys([own, *drivers]):
-        settings = outcome.settings if driver == own else {}
-        found[driver] = maker.single(outcome.final, driver, settings)
+        found[driver] = maker.single(outcome.final, driver, outcome.settings)
+        kept = [key for key in maker.requests.tolerances(f"fsi-{driver}", 1.0) if key not in outcome.settings]
+        if outcome.settings and kept:
+            outcome.lines.append(f"fsi-{driver} stops by {' and '.join(kept)}, as in the case.")
     return found

@@ -7,11 +7,11 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 from ...base.files import replacing
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ...runs.verification import FILE
+from ...runs.verification import FILE, identity
 from ..starting.progress import duration
 from .direction import Part
 from .family import Member
-from .results import FamilyRuns, Judged
+from .results import BarsOfRun, FamilyRuns, Judged
 from .verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
 
 
@@ -110,7 +110,7 @@ def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[s
             lines.append(
                 f"The member '{member.name}' of the {family.driver} driver is missing: {run.status}, {run.message}."
             )
-        own = next((run for member, run in family.done.items() if member.is_own), None)
+        own = family.own
         if own is not None:
             whole = sum(run.seconds for run in family.runs.values())
             lines.append(
@@ -119,16 +119,26 @@ def in_short(judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> List[s
     return lines
 
 
-def write_json(folder: Path, about: Dict[str, Any], judged: Sequence[Judged], families: Sequence[FamilyRuns]) -> Path:
-    """`verification.json`: about the case, all bars, all members."""
+def write_json(folder: Path, about: Dict[str, Any], sets: Sequence[BarsOfRun], families: Sequence[FamilyRuns]) -> Path:
+    """`verification.json`: about the case, all bars with what tells the run that they are of, all members."""
     data = {
         **about,
-        "quantities": [{**dict(_fields(BARS, one)), "values": [vars(value) for value in one.values]} for one in judged],
+        "sets": [_set(one) for one in sets],
         "members": [dict(_fields(MEMBERS, row)) for row in members_table(families).records],
     }
     with replacing(folder / FILE) as temporary:
         temporary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return folder / FILE
+
+
+def _set(bars: BarsOfRun) -> Dict[str, Any]:
+    quantities = [{**dict(_fields(BARS, one)), "values": [vars(value) for value in one.values]} for one in bars.judged]
+    return {
+        "driver": bars.driver,
+        "folder": bars.run.folder.name,
+        "run": identity(bars.run.folder, bars.run.summary),
+        "quantities": quantities,
+    }
 
 
 def _fields(columns: Sequence[Column[Any]], record: Any) -> List[Tuple[str, Any]]:

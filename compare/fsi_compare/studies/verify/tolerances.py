@@ -1,0 +1,42 @@
+"""What ends the iterations of a driver, by the case: the entries that a member with looser tolerances changes.
+
+| driver and scheme | stops by |
+|---|---|
+| monolithic | `monolithic.error_tolerance`, else `newton_tolerance`; `residual_tolerance` besides, where demanded |
+| partitioned, `block-newton` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver |
+| partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
+"""
+
+from typing import Any, Dict, Mapping
+
+NEWTON_TOLERANCE = 1e-3  # unless a case names one: as common/case/case.hpp has it
+GAP_TOLERANCE = 1e-6  # the same
+DEFAULT_SCHEME = "block-newton"
+
+
+def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
+    """Tolerances of `fsi-monolithic` or `fsi-partitioned` by their full keys. `entries`: of a case that the driver has run,
+    for numbers are not checked here."""
+    newton, coupling = _section(entries, "monolithic"), _section(entries, "partitioned")
+    if program == "fsi-partitioned":
+        if coupling.get("scheme", DEFAULT_SCHEME) != DEFAULT_SCHEME:
+            gap = {"partitioned.tolerance": float(coupling.get("tolerance", GAP_TOLERANCE))}
+            return {**gap, **_demanded("partitioned", coupling, "force_tolerance")}
+        if "tolerance" in coupling:
+            error = {"partitioned.tolerance": float(coupling["tolerance"])}
+            return {**error, **_demanded("monolithic", newton, "residual_tolerance")}
+    found = _demanded("monolithic", newton, "error_tolerance")
+    if not found:
+        found = {"monolithic.newton_tolerance": float(newton.get("newton_tolerance", NEWTON_TOLERANCE))}
+    return {**found, **_demanded("monolithic", newton, "residual_tolerance")}
+
+
+def _section(entries: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    section = entries.get(name, {})
+    return section if isinstance(section, Mapping) else {}
+
+
+def _demanded(name: str, section: Mapping[str, Any], key: str) -> Dict[str, float]:
+    """Empty where it is 0, which demands nothing."""
+    value = float(section.get(key, 0.0))
+    return {f"{name}.{key}": value} if value > 0 else {}
