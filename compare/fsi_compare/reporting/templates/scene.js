@@ -15,7 +15,8 @@
     return made;
   }
 
-  function Scene(root, data) {
+  // `smooth`: edges are smoothed, for which the processor would take too long.
+  function Scene(root, data, smooth) {
     this.root = root;
     this.data = data;
     this.state = { time: 0, quantity: data.first, show: data.runs.length > 1 ? "all" : "0", factor: 1, unit: "", cut: false, swept: false,
@@ -35,7 +36,7 @@
     this.textures = {};
     this.state.time = this.times.length - 1;
     this.controls();
-    this.view = new vesselView.View(this.canvas, data.box);
+    this.view = new vesselView.View(this.canvas, data.box, smooth);
     var self = this;
     this.view.picked = function (found) { self.pick(found); };
     this.view.drawn = function () { self.frames = (self.frames || 0) + 1; };
@@ -115,8 +116,14 @@
   Scene.prototype.visible = function (part) {
     var group = part.spec.group, chosen = this.state.on[group];
     if (group === "cut") return this.state.cut;
+    if (part.spec.name === "inner" && this.twice()) return false;
     if (chosen !== undefined) return chosen;
     return this.data.flat && group !== "wall" || this.colours(part) || group === "openings";
+  };
+
+  // Whether lumen and inner side of the wall, which are one surface, would be drawn with the same values.
+  Scene.prototype.twice = function () {
+    return this.state.on.lumen !== false && this.quantity().media.length > 1;
   };
 
   Scene.prototype.colours = function (part) {
@@ -377,6 +384,16 @@
     })();
   };
 
+  // Of what draws; null without WebGL.
+  function drawerName() {
+    var context = document.createElement("canvas").getContext("webgl");
+    if (!context) return null;
+    var about = context.getExtension("WEBGL_debug_renderer_info"), lose = context.getExtension("WEBGL_lose_context");
+    var name = about ? String(context.getParameter(about.UNMASKED_RENDERER_WEBGL)) : "";
+    if (lose) lose.loseContext();
+    return name;
+  }
+
   function begin(root) {
     var problem = element(root, "p", { class: "note" });
     function without(why) {
@@ -387,13 +404,11 @@
     var library = document.getElementById("vessel-library");
     if (!library) return without("The library that draws in space was not installed when this page was made (Debian package libjs-three).");
     if (typeof DecompressionStream === "undefined") return without("This browser is too old to unpack the scene.");
-    var trial = document.createElement("canvas"), context = trial.getContext("webgl2") || trial.getContext("webgl");
-    if (!context) return without("This browser does not draw in space (it lacks WebGL).");
-    var lose = context.getExtension("WEBGL_lose_context");
-    if (lose) lose.loseContext();
+    var drawer = drawerName();
+    if (drawer === null) return without("This browser does not draw in space (it lacks WebGL).");
     vesselData.text(library.textContent.trim()).then(function (program) {
       if (!window.THREE) element(document.head, "script", {}, program);
-      root.vessel = new Scene(root, data);
+      root.vessel = new Scene(root, data, !/swiftshader|llvmpipe|software/i.test(drawer));
       Array.from(document.querySelectorAll("[data-look]")).forEach(function (button) {
         button.addEventListener("click", function () { root.vessel.turnTo(JSON.parse(button.dataset.look)); });
         button.disabled = false;

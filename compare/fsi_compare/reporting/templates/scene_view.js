@@ -24,20 +24,9 @@ var vesselView = (function () {
     "  gl_FragColor = vec4(colour * light, opacity);",
     "}"].join("\n");
 
-  // Whether the processor draws, for which smooth edges take too long.
-  function software() {
-    var context = document.createElement("canvas").getContext("webgl"), about, lose, name;
-    if (!context) return true;
-    about = context.getExtension("WEBGL_debug_renderer_info");
-    name = about ? context.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
-    lose = context.getExtension("WEBGL_lose_context");
-    if (lose) lose.loseContext();
-    return /swiftshader|llvmpipe|software/i.test(name);
-  }
-
-  function View(canvas, box) {
+  function View(canvas, box, smooth) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas: canvas, antialias: !software() });
+    this.renderer = new THREE.WebGLRenderer({ canvas: canvas, antialias: smooth });
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
     this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -10, 10);
