@@ -114,9 +114,9 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf("tolerance", optional,
            fmt::format(
-               "gap between fluid and wall relative to the interface's displacement, default {:g}; block-newton: "
+               "gap between fluid and wall relative to the interface's displacement, default {}; block-newton: "
                "error_tolerance of its Newton iteration, without it those of [monolithic] hold",
-               P::standard_tolerance),
+               text_for_people(P::standard_tolerance)),
            number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
            "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "

@@ -464,14 +464,14 @@ const std::vector<BadCase>& bad_cases() {
        "relative to the first of the step, default 0.001)"},
       {"ToleranceOne", coupled_case, "tolerance = 1e-6", "tolerance = 1",
        "case.toml:32: partitioned.tolerance: 1 is out of range; give a number > 0 and < 1 (gap between fluid "
-       "and wall relative to the interface's displacement, default 1e-6)"},
+       "and wall relative to the interface's displacement, default 1e-6; block-newton: error_tolerance of its Newton "
+       "iteration, without it those of [monolithic] hold)"},
       {"ResidualToleranceNegative", coupled_case, "newton_tolerance = 1e-8", "residual_tolerance = -1",
        "case.toml:29: monolithic.residual_tolerance: -1 is out of range; give a number >= 0 and < 1 (residual relative "
        "to the first of the step, default 0: not demanded)"},
       {"MaxIterationsZero", coupled_case, "tolerance = 1e-6", "max_iterations = 0",
        "case.toml:32: partitioned.max_iterations: 0 is out of range; give a whole number from 1 to 1000000 (coupling "
-       "iterations per "
-       "step, default 200)"},
+       "iterations per step, of block-newton passes per linear system, default 200)"},
       {"RelaxationTwo", coupled_case, "tolerance = 1e-6", "relaxation = 2.0",
        "case.toml:32: partitioned.relaxation: 2 is out of range; give a number > 0 and < 2 (constant factor or the "
        "scheme's first; without it the scheme chooses)"},
