@@ -168,51 +168,64 @@ LinearReport CondensedIteration<n>::solve(const std::vector<double>& b, double t
 
 template <int n>
 void CondensedIteration<n>::correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report) {
-  const Numbering& numbering = blocks_.numbering;
-  const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
-  layout_.take(residual_, right_);
-  if (extension_ && extension_version_ != *blocks_.mesh_laplacian_version) {
-    extension_->update();
-    count_extension();
-  }
-  if (extension_) subtract_mesh_rows(tolerance);
+  take(residual_, tolerance, right_);
   solution_.assign(right_.size(), 0.0);
   if (const double scale = norm_of_all(right_); scale > 0)
     report.iterations += inner_solver(right_, scale, tolerance, solution_);
-  correction_.assign(numbering.columns(), 0.0);
-  layout_.give(solution_, correction_);
-  numbering.update_ghosts(correction_);
-  if (extension_) {
-    for (std::size_t i = 0; i < mesh_.size(); ++i) {
-      const Unknown& unknown = numbering.mesh[i];
-      mesh_[i] = unknown.index < 0 ? 0 : unknown.factor * correction_[unknown.index];
-    }
-    extend(std::min(loosest_extension, extension_share * tolerance));
-    for (std::size_t i = 0; i < mesh_.size(); ++i)
-      if (numbering.mesh_rows[i].index >= 0) correction_[numbering.mesh_rows[i].index] = mesh_[i];
-    numbering.update_ghosts(correction_);
-  }
+  complete(solution_, tolerance, correction_);
 }
 
 template <int n>
-void CondensedIteration<n>::subtract_mesh_rows(double tolerance) {
+void CondensedIteration<n>::take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) {
+  const OneDenseThread same_bits_for_any_number;  // the extension may be factorised
+  layout_.take(residual, right);
+  if (!extension_) return;
+  if (extension_version_ != *blocks_.mesh_laplacian_version) {
+    extension_->update();
+    count_extension();
+  }
+  subtract_mesh_rows(residual, tolerance, right);
+}
+
+template <int n>
+void CondensedIteration<n>::complete(const std::vector<double>& solution, double tolerance,
+                                     std::vector<double>& correction) {
+  const Numbering& numbering = blocks_.numbering;
+  const OneDenseThread same_bits_for_any_number;
+  correction.assign(numbering.columns(), 0.0);
+  layout_.give(solution, correction);
+  numbering.update_ghosts(correction);
+  if (!extension_) return;
+  for (std::size_t i = 0; i < mesh_.size(); ++i) {
+    const Unknown& unknown = numbering.mesh[i];
+    mesh_[i] = unknown.index < 0 ? 0 : unknown.factor * correction[unknown.index];
+  }
+  extend(std::min(loosest_extension, extension_share * tolerance));
+  for (std::size_t i = 0; i < mesh_.size(); ++i)
+    if (numbering.mesh_rows[i].index >= 0) correction[numbering.mesh_rows[i].index] = mesh_[i];
+  numbering.update_ghosts(correction);
+}
+
+template <int n>
+void CondensedIteration<n>::subtract_mesh_rows(const std::vector<double>& residual, double tolerance,
+                                               std::vector<double>& right) {
   const Numbering& numbering = blocks_.numbering;
   bool any = false;
   for (std::size_t i = 0; i < mesh_right_.size(); ++i) {
     const auto row = numbering.mesh_rows[i].index;
-    mesh_right_[i] = row < 0 ? 0 : residual_[row];
+    mesh_right_[i] = row < 0 ? 0 : residual[row];
     any = any || mesh_right_[i] != 0;
   }
   if (!shape_derivatives_ || !numbering.processes->any(any)) return;
-  if (norm_of_all(mesh_right_) <= 0.01 * tolerance * norm_of_all(right_)) return;  // the flow would not notice
+  if (norm_of_all(mesh_right_) <= 0.01 * tolerance * norm_of_all(right)) return;  // the flow would not notice
   set_zero(mesh_);
   extend(mesh_rows_tolerance);
-  multiply(*blocks_.shape_derivatives, mesh_, fluid_rows_);
+  fsi::multiply(*blocks_.shape_derivatives, mesh_, fluid_rows_);
   std::vector<double>& all = jacobian_times_x_;
-  all.assign(residual_.size(), 0.0);
+  all.assign(residual.size(), 0.0);
   add_to_system(numbering.fluid_rows, fluid_rows_, all);
   layout_.take(all, solution_);
-  axpy(-1, solution_, right_);
+  axpy(-1, solution_, right);
 }
 
 template <int n>

@@ -42,6 +42,14 @@ class CondensedIteration {
   LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
                      std::vector<double>& x);
 
+  /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
+  /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
+  /// \param tolerance  of that answer
+  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
+  void complete(const std::vector<double>& solution, double tolerance, std::vector<double>& correction);
+  /// y = J x
+  void multiply(const std::vector<double>& x, std::vector<double>& y) { jacobian_.multiply(x, y); }
+
   const MeshExtension<n>* extension() const { return extension_.get(); }  ///< null without mesh motion
 
  private:
@@ -63,7 +71,7 @@ class CondensedIteration {
 
   /// What the mesh equations' own residual does to the flow: right -= A_fm A_m^-1 r_m. Usually r_m is nothing but
   /// rounding, or what an iterative extension left.
-  void subtract_mesh_rows(double tolerance);
+  void subtract_mesh_rows(const std::vector<double>& residual, double tolerance, std::vector<double>& right);
 
   JacobianBlocks<n> blocks_;
   const VelocityPressureLayout<n>& layout_;

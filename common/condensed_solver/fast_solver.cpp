@@ -13,13 +13,14 @@
 namespace fsi {
 
 template <int n>
-struct FastSolver<n>::Iterative {
+struct FastSolver<n>::Iterative : CycledMedium {
   VelocityPressureLayout<n> layout;
   VelocityPressureMatrix<n> matrix;
   VelocityPressurePreconditioner<n> preconditioner;
   CondensedIteration<n> iteration;
   SingleGmres gmres;
   std::vector<float> single_right, single_solution;
+  std::vector<double> solution;
 
   Iterative(const JacobianBlocks<n>& blocks, const FastOptions& options)
       : layout(blocks),
@@ -32,6 +33,35 @@ struct FastSolver<n>::Iterative {
     return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), HarmonicExtensionOptions{},
                                                   blocks.fluid_frames);
   }
+
+  std::size_t size() const override { return matrix.size(); }
+  int place(int node) const override {
+    const int velocity = (layout.velocity_of_fluid.empty() ? layout.velocity_of_wall : layout.velocity_of_fluid)[node];
+    return velocity < 0 ? -1 : velocity * VelocityPressureMatrix<n>::lanes;
+  }
+  void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
+    y.resize(matrix.size());
+    matrix.multiply(x, y);
+  }
+  void cycle(const std::vector<float>& x, std::vector<float>& y) override {
+    y.resize(matrix.size());
+    preconditioner.apply(x, y);
+  }
+  void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
+    layout.take(of_system, mine);
+  }
+  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) override {
+    iteration.take(residual, tolerance, right);
+  }
+  void shorten(const std::vector<double>& right, double factor, std::vector<float>& x) const override {
+    matrix.take(right, factor, x);
+  }
+  void complete(const std::vector<float>& x, double factor, double tolerance,
+                std::vector<double>& correction) override {
+    matrix.give(x, factor, solution);
+    iteration.complete(solution, tolerance, correction);
+  }
+  void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override { iteration.multiply(x, y); }
 };
 
 template <int n>
@@ -108,6 +138,11 @@ LinearStatistics FastSolver<n>::statistics() const {
     s.levels = iterative_->preconditioner.multigrid().levels();
   }
   return s;
+}
+
+template <int n>
+CycledMedium* FastSolver<n>::cycled() {
+  return direct_ ? nullptr : iterative_.get();
 }
 
 template <int n>

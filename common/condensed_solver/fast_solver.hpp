@@ -35,6 +35,7 @@ class FastSolver : public LinearSolver {
   double keep_contraction() const override;
 
   LinearStatistics statistics() const override;
+  CycledMedium* cycled() override;
 
   /// The Jacobian is factorised: the system is small, or the iteration failed on it.
   bool uses_factorisation() const { return direct_ != nullptr; }

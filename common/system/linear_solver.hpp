@@ -10,6 +10,7 @@
 #include "fem/nodal_frames.hpp"
 #include "fem/nodal_layout.hpp"
 #include "mesh/submesh.hpp"
+#include "system/cycled_medium.hpp"
 #include "system/field_numbering.hpp"
 
 namespace fsi {
@@ -84,6 +85,8 @@ class LinearSolver {
   /// How much an iteration of Newton's method with a kept Jacobian must contract the residual for keeping it to pay: a
   /// matter of what update() costs beside solve(). By measurement (docs/solver-measurements.md, docs/solvers.md).
   virtual double keep_contraction() const { return 0.15; }
+  /// What the solver iterates with, as of the last update(); null where it does not.
+  virtual CycledMedium* cycled() { return nullptr; }
 };
 
 /// Makes the solver of one System.

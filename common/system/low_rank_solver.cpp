@@ -48,6 +48,7 @@ void LowRankLinearSolver<n>::update() {
     term.columns.resize(size);  // ghosts have no part in the normals
   }
   prepared_ = false;
+  cycle_.reset();
 }
 
 template <int n>
@@ -152,6 +153,22 @@ LinearReport LowRankLinearSolver<n>::solve(const std::vector<double>& b, double 
   }
   report.iterations = iterations;
   return report;
+}
+
+template <int n>
+CycledMedium* LowRankLinearSolver<n>::cycled() {
+  CycledMedium* medium = solver_->cycled();
+  if (medium == nullptr) return nullptr;
+  if (std::any_of(of_system_.begin(), of_system_.end(), [](const Term& term) { return term.given; })) return nullptr;
+  if (!prepared_) prepare();
+  medium = solver_->cycled();  // a solve that fails may have led to a factorisation
+  if (!prepared_ || medium == nullptr) return nullptr;
+  if (!cycle_) {
+    std::vector<LowRankCycle::Term> terms;
+    for (const Term& term : of_system_) terms.push_back({term.slope, &term.rows, &term.columns, &term.solution});
+    cycle_ = std::make_unique<LowRankCycle>(*medium, terms, inverse_);
+  }
+  return cycle_.get();
 }
 
 template <int n>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "system/jacobian_product.hpp"
+#include "system/low_rank_cycle.hpp"
 #include "system/linear_solver.hpp"
 
 namespace fsi {
@@ -43,6 +44,8 @@ class LowRankLinearSolver : public LinearSolver {
   LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
   LinearStatistics statistics() const override;
   double keep_contraction() const override { return solver_->keep_contraction(); }
+  /// Null where a flow is given.
+  CycledMedium* cycled() override;
 
  private:
   /// A term in the unknowns of the numbering.
@@ -71,6 +74,7 @@ class LowRankLinearSolver : public LinearSolver {
   std::vector<Term> of_system_;
   std::vector<double> inverse_;  ///< of 1 + S V^T Y, or V^T Y over its diagonal, row by row
   bool prepared_ = false;
+  std::unique_ptr<LowRankCycle> cycle_;
   int preparing_iterations_ = 0;
   std::vector<double> residual_, correction_, pressures_;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/vector_operations.hpp"
 #include "base/error.hpp"
 #include "fem/dimensions.hpp"
 #include "parallel/stop_together.hpp"
@@ -161,6 +162,25 @@ bool System<n>::answer(const std::vector<double>& forces, double tolerance) {
   numbering_.update_ghosts(answer_);
   for (std::size_t i = 0; i < increment_.size(); ++i) increment_[i] -= answer_[i];
   return true;
+}
+
+template <int n>
+void System<n>::begin_increment() {
+  stop_together(processes());
+  openings_.set_gaps();
+  set_zero(increment_);
+}
+
+template <int n>
+void System<n>::correct_increment(const std::vector<double>& z) {
+  axpy(-1, z, increment_);
+}
+
+template <int n>
+void System<n>::find_lack(const std::vector<double>& forces, std::vector<double>& lack) {
+  cycled()->multiply_whole(increment_, lack);
+  axpy(1, residual_, lack);
+  add_forces(forces, lack);
 }
 
 template <int n>

@@ -75,6 +75,15 @@ class System : public NewtonProblem {
   /// to |f - J x| <= tolerance |f|.
   /// \returns false when the linear solver failed
   bool answer(const std::vector<double>& forces, double tolerance);
+  /// Of a system of one medium that iterates: what its solver does, for an iteration over several systems. Null where it
+  /// factorises, and where openings join the Jacobian.
+  CycledMedium* cycled() { return solver_->cycled(); }
+  /// For such an iteration: the increment becomes zero,
+  void begin_increment();
+  /// is corrected by -z,
+  void correct_increment(const std::vector<double>& z);
+  /// and lacks R + f + J increment, f being forces as of solve_with().
+  void find_lack(const std::vector<double>& forces, std::vector<double>& lack);
   /// Norm of the increment, as solve() returns it.
   double increment_norm() const { return norms_.of_increment(increment_); }
   /// Of a system of one medium: the last increment of the vector at a node, velocity or the wall's displacement.

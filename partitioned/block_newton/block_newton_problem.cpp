@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "algebra/vector_operations.hpp"
@@ -20,7 +21,25 @@ namespace {
 constexpr double pass_share = 0.5;  // of a linear tolerance, for the gap that passes leave; the rest is the media's
 constexpr double loosest_answer = 1e-2;  // of a medium to a change of the datum: pairs are as exact as that
 constexpr double tightest_answer = 1e-8;
+constexpr int most_directions = 50;   // of the iteration over both media, between two residuals in double precision
+constexpr double stalled = 0.95;      // of the residual, left by a correction
 constexpr double rounding_of_gap = 1e-14, rounding_of_load = 1e-13;  // relative: no pass makes less of them
+
+/// 1 where nothing is demanded of nothing.
+double ratio(double demanded, double left) {
+  return left > demanded ? demanded / left : 1;
+}
+
+/// Both media factorise, or both iterate, as a system of all their unknowns would: one that iterates beside one that is
+/// factorised is solved for each datum by itself, which takes longer than either.
+template <int n>
+FastOptions for_both(const Scene<n>& scene, FastOptions fast) {
+  if (!scene.processes().is_alone()) return fast;
+  const auto unknowns = number_fluid_and_domain(scene).size + number_wall(scene).size;
+  const bool factorise = unknowns < fast.direct_below.value_or(FastOptions::standard_direct_below(n));
+  fast.direct_below = factorise ? std::numeric_limits<std::int64_t>::max() : 0;
+  return fast;
+}
 
 }  // namespace
 
@@ -31,10 +50,11 @@ BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData
       stiffness_(stiffness),
       most_passes_(options.max_iterations),
       fluid_("fluid", scene, number_fluid_and_domain(scene),
-             general_solver_factory<n>(options.linear_solver, options.fast), SystemNorm::volumes, &robin_),
-      wall_("wall", scene, number_wall(scene), general_solver_factory<n>(options.linear_solver, options.fast)),
+             general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast)), SystemNorm::volumes, &robin_),
+      wall_("wall", scene, number_wall(scene), general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))),
       space_(scene.processes(), scene.owned_interface() * n),
-      map_(2 * options.quasi_newton.columns, options.quasi_newton.filter, space_) {
+      map_(2 * options.quasi_newton.columns, options.quasi_newton.filter, space_),
+      joint_(scene, fluid_.numbering(), wall_.numbering()) {
   robin_.balanced = true;
   for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);
 }
@@ -78,6 +98,7 @@ double BlockNewtonProblem<n>::evaluate() {
 template <int n>
 void BlockNewtonProblem<n>::linearise() {
   map_.renew();
+  joint_is_current_ = false;
   {
     const Stopwatch watch(cost.fluid_seconds);
     fluid_.linearise();
@@ -165,15 +186,106 @@ double BlockNewtonProblem<n>::relative_residual() const {
 template <int n>
 double BlockNewtonProblem<n>::solve(double tolerance) {
   linear_iterations_ = 0;
+  if (solve_jointly(tolerance)) return std::hypot(fluid_.increment_norm(), wall_.increment_norm());
   for (int stiffenings = 0; !solve_by_passes(tolerance); ++stiffenings) {
     if (stiffenings == most_stiffenings) return std::numeric_limits<double>::quiet_NaN();
     stiffness_ *= stiffening;
     robin_.impedance = impedance_of(data_->rates);
     map_.clear();
+    joint_is_current_ = false;
     const Stopwatch watch(cost.fluid_seconds);
     fluid_.linearise();
   }
   return std::hypot(fluid_.increment_norm(), wall_.increment_norm());
+}
+
+template <int n>
+bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
+  const Media media{fluid_.cycled(), wall_.cycled()};
+  if (media.fluid == nullptr || media.wall == nullptr) return false;
+  const auto phase = scene_.profile.phase("solve: fluid and wall");
+  if (!joint_is_current_) joint_.update(*media.fluid, *media.wall, robin_.impedance);
+  joint_is_current_ = true;
+  const double least_gap = rounding_of_gap * displacement(), least_force = rounding_of_load * load();
+  x_.assign(scene_.interface.size() * n, 0.0);
+  fluid_.begin_increment();
+  wall_.begin_increment();
+  double first = 0, relative = 1;
+  double accuracy = 0, left_out = 0.05;  // of a residual, what a correction leaves for want of shape derivatives
+  for (int passes = 0; passes < most_passes_;) {
+    find_lack();
+    const double size = std::hypot(norm(lack_.fluid), norm(lack_.wall), as_force(lack_.gap));
+    if (passes == 0 && size == 0) return true;
+    if (passes == 0) first = size;
+    const double contraction = size / first / relative;
+    relative = size / first;
+    if (!std::isfinite(relative) || (passes > 0 && contraction > stalled)) return false;
+    // What is demanded over what there is, of the residual and, once there are increments, of the gap beside them.
+    double demanded = tolerance / relative;
+    if (passes > 0) {
+      const double gap = std::max(tolerance * displacement_increment(), least_gap);
+      const double force = std::max(tolerance * space_.norm(loads_), least_force);
+      demanded = std::min({demanded, ratio(gap, space_.norm(lack_.gap)), ratio(force, as_force(lack_.gap))});
+      if (demanded >= 1) return true;
+      left_out = contraction > 2 * accuracy ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * left_out;
+    }
+    accuracy = std::max(0.8 * demanded, 0.5 * left_out);
+    const int iterations = correct_jointly(media, accuracy, std::min(most_directions, most_passes_ - passes));
+    if (iterations == 0) return false;
+    passes += iterations;
+  }
+  return false;
+}
+
+template <int n>
+void BlockNewtonProblem<n>::find_lack() {
+  loads_.assign(x_.size(), 0.0);
+  fluid_forces_.assign(state_->now.fluid.size(), 0.0);
+  for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+    for (int k = 0; k < n; ++k)
+      fluid_forces_[MixedLayout<n>::vector(scene_.interface[i].fluid, k)] =
+          -robin_.impedance[i] * data_->rates.interface.velocity_change(x_[i * n + k]);
+  load_wall();
+  lack_.gap = gap_left();
+  {
+    const Stopwatch watch(cost.fluid_seconds);
+    fluid_.find_lack(fluid_forces_, lack_.fluid);
+  }
+  const Stopwatch watch(cost.wall_seconds);
+  wall_.find_lack(wall_forces_, lack_.wall);
+}
+
+template <int n>
+int BlockNewtonProblem<n>::correct_jointly(const Media& media, double accuracy, int most_iterations) {
+  media.fluid->take(lack_.fluid, accuracy, right_.fluid);
+  media.wall->take(lack_.wall, accuracy, right_.wall);
+  right_.gap = lack_.gap;
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    right_.gap[i] = robin_.impedance[i / n] * data_->rates.interface.velocity_change(lack_.gap[i]);
+  // Scaled to one, so that small residuals do not leave the range of single precision.
+  const double scale = std::hypot(norm(right_.fluid), norm(right_.wall), norm(right_.gap));
+  if (scale == 0) return 0;
+  media.fluid->shorten(right_.fluid, 1 / scale, single_right_.fluid);
+  media.wall->shorten(right_.wall, 1 / scale, single_right_.wall);
+  single_right_.datum.resize(x_.size());
+  for (std::size_t i = 0; i < x_.size(); ++i) single_right_.datum[i] = static_cast<float>(right_.gap[i] / scale);
+  const int iterations = joint_.solve(single_right_, accuracy, most_iterations, single_answer_,
+                                      {cost.fluid_seconds, cost.wall_seconds});
+  cost.passes += iterations;
+  cost.fluid_linear += iterations;
+  cost.wall_linear += iterations;
+  linear_iterations_ += 2 * iterations;
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    x_[i] -= data_->rates.interface.displacement(scale * single_answer_.datum[i], 0.0);
+  {
+    const Stopwatch watch(cost.fluid_seconds);
+    media.fluid->complete(single_answer_.fluid, scale, accuracy, right_.fluid);
+    fluid_.correct_increment(right_.fluid);
+  }
+  const Stopwatch watch(cost.wall_seconds);
+  media.wall->complete(single_answer_.wall, scale, accuracy, right_.wall);
+  wall_.correct_increment(right_.wall);
+  return iterations;
 }
 
 template <int n>

@@ -5,6 +5,7 @@
 
 #include "case/case.hpp"
 #include "partitioned/accelerators/affine_map.hpp"
+#include "partitioned/block_newton/joint_iteration.hpp"
 #include "partitioned/interface/membrane.hpp"
 #include "partitioned/interface_space.hpp"
 #include "scene/scene.hpp"
@@ -76,6 +77,14 @@ class BlockNewtonProblem : public NewtonProblem {
   static constexpr double stiffening = 10;
   static constexpr int most_stiffenings = 4;
 
+  /// What the linear system of both media lacks: residuals of the systems, and the gap as a displacement or a force.
+  struct Lack {
+    std::vector<double> fluid, wall, gap;
+  };
+  struct Media {
+    CycledMedium *fluid, *wall;
+  };
+
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
   /// C times velocities that displacements of the interface are worth, Euclidean norm.
@@ -88,6 +97,13 @@ class BlockNewtonProblem : public NewtonProblem {
   /// as a force. Beside the residual it would not do: that adds up forces and volumes in units that anybody may choose.
   /// \returns whether they get there
   bool solve_by_passes(double tolerance);
+  /// The same where both media iterate, by one iteration over both (joint_iteration.hpp), in which a pass takes one cycle
+  /// of each. \returns whether it gets there
+  bool solve_jointly(double tolerance);
+  /// lack_ of the increments and of the datum as they are.
+  void find_lack();
+  /// Corrects them by an iteration over both media. \returns its passes
+  int correct_jointly(const Media& media, double accuracy, int most_iterations);
   /// The first pass of a linear system: the datum as it is.
   bool first_pass(double tolerance);
   /// A pass with the datum changed by dx / period.
@@ -107,6 +123,8 @@ class BlockNewtonProblem : public NewtonProblem {
   System<n> fluid_, wall_;
   InterfaceSpace space_;
   AffineMap map_;      ///< from x_ to the gap
+  JointIteration<n> joint_;
+  bool joint_is_current_ = false;  ///< joint_ knows these Jacobians
   double period_ = 0;  ///< ms, for which it is
   State* state_ = nullptr;
   StepData* data_ = nullptr;
@@ -115,6 +133,8 @@ class BlockNewtonProblem : public NewtonProblem {
   std::vector<double> loads_;                       ///< -C (du - dv), likewise, kPa mm^2
   std::vector<double> fluid_forces_, wall_forces_;  ///< nodal values of the media, zero away from the interface
   double residual_ = 0;                             ///< norm of the last one
+  Lack lack_, right_;
+  typename JointIteration<n>::Parts single_right_, single_answer_;
   int linear_iterations_ = 0;
   std::string failure_;
 };

@@ -40,11 +40,11 @@ class Coupled(FolderTest):
         self.assertEqual(counted["solve: fluid"] + counted["solve: wall"], totals["newton_iterations"])
 
     def test_partitioned_keeps_its_factors(self):
-        counted = calls(self.runs[PARTITIONED])
+        counted, totals = calls(self.runs[PARTITIONED]), summary(self.runs[PARTITIONED])["totals"]
         for part in ("fluid", "wall"):
             made = sum(counted.get(f"{kind}: {part}", 0) for kind in ("factorisation", "set-up"))
             self.assertEqual(made, counted[f"assembly: {part} jacobian"])
-            self.assertLess(made, counted[f"solve: {part}"] / 10)
+            self.assertLess(made, totals["outer_iterations"] / 10)
 
     def test_drivers_assemble_only_their_own_systems(self):
         self.assertFalse([name for name in calls(self.runs[PARTITIONED]) if "coupled" in name])

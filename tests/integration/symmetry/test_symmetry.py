@@ -123,6 +123,7 @@ class Symmetry(FolderTest):
         for element in ELEMENTS:
             with self.subTest(element=element):
                 self.assertSameWave(DRIVERS[1], NEO_HOOKEAN, element, 45)
+                self.assertSameWave(DRIVERS[1], NEO_HOOKEAN, element, 45, "partitioned.direct_below=0")
                 self.assertSameWave(DRIVERS[1], NEO_HOOKEAN, element, 45, "partitioned.scheme=iqn-ils")
 
     def assertSameWhenTurned(self, program, element, straight, rotation, *settings):

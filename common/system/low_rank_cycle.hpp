@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "system/cycled_medium.hpp"
+
+namespace fsi {
+
+/// The cycles of A for A + sum of slope w v^T, as LowRankLinearSolver solves with it: Y = A^-1 W is known, and what a cycle
+/// leaves of z = A^-1 x becomes z - Y (1 + S V^T Y)^-1 S V^T z.
+class LowRankCycle : public CycledMedium {
+ public:
+  /// A term in the unknowns of the system; all must outlive this.
+  struct Term {
+    double slope;
+    const std::vector<double>*rows, *columns, *solution;  ///< w, v, Y
+  };
+
+  /// \param inverse  (1 + S V^T Y)^-1, row by row
+  LowRankCycle(CycledMedium& medium, const std::vector<Term>& terms, std::vector<double> inverse)
+      : medium_(medium), terms_(terms), inverse_(std::move(inverse)), single_(terms.size()), flows_(terms.size()) {
+    std::vector<double> right;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const auto shorten = [&](const std::vector<double>& of_system, std::vector<float>& x) {
+        medium_.order(of_system, right);
+        medium_.shorten(right, 1, x);
+      };
+      shorten(*terms_[i].rows, single_[i].rows);
+      shorten(*terms_[i].columns, single_[i].columns);
+      shorten(*terms_[i].solution, single_[i].solution);
+    }
+  }
+
+  std::size_t size() const override { return medium_.size(); }
+  int place(int node) const override { return medium_.place(node); }
+  void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
+    medium_.multiply(x, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) add(terms_[i].slope * dot(single_[i].columns, x), single_[i].rows, y);
+  }
+  void cycle(const std::vector<float>& x, std::vector<float>& y) override {
+    medium_.cycle(x, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = terms_[i].slope * dot(single_[i].columns, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      double pressure = 0;
+      for (std::size_t j = 0; j < terms_.size(); ++j) pressure += inverse_[i * terms_.size() + j] * flows_[j];
+      add(-pressure, single_[i].solution, y);
+    }
+  }
+
+  void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
+    medium_.order(of_system, mine);
+  }
+  void take(const std::vector<double>& residual, double tolerance, std::vector<double>& right) override {
+    medium_.take(residual, tolerance, right);
+  }
+  void shorten(const std::vector<double>& right, double factor, std::vector<float>& x) const override {
+    medium_.shorten(right, factor, x);
+  }
+  void complete(const std::vector<float>& x, double factor, double tolerance,
+                std::vector<double>& correction) override {
+    medium_.complete(x, factor, tolerance, correction);
+  }
+  void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override {
+    medium_.multiply_whole(x, y);
+    for (const Term& term : terms_) {
+      double flow = 0;
+      for (std::size_t k = 0; k < term.columns->size(); ++k) flow += (*term.columns)[k] * x[k];
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += term.slope * flow * (*term.rows)[k];
+    }
+  }
+
+ private:
+  struct Single {
+    std::vector<float> rows, columns, solution;
+  };
+
+  static double dot(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<double>(a[k]) * b[k];
+    return sum;
+  }
+  static void add(double factor, const std::vector<float>& x, std::vector<float>& y) {
+    for (std::size_t k = 0; k < x.size(); ++k) y[k] += static_cast<float>(factor * x[k]);
+  }
+
+  CycledMedium& medium_;
+  std::vector<Term> terms_;
+  std::vector<double> inverse_;
+  std::vector<Single> single_;
+  std::vector<double> flows_;
+};
+
+}  // namespace fsi

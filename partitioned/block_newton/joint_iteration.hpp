@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fem/nodal_frames.hpp"
+#include "scene/scene.hpp"
+#include "solvers/krylov/single_gmres.hpp"
+#include "system/cycled_medium.hpp"
+#include "system/field_numbering.hpp"
+
+namespace fsi {
+
+/// The linear system of block Newton (docs/theory.md, section 10.4) where both media iterate: flexible GMRES in single
+/// precision for fluid, wall and datum together, preconditioned by a pass in which each medium answers by one cycle. z_f and
+/// z_w being the media's unknowns as velocities, x the datum, C the impedance of the Robin condition:
+///   J_f z_f - C x = r_f,   J_w z_w - C (z_f - x) = r_w,   C (z_w - z_f) = r_x,
+/// all terms with C on the interface. A pass is
+///   x = -r_x / C,   z_f = J_f^-1 (r_f + C x),   z_w = J_w^-1 (r_w + C (z_f - x)).
+/// So nothing of what a pass has told is lost on a datum that is not yet right, and no medium is solved for one.
+template <int n>
+class JointIteration {
+ public:
+  /// One number or vector for each medium, and the datum's: n numbers per node of the scene's interface, along the axes of
+  /// space.
+  struct Parts {
+    std::vector<float> fluid, wall, datum;
+  };
+  /// Seconds of either medium.
+  struct Seconds {
+    double &fluid, &wall;
+  };
+
+  JointIteration(const Scene<n>& scene, const Numbering& fluid, const Numbering& wall);
+
+  /// The Jacobians hold new values, or the Robin condition has another impedance.
+  /// \param impedance  C, per node of the scene's interface; zero where there is no condition
+  void update(CycledMedium& fluid, CycledMedium& wall, const std::vector<double>& impedance);
+
+  /// Of residuals r, Euclidean norms of all: z and x, up to a residual of `tolerance` |r|.
+  /// \param right  overwritten
+  /// \returns iterations
+  int solve(Parts& right, double tolerance, int most_iterations, Parts& solution, const Seconds& seconds);
+
+ private:
+  /// A node of the interface in the vectors of both media.
+  struct Link {
+    int fluid, wall;  ///< place of its velocity; -1: none
+    float impedance;
+    const NodalAxes<n>*fluid_axes, *wall_axes;  ///< null: those of space
+    std::array<bool, n> fluid_free, wall_free;  ///< whether a component has an equation
+  };
+  using Vector = std::array<float, n>;
+  static Vector vector_at(const std::vector<float>& x, int place, const NodalAxes<n>* axes);
+  static void add_to(const Vector& x, int place, const NodalAxes<n>* axes, const std::array<bool, n>& free,
+                     std::vector<float>& to);
+
+  void join(const Parts& parts, std::vector<float>& x) const;
+  void split(const std::vector<float>& x, Parts& parts) const;
+  /// wall += C (z_f - x)
+  void load_wall(const Parts& z, float sign, std::vector<float>& wall) const;
+  void multiply(const std::vector<float>& x, std::vector<float>& y, const Seconds& seconds);
+  void pass(const std::vector<float>& r, std::vector<float>& z, const Seconds& seconds);
+
+  const Scene<n>& scene_;
+  const Numbering &fluid_numbering_, &wall_numbering_;
+  CycledMedium *fluid_ = nullptr, *wall_ = nullptr;
+  std::vector<Link> links_;
+  SingleGmres gmres_;
+  Parts in_, out_;
+  std::vector<float> right_, solution_;
+};
+
+}  // namespace fsi

@@ -1,0 +1,129 @@
+// Block Newton where both media iterate: one iteration over fluid, wall and datum, against passes of factorised media.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/threads.hpp"
+#include "fem/p1_tetrahedron.hpp"
+#include "linear_solvers/general_solvers.hpp"
+#include "monolithic/coupled_numbering.hpp"
+#include "partitioned/block_newton/block_newton_stepper.hpp"
+#include "support/nodal_arrays.hpp"
+#include "support/opening_laws.hpp"
+#include "support/random.hpp"
+#include "support/scenes.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+[[maybe_unused]] const int single_thread = set_threads(1);
+
+Case block_newton_case(std::int64_t factorised_below) {
+  Case setup = coupled_case("neo-hookean");
+  setup.partitioned.scheme = "block-newton";
+  setup.partitioned.tolerance = 1e-10;
+  setup.partitioned.fast.direct_below = factorised_below;
+  return setup;
+}
+
+struct March {
+  std::unique_ptr<Scene<3>> scene;
+  std::vector<State> states;
+  int passes = 0, krylov = 0;
+};
+
+March march(const Case& setup, int steps) {
+  March result;
+  result.scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  BlockNewtonStepper<3> stepper(*result.scene, loads, setup, chosen_scheme(setup));
+  State state = result.scene->at_rest();
+  for (int n = 0; n < steps; ++n) {
+    const StepReport report = stepper.advance(state);
+    result.passes += report.outer_iterations;
+    result.krylov += report.coupling->fluid_linear_iterations;
+    result.states.push_back(state);
+  }
+  return result;
+}
+
+void expect_same(const Case& iterating, const Case& factorising) {
+  const March a = march(iterating, 3), b = march(factorising, 3);
+  EXPECT_EQ(a.krylov, a.passes) << "a cycle of each medium a pass, and no solve of one alone";
+  EXPECT_EQ(b.krylov, 0);
+  EXPECT_EQ(a.scene->profile.phases().count("solve: fluid and wall"), 1u);
+  EXPECT_EQ(b.scene->profile.phases().count("solve: fluid and wall"), 0u);
+  for (std::size_t n = 0; n < a.states.size(); ++n) {
+    const Solution &x = a.states[n].now, &y = b.states[n].now;
+    EXPECT_LT(largest(difference(x.fluid, y.fluid)), 1e-7 * largest(y.fluid));
+    EXPECT_LT(largest(difference(x.wall, y.wall)), 1e-7 * largest(y.wall));
+    EXPECT_LT(largest(difference(x.mesh, y.mesh)), 1e-7 * largest(y.mesh));
+  }
+}
+
+TEST(JointIteration, AgreesWithFactorisedMedia) {
+  expect_same(block_newton_case(0), block_newton_case(1'000'000));
+}
+
+TEST(JointIteration, KnowsHowOpeningsAnswer) {
+  Case iterating = block_newton_case(0);
+  iterating.inlet.reset();
+  iterating.openings["inlet"].law = OpeningLawData{"resistance", {{"resistance", 1.5}, {"distal_pressure", 0.2}}};
+  iterating.openings["outlet"].law = windkessel(0.3, 0.05, 2.0, 0.5, 0.8);
+  Case factorising = iterating;
+  factorising.partitioned.fast.direct_below = 1'000'000;
+  expect_same(iterating, factorising);
+}
+
+/// The cycles' products are those of the Jacobian to single precision, the terms of openings with them.
+TEST(JointIteration, CyclesKnowTheJacobian) {
+  Case setup = coupled_case("mooney-rivlin");
+  setup.openings["outlet"].law = windkessel(0.3, 0.05, 2.0, 0.5, 0.8);
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  FastOptions iterative;
+  iterative.direct_below = 0;
+  State state = scene->at_rest();
+  state.now.fluid = random_field(scene->fluid->nodes().nodes, 4, 0.3, 1e-3, 1);
+  StepData data;
+  data.rates = scene->integrator->rates(state, 0.125);
+  data.opening_pressures = {0.1, 0.2};
+  System<3> system("fluid", *scene, number_fluid(*scene, true), general_solver_factory<3>("fast", iterative));
+  system.work_on(state, data);
+  system.evaluate();
+  EXPECT_EQ(system.cycled(), nullptr) << "before there is a Jacobian";
+  system.linearise();
+  CycledMedium* medium = system.cycled();
+  ASSERT_NE(medium, nullptr);
+  Random random(3);
+  std::vector<float> single(medium->size()), product(medium->size()), expected, answer;
+  for (float& value : single) value = static_cast<float>(random());
+  std::vector<double> x, whole, ordered;
+  medium->complete(single, 1, 1e-6, x);
+  medium->order(x, ordered);  // without padding and held components
+  medium->shorten(ordered, 1, single);
+  medium->multiply_whole(x, whole);
+  medium->order(whole, ordered);
+  medium->shorten(ordered, 1, expected);
+  medium->multiply(single, product);
+  float size = 0, apart = 0;
+  for (std::size_t i = 0; i < product.size(); ++i) {
+    size = std::max(size, std::abs(expected[i]));
+    apart = std::max(apart, std::abs(product[i] - expected[i]));
+  }
+  EXPECT_LT(apart, 1e-5f * size);
+  // A cycle answers to the product by about the vector itself.
+  medium->cycle(product, answer);
+  double left = 0, all = 0;
+  for (std::size_t i = 0; i < single.size(); ++i) {
+    left += std::pow(answer[i] - single[i], 2);
+    all += std::pow(single[i], 2);
+  }
+  EXPECT_LT(left, all);
+}
+
+}  // namespace
+
+}  // namespace fsi::test
