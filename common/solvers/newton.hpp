@@ -22,9 +22,12 @@ class NewtonProblem {
   /// Increment = -J^-1 R with the last Jacobian, up to |R + J increment| <= tolerance |R|; returns its norm, NaN when
   /// the linear solver failed.
   virtual double solve(double tolerance) = 0;
+  /// Norm of -J^-1 R at the iterate as it is, with the last Jacobian: how far it is from the solution, in no unit of R. The
+  /// increment stays what it was. NaN: nobody knows.
+  virtual double distance(double /*tolerance*/) { return std::numeric_limits<double>::quiet_NaN(); }
   /// Advice for NewtonOptions::keep_contraction.
   virtual double keep_contraction() const { return 0.4; }
-  /// Iterations of the last solve, and why it failed.
+  /// Iterations of the last solve or distance, and why the solve failed.
   virtual int linear_iterations() const { return 0; }
   virtual std::string linear_failure() const { return {}; }
   /// Iterate += step * increment.

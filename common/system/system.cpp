@@ -149,6 +149,18 @@ double System<n>::solve(double tolerance, const std::vector<double>& b) {
 }
 
 template <int n>
+double System<n>::distance(double tolerance) {
+  stop_together(processes());
+  const auto phase = scene_.profile.phase("solve: " + name_);
+  openings_.set_gaps();
+  linear_report_ = solver_->solve(residual_, tolerance, answer_);
+  if (!linear_report_.converged) return std::numeric_limits<double>::quiet_NaN();
+  answer_.resize(numbering_.columns());
+  numbering_.update_ghosts(answer_);
+  return norms_.of_increment(answer_);
+}
+
+template <int n>
 bool System<n>::answer(const std::vector<double>& forces, double tolerance) {
   stop_together(processes());
   const auto phase = scene_.profile.phase("solve: " + name_);

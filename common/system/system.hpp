@@ -68,7 +68,8 @@ class System : public NewtonProblem {
   void linearise_at(const LinearisationPoint& point);
 
   double solve(double tolerance) override;
-  /// Of a system of one medium: the same with further forces f beside the residual, in nodal values of the medium along
+  double distance(double tolerance) override;
+  /// Of a system of one medium: as solve() with further forces f beside the residual, in nodal values of the medium along
   /// the axes of space.
   double solve_with(const std::vector<double>& forces, double tolerance);
   /// Of a system of one medium, after these: increment -= J^-1 f, what its Jacobian answers to forces f alone, up

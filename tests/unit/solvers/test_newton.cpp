@@ -176,6 +176,57 @@ TEST(Newton, BacktracksWhenAFullStepRaisesTheResidual) {
   }
 }
 
+/// Rosenbrock's valley as two equations, stiffness (y - x^2) = 0 and 1 - x = 0: along its floor the first residual grows
+/// with the square of each step, however good.
+class Valley : public NewtonProblem {
+ public:
+  explicit Valley(bool measures) : measures_(measures) {}
+  double evaluate() override {
+    first_ = stiffness * (y - x * x);
+    second_ = 1 - x;
+    return std::hypot(first_, second_);
+  }
+  void linearise() override { slope_ = -2 * x; }
+  bool linearised() const override { return false; }
+  double solve(double) override {
+    std::tie(dx_, dy_) = answer();
+    return std::hypot(dx_, dy_);
+  }
+  double distance(double tolerance) override {
+    if (!measures_) return NewtonProblem::distance(tolerance);
+    const auto [dx, dy] = answer();
+    return std::hypot(dx, dy);
+  }
+  void move(double step) override {
+    x += step * dx_;
+    y += step * dy_;
+  }
+  double size() const override { return std::hypot(x, y); }
+
+  double x = -1.2, y = 1;
+
+ private:
+  static constexpr double stiffness = 1e4;
+  std::tuple<double, double> answer() const {
+    const double dx = second_;  // 1 - x - dx = 0
+    return {dx, -first_ / stiffness - slope_ * dx};
+  }
+
+  bool measures_;
+  double first_ = 0, second_ = 0, slope_ = 0, dx_ = 0, dy_ = 0;
+};
+
+TEST(Newton, TakesStepsThatComeCloserThoughTheResidualGrows) {
+  Valley with(true), without(false);
+  const NewtonReport report = newton(with, full_newton()), crawling = newton(without, full_newton());
+  ASSERT_TRUE(report.converged);
+  EXPECT_NEAR(with.x, 1, 1e-12);
+  EXPECT_NEAR(with.y, 1, 1e-12);
+  EXPECT_LE(report.count(), 6);
+  EXPECT_GT(crawling.count(), 3 * report.count());
+  EXPECT_GT(report.iterations.front().residual, 2 * report.first_residual);
+}
+
 // log has no value left of 0: like an element that a full step inverts.
 TEST(Newton, BacktracksFromWhereTheResidualDoesNotExist) {
   Scalar problem([](double x) { return std::log(x); }, [](double x) { return 1 / x; }, 4);
