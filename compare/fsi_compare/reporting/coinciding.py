@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 NEAR = 0.01  # of the height of the axes: less than a line is broad
+SHORT = 30  # characters, of a name that is said again
 SHARED = 0.9  # of the longer curve, that both must span
 
 
@@ -26,7 +27,11 @@ def coinciding(panels: Sequence[Sequence[Line2D]]) -> List[List[int]]:
 def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]) -> List[str]:
     """For the legend: 'partitioned (lies on monolithic)'."""
     on: Dict[int, int] = {i: group[0] for group in coinciding(panels) for i in group[1:]}
-    return [f"{label} (lies on {labels[on[i]]})" if i in on else label for i, label in enumerate(labels)]
+
+    def first(place: int) -> str:
+        return labels[place] if len(labels[place]) <= SHORT else f"line {place + 1} of this legend"
+
+    return [f"{label} (lies on {first(on[i])})" if i in on else label for i, label in enumerate(labels)]
 
 
 def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> Optional[str]:
@@ -34,8 +39,10 @@ def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) 
     said = []
     for group in coinciding([lines]):
         names = [labels[i] for i in group]
-        all_of_them = len(group) == len(lines) > 2
-        said.append("all" if all_of_them else f"{', '.join(names[:-1])} and {names[-1]}")
+        if len(group) == len(lines):
+            said.append("all lines" if len(lines) > 2 else "both lines")
+        else:
+            said.append(f"{', '.join(names[:-1])} and {names[-1]}")
     if not said:
         return None
     text = "\n".join(f"{names} lie on each other" for names in said)

@@ -270,8 +270,11 @@
     this.legend.textContent = "";
     element(this.legend, "strong", {}, q.words + (unit ? " in " + unit : "") + (this.state.show.indexOf("apart") === 0 ? ", difference" : ""));
     var bar = element(this.legend, "div", { class: "bar", style: "background:linear-gradient(to right," + stops.join(",") + ")" });
-    for (var k = 0; k <= 4; ++k)
-      element(bar, "span", { style: "left:" + 25 * k + "%" }, shown(per * (scale.low + (scale.high - scale.low) * k / 4)));
+    vesselCurve.ticks(per * scale.low, per * scale.high).forEach(function (tick) {
+      var place = 100 * (tick / per - scale.low) / (scale.high - scale.low);
+      element(bar, "span", { class: "tick", style: "left:" + place.toFixed(3) + "%" }, shown(tick));
+    });
+    element(bar, "span", { class: "unit" }, unit);
     element(this.legend, "small", {}, "One scale for all times and runs. Colours end at the " + this.data.percentile +
       "th percentile of the nodes; " + shown(per * scale.least) + " to " + shown(per * scale.largest) + " occur.");
   };

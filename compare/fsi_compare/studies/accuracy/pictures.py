@@ -1,6 +1,6 @@
 """Pictures of the accuracy-cost study: work against precision, and errors against element size and time step."""
 
-from typing import Callable, List, Mapping, Sequence, Tuple
+from typing import Callable, List, Mapping, Sequence, Set, Tuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -32,19 +32,20 @@ OTHER_SERIES = {"linestyle": "-", "linewidth": 0.9, "color": "#c4c4c4", "zorder"
 def work_precision(measured: Sequence[Measured], title: str) -> Figure:
     """Total error against seconds, a panel per quantity: the frontier is named, all other settings are grey."""
     figure, panels = _panels(len(QUANTITIES), WIDE_INCHES, 1)
+    shown: Set[bool] = set()
     for axes, quantity in zip(panels, QUANTITIES):
         points = [(m.seconds, 100 * m.total[quantity.column]) for m in measured]
         axes.set_title(quantity.name)
         axes.set_ylabel("error in % of the reference")
-        _frontier(axes, points, measured, _setting(measured), GAIN)
-    return finish(figure, *_drivers(measured), title)
+        shown |= _frontier(axes, points, measured, _setting(measured), GAIN)
+    return finish(figure, *_drivers(shown), title)
 
 
 def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
     """Error of stopping early against seconds, a panel per mesh and step: the frontier is named, a grey line along each method's
     tolerances."""
-    everyone = [m for group in groups.values() for m in group]
     figure, panels = _panels(len(groups), WIDE_INCHES, 1)
+    shown: Set[bool] = set()
     for axes, (name, group) in zip(panels, groups.items()):
         points = [(m.seconds, max(100 * m.algebraic[quantity.column], FLOOR)) for m in group]
         for label in dict.fromkeys(m.run.request.method.label for m in group):
@@ -52,8 +53,8 @@ def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity:
             axes.plot([x for x, _ in own], [y for _, y in own], color=REST, linewidth=0.8, zorder=1)
         axes.set_title(name, wrap=True)
         axes.set_ylabel("error in % of the tight solution")
-        _frontier(axes, points, group, lambda m: m.solving, 0.0)
-    return finish(figure, *_drivers(everyone), title)
+        shown |= _frontier(axes, points, group, lambda m: m.solving, 0.0)
+    return finish(figure, *_drivers(shown), title)
 
 
 def _setting(measured: Sequence[Measured]) -> Callable[[Measured], str]:
@@ -127,8 +128,9 @@ def _frontier(
     measured: Sequence[Measured],
     name: Callable[[Measured], str],
     gain: float,
-) -> None:
-    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below."""
+) -> Set[bool]:
+    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which drivers it
+    holds runs: True for the partitioned one."""
     best = frontier(points, gain)
     others = [point for i, point in enumerate(points) if i not in best]
     axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker="o", markersize=3.5, color=REST)
@@ -141,6 +143,7 @@ def _frontier(
     name_points(axes, [points[i] for i in best], names, (WIDE_INCHES[0] * AXES_PART[0], WIDE_INCHES[1] * AXES_PART[1]))
     plain_log_axis(axes.xaxis, "s")
     plain_log_axis(axes.yaxis, "%")
+    return {measured[i].partitioned for i in best}
 
 
 def _mark(partitioned: bool) -> dict:
@@ -148,8 +151,8 @@ def _mark(partitioned: bool) -> dict:
     return {"linestyle": "none", "marker": "o", "markersize": 6, "color": ON_FRONTIER, "markerfacecolor": fill}
 
 
-def _drivers(measured: Sequence[Measured]) -> Tuple[List[Line2D], List[str]]:
-    """The legend: the two marks of the frontier."""
-    drivers = sorted({m.partitioned for m in measured})
+def _drivers(shown: Set[bool]) -> Tuple[List[Line2D], List[str]]:
+    """The legend: the marks of the frontier."""
+    drivers = sorted(shown)
     names = {False: "on the frontier, monolithic", True: "on the frontier, partitioned"}
     return [Line2D([], [], **_mark(driver)) for driver in drivers], [names[driver] for driver in drivers]
