@@ -246,7 +246,8 @@
     this.slider.setAttribute("aria-valuetext", shown(t) + " ms");
     this.showLegend(scale);
     this.read();
-    this.view.render();
+    if (this.playing) this.view.renderMoving();
+    else this.view.render();
   };
 
   // What is on the eye's side of it is left out.
