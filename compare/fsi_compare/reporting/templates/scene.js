@@ -43,7 +43,7 @@
     Object.keys(data.maps).forEach(function (name) { self.textures[name] = vesselView.texture(vesselData.plain(data.maps[name])); });
     this.ownUnit();
     this.look(data.views[0]);
-    this.ready = this.rebuild();
+    this.rebuild();
     new ResizeObserver(function () { self.arrange(); }).observe(this.canvas);
   }
 
@@ -176,7 +176,7 @@
         }));
       });
     });
-    return Promise.all(waits).then(function () {
+    this.ready = Promise.all(waits).then(function () {
       if (turn !== self.building) return;
       self.free();
       self.view.panes = panes.map(function (pane) {
@@ -195,6 +195,7 @@
       self.arrange();
       self.update();
     });
+    return this.ready;
   };
 
   Scene.prototype.free = function () {
