@@ -4,6 +4,7 @@ without JavaScript, without the library and in print there are stills."""
 import base64
 import contextlib
 import io
+import json
 import re
 import tempfile
 import unittest
@@ -113,6 +114,18 @@ class Made(FolderCase):
         )
         write_fields(two, times=TIMES[:-1])
         self.assertIn("two: its fields are at other times than those of one", self.report(one, two))
+
+    def test_fields_of_another_run(self):
+        one, _ = write_channels(self.base)
+        summary = json.loads((one / "summary.json").read_text())
+        for own, right in ((6 * (2 * 2 * 6 + 2 * 6), True), (100, False)):
+            (one / "summary.json").write_text(json.dumps({**summary, "mesh": {"tetrahedra": own}}))
+            with few_pictures(stills=False):
+                code, _, err = self.call("report", one, "-o", self.base / f"of_{own}")
+            self.assertEqual(code, 0 if right else 1, err)
+        self.assertIn("fields.h5: has 216 cells, the run's mesh 100 by summary.json: it belongs to another run", err)
+        self.assertEqual(len(err.splitlines()), 1)
+        self.assertFalse((self.base / "of_100").exists())
 
     def test_fewer_times_and_triangles(self):
         one, _ = write_channels(self.base)
