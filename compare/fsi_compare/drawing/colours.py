@@ -1,5 +1,6 @@
 """Colours of values: maps of even perceived steps, and the range that they span."""
 
+import math
 from dataclasses import dataclass
 from typing import Iterable, List
 
@@ -10,6 +11,7 @@ DIVERGING = "RdBu_r"  # about zero; both halves darken evenly [ColorBrewer: safe
 PERCENTILE = 99.0
 BOTH_SIGNS = 0.02  # of the larger side, that the smaller one must have at least
 COLOURS = 256
+TICK_STEPS = 4  # that a range is divided into, at the most
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,18 @@ def scale_of_difference(levels: Iterable[np.ndarray]) -> Scale:
     """About zero, whatever the signs."""
     found = scale_of((np.abs(values) for values in levels), signed=False)
     return Scale(-found.high, found.high, True, -found.largest, found.largest)
+
+
+def round_ticks(low: float, high: float) -> List[float]:
+    """Numbers for the legend of a range: multiples of 1, 2 or 5 times a power of ten, three to six of them, zero among them where
+    the range holds it. The page has the same (`vesselCurve.ticks`)."""
+    raw = (high - low) / TICK_STEPS
+    if not (math.isfinite(raw) and raw > 0):
+        return [low]
+    power = 10.0 ** math.floor(math.log10(raw) + 1e-9)
+    step = next(part * power for part in (1.0, 2.0, 5.0, 10.0) if part * power >= 0.999 * raw)
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return [i * step for i in range(first, last + 1)]
 
 
 def _above(low: float, high: float) -> float:

@@ -16,6 +16,7 @@ from ..base import interruption
 from ..base.errors import shortened
 from ..base.files import replacing
 from ..runs.pressure_waves import PressureWaves
+from .coinciding import labels_that_say_so
 
 DPI = 200
 PICTURE_DPI = 150
@@ -137,8 +138,8 @@ def pressure_figure(
         axes.set_xlabel(place)
         axes.set_ylabel(quantity)
     _share_scales(grid, len(times))
-
-    return finish(figure, grid[0, 0].get_lines()[: len(waves)], labels, title, (width, rows * PANEL_INCHES[1]))
+    panels = [axes.get_lines()[: len(waves)] for axes in grid.flat[: len(times)]]
+    return finish(figure, panels[0], labels_that_say_so(labels, panels), title, (width, rows * PANEL_INCHES[1]))
 
 
 def finish(

@@ -7,7 +7,7 @@ import numpy as np
 from ..base.errors import InputError
 from ..base.suggestions import nearest
 from ..drawing.camera import Camera
-from ..drawing.colours import PERCENTILE, Scale, scale_of, table
+from ..drawing.colours import PERCENTILE, Scale, round_ticks, scale_of, table
 from ..drawing.raster import Mesh, rendered
 from ..drawing.sweep import angles, swept, turned
 from .quantities import Quantity
@@ -183,9 +183,12 @@ def picture(
     eye = camera or camera_of(scene.meshes, swept=True)
     meshes = meshes_to_draw(scene, key, at, scale, factor, opened, eye.towards)
     image, pixels = rendered(meshes, eye, size[0], size[1], table(scale.map))
-    words = quantity.words + (f" in {shown_unit}" if shown_unit not in ("", "1") else "")
+    bar_unit = "" if shown_unit == "1" else shown_unit
+    words = quantity.words + (f" in {bar_unit}" if bar_unit else "")
     notes = [f"t = {at:g} ms"] + ([f"displacement x {factor:g}"] if factor != 1 and _moves(scene) else [])
-    return framed(image, scale, times_unit, words, " · ".join(([title] if title else []) + notes), span is None)
+    return framed(
+        image, scale, times_unit, words, bar_unit, " · ".join(([title] if title else []) + notes), span is None
+    )
 
 
 def camera_named(scene: Scene, view: Optional[str]) -> Optional[Camera]:
@@ -226,7 +229,9 @@ def scale_in(scale: Scale, span: Optional[Sequence[float]], per_own: float) -> S
     return Scale(low, high, low < 0 < high and abs(low + high) < 1e-9 * high, scale.least, scale.largest)
 
 
-def framed(image: np.ndarray, scale: Scale, per_own: float, words: str, title: str, robust: bool) -> "Figure":
+def framed(
+    image: np.ndarray, scale: Scale, per_own: float, words: str, unit: str, title: str, robust: bool
+) -> "Figure":
     """With its legend: what the colours mean, and what occurs."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.cm import ScalarMappable
@@ -247,7 +252,12 @@ def framed(image: np.ndarray, scale: Scale, per_own: float, words: str, title: s
     shades = ScalarMappable(Normalize(scale.low * per_own, scale.high * per_own), scale.map)
     below, above = scale.least < scale.low * (1 + 1e-9), scale.largest > scale.high * (1 + 1e-9)
     extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
-    figure.colorbar(shades, cax=bar, orientation="horizontal", extend=extend).ax.tick_params(labelsize=8)
+    legend = figure.colorbar(shades, cax=bar, orientation="horizontal", extend=extend)
+    ticks = round_ticks(scale.low * per_own, scale.high * per_own)
+    legend.set_ticks(ticks, labels=[f"{tick:.12g}" for tick in ticks])
+    legend.minorticks_off()
+    legend.ax.tick_params(labelsize=8)
+    figure.text(0.885, 0.69 / height, unit, fontsize=8, va="center", parse_math=False)
     how = f"colours end at the {PERCENTILE:g}th percentile" if robust else "range as asked for"
     occurs = (
         f"{how}; {scale.least * per_own:.4g} to {scale.largest * per_own:.4g} occur"

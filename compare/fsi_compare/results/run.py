@@ -199,8 +199,19 @@ class RunResults:
 
     @cached_property
     def meshes(self) -> Surfaces:
-        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields."""
+        """All surfaces, and cuts by planes. Raises InputError where the run has written no fields, and for fields of another
+        mesh than the run's."""
+        self._check_mesh()
         return Surfaces(self.folder, self.fields, self.openings, str(self.summary.get("geometry", "3d")))
+
+    def _check_mesh(self) -> None:
+        """A medium that the scene leaves out has no fields: so that the mesh may have more cells than fields.h5, never fewer."""
+        mesh = self.summary.get("mesh", {})
+        own = mesh.get("tetrahedra", mesh.get("triangles"))
+        found = sum(len(medium.cells) for medium in self.fields.values())
+        if isinstance(own, int) and found > own:
+            problem = f"has {found} cells, the run's mesh {own} by summary.json: it belongs to another run"
+            raise InputError(self.folder / "fields.h5", "", problem, "put back its own, or run it again")
 
 
 def open_run(folder: "Union[str, PathLike[str]]", unfinished: bool = False) -> RunResults:

@@ -6,9 +6,16 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 from synthetic import TIMES, Z, gaussian
 
+from fsi_compare.drawing.colours import round_ticks
+from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, note_coinciding
+from fsi_compare.reporting.log_axes import log_axes, plain_number
+from fsi_compare.reporting.point_names import name_points
 from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves
 from fsi_compare.runs.pressure_waves import PressureWaves
 
@@ -134,6 +141,64 @@ class ReadableInGrey(unittest.TestCase):
         for axes in figure.axes:
             curves = axes.get_lines()[:3]
             self.assertEqual(len({curve.get_linestyle() for curve in curves}), 3)
+
+
+class SaysOneThing(unittest.TestCase):
+    """What study pictures share: plain numbers, lines that lie on each other, names at points."""
+
+    def test_plain_numbers(self):
+        found = [plain_number(*one) for one in ((1e-5, "%"), (0.1, "%"), (30, "s"), (1e4,), (2.5e6,))]
+        self.assertEqual(found, ["0.00001 %", "0.1 %", "30 s", "10,000", "2,500,000"])
+
+    def test_logarithmic_axes(self):
+        axes = Figure().subplots()
+        axes.plot([0.02, 300], [1e-4, 50])
+        log_axes(axes, "s", "%")
+        axes.figure.canvas.draw()
+        for axis, unit in ((axes.xaxis, "s"), (axes.yaxis, "%")):
+            low, high = axis.get_view_interval()
+            texts = [l.get_text() for l, at in zip(axis.get_ticklabels(), axis.get_ticklocs()) if low <= at <= high]
+            self.assertGreater(len(texts), 3)
+            for text in texts:
+                self.assertRegex(text, rf"^[0-9.,]+ {unit}$")
+
+    def test_lines_that_lie_on_each_other(self):
+        axes = Figure().subplots()
+        x = np.linspace(0, 10, 50)
+        first, near, far = (axes.plot(x, y)[0] for y in (np.sin(x), np.sin(x) + 0.005, np.sin(x) + 0.1))
+        (short,) = axes.plot(x[:20], np.sin(x[:20]))
+        self.assertEqual(coinciding([[first, near, far, short]]), [[0, 1]])
+        self.assertEqual(coinciding([[first, near], [first, far]]), [])  # not in all panels
+        self.assertEqual(labels_that_say_so(["a", "b", "c"], [[far, first, near]]), ["a", "b", "c (lies on b)"])
+        note_coinciding(axes, [first, near], ["a", "b"])
+        self.assertEqual([text.get_text() for text in axes.texts], ["both lines lie on each other"])
+
+    def test_runs_that_agree_say_so(self):
+        figure = pressure_figure([waves(0.6), waves(0.6), waves(0.8)], ["a", "b", "c"], PAPER, "title")
+        names = [text.get_text() for text in figure.legends[0].get_texts()]
+        self.assertEqual(names, ["a", "b (lies on a)", "c"])
+
+    def test_names_stand_apart_inside_the_axes(self):
+        figure = Figure(figsize=(8, 4))
+        FigureCanvasAgg(figure)
+        axes = figure.subplots()
+        points = [(1, 10), (1.02, 9.9), (1.05, 9.7), (30, 1)]
+        axes.plot(*zip(*points), "o")
+        log_axes(axes)
+        name_points(axes, points, ["a rather long name of a point"] * 4, (6.2, 3.08))
+        figure.canvas.draw()
+        boxes = [Text.get_window_extent(text) for text in axes.texts]
+        frame = axes.get_window_extent()
+        for i, box in enumerate(boxes):
+            self.assertGreaterEqual(box.x0, frame.x0)
+            self.assertGreaterEqual(box.y0, frame.y0)
+            for other in boxes[:i]:
+                self.assertFalse(box.overlaps(other))
+
+    def test_round_ticks(self):
+        self.assertEqual(round_ticks(0, 0.137), [0, 0.05, 0.1])
+        self.assertEqual(round_ticks(-7, 7), [-5, 0, 5])
+        np.testing.assert_allclose(round_ticks(12.1, 12.9), [12.2, 12.4, 12.6, 12.8])
 
 
 if __name__ == "__main__":

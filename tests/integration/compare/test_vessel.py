@@ -2,7 +2,9 @@
 without JavaScript, without the library and in print there are stills."""
 
 import base64
+import contextlib
 import io
+import json
 import re
 import tempfile
 import unittest
@@ -25,6 +27,15 @@ from fsi_compare.start import main
 NAMES = ("one", "two <b>&")
 VESSEL = "document.querySelector('.vessel').vessel"
 READY = "new Promise(done => (function look() { document.querySelector('.vessel').dataset.ready ? done(true) : setTimeout(look, 20); })())"
+AS_OPENED = (
+    "(v => { v.play(false); Object.assign(v.state, { quantity: v.data.first, show: 'all', factor: 1, unit: '', cut: false, "
+    "time: v.times.length - 1, swept: false, on: {} }); v.fieldList.value = v.data.first; v.runList.value = 'all'; "
+    "v.viewList.value = 0; v.ownUnit(); v.look(v.data.views[0]); v.pick(null); return v.rebuild(); })(%s)" % VESSEL
+)
+DRAWN = (
+    "(v => v.ready.then(() => new Promise(done => (function look() { v.view.waiting || v.view.coarse ? "
+    "requestAnimationFrame(look) : requestAnimationFrame(() => done(true)); })())))(%s)" % VESSEL
+)
 SELECTS = ("Field", "Unit", "Run", "View")
 TITLE = "A <script>alert(1)</script> channel"
 
@@ -42,20 +53,35 @@ def without_library(page):
     return re.sub(r'<script type="(?:text/plain|application/json)".*?</script>', "", page, flags=re.S)
 
 
+def no_figure(folder, stem, draw):
+    paths = [folder / f"{stem}.png", folder / f"{stem}.svg"]
+    for path in paths:
+        path.write_bytes(b"")
+    return paths
+
+
+@contextlib.contextmanager
+def few_pictures(stills=True):
+    """Curves are drawn by other tests, and each still takes a second."""
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(mock.patch("fsi_compare.reporting.report.write_figure", no_figure))
+        stack.enter_context(mock.patch("fsi_compare.reporting.vessel.STILLS", 1))
+        if not stills:
+            stack.enter_context(mock.patch("fsi_compare.reporting.vessel.stills_of", lambda vessel: []))
+        yield
+
+
 class Made(FolderCase):
     """What a report says, before any browser."""
 
-    def setUp(self):
-        super().setUp()
-        self.enterContext(mock.patch("fsi_compare.reporting.vessel.STILLS", 1))  # each takes a second
-
-    def report(self, *arguments):
-        code, out, err = self.call("report", *arguments, "-o", self.out)
+    def report(self, *arguments, stills=False):
+        with few_pictures(stills):
+            code, out, err = self.call("report", *arguments, "-o", self.out)
         self.assertEqual(code, 0, err)
         return (self.out / "report.html").read_text()
 
     def test_page_and_what_one_reads_first(self):
-        page = self.report(*write_channels(self.base), "--labels", ",".join(NAMES))
+        page = self.report(*write_channels(self.base), "--labels", ",".join(NAMES), stills=True)
         self.assertEqual(outside_references(without_library(page)), [])
         self.assertNotIn("<script>alert", page)
         self.assertNotIn("in<b>", page)  # the name of an opening
@@ -89,6 +115,18 @@ class Made(FolderCase):
         write_fields(two, times=TIMES[:-1])
         self.assertIn("two: its fields are at other times than those of one", self.report(one, two))
 
+    def test_fields_of_another_run(self):
+        one, _ = write_channels(self.base)
+        summary = json.loads((one / "summary.json").read_text())
+        for own, right in ((6 * (2 * 2 * 6 + 2 * 6), True), (100, False)):
+            (one / "summary.json").write_text(json.dumps({**summary, "mesh": {"tetrahedra": own}}))
+            with few_pictures(stills=False):
+                code, _, err = self.call("report", one, "-o", self.base / f"of_{own}")
+            self.assertEqual(code, 0 if right else 1, err)
+        self.assertIn("fields.h5: has 216 cells, the run's mesh 100 by summary.json: it belongs to another run", err)
+        self.assertEqual(len(err.splitlines()), 1)
+        self.assertFalse((self.base / "of_100").exists())
+
     def test_fewer_times_and_triangles(self):
         one, _ = write_channels(self.base)
         write_fields(one, times=np.arange(21.0))
@@ -99,7 +137,7 @@ class Made(FolderCase):
 
     def test_without_the_library(self):
         with mock.patch.object(vessel_library, "PROGRAM", Path("/nowhere/three.js")):
-            page = self.report(write_channels(self.base)[0])
+            page = self.report(write_channels(self.base)[0], stills=True)
         self.assertIn("The vessel is shown as still pictures: install the Debian package libjs-three", page)
         self.assertIn('src="data:image/png', page)
         self.assertNotIn('vessel-library">', page)
@@ -112,18 +150,29 @@ class InABrowser(FolderCase):
     @classmethod
     def setUpClass(cls):
         cls.browser = cls.enterClassContext(Browser(webgl=True))
-        cls.enterClassContext(mock.patch("fsi_compare.reporting.vessel.STILLS", 1))
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         runs = [str(run) for run in write_channels(cls.folder)]
-        if main(["report", *runs, "-o", str(cls.folder / "out"), "--labels", ",".join(NAMES), "-q"]) != 0:
-            raise AssertionError("the report was not made")
+        with few_pictures():
+            if main(["report", *runs, "-o", str(cls.folder / "out"), "--labels", ",".join(NAMES), "-q"]) != 0:
+                raise AssertionError("the report was not made")
         cls.page = cls.folder / "out" / "report.html"
         cls.fluid = open_run(cls.folder / "two").fields["fluid"]
+        cls.shown = None
 
     def setUp(self):
         super().setUp()
-        self.browser.open(self.page)
-        self.browser.await_(READY)
+        self.show(self.page)
+
+    def show(self, page):
+        """Opened once for all tests; afterwards as it was when it opened."""
+        if type(self).shown == page:
+            self.browser.events.clear()
+            self.browser.await_(AS_OPENED)
+        else:
+            self.browser.open(page)
+            self.browser.await_(READY)
+            type(self).shown = page
+        self.drawn()
 
     def choose(self, label, value):
         """In a list, as a reader does."""
@@ -134,9 +183,8 @@ class InABrowser(FolderCase):
         self.drawn()
 
     def drawn(self):
-        self.browser.await_(
-            "new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 60))"
-        )
+        """Waits until the page has built what was chosen, and drawn it."""
+        self.browser.await_(DRAWN)
 
     def readout(self):
         return self.browser.evaluate("document.querySelector('.vessel .readout').textContent")
@@ -280,7 +328,6 @@ class InABrowser(FolderCase):
         left, top, width, height = self.browser.box("[data-look]", row)
         self.browser.click(left + width / 2, top + height / 2)
         self.drawn()
-        self.drawn()
         self.assertRegex(self.readout(), r"node \d+ of the wall at \(.*, 4\) mm: von Mises stress 20 kPa")
         self.assertEqual(self.browser.complaints, [])
 
@@ -308,15 +355,16 @@ class InABrowser(FolderCase):
             self.assertTrue(all(height > 100 for height in self.heights(".stills img")))
         finally:
             self.browser.send("Emulation.setEmulatedMedia", media="")
+        type(self).shown = None
         self.browser.open(self.page, javascript=False)
         self.assertTrue(all(height > 100 for height in self.heights(".stills img")))
         self.assertEqual(self.heights(".vessel canvas"), [])
 
     def test_turned_scene(self):
         folder = write_run(self.base / "pipe", lambda t, z: z + t, geometry="axisymmetric")
-        self.assertEqual(main(["report", str(write_turned(folder)), "-o", str(self.out), "-q"]), 0)
-        self.browser.open(self.out / "report.html")
-        self.browser.await_(READY)
+        with few_pictures(stills=False):
+            self.assertEqual(main(["report", str(write_turned(folder)), "-o", str(self.out), "-q"]), 0)
+        self.show(self.out / "report.html")
         self.assertGreater(self.colours(), 30)
         size = f"{VESSEL}.view.panes[0].drawings.filter(d => d.part.spec.name === 'lumen')[0].made.source.length"
         flat = self.browser.evaluate(size)

@@ -43,7 +43,7 @@
     Object.keys(data.maps).forEach(function (name) { self.textures[name] = vesselView.texture(vesselData.plain(data.maps[name])); });
     this.ownUnit();
     this.look(data.views[0]);
-    this.ready = this.rebuild();
+    this.rebuild();
     new ResizeObserver(function () { self.arrange(); }).observe(this.canvas);
   }
 
@@ -176,7 +176,7 @@
         }));
       });
     });
-    return Promise.all(waits).then(function () {
+    this.ready = Promise.all(waits).then(function () {
       if (turn !== self.building) return;
       self.free();
       self.view.panes = panes.map(function (pane) {
@@ -195,6 +195,7 @@
       self.arrange();
       self.update();
     });
+    return this.ready;
   };
 
   Scene.prototype.free = function () {
@@ -246,7 +247,8 @@
     this.slider.setAttribute("aria-valuetext", shown(t) + " ms");
     this.showLegend(scale);
     this.read();
-    this.view.render();
+    if (this.playing) this.view.renderMoving();
+    else this.view.render();
   };
 
   // What is on the eye's side of it is left out.
@@ -270,8 +272,11 @@
     this.legend.textContent = "";
     element(this.legend, "strong", {}, q.words + (unit ? " in " + unit : "") + (this.state.show.indexOf("apart") === 0 ? ", difference" : ""));
     var bar = element(this.legend, "div", { class: "bar", style: "background:linear-gradient(to right," + stops.join(",") + ")" });
-    for (var k = 0; k <= 4; ++k)
-      element(bar, "span", { style: "left:" + 25 * k + "%" }, shown(per * (scale.low + (scale.high - scale.low) * k / 4)));
+    vesselCurve.ticks(per * scale.low, per * scale.high).forEach(function (tick) {
+      var place = 100 * (tick / per - scale.low) / (scale.high - scale.low);
+      element(bar, "span", { class: "tick", style: "left:" + place.toFixed(3) + "%" }, shown(tick));
+    });
+    element(bar, "span", { class: "unit" }, unit);
     element(this.legend, "small", {}, "One scale for all times and runs. Colours end at the " + this.data.percentile +
       "th percentile of the nodes; " + shown(per * scale.least) + " to " + shown(per * scale.largest) + " occur.");
   };

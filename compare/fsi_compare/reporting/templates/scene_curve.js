@@ -19,6 +19,7 @@ var vesselCurve = (function () {
     return made;
   }
 
+  // Multiples of 1, 2 or 5 times a power of ten; pictures have the same (drawing/colours.py).
   function ticks(low, high) {
     var raw = (high - low) / 4, power = Math.pow(10, Math.floor(Math.log(raw) / Math.LN10 + 1e-9)), found = [];
     var step = [1, 2, 5, 10].map(function (n) { return n * power; }).filter(function (n) { return n >= raw * 0.999; })[0];
@@ -58,5 +59,5 @@ var vesselCurve = (function () {
     add(svg, "line", { x1: x(now), x2: x(now), y1: TOP, y2: HEIGHT - BOTTOM, class: "now" });
   }
 
-  return { draw: draw, shown: shown };
+  return { draw: draw, shown: shown, ticks: ticks };
 })();

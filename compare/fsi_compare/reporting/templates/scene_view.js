@@ -4,28 +4,32 @@ var vesselView = (function () {
   "use strict";
 
   var GREY = [0.8, 0.8, 0.8], FAR = 1e30, GLASS = 0.22;
+  var COARSE = 0.5; // pixels of the canvas for one of the page while it moves, where the processor draws
+  var REST = 150; // ms without movement, after which it is drawn finely
+  // Light is found at the vertices, and only what is cut open may leave out pixels: both spare a processor that draws most of its work.
   var VERTEX = [
-    "attribute float value; attribute vec3 reference;",
-    "varying float shown; varying vec3 across; varying vec3 original;",
+    "attribute float value; uniform float lit; varying float shown; varying float light;",
+    "#ifdef CUT", "attribute vec3 reference; varying vec3 original;", "#endif",
     "void main() {",
-    "  shown = value; original = reference; across = normalMatrix * normal;",
+    "  shown = value;",
+    "  light = lit > 0.5 ? 0.58 + 0.42 * abs(normalize(normalMatrix * normal).z) : 1.0;",
+    "#ifdef CUT", "  original = reference;", "#endif",
     "  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);",
     "}"].join("\n");
   var FRAGMENT = [
-    "uniform sampler2D colours; uniform float low, high, lit, known, opacity; uniform vec3 grey; uniform vec4 plane;",
-    "uniform float cutting;",
-    "varying float shown; varying vec3 across; varying vec3 original;",
+    "uniform sampler2D colours; uniform float low, high, known, opacity; uniform vec3 grey; varying float shown; varying float light;",
+    "#ifdef CUT", "uniform vec4 plane; varying vec3 original;", "#endif",
     "void main() {",
-    "  if (cutting > 0.5 && dot(plane.xyz, original) > plane.w) discard;",
+    "#ifdef CUT", "  if (dot(plane.xyz, original) > plane.w) discard;", "#endif",
     "  float place = clamp((shown - low) / (high - low), 0.0, 1.0);",
     "  vec3 colour = known > 0.5 && abs(shown) < 1e29",
     "    ? texture2D(colours, vec2((place * 255.0 + 0.5) / 256.0, 0.5)).rgb : grey;",
-    "  float light = lit > 0.5 ? 0.58 + 0.42 * abs(normalize(across).z) : 1.0;",
     "  gl_FragColor = vec4(colour * light, opacity);",
     "}"].join("\n");
 
   function View(canvas, box, smooth) {
     this.canvas = canvas;
+    this.smooth = smooth;
     this.renderer = new THREE.WebGLRenderer({ canvas: canvas, antialias: smooth });
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
@@ -93,7 +97,12 @@ var vesselView = (function () {
 
   View.prototype.cut = function (drawing, plane) {
     var uniforms = drawing.mesh.material.uniforms, group = drawing.part.spec.group;
-    uniforms.cutting.value = plane && group !== "cut" ? 1 : 0;
+    var cutting = plane && group !== "cut" ? 1 : 0, material = drawing.mesh.material;
+    if (cutting !== uniforms.cutting.value) {
+      material.defines = cutting ? { CUT: 1 } : {};
+      material.needsUpdate = true;
+    }
+    uniforms.cutting.value = cutting;
     if (plane) uniforms.plane.value.fromArray(plane);
   };
 
@@ -139,6 +148,17 @@ var vesselView = (function () {
     return 2 * high / pane.height; // mm of a pixel
   };
 
+  // Of a picture that moves: coarsely where the processor draws, and finely when it rests.
+  View.prototype.renderMoving = function () {
+    var self = this;
+    clearTimeout(this.resting);
+    if (!this.smooth) {
+      this.coarse = true;
+      this.resting = setTimeout(function () { self.coarse = false; self.render(); }, REST);
+    }
+    this.render();
+  };
+
   View.prototype.render = function () {
     var self = this;
     if (this.waiting) return;
@@ -149,7 +169,7 @@ var vesselView = (function () {
   View.prototype.draw = function () {
     var width = this.canvas.clientWidth, height = this.canvas.clientHeight, self = this;
     if (!width || !this.half) return;
-    var ratio = Math.min(window.devicePixelRatio || 1, 2);
+    var ratio = this.coarse ? COARSE : this.smooth ? Math.min(window.devicePixelRatio || 1, 2) : 1;
     if (this.drawnAt !== [width, height, ratio].join()) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height, false);
@@ -207,7 +227,7 @@ var vesselView = (function () {
     this.towards = eye.clone().applyQuaternion(turn).normalize();
     this.up = up.applyQuaternion(turn);
     this.place();
-    this.render();
+    this.renderMoving();
   };
 
   View.prototype.shift = function (dx, dy) {
@@ -215,12 +235,12 @@ var vesselView = (function () {
     var mm = this.shape(this.panes[0]), right = new THREE.Vector3().crossVectors(this.up, this.towards).normalize();
     this.target.addScaledVector(right, -mm * dx).addScaledVector(new THREE.Vector3().crossVectors(this.towards, right), mm * dy);
     this.place();
-    this.render();
+    this.renderMoving();
   };
 
   View.prototype.closer = function (factor) {
     this.zoom = Math.min(200, Math.max(0.2, this.zoom * factor));
-    this.render();
+    this.renderMoving();
   };
 
   View.prototype.listen = function () {

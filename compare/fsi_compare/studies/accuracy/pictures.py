@@ -1,118 +1,97 @@
 """Pictures of the accuracy-cost study: work against precision, and errors against element size and time step."""
 
-from typing import Callable, Dict, List, Mapping, Sequence, Tuple
+from typing import Callable, List, Mapping, Sequence, Set, Tuple
 
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
+from ...reporting.coinciding import labels_that_say_so
+from ...reporting.log_axes import log_axes, plain_log_axis
 from ...reporting.pictures import finish
+from ...reporting.point_names import name_points
 from ...runs.waves import QUANTITIES, Quantity
 from .convergence import SPACE, Series
 from .frontier import frontier
 from .measured import GAIN, Measured
 
-MARKERS = ("o", "s", "D", "^", "v", "P", "X", "p", "h", "<", ">", "*")
-DOMINATED, ON_FRONTIER, PARTITIONED_FILL = "#b5b5b5", "#000000", "#ffffff"
+REST, ON_FRONTIER, PARTITIONED_FILL = "#c4c4c4", "#000000", "#ffffff"
+WIDE_INCHES = (7.4, 3.3)  # of a panel whose points are named
+AXES_PART = (0.86, 0.72)  # of it, that its axes take
 PANEL_INCHES = (4.4, 3.6)
 FLOOR = 1e-5  # %, below which a solver's error is drawn as this
-DASHES = ("-", "--", "-.", ":", (0, (7, 2)), (0, (4, 1, 1, 1, 1, 1)))
-GREYS = ("#000000", "#b02a5b", "#2c6fbb", "#e8871e", "#5fa55a", "#6a4c93")
+NAMED_SERIES = (
+    {"linestyle": "-", "marker": "o", "color": "#000000"},
+    {"linestyle": "--", "marker": "s", "color": "#b02a5b"},
+    {"linestyle": "-.", "marker": "^", "color": "#2c6fbb"},
+)
+SLOPES = {"first order": ":", "second order": "--"}
+OTHER_SERIES = {"linestyle": "-", "linewidth": 0.9, "color": "#c4c4c4", "zorder": 1.5}
 
 
 def work_precision(measured: Sequence[Measured], title: str) -> Figure:
-    """Total error against seconds, a panel per quantity: shape by mesh, size by time step, hollow partitioned."""
-    meshes = _named(measured, lambda m: (m.nodes, m.mesh_label))
-    steps = sorted({m.step for m in measured})
-
-    def size(m: Measured) -> float:
-        return 4.0 + 5.5 * (steps.index(m.step) / max(1, len(steps) - 1))
-
-    figure, panels = _panels(len(QUANTITIES))
+    """Total error against seconds, a panel per quantity: the frontier is named, all other settings are grey."""
+    figure, panels = _panels(len(QUANTITIES), WIDE_INCHES, 1)
+    shown: Set[bool] = set()
     for axes, quantity in zip(panels, QUANTITIES):
         points = [(m.seconds, 100 * m.total[quantity.column]) for m in measured]
-        _scatter(axes, points, measured, lambda m: meshes[m.mesh_label], size, GAIN)
         axes.set_title(quantity.name)
         axes.set_ylabel("error in % of the reference")
-        _log(axes, "seconds")
-    handles, labels = _mesh_handles(meshes)
-    for step in steps if len(steps) > 1 else ():
-        handles.append(
-            Line2D(
-                [],
-                [],
-                linestyle="none",
-                marker="o",
-                color=ON_FRONTIER,
-                markersize=4.0 + 5.5 * steps.index(step) / max(1, len(steps) - 1),
-            )
-        )
-        labels.append(f"step {step:g} ms")
-    return _finish(figure, handles, labels, measured, title)
+        shown |= _frontier(axes, points, measured, _setting(measured), GAIN)
+    return finish(figure, *_drivers(shown), title)
 
 
 def algebraic_work_precision(groups: Mapping[str, Sequence[Measured]], quantity: Quantity, title: str) -> Figure:
-    """Error of stopping early against seconds, a panel per mesh and step: shape by method, a line along tolerances."""
-    everyone = [m for group in groups.values() for m in group]
-    methods = _named(everyone, lambda m: (m.partitioned, m.run.request.method.label))
-    figure, panels = _panels(len(groups))
+    """Error of stopping early against seconds, a panel per mesh and step: the frontier is named, a grey line along each method's
+    tolerances."""
+    figure, panels = _panels(len(groups), WIDE_INCHES, 1)
+    shown: Set[bool] = set()
     for axes, (name, group) in zip(panels, groups.items()):
         points = [(m.seconds, max(100 * m.algebraic[quantity.column], FLOOR)) for m in group]
-        for label in methods:
+        for label in dict.fromkeys(m.run.request.method.label for m in group):
             own = sorted((p for p, m in zip(points, group) if m.run.request.method.label == label), key=lambda p: p[1])
-            axes.plot([x for x, _ in own], [y for _, y in own], color="#d8d8d8", linewidth=0.8, zorder=1)
-        _scatter(axes, points, group, lambda m: methods[m.run.request.method.label], lambda m: 6.0, 0.0)
+            axes.plot([x for x, _ in own], [y for _, y in own], color=REST, linewidth=0.8, zorder=1)
         axes.set_title(name, wrap=True)
         axes.set_ylabel("error in % of the tight solution")
-        _log(axes, "seconds")
-    handles = [
-        Line2D(
-            [],
-            [],
-            linestyle="none",
-            marker=marker,
-            color=ON_FRONTIER,
-            markersize=6,
-            markerfacecolor=PARTITIONED_FILL
-            if any(m.partitioned for m in everyone if m.run.request.method.label == label)
-            else ON_FRONTIER,
-        )
-        for label, marker in methods.items()
-    ]
-    return _finish(figure, handles, list(methods), everyone, title, drivers=False)
+        shown |= _frontier(axes, points, group, lambda m: m.solving, 0.0)
+    return finish(figure, *_drivers(shown), title)
+
+
+def _setting(measured: Sequence[Measured]) -> Callable[[Measured], str]:
+    """Mesh and step of a run, with the method where there are several for one driver."""
+    methods = {(m.partitioned, m.run.request.method.label) for m in measured}
+    several = {driver for driver in (True, False) if sum(1 for own, _ in methods if own == driver) > 1}
+
+    def words(m: Measured) -> str:
+        method = [m.run.request.method.label] if m.partitioned in several else []
+        return ", ".join([f"{m.mesh_label} mesh", f"{m.step:g} ms", *method])
+
+    return words
 
 
 def orders(series: Sequence[Series], what: str, title: str) -> Figure:
-    """Distance of each solution from the next finer one against its size, a panel per quantity."""
-    figure, panels = _panels(len(QUANTITIES))
-    handles: List[Line2D] = []
+    """Distance of each solution from the next finer one against its size, a panel per quantity. The longest three series have
+    names; the others are grey, and in the table."""
+    figure, panels = _panels(len(QUANTITIES), PANEL_INCHES, 2)
+    longest = sorted(range(len(series)), key=lambda i: -len(series[i].sizes))[: len(NAMED_SERIES)]
+    named = sorted(longest)
+    drawn: List[List[Line2D]] = []
     for axes, quantity in zip(panels, QUANTITIES):
+        drawn.append([])
         for i, one in enumerate(series):
-            style = {
-                "linestyle": DASHES[i % len(DASHES)],
-                "marker": MARKERS[i % len(MARKERS)],
-                "color": GREYS[i % len(GREYS)],
-                "markersize": 5,
-                "linewidth": 1.3,
-            }
+            look = dict(NAMED_SERIES[named.index(i)], markersize=5, linewidth=1.3) if i in named else OTHER_SERIES
             ys = [100 * d for d in one.distances[quantity.column]]
-            (line,) = axes.plot([_size(one, j) for j in range(len(ys))], ys, **style)
-            if quantity is QUANTITIES[0]:
-                handles.append(line)
+            (line,) = axes.plot([_size(one, j) for j in range(len(ys))], ys, **look)
+            if i in named:
+                drawn[-1].append(line)
         _slopes(axes)
         axes.set_title(quantity.name)
-        axes.set_ylabel("difference from the next finer in %")
-        _log(axes, "element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step in ms")
-    return _finish(
-        figure,
-        handles + [Line2D([], [], color="#999999", linewidth=0.8, linestyle=s) for s in (":", "--")],
-        [one.fixed for one in series] + ["first order", "second order"],
-        [],
-        title,
-        drivers=False,
-    )
+        axes.set_ylabel("difference from the next finer")
+        axes.set_xlabel("element size, (nodes of the finest / nodes)$^{1/3}$" if what == SPACE else "time step")
+        log_axes(axes, "" if what == SPACE else "ms", "%")
+    slopes = [Line2D([], [], color="#777777", linewidth=0.8, linestyle=style) for style in SLOPES.values()]
+    labels = labels_that_say_so([series[i].fixed for i in named], drawn)
+    return finish(figure, [*drawn[0], *slopes], [*labels, *SLOPES], title)
 
 
 def _size(one: Series, j: int) -> float:
@@ -127,111 +106,53 @@ def _slopes(axes: Axes) -> None:
         return
     x, y = (min(xs) * max(xs)) ** 0.5, (min(ys) * max(ys)) ** 0.5
     ends = (min(xs), max(xs)) if max(xs) > min(xs) else (0.7 * x, 1.4 * x)
-    for order, style in ((1, ":"), (2, "--")):
+    for order, style in zip((1, 2), SLOPES.values()):
         axes.plot(
-            ends, [y * (end / x) ** order for end in ends], color="#999999", linewidth=0.8, linestyle=style, zorder=1
+            ends, [y * (end / x) ** order for end in ends], color="#777777", linewidth=0.8, linestyle=style, zorder=1
         )
 
 
-def _panels(count: int) -> Tuple[Figure, List[Axes]]:
-    columns = min(2, count)
+def _panels(count: int, inches: Tuple[float, float], most: int) -> Tuple[Figure, List[Axes]]:
+    columns = min(most, count)
     rows = -(-count // columns)
-    figure = Figure(figsize=(columns * PANEL_INCHES[0], rows * PANEL_INCHES[1]))
+    figure = Figure(figsize=(columns * inches[0], rows * inches[1]))
     panels = figure.subplots(rows, columns, squeeze=False)
     for axes in panels.flat[count:]:
         axes.set_visible(False)
     return figure, list(panels.flat[:count])
 
 
-def _named(measured: Sequence[Measured], key: Callable[[Measured], Tuple]) -> Dict[str, str]:
-    """Name -> marker, in the order of the key, whose last part is the name."""
-    names = list(dict.fromkeys(k[-1] for k in sorted({key(m) for m in measured})))
-    return {name: MARKERS[i % len(MARKERS)] for i, name in enumerate(names)}
-
-
-def _scatter(
+def _frontier(
     axes: Axes,
     points: Sequence[Tuple[float, float]],
     measured: Sequence[Measured],
-    marker: Callable[[Measured], str],
-    size: Callable[[Measured], float],
+    name: Callable[[Measured], str],
     gain: float,
-) -> None:
-    """The frontier is numbered from the left, as its table is; dominated settings are grey and lie below."""
+) -> Set[bool]:
+    """The frontier is numbered from the left, as its table is, and named; the rest are grey and lie below. Of which drivers it
+    holds runs: True for the partitioned one."""
     best = frontier(points, gain)
-    for i, ((x, y), m) in enumerate(zip(points, measured)):
-        colour = ON_FRONTIER if i in best else DOMINATED
-        axes.plot(
-            [x],
-            [y],
-            linestyle="none",
-            marker=marker(m),
-            markersize=size(m),
-            color=colour,
-            markeredgewidth=1.0,
-            markerfacecolor=PARTITIONED_FILL if m.partitioned else colour,
-            zorder=3 if i in best else 2,
-        )
+    others = [point for i, point in enumerate(points) if i not in best]
+    axes.plot([x for x, _ in others], [y for _, y in others], linestyle="none", marker="o", markersize=3.5, color=REST)
     axes.plot([points[i][0] for i in best], [points[i][1] for i in best], color=ON_FRONTIER, linewidth=1.0, zorder=2.5)
-    for number, i in enumerate(best, 1):
-        # On alternate sides of the frontier, which falls to the right: neighbours' numbers stay apart.
-        axes.annotate(
-            str(number),
-            points[i],
-            textcoords="offset points",
-            xytext=(-6, -11) if number % 2 else (6, 5),
-            fontsize=7,
-            ha="center",
-            zorder=4,
-        )
+    for i in best:
+        axes.plot(*[[c] for c in points[i]], zorder=3, **_mark(measured[i].partitioned))
+    axes.set_xlabel("seconds of the run")
+    log_axes(axes, "s", "%")
+    names = [f"{number}: {name(measured[i])}" for number, i in enumerate(best, 1)]
+    name_points(axes, [points[i] for i in best], names, (WIDE_INCHES[0] * AXES_PART[0], WIDE_INCHES[1] * AXES_PART[1]))
+    plain_log_axis(axes.xaxis, "s")
+    plain_log_axis(axes.yaxis, "%")
+    return {measured[i].partitioned for i in best}
 
 
-def _mesh_handles(meshes: Mapping[str, str]) -> Tuple[List[Artist], List[str]]:
-    handles = [
-        Line2D([], [], linestyle="none", marker=marker, color=ON_FRONTIER, markersize=6) for marker in meshes.values()
-    ]
-    return handles, [f"{name} mesh" for name in meshes]
+def _mark(partitioned: bool) -> dict:
+    fill = PARTITIONED_FILL if partitioned else ON_FRONTIER
+    return {"linestyle": "none", "marker": "o", "markersize": 6, "color": ON_FRONTIER, "markerfacecolor": fill}
 
 
-def _finish(
-    figure: Figure,
-    handles: List[Artist],
-    labels: List[str],
-    measured: Sequence[Measured],
-    title: str,
-    drivers: bool = True,
-) -> Figure:
-    if drivers:
-        handles.append(Line2D([], [], color=ON_FRONTIER, linewidth=1.0, marker="o", markersize=5))
-        labels.append("on the frontier")
-        handles.append(Line2D([], [], linestyle="none", marker="o", markersize=5, color=DOMINATED))
-        labels.append("dominated")
-        if any(m.partitioned for m in measured):
-            handles.append(
-                Line2D(
-                    [],
-                    [],
-                    linestyle="none",
-                    marker="o",
-                    markersize=6,
-                    color=ON_FRONTIER,
-                    markerfacecolor=PARTITIONED_FILL,
-                )
-            )
-            labels.append("hollow: partitioned")
-    return finish(figure, handles, labels, title)
-
-
-def _log(axes: Axes, name: str) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.margins(x=0.1, y=0.12)
-    axes.set_xlabel(name)
-    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
-        if high < 4 * low:  # a difference of a percent should look like no more
-            low, high = (low * high) ** 0.5 / 2, (low * high) ** 0.5 * 2
-            (axes.set_xlim if axis is axes.xaxis else axes.set_ylim)(low, high)
-        subs = (1, 2, 3, 5, 7) if high < 12 * low else (1, 2, 5) if high < 400 * low else (1,)
-        axis.set_major_locator(LogLocator(subs=subs, numticks=20))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_locator(NullLocator())
+def _drivers(shown: Set[bool]) -> Tuple[List[Line2D], List[str]]:
+    """The legend: the marks of the frontier."""
+    drivers = sorted(shown)
+    names = {False: "on the frontier, monolithic", True: "on the frontier, partitioned"}
+    return [Line2D([], [], **_mark(driver)) for driver in drivers], [names[driver] for driver in drivers]

@@ -142,8 +142,8 @@ def _total(report: Report, case: str, measured: Sequence[Measured], several: boo
     report.figure(
         f"work_precision{stem}",
         lambda: pictures.work_precision(measured, title),
-        f"Each mark is a run: shape by mesh, size by time step{_hollow(measured)}. **Black**: on the frontier, numbered as "
-        "in the tables; **grey**: dominated.",
+        f"Each mark is a run{_hollow(measured)}. **Black**: on the frontier, named, and numbered as in the tables; **grey**: "
+        "dominated, in the table of all runs.",
     )
     for quantity in QUANTITIES:
         report.table(frontier_table(measured, quantity, name, stem))
@@ -172,7 +172,8 @@ def _orders(report: Report, found: Sequence[Series], cases: Sequence[str]) -> No
             report.figure(
                 stem,
                 lambda: pictures.orders(own, what, title),
-                f"Convergence in {what}: the slopes are the observed orders.",
+                f"Convergence in {what}: the slopes are the observed orders. The longest three series are named; the others are in the "
+                "table.",
             )
 
 
@@ -206,7 +207,7 @@ def _algebraic(report: Report, groups: Dict[str, dict], plan: Plan) -> None:
         report.figure(
             f"algebraic_{quantity.file.split('.')[0]}",
             lambda: pictures.algebraic_work_precision(runs_by_name, quantity, title),
-            f"Shape by method, a thin line along its tolerances{_hollow(everyone)}. Black and numbered: the frontier.",
+            f"A thin line along the tolerances of each method{_hollow(everyone)}. Black, numbered and named: the frontier.",
         )
     for i, (name, group) in enumerate(groups.items(), 1):
         report.table(algebraic_table(i, name, group["runs"]))

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from ...base.errors import InputError
 from ...reporting.column import Column
 from ...reporting.layout import Table
+from ...reporting.log_axes import log_axes
 from ..running.context import Context
 from ..running.section import Section
 from ..running.study_file import Study, report_of
@@ -21,6 +22,7 @@ SCENE_KEYS = ("reference", "trap", "skipped", "levels")
 SIZES = ("normal", "coarse")
 HELD, WIDTH = 0.95, 4.0  # what is asked of the bars: share that holds, median of bar over true error
 LEVELS = 3
+VERDICT_COLOURS = ("#2c6fbb", "#e8871e", "#303030")  # told apart in grey by lightness
 
 
 @dataclass(frozen=True)
@@ -188,16 +190,17 @@ def _answer(whole: Score) -> List[str]:
 def scatter(found: Sequence[Record]) -> Figure:
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.add_subplot()
-    for verdict, color in zip(dict.fromkeys(r.bar.verdict for r in found), ("tab:blue", "tab:orange", "tab:gray")):
+    for verdict, color in zip(dict.fromkeys(r.bar.verdict for r in found), VERDICT_COLOURS):
         shown = [r for r in found if r.bar.verdict == verdict]
-        x = [r.known / r.bar.scale for r in shown]
-        y = [max(r.bar.total / r.bar.scale, 1e-7) for r in shown]
+        x = [100 * r.known / r.bar.scale for r in shown]
+        y = [100 * max(r.bar.total / r.bar.scale, 1e-7) for r in shown]
         marker = "x" if not shown[0].bar.given else "o"
         axes.loglog(x, y, marker, color=color, markersize=4, alpha=0.7, linestyle="none", label=verdict)
-    ends = [1e-6, 10.0]
+    ends = [1e-4, 1e3]
     axes.loglog(ends, ends, color="black", linewidth=1, label="bar = error")
     axes.loglog(ends, [WIDTH * e for e in ends], color="black", linewidth=1, linestyle=":", label=f"{WIDTH:g} times")
-    axes.set_xlabel("true error, relative")
-    axes.set_ylabel("bar, relative")
+    axes.set_xlabel("true error")
+    axes.set_ylabel("error bar")
+    log_axes(axes, "%", "%")
     axes.legend(fontsize="small")
     return figure

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from ...reporting.column import Column
 from ...reporting.layout import Table
+from ...reporting.log_axes import plain_log_axis
 from ...reporting.pictures import PANEL_INCHES, finish
 from ...reporting.report import Report
 from ..running.study_run import StudyRun
@@ -121,6 +122,7 @@ def energy_figure(balances: Sequence[Balance], labels: Sequence[str], title: str
         grid[0, 0].set_ylim(SHOWN * most, 1.6 * most)  # shared by all
     for row in grid:
         row[0].set_ylabel("energy in uJ")
+        plain_log_axis(row[0].yaxis)
     return finish(figure, handles, list(LINES), title)
 
 

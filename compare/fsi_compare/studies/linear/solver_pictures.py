@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ..catalogue import paper
 from ..catalogue.names import BLOCK_PRECONDITIONERS, EXACT, MATERIALS, MULTILEVEL
+from ...reporting.coinciding import note_coinciding
+from ...reporting.log_axes import log_axes, plain_log_axis
 from ...reporting.pictures import finish, write_figure
 from .results import System
 from .grid import Grid, suffix
@@ -57,11 +57,13 @@ def iterations_figure(grid: Grid, key: System) -> Figure:
     for axes in panels.flat[len(methods) :]:
         axes.set_visible(False)
     for axes, method in zip(panels.flat, methods):
+        own = []
         for material in grid.materials:
-            axes.plot(*_columns(_curve(grid, material, key, method, "iterations")), **MATERIAL_LINES[material])
+            own += axes.plot(*_columns(_curve(grid, material, key, method, "iterations")), **MATERIAL_LINES[material])
             axes.plot(*_columns(_paper_points(grid.meshes, material, method)), **_paper_line(material))
         axes.set_title(method)
-        _log_axes(axes)
+        log_axes(axes, least=(12, 4))
+        note_coinciding(axes, own, [MATERIALS[material] for material in grid.materials])
         axes.set_xlabel("unknowns")
         axes.set_ylabel("iterations")
     handles, labels = [], []
@@ -95,6 +97,9 @@ def cost_figure(grid: Grid, key: System) -> Figure:
                 )
             axes.set_xscale("log")
             axes.set_xlabel(name)
+    for row, _ in zip(panels, quantities):
+        for axes in row:
+            plain_log_axis(axes.xaxis)
     panels[0, 0].set_yticks(range(len(methods)), methods)
     panels[0, 0].set_ylim(len(methods) - 0.4, -0.6)
     for axes, material in zip(panels[0], grid.materials):
@@ -147,25 +152,3 @@ def _paper_points(meshes: Sequence[str], material: str, method: str) -> List[Tup
 
 def _columns(points: Sequence[Tuple[float, float]]) -> Tuple[List[float], List[float]]:
     return [x for x, _ in points], [y for _, y in points]
-
-
-def _log_axes(axes: Axes) -> None:
-    """Logarithmic axes: at least one decade of unknowns, so that there is a tick, and a factor of 4 of values, so that
-    one iteration more looks like no more."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.margins(x=0.12, y=0.15)
-    axes.set_xlim(_widened(axes.get_xlim(), 12))
-    low, high = _widened(axes.get_ylim(), 4)
-    axes.set_ylim(low, high)
-    subs = (1, 2, 3, 5, 7) if high < 12 * low else (1, 2, 5) if high < 150 * low else (1,)
-    axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=20))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_minor_locator(NullLocator())
-
-
-def _widened(limits: Tuple[float, float], factor: float) -> Tuple[float, float]:
-    low, high = limits
-    middle = (low * high) ** 0.5
-    return (low, high) if high >= factor * low else (middle / factor**0.5, middle * factor**0.5)

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
 
+from ...reporting.coinciding import note_coinciding
 from ...reporting.pictures import MARKED_LINES, finish
 from .measured import Measured
 from .model import Step
@@ -43,6 +44,8 @@ def times_figure(strong: Lines, weak: Lines) -> Figure:
         handles += grid[0].plot([r.processes for r in shown], [one.seconds / r.seconds for r in shown], **style)
         labels.append(runs[0].label)
     grid[0].set_yscale("log", base=2)
+    _processes(grid[0], counts)
+    note_coinciding(grid[0], handles[1:], labels[1:])
     grid[0].set_ylabel("speed-up over one process")
     grid[0].set_title("the same mesh", loc="left")
     _plain(grid[0].yaxis, counts)
@@ -56,8 +59,7 @@ def times_figure(strong: Lines, weak: Lines) -> Figure:
         grid[1].set_ylim(0, max(110.0, grid[1].get_ylim()[1]))
         grid[1].set_ylabel("efficiency in %")
         grid[1].set_title("a mesh that grows with the processes", loc="left")
-    for axes in grid:
-        _processes(axes, counts)
+        _processes(grid[1], counts)
     return finish(figure, handles, labels, "Time steps on more processes")
 
 
@@ -79,6 +81,7 @@ def counts_figure(lines: Lines) -> Figure:
         axes.set_ylabel(name)
         axes.set_ylim(0, max(1.08 * axes.get_ylim()[1], 1e-9))
         _processes(axes, counts)
+        note_coinciding(axes, axes.get_lines(), labels)
     return finish(figure, handles, labels, "What is counted, per time step")
 
 
@@ -93,7 +96,7 @@ def model_figure(rows: Sequence[Tuple[str, Step]]) -> Figure:
             share = 100 * value / step.seconds
             axes.barh(row, share, left=left, height=0.7, edgecolor="#222222", linewidth=0.5, **look)
             left += share
-        axes.text(101, row, f"{1e3 * step.seconds:.3g} ms", va="center", fontsize=7.5)
+        axes.text(101, row, _duration(step.seconds), va="center", fontsize=7.5)
     axes.set_xlim(0, 112)
     axes.set_xticks(range(0, 101, 20))
     axes.set_ylim(len(rows) - 0.4, -0.6)
@@ -103,6 +106,10 @@ def model_figure(rows: Sequence[Tuple[str, Step]]) -> Figure:
     axes.set_axisbelow(True)
     handles = [Patch(edgecolor="#222222", linewidth=0.5, **look) for look in PARTS.values()]
     return finish(figure, handles, list(PARTS), "The model: where a time step goes", (width, height))
+
+
+def _duration(seconds: float) -> str:
+    return f"{1e3 * seconds:.3g} ms" if seconds < 0.9995 else f"{seconds:.3g} s"
 
 
 def _shown(runs: Sequence[Measured]) -> List[Measured]:

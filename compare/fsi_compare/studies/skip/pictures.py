@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
+from ...reporting.log_axes import plain_number
 from ...reporting.pictures import finish
 
 WITH = {"facecolor": "#303030", "edgecolor": "#303030"}
@@ -64,5 +65,5 @@ def _bars(axes: Axes, pairs: Sequence, in_noise: Sequence[bool]) -> None:
             )
     axes.set_xscale("log")
     axes.set_xlim(low, high * 4)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: format(value, "g")))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: plain_number(value)))
     axes.xaxis.set_minor_formatter(NullFormatter())

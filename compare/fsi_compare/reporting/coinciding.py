@@ -1,0 +1,76 @@
+"""Curves that lie on each other: found, and said, since the eye takes them for one."""
+
+from typing import Dict, List, Optional, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+NEAR = 0.01  # of the height of the axes: less than a line is broad
+SHORT = 30  # characters, of a name that is said again
+SHARED = 0.9  # of the longer curve, that both must span
+
+
+def coinciding(panels: Sequence[Sequence[Line2D]]) -> List[List[int]]:
+    """Groups of curves, by their places, that lie on each other in each of the panels, which have the same curves."""
+    groups: List[List[int]] = []
+    for i in range(min((len(lines) for lines in panels), default=0)):
+        for group in groups:
+            if all(_near(lines[i], lines[j]) for lines in panels for j in group):
+                group.append(i)
+                break
+        else:
+            groups.append([i])
+    return [group for group in groups if len(group) > 1]
+
+
+def labels_that_say_so(labels: Sequence[str], panels: Sequence[Sequence[Line2D]]) -> List[str]:
+    """For the legend: 'partitioned (lies on monolithic)'."""
+    on: Dict[int, int] = {i: group[0] for group in coinciding(panels) for i in group[1:]}
+
+    def first(place: int) -> str:
+        return labels[place] if len(labels[place]) <= SHORT else f"line {place + 1} of this legend"
+
+    return [f"{label} (lies on {first(on[i])})" if i in on else label for i, label in enumerate(labels)]
+
+
+def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) -> Optional[str]:
+    """Writes into a panel which of its curves lie on each other; for panels of a figure that differ in that."""
+    said = []
+    for group in coinciding([lines]):
+        names = [labels[i] for i in group]
+        if len(group) == len(lines):
+            said.append("all lines" if len(lines) > 2 else "both lines")
+        else:
+            said.append(f"{', '.join(names[:-1])} and {names[-1]}")
+    if not said:
+        return None
+    text = "\n".join(f"{names} lie on each other" for names in said)
+    axes.text(0.98, 0.03, text, transform=axes.transAxes, ha="right", va="bottom", fontsize=6.5, color="#444444")
+    return text
+
+
+def _near(one: Line2D, other: Line2D) -> bool:
+    a, b = _on_the_axes(one), _on_the_axes(other)
+    if min(len(a), len(b)) < 2:
+        return False
+    low, high = max(a[0, 0], b[0, 0]), min(a[-1, 0], b[-1, 0])
+    if high - low < SHARED * (max(a[-1, 0], b[-1, 0]) - min(a[0, 0], b[0, 0])):
+        return False
+    x = np.unique(np.concatenate([a[:, 0], b[:, 0]]))
+    x = x[(x >= low) & (x <= high)]
+    apart = np.abs(np.interp(x, a[:, 0], a[:, 1]) - np.interp(x, b[:, 0], b[:, 1]))
+    return len(x) > 1 and bool(apart.max() <= NEAR)
+
+
+def _on_the_axes(line: Line2D) -> np.ndarray:
+    """Places as parts of the width and height of the axes, from left to right."""
+    axes = line.axes
+    assert axes is not None, "it has been drawn"
+    axes.get_xlim(), axes.get_ylim()  # decides them, where they are left to the data
+    points = np.column_stack([np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)])
+    with np.errstate(all="ignore"):
+        placed = (axes.transScale + axes.transLimits).transform(points[np.isfinite(points).all(axis=1)])
+    placed = placed[np.isfinite(placed).all(axis=1)]
+    found: np.ndarray = placed[np.argsort(placed[:, 0], kind="stable")]
+    return found
