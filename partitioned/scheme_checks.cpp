@@ -17,7 +17,7 @@ namespace {
 /// One pass a step needs an extrapolation, and a time scheme that forgives what it leaves.
 template <int n>
 void require_for_one_pass(const CouplingScheme& scheme, const Case& setup, int order, const Scene<n>& scene) {
-  if (order == 0)
+  if (order == 0 && scheme.loose != Loose::in_turn)
     throw InputError(
         setup.path.string(), "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme.name),
@@ -46,10 +46,29 @@ void note_long_steps(const CouplingScheme& scheme, const Case& setup, Scene<n>& 
 
 }  // namespace
 
+/// Why a time scheme is none for loosely coupled schemes, which are proved stable with one solve a step by backward Euler.
+template <int n>
+void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>& scene) {
+  if (!setup.time)
+    throw InputError(setup.path.string(), "partitioned.scheme",
+                     fmt::format("\"{}\" gets from step to step nearer to the solution, and a static case has none to "
+                                 "spare",
+                                 scheme.name),
+                     "use a scheme that iterates: \"block-newton\"");
+  if (wetted_sides_of(scene).stands_in_the_fluid())
+    scene.notices.push_back(
+        fmt::format("{}: partitioned.scheme: \"{}\" takes its coefficient from a wall that is a tube around the fluid, "
+                    "and this one "
+                    "stands in the fluid; give partitioned.robin_coefficient, or name \"iqn-ils\"",
+                    setup.path.string(), scheme.name));
+}
+
 template <int n>
 void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {
+  if (scheme.loose != Loose::no) require_for_loose(scheme, setup, scene);
   if (scheme.one_pass) require_for_one_pass(scheme, setup, order, scene);
-  if (!scheme.robin && scene.coupled() && scene.has_flow_only())
+  const bool given_velocity = !scheme.robin && scheme.loose == Loose::no;
+  if (given_velocity && scene.coupled() && scene.has_flow_only())
     throw InputError(setup.path.string(), "partitioned.scheme",
                      fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "
                                  "opening: its pressure is not determined",
