@@ -193,6 +193,11 @@ template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = space_.norm(pass.residual);
   double size = space_.norm(pass.displacement);
+  if (scheme_.loose != Loose::no) {  // in the first step the fluid may move alone
+    std::vector<double> of_fluid = pass.displacement;
+    axpy(-1, pass.residual, of_fluid);
+    size = std::max(size, space_.norm(of_fluid));
+  }
   if (scene_.initial_load)  // displacements count from a loaded shape, also where none move
     if (const auto numbers = space_.size(pass.displacement); numbers > 0)
       size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *

@@ -44,24 +44,32 @@ void note_long_steps(const CouplingScheme& scheme, const Case& setup, Scene<n>& 
       setup.path.string(), steps->length, steps->answers, scheme.name));
 }
 
-}  // namespace
-
-/// Why a time scheme is none for loosely coupled schemes, which are proved stable with one solve a step by backward Euler.
+/// Loosely coupled Robin-Robin schemes march in time. With data of the last step on both sides pressures ring, the more with
+/// schemes that damp less than backward Euler (docs/coupling.md).
 template <int n>
 void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>& scene) {
+  const std::string file = setup.path.string();
   if (!setup.time)
-    throw InputError(setup.path.string(), "partitioned.scheme",
-                     fmt::format("\"{}\" gets from step to step nearer to the solution, and a static case has none to "
-                                 "spare",
-                                 scheme.name),
-                     "use a scheme that iterates: \"block-newton\"");
-  if (wetted_sides_of(scene).stands_in_the_fluid())
+    throw InputError(
+        file, "partitioned.scheme",
+        fmt::format("\"{}\" solves each medium once a step, and in a static case they do not agree then", scheme.name),
+        "use a scheme that iterates: \"block-newton\"");
+  const std::string time_scheme = time_scheme_of(setup, scene);
+  if (scheme.loose == Loose::at_once && time_scheme != "euler")
+    throw InputError(
+        file, "time.scheme",
+        fmt::format("\"{}\" with partitioned.scheme = \"{}\": each medium has the other's data of the last "
+                    "step alone, and the pressure rings",
+                    time_scheme, scheme.name),
+        "use \"euler\", or another coupling scheme: \"robin-robin\"");
+  if (!setup.partitioned.robin_coefficient && wetted_sides_of(scene).stands_in_the_fluid())
     scene.notices.push_back(
         fmt::format("{}: partitioned.scheme: \"{}\" takes its coefficient from a wall that is a tube around the fluid, "
-                    "and this one "
-                    "stands in the fluid; give partitioned.robin_coefficient, or name \"iqn-ils\"",
-                    setup.path.string(), scheme.name));
+                    "and this one stands in the fluid; give partitioned.robin_coefficient, or name \"iqn-ils\"",
+                    file, scheme.name));
 }
+
+}  // namespace
 
 template <int n>
 void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace fsi {
 
-/// The loosely coupled Robin-Robin scheme ([Burman2022]; docs/theory.md, section 10.5). A step is one wall and then one fluid
+/// The loosely coupled Robin-Robin scheme ([Burman2023]; docs/theory.md, section 10.5). A step is one wall and then one fluid
 /// solve, c being nodal areas times the coefficient alpha, F and W the momentum rows of fluid and wall on the interface,
 /// u the fluid's velocity there, w the wall's, and lambda^n = F^n of the last step:
 ///   W^(n+1) + lambda^n + c (w^(n+1) - u^n) = 0,
@@ -67,6 +67,10 @@ class RobinRobin : public InterfaceProblem<n> {
 
   /// The gap stands for a change of the traction by alpha times its velocity within a step.
   double pressure_per_gap() const override { return coefficient_.value * data_->rates.interface.rate(); }
+  /// Over the larger of the tractions of fluid and wall: in a step the wall may bear nothing yet.
+  double pressure_residual(const std::vector<double>& residual) const override {
+    return traction_size_ > 0 ? Base::gap_pressure(residual) / traction_size_ : 0.0;
+  }
   double traction_gap() const override { return traction_gap_; }
 
   void keep(Memory& memory) override {
@@ -118,6 +122,7 @@ class RobinRobin : public InterfaceProblem<n> {
     axpy(-1, velocity_of_fluid(state_->now), pass.residual);
     scale(data_->rates.interface.period, pass.residual);
     std::vector<double> lack = last_rows();
+    traction_size_ = std::max(Base::root_mean_traction(lack), Base::root_mean_traction(load_));
     axpy(-1, load_, lack);
     traction_gap_ = Base::root_mean_traction(lack);
     return pass;
@@ -167,11 +172,11 @@ class RobinRobin : public InterfaceProblem<n> {
   InterfaceImpedance wall_side_, fluid_side_;
   RobinCoefficient coefficient_;
   System<n> fluid_;
-  std::vector<double> next_traction_;  ///< of the step in progress
-  std::vector<double> load_;           ///< of the wall in its last solution, kPa mm^2
-  std::vector<double> whole_rows_;     ///< the fluid's, ghosts too
-  double traction_gap_ = 0;
-  bool known_ = false;  ///< lambda^n
+  std::vector<double> next_traction_;            ///< of the step in progress
+  std::vector<double> load_;                     ///< of the wall in its last solution, kPa mm^2
+  std::vector<double> whole_rows_;               ///< the fluid's, ghosts too
+  double traction_size_ = 0, traction_gap_ = 0;  ///< kPa, of the last pass
+  bool known_ = false;                           ///< lambda^n
 };
 
 }  // namespace fsi
