@@ -13,6 +13,8 @@
 #include "partitioned/added_mass.hpp"
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
+#include "partitioned/interface/robin_robin.hpp"
+#include "partitioned/interface/robin_robin_parallel.hpp"
 #include "partitioned/scheme_checks.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
@@ -26,18 +28,34 @@ CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const C
       options_(setup.partitioned),
       agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
-      choice_(chosen_scheme(setup)),
-      scheme_(coupling_scheme(choice_.name)),
+      choices_{{"partitioned.scheme", chosen_scheme(setup).name, chosen_scheme(setup).reason}},
+      scheme_(coupling_scheme(choices_.front().value)),
       space_(scene.processes(), scene.owned_interface() * n),
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
       wall_volumes_(owned_volumes<n>(scene.wall->space(), scene.wall->nodes())),
       accelerator_(scheme_.make_accelerator(options_, space_)),
-      march_(scheme_, options_.velocity_gap) {
+      march_(scheme_, options_.velocity_gap),
+      loose_march_(scheme_) {
   check_scheme(scheme_, setup, first_order(), scene);
-  if (scheme_.robin)
+  make_problem(scene);
+}
+
+template <int n>
+void CouplingStepper<n>::make_problem(Scene<n>& scene) {
+  if (scheme_.loose != Loose::no) {
+    std::unique_ptr<RobinRobin<n>> loose;
+    if (scheme_.loose == Loose::at_once)
+      loose = std::make_unique<RobinRobinParallel<n>>(scene, options_);
+    else
+      loose = std::make_unique<RobinRobin<n>>(scene, options_);
+    const RobinCoefficient& alpha = loose->coefficient();
+    choices_.push_back({"partitioned.robin_coefficient", fmt::format("{:.4g} kPa/(mm/ms)", alpha.value), alpha.reason});
+    problem_ = std::move(loose);
+  } else if (scheme_.robin) {
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
-  else
+  } else {
     problem_ = std::make_unique<DirichletNeumann<n>>(scene, options_);
+  }
 }
 
 template <int n>
@@ -46,10 +64,11 @@ StepReport CouplingStepper<n>::advance(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
-  const auto take_back = [this, started_far = starts_far_, march = march_] {
+  const auto take_back = [this, started_far = starts_far_, march = march_, loose = loose_march_] {
     accelerator_->abandon();
     starts_far_ = started_far;
     march_ = march;
+    loose_march_ = loose;
   };
   const int stages = scene_.integrator->stages(state);
   try {
@@ -94,7 +113,10 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     }
     log_pass();
     if (std::exchange(first, false)) starts_far_ = coupling_.displacement_residual > far;
-    if (scheme_.one_pass) march_.check(state.step + 1, data.time, coupling_, problem_->movement());
+    if (scheme_.loose != Loose::no)
+      loose_march_.add(coupling_.displacement_gap, problem_->movement());
+    else if (scheme_.one_pass)
+      march_.check(state.step + 1, data.time, coupling_, problem_->movement());
     if (scheme_.one_pass || agreement_.met_by(coupling_)) {
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
       accept(x, pass);
@@ -111,7 +133,8 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
 template <int n>
 std::vector<double> CouplingStepper<n>::start_stage(State& state, StepData& data) {
   order_ = first_order();
-  if (scheme_.one_pass && state.step == 0 && data.rates.stage == 0) check_added_mass(state, data);
+  if (scheme_.one_pass && scheme_.loose == Loose::no && state.step == 0 && data.rates.stage == 0)
+    check_added_mass(state, data);
   problem_->start_from_prediction(state, data, order_);
   note_period(data.rates.interface.period);
   accelerator_->start();
@@ -147,7 +170,10 @@ void CouplingStepper<n>::keep(Memory& memory) {
   memory.number_if_there("starts_far", starts_far);
   starts_far_ = starts_far != 0;
   memory.number_if_there("interface_period", period_);
-  if (scheme_.one_pass || memory.recalls()) march_.keep(memory);
+  if (scheme_.loose != Loose::no)
+    loose_march_.keep(memory);
+  else if (scheme_.one_pass || memory.recalls())
+    march_.keep(memory);
 }
 
 template <int n>
@@ -167,6 +193,11 @@ template <int n>
 void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.displacement_gap = space_.norm(pass.residual);
   double size = space_.norm(pass.displacement);
+  if (scheme_.loose != Loose::no) {  // in the first step the fluid may move alone
+    std::vector<double> of_fluid = pass.displacement;
+    axpy(-1, pass.residual, of_fluid);
+    size = std::max(size, space_.norm(of_fluid));
+  }
   if (scene_.initial_load)  // displacements count from a loaded shape, also where none move
     if (const auto numbers = space_.size(pass.displacement); numbers > 0)
       size = std::max(size, smallest_motion * problem_->pressure_of_thickness() / problem_->pressure_per_gap() *
@@ -176,6 +207,8 @@ void CouplingStepper<n>::measure(const Pass& pass) {
                                         : (coupling_.displacement_gap > 0 ? std::numeric_limits<double>::max() : 0.0);
   coupling_.force_residual = problem_->force_residual();
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
+  coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
+  coupling_.traction_gap = problem_->traction_gap();
 }
 
 template <int n>

@@ -8,6 +8,7 @@
 #include "partitioned/agreement.hpp"
 #include "partitioned/divergence.hpp"
 #include "partitioned/interface_space.hpp"
+#include "partitioned/loose_march.hpp"
 #include "partitioned/one_pass_march.hpp"
 #include "partitioned/scheme_choice.hpp"
 #include "partitioned/schemes.hpp"
@@ -33,12 +34,15 @@ class CouplingStepper : public Stepper {
   ~CouplingStepper() override;
 
   bool reports_coupling() const override { return true; }
-  std::vector<StepperChoice> choices() const override { return {{"partitioned.scheme", choice_.name, choice_.reason}}; }
+  std::vector<StepperChoice> choices() const override { return choices_; }
 
   StepReport advance(State& state) override;
   /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
-  bool can_retry() const override { return !scheme_.one_pass; }
-  std::string unchecked() const override { return scheme_.one_pass ? march_.unchecked() : std::string(); }
+  bool can_retry() const override { return !scheme_.one_pass || scheme_.loose != Loose::no; }
+  std::string unchecked() const override {
+    if (scheme_.loose != Loose::no) return loose_march_.unchecked();
+    return scheme_.one_pass ? march_.unchecked() : std::string();
+  }
 
   void keep(Memory& memory) override;
 
@@ -65,6 +69,8 @@ class CouplingStepper : public Stepper {
     Solution fields;
     double gap = 0;  ///< |r(x)|, mm
   };
+
+  void make_problem(Scene<n>& scene);
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.
   void advance_stage(State& state, StepData& data);
@@ -103,7 +109,7 @@ class CouplingStepper : public Stepper {
   PartitionedData options_;
   Agreement agreement_;
   std::optional<int> predictor_;  ///< order of the extrapolated start that the case asks for
-  SchemeChoice choice_;
+  std::vector<StepperChoice> choices_;
   const CouplingScheme& scheme_;
   InterfaceSpace space_;
   std::vector<double> fluid_volumes_, wall_volumes_;  ///< of the nodes, mm^3
@@ -112,6 +118,7 @@ class CouplingStepper : public Stepper {
   CouplingReport coupling_;
   DivergenceMonitor monitor_;  ///< of the step's passes
   OnePassMarch march_;         ///< of the steps, with one pass each
+  LooseMarch loose_march_;     ///< of the steps of Robin-Robin schemes
   int passes_ = 0;             ///< of the stage in progress
   int order_ = 0;              ///< of the extrapolated start
   double period_ = 0;          ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet

@@ -17,7 +17,7 @@ namespace {
 /// One pass a step needs an extrapolation, and a time scheme that forgives what it leaves.
 template <int n>
 void require_for_one_pass(const CouplingScheme& scheme, const Case& setup, int order, const Scene<n>& scene) {
-  if (order == 0)
+  if (order == 0 && scheme.loose != Loose::in_turn)
     throw InputError(
         setup.path.string(), "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme.name),
@@ -44,12 +44,39 @@ void note_long_steps(const CouplingScheme& scheme, const Case& setup, Scene<n>& 
       setup.path.string(), steps->length, steps->answers, scheme.name));
 }
 
+/// Loosely coupled Robin-Robin schemes march in time. With data of the last step on both sides pressures ring, the more with
+/// schemes that damp less than backward Euler (docs/coupling.md).
+template <int n>
+void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>& scene) {
+  const std::string file = setup.path.string();
+  if (!setup.time)
+    throw InputError(
+        file, "partitioned.scheme",
+        fmt::format("\"{}\" solves each medium once a step, and in a static case they do not agree then", scheme.name),
+        "use a scheme that iterates: \"block-newton\"");
+  const std::string time_scheme = time_scheme_of(setup, scene);
+  if (scheme.loose == Loose::at_once && time_scheme != "euler")
+    throw InputError(
+        file, "time.scheme",
+        fmt::format("\"{}\" with partitioned.scheme = \"{}\": each medium has the other's data of the last "
+                    "step alone, and the pressure rings",
+                    time_scheme, scheme.name),
+        "use \"euler\", or another coupling scheme: \"robin-robin\"");
+  if (!setup.partitioned.robin_coefficient && wetted_sides_of(scene).stands_in_the_fluid())
+    scene.notices.push_back(
+        fmt::format("{}: partitioned.scheme: \"{}\" takes its coefficient from a wall that is a tube around the fluid, "
+                    "and this one stands in the fluid; give partitioned.robin_coefficient, or name \"iqn-ils\"",
+                    file, scheme.name));
+}
+
 }  // namespace
 
 template <int n>
 void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {
+  if (scheme.loose != Loose::no) require_for_loose(scheme, setup, scene);
   if (scheme.one_pass) require_for_one_pass(scheme, setup, order, scene);
-  if (!scheme.robin && scene.coupled() && scene.has_flow_only())
+  const bool given_velocity = !scheme.robin && scheme.loose == Loose::no;
+  if (given_velocity && scene.coupled() && scene.has_flow_only())
     throw InputError(setup.path.string(), "partitioned.scheme",
                      fmt::format("\"{}\" gives the fluid its velocity on the wall, and the case does so at every "
                                  "opening: its pressure is not determined",

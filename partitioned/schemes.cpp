@@ -65,19 +65,25 @@ Made robin_imvj(const Options& o, const Space& space) {
 }
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
-constexpr std::array<CouplingScheme, 10> coupling_schemes{{
-    {"aitken", false, false, aitken, "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
-    {"block-newton", true, false, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
-    {"constant", false, false, constant, "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation"},
-    {"explicit", false, true, constant,
+constexpr auto loose_advice = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
+constexpr std::array<CouplingScheme, 12> coupling_schemes{{
+    {"aitken", false, false, Loose::no, aitken,
+     "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
+    {"block-newton", true, false, Loose::no, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
+    {"constant", false, false, Loose::no, constant,
+     "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation"},
+    {"explicit", false, true, Loose::no, constant,
      "a scheme that iterates: partitioned.scheme = \"iqn-ils\"; one pass a step is unstable where the fluid's added "
      "mass exceeds the wall's"},
-    {"iqn-ils", false, false, iqn_ils, other},
-    {"iqn-imvj", false, false, iqn_imvj, other},
-    {"newton-krylov", false, false, newton_krylov, other},
-    {"robin-neumann", true, false, robin, "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step"},
-    {"robin-neumann-iqn", true, false, robin_iqn, other},
-    {"robin-neumann-imvj", true, false, robin_imvj, other},
+    {"iqn-ils", false, false, Loose::no, iqn_ils, other},
+    {"iqn-imvj", false, false, Loose::no, iqn_imvj, other},
+    {"newton-krylov", false, false, Loose::no, newton_krylov, other},
+    {"robin-neumann", true, false, Loose::no, robin,
+     "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step"},
+    {"robin-neumann-iqn", true, false, Loose::no, robin_iqn, other},
+    {"robin-neumann-imvj", true, false, Loose::no, robin_imvj, other},
+    {"robin-robin", false, true, Loose::in_turn, constant, loose_advice},
+    {"robin-robin-parallel", false, true, Loose::at_once, constant, loose_advice},
 }};
 static_assert(names_match(coupling_scheme_list, coupling_schemes), "case/choices.hpp owns these names");
 

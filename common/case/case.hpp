@@ -133,9 +133,10 @@ struct PartitionedData {
   static constexpr double standard_tolerance = 1e-6;  ///< of the gap
   ToleranceOf tolerance_of = ToleranceOf::pressure;   ///< pressure: alike for what the gap is worth as a pressure
   double absolute_tolerance = 0;                      ///< or ||d~ - d|| <= this, mm; 0: no size in mm is small
-  double force_tolerance = 0;        ///< further demand: force residual relative to the interface force; 0: none
-  double velocity_gap = 0.5;         ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
-  std::optional<double> relaxation;  ///< constant factor, or the first of the scheme; empty: the scheme chooses
+  double force_tolerance = 0;  ///< further demand: force residual relative to the interface force; 0: none
+  double velocity_gap = 0.5;   ///< `explicit`: that fluid and wall may keep, relative to the largest velocity
+  std::optional<double> robin_coefficient;  ///< of robin-robin, kPa/(mm/ms); empty: from the scene
+  std::optional<double> relaxation;         ///< constant factor, or the first of the scheme; empty: the scheme chooses
   int max_iterations = 200;
   QuasiNewtonOptions quasi_newton;     ///< but for relaxation and mixing, which the scheme chooses
   std::string linear_solver = "fast";  ///< of the sub-problems, one of general_solver_names()

@@ -113,10 +113,9 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("scheme", optional, "coupling: {}; default block-newton",
            name_from(at(&P::scheme), coupling_scheme_names())),
       leaf("tolerance", optional,
-           fmt::format(
-               "gap between fluid and wall relative to the interface's displacement, default {}; block-newton: "
-               "error_tolerance of its Newton iteration, without it those of [monolithic] hold",
-               text_for_people(P::standard_tolerance)),
+           fmt::format("gap between fluid and wall relative to the interface's displacement, default {}; block-newton: "
+                       "error_tolerance of its Newton iteration, without it those of [monolithic] hold",
+                       text_for_people(P::standard_tolerance)),
            number(at(&P::tolerance), tolerance)),
       leaf("tolerance_of", optional,
            "{}; pressure: the tolerance holds, besides, for the pressure that the gap is worth in one step relative to "
@@ -132,6 +131,13 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            "explicit ends when fluid and wall differ in velocity by more than this part of the largest so far, over 8 "
            "steps in a row, default {}",
            number(at(&P::velocity_gap), positive)),
+      leaf("robin_coefficient", optional,
+           "of robin-robin and robin-robin-parallel, traction per velocity of the interface, {unit}; default from wall "
+           "and "
+           "fluid: sqrt(K (density of the wall times its thickness + density of the fluid times half the radius)), K "
+           "being "
+           "the hoop stiffness",
+           number(at(&P::robin_coefficient), positive, quantity::bedding_damping())),
       leaf("relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
            number(at(&P::relaxation), {0, 2, false, false})),
       leaf("max_iterations", optional,

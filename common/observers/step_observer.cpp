@@ -41,7 +41,9 @@ const Columns<CouplingRecord>& coupling_columns() {
       {"wall_s", [](const R& r) { return r.report.wall_seconds; }},
       {"mesh_motion_s", [](const R& r) { return r.report.mesh_seconds; }},
       {"coupling_s", [](const R& r) { return r.report.algebra_seconds; }},
-      {"pressure_residual", [](const R& r) { return r.report.pressure_residual; }}};
+      {"pressure_residual", [](const R& r) { return r.report.pressure_residual; }},
+      {"gap_kPa", [](const R& r) { return r.report.gap_pressure; }},
+      {"traction_gap_kPa", [](const R& r) { return r.report.traction_gap; }}};
   return columns;
 }
 

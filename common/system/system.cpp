@@ -297,7 +297,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
         scene_.fluid_frames.turn_blocks(jacobian.shape_derivatives);
     }
     if (derivatives) openings_.linearise(state_->now, data_->rates, !numbering_.mesh.empty());
-    if (impedance_) add_impedance(derivatives);
+    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::fluid) add_impedance(derivatives);
   }
   if (numbering_.has_wall()) {
     assert(scene_.wall);
@@ -307,6 +307,7 @@ AssemblyResult System<n>::assemble(bool derivatives) {
       for (std::size_t i = 0; i < wall_residual_.size(); ++i) wall_residual_[i] += data_->interface_load[i];
     add_rows<Mixed>(numbering_.wall_rows, scene_.wall_frames, wall_residual_, residual_);
     if (derivatives) scene_.wall_frames.turn_blocks(scene_.wall->jacobian());
+    if (impedance_ && impedance_->medium == InterfaceImpedance::Medium::wall) add_wall_impedance(derivatives);
   }
   return result;
 }
@@ -332,6 +333,28 @@ void System<n>::add_impedance(bool derivatives) {
       if (!derivatives) continue;
       auto& fluid = scene_.fluid->jacobian(derivatives_).fluid;
       fluid.block(fluid.graph->find(node, node))[k * Mixed::entries + k] += c;
+    }
+  }
+}
+
+template <int n>
+void System<n>::add_wall_impedance(bool derivatives) {
+  assert(!impedance_->balanced && impedance_->displacement.size() == impedance_->nodes.size() * n);
+  const double rate = data_->rates.interface.rate();
+  for (std::size_t i = 0; i < impedance_->nodes.size(); ++i) {
+    const int node = impedance_->nodes[i];
+    const double c = impedance_->impedance[i] * rate;
+    Direction<n> beyond{};
+    for (int k = 0; k < n; ++k)
+      beyond[k] = state_->now.wall[Mixed::vector(node, k)] - impedance_->displacement[i * n + k];
+    if (const auto* axes = scene_.wall_frames.at(node)) NodalFrames<n>::to_frame(*axes, beyond.data());
+    for (int k = 0; k < n; ++k) {
+      const Unknown& row = numbering_.wall_rows[Mixed::vector(node, k)];
+      if (row.index < 0) continue;
+      residual_[row.index] += row.factor * c * beyond[k];
+      if (!derivatives) continue;
+      auto& wall = scene_.wall->jacobian();
+      wall.block(wall.graph->find(node, node))[k * Mixed::entries + k] += c;
     }
   }
 }

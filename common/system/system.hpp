@@ -36,8 +36,8 @@ class System : public NewtonProblem {
 
   /// \param name         for the profile: "coupled", "fluid", "wall"
   /// \param make_solver  of the linearised equations; none: the direct one
-  /// \param impedance    adds to the fluid's equations, and must outlive this; null: nothing. Its c may change with
-  ///                     the rates of a step
+  /// \param impedance    adds to the fluid's equations, or the wall's, and must outlive this; null: nothing. Its c may
+  ///                     change with the rates of a step
   System(std::string name, Scene<n>& scene, Numbering numbering, const LinearSolverFactory<n>& make_solver = {},
          SystemNorm norm = SystemNorm::volumes, const InterfaceImpedance* impedance = nullptr);
   System(const System&) = delete;  // the solver refers to the numbering
@@ -111,6 +111,7 @@ class System : public NewtonProblem {
   AssemblyResult assemble(bool derivatives);
 
   void add_impedance(bool derivatives);
+  void add_wall_impedance(bool derivatives);
 
   /// field += step * (the increment of its unknowns)
   template <class Layout>

@@ -178,6 +178,12 @@ double BlockNewtonProblem<n>::relative_pressure() const {
 }
 
 template <int n>
+double BlockNewtonProblem<n>::gap_pressure() const {
+  return mean_gap_pressure(scene_, membrane_, wall_.numbering(),
+                           membrane_.push_stiffness(data_->rates.acceleration_factor), gap_);
+}
+
+template <int n>
 double BlockNewtonProblem<n>::relative_residual() const {
   const double force = load();
   return force > 0 ? residual_ / force : 0.0;

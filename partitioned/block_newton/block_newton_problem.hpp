@@ -64,6 +64,8 @@ class BlockNewtonProblem : public NewtonProblem {
   double relative_gap() const;
   /// And as a pressure, over the force between fluid and wall.
   double relative_pressure() const;
+  /// The same in kPa, root mean square over the interface.
+  double gap_pressure() const;
   /// All that lacks over the force between fluid and wall.
   double relative_residual() const;
   /// Pairs and rank that corrections of the datum are made of.

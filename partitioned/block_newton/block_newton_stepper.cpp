@@ -49,6 +49,7 @@ void BlockNewtonStepper<n>::finish_stage(const State&, const StepData&) {
   coupling.displacement_gap = problem_.gap();
   coupling.force_residual = problem_.relative_residual();
   coupling.pressure_residual = problem_.relative_pressure();
+  coupling.gap_pressure = problem_.gap_pressure();
   coupling.fluid_newton_iterations = coupling.wall_newton_iterations = cost.passes;
   coupling.fluid_linear_iterations = cost.fluid_linear;
   coupling.wall_linear_iterations = cost.wall_linear;

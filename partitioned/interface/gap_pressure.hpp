@@ -38,4 +38,35 @@ double relative_gap_pressure(const Scene<n>& scene, const Membrane& membrane, co
   return membrane.push_stiffness(data.rates.acceleration_factor) * std::sqrt(lacking / force);
 }
 
+/// Of nodal forces on the interface, n numbers per node: sqrt(sum of |force|^2 / area over the whole area), kPa. Held
+/// components do not count. \param numbering  of the wall
+template <int n>
+double root_mean_traction(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering,
+                          const std::vector<double>& forces) {
+  std::array<double, 2> sums{};
+  for (std::size_t i = 0; i < scene.owned_interface(); ++i) {
+    const auto& node = scene.interface[i];
+    const double area = membrane.node_areas[i];
+    if (!(area > 0) || node.clamped) continue;
+    sums[1] += area;
+    Direction<n> force{};
+    for (int k = 0; k < n; ++k) force[k] = forces[i * n + k];
+    if (const auto* axes = scene.wall_frames.at(node.wall)) NodalFrames<n>::to_frame(*axes, force.data());
+    for (int k = 0; k < n; ++k)
+      if (numbering.wall_rows[MixedLayout<n>::vector(node.wall, k)].index >= 0) sums[0] += force[k] * force[k] / area;
+  }
+  scene.processes().sum(sums.data(), sums.size());
+  return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
+}
+
+/// What a gap is worth as a pressure, kPa: root mean square over the interface.
+/// \param per_gap  kPa/mm \param gap  n numbers per interface node, mm
+template <int n>
+double mean_gap_pressure(const Scene<n>& scene, const Membrane& membrane, const Numbering& numbering, double per_gap,
+                         const std::vector<double>& gap) {
+  std::vector<double> forces = gap;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] *= membrane.node_areas[i / n];
+  return per_gap * root_mean_traction(scene, membrane, numbering, forces);
+}
+
 }  // namespace fsi

@@ -37,10 +37,11 @@ struct PassAccuracy {
 template <int n>
 class InterfaceProblem {
  public:
-  InterfaceProblem(Scene<n>& scene, const PartitionedData& options)
+  /// \param wall_impedance  joins the wall's equations (System), and is made later; null: nothing
+  InterfaceProblem(Scene<n>& scene, const PartitionedData& options, const InterfaceImpedance* wall_impedance = nullptr)
       : scene_(scene),
         membrane_(membrane_of(scene)),
-        wall_("wall", scene, number_wall(scene), solver_factory(options)) {}
+        wall_("wall", scene, number_wall(scene), solver_factory(options), SystemNorm::volumes, wall_impedance) {}
   virtual ~InterfaceProblem() = default;
 
   /// Starts a step, or a stage of it: state.now holds the first guess of all fields.
@@ -77,18 +78,25 @@ class InterfaceProblem {
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
   /// differences of its positions, are then the wall's.
   /// \throws ConvergenceError when a nonlinear mesh motion finds no way there
-  void follow_wall() { extend(wall_displacement(state_->now)); }
+  virtual void follow_wall() { extend(wall_displacement(state_->now)); }
 
   /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
   /// the wall lacks (docs/coupling.md).
-  double pressure_per_gap() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
+  virtual double pressure_per_gap() const { return push_stiffness(); }
   /// The pressure, kPa, that moves the wall by its own thickness within the stage.
-  double pressure_of_thickness() const { return pressure_per_gap() * membrane_.thickness; }
+  double pressure_of_thickness() const { return push_stiffness() * membrane_.thickness; }
   /// The pressure that r(x) is worth, relative to the force between fluid and wall: Euclidean norms of nodal forces.
-  double pressure_residual(const std::vector<double>& residual) const {
+  virtual double pressure_residual(const std::vector<double>& residual) const {
     return relative_gap_pressure(scene_, membrane_, wall_.numbering(), *data_, residual);
   }
+  /// The same in kPa, root mean square over the interface.
+  double gap_pressure(const std::vector<double>& residual) const {
+    return mean_gap_pressure(scene_, membrane_, wall_.numbering(), pressure_per_gap(), residual);
+  }
+  /// Between the fluid's traction and what the wall was loaded with in the last pass, kPa, root mean square over the
+  /// interface. None where the wall bears the fluid's own rows.
+  virtual double traction_gap() const { return 0; }
 
   /// |d~ - d^{n-1}| of the last pass, mm.
   double movement() const {
@@ -139,6 +147,10 @@ class InterfaceProblem {
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
 
+  double root_mean_traction(const std::vector<double>& forces) const {
+    return fsi::root_mean_traction(scene_, membrane_, wall_.numbering(), forces);
+  }
+
   void sum_over_processes(double& a, double& b) const {
     std::array<double, 2> sums{a, b};
     scene_.processes().sum(sums.data(), sums.size());
@@ -171,10 +183,15 @@ class InterfaceProblem {
   /// Loads the wall with the fluid's momentum rows and solves it. Rows at ghosts, other processes' nodes, which are
   /// not whole, load no row of this process.
   void solve_wall(const std::vector<double>& fluid_rows, const PassAccuracy& accuracy) {
-    const Stopwatch watch(cost.wall_seconds);
     data_->interface_load.assign(state_->now.wall.size(), 0.0);
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) data_->interface_load[wall_entry(node, k)] = fluid_rows[fluid_entry(node, k)];
+    solve_loaded_wall(accuracy);
+  }
+
+  /// Solves the wall under the interface load of the step's data.
+  void solve_loaded_wall(const PassAccuracy& accuracy) {
+    const Stopwatch watch(cost.wall_seconds);
     if (accuracy.linearised_wall) {
       state_->now.wall = first_wall_;
       solve_linearised("wall", wall_, linearised_tolerance, cost.wall_newton, cost.wall_linear);
@@ -196,6 +213,8 @@ class InterfaceProblem {
   StepData* data_ = nullptr;
 
  private:
+  double push_stiffness() const { return membrane_.push_stiffness(data_->rates.acceleration_factor); }
+
   static constexpr double linearised_tolerance = 1e-4;
   /// Of Newton's method on the wall, before its Jacobian is renewed. Fibres that switch on and off make the tangent
   /// jump to and fro while the iterates of a step lie close together: an old Jacobian is worth keeping longer than

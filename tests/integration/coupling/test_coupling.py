@@ -278,6 +278,27 @@ class Failures(FolderTest):
         self.assertEqual(process.returncode, 1)
         self.assertIn("time.predictor", process.stderr)
 
+    def test_robin_robin_says_that_it_does_not_iterate(self):
+        folder = self.base / "loose"
+        process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", folder=folder, settings=scheme("robin-robin", "time.end=0.5"))
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.stderr.count("does not iterate"), 1, process.stderr)
+        self.assertIn("block-newton", process.stderr)
+        self.assertEqual(table(folder, "iterations.csv")[:, 2].tolist(), [1] * 4)
+        self.assertIn("partitioned.robin_coefficient", (folder / "run.log").read_text())
+
+    def test_robin_robin_refuses_what_it_does_not_serve(self):
+        for settings, key in (
+            (scheme("robin-robin", "time.scheme=midpoint"), "time.scheme"),
+            (scheme("robin-robin-parallel", "time.scheme=bdf2"), "time.scheme"),
+            (scheme("robin-robin-parallel", "time.predictor=0"), "time.predictor"),
+            (scheme("robin-robin", "partitioned.robin_coefficient=0"), "partitioned.robin_coefficient"),
+        ):
+            with self.subTest(settings=settings):
+                process = attempt(PARTITIONED, NEO_HOOKEAN, "-q", folder=self.base / "none", settings=settings)
+                self.assertEqual(process.returncode, 1, process.stderr)
+                self.assertIn(key, process.stderr)
+
     def test_constant_ends_early_when_it_diverges(self):
         """The largest stable factor is 0.013 on this mesh."""
         message = self.refused(*scheme("constant", "partitioned.relaxation=0.016"), "partitioned.max_iterations=2000")

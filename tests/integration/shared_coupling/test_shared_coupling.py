@@ -48,6 +48,8 @@ class Schemes(Shared):
 
     def test_one_pass_a_step(self):
         self.check("explicit", 2, "time.scheme=euler", "structure.density=12000", "time.end=0.5")
+        self.check("robin-robin", 3, "time.scheme=euler", "time.end=0.5")
+        self.check("robin-robin-parallel", 2, "time.scheme=euler", "time.end=0.5")
 
     def test_with_factors_not_a_pass_more(self):
         """The interface's algebra alone: the sub-problems' equations are solved to rounding on any number."""

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <optional>
 
 #include "base/threads.hpp"
@@ -292,6 +293,121 @@ TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
     restarted.keep(memory.turn());
     EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
   }
+}
+
+/// Distance of the wall's displacement of a loosely coupled march from the monolithic one at one time, relative.
+double loose_error(const std::string& scheme, double step) {
+  Case setup = short_pulse(scheme, 1e-6, "euler", step);
+  setup.time->end = 1;
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
+             other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+  const Loads loads(setup);
+  NewtonOptions newton;
+  newton.tolerance = 1e-10;
+  NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
+  CouplingStepper<2> parts(*other, loads, setup);
+  State a = scene->at_rest(), b = other->at_rest();
+  for (int n = 0; n < setup.time->steps(); ++n) {
+    whole.advance(a);
+    const StepReport report = parts.advance(b);
+    EXPECT_EQ(report.outer_iterations, 1);
+    EXPECT_GT(report.coupling->displacement_gap, 0) << "reported as it is";
+    EXPECT_GT(report.coupling->gap_pressure, 0);
+  }
+  const auto displacements = [](std::vector<double> wall) {  // pressures ring after the pulse
+    for (std::size_t i = 2; i < wall.size(); i += 3) wall[i] = 0;
+    return wall;
+  };
+  const std::vector<double> expected = displacements(a.now.wall);
+  return norm(difference(expected, displacements(b.now.wall))) / norm(expected);
+}
+
+// What one solve of either medium leaves falls with the step. Soon after the pulse and in these steps the order is 0.55 to
+// 0.66, not yet the one that theory has; half an order is demanded on both pairs of levels (docs/coupling.md has others).
+TEST(RobinRobin, ErrorFallsWithTheStep) {
+  for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
+    const double coarse = loose_error(scheme, 1. / 32), middle = loose_error(scheme, 1. / 64),
+                 fine = loose_error(scheme, 1. / 128);
+    std::cout << scheme << ": errors " << coarse << ", " << middle << ", " << fine << '\n';
+    EXPECT_GT(std::log2(middle / fine), 0.5) << scheme;
+    EXPECT_GT(std::log2(coarse / middle), 0.5) << scheme;
+    EXPECT_LT(fine, 0.2) << scheme;
+  }
+}
+
+// The conditions of a step, from the fields that it leaves.
+TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
+  Case setup = partitioned_case("robin-robin", 1e-9);
+  setup.time->scheme = "euler";
+  setup.partitioned.robin_coefficient = 0.7;
+  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
+  const Loads loads(setup);
+  CouplingStepper<3> stepper(*scene, loads, setup);
+  stepper.keep_balances(true);
+  State state = scene->at_rest();
+  std::vector<double> traction(scene->interface.size() * 3, 0.0), last_velocity = traction;  // lambda^n, u^n
+  for (int step = 0; step < 3; ++step) {
+    const StepReport report = stepper.advance(state);
+    const Balance& balance = report.balances.front();
+    const StepRates& rates = balance.data.rates;
+    std::vector<double> rows;
+    scene->assemble_fluid(balance.at, balance.data, rows);
+    double of_fluid = 0, of_wall = 0, size = 0;
+    for (std::size_t i = 0; i < scene->interface.size(); ++i) {
+      const auto& node = scene->interface[i];
+      if (node.clamped) continue;
+      const double c = 0.7 * scene->interface_areas[i];
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t f = MixedLayout<3>::vector(node.fluid, k), w = MixedLayout<3>::vector(node.wall, k);
+        const double u = balance.at.fluid[f], lambda = traction[3 * i + k];
+        const double v = rates.interface.velocity(balance.at.wall[w], rates.wall_reference[w]);
+        of_fluid = std::max(of_fluid, std::abs(rows[f] - lambda + c * (u - v)));
+        of_wall =
+            std::max(of_wall, std::abs(balance.data.interface_load[w] - lambda - c * (v - last_velocity[3 * i + k])));
+        size = std::max(size, std::abs(rows[f]));
+        traction[3 * i + k] = rows[f];
+        last_velocity[3 * i + k] = u;
+      }
+    }
+    EXPECT_LT(of_fluid, 1e-7 * size) << step;
+    EXPECT_LT(of_wall, 1e-7 * size) << step;
+  }
+}
+
+// Without an iteration nothing says that fluid and wall agree: the run does where they do not, and its restart alike.
+TEST(RobinRobin, SaysWhatItLeavesAndRestartsWithTheSameBits) {
+  for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
+    const Case setup = short_pulse(scheme, 1e-6, "euler");
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    CouplingStepper<2> stepper(*scene, loads, setup);
+    State state = scene->at_rest();
+    for (int step = 0; step < 3; ++step) stepper.advance(state);
+    EXPECT_NE(stepper.unchecked().find("does not iterate"), std::string::npos);
+    CouplingStepper<2> restarted(*scene, loads, setup);
+    WrittenMemory memory = memory_of(stepper);
+    restarted.keep(memory.turn());
+    EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
+    State again = state;
+    stepper.advance(state);
+    restarted.advance(again);
+    EXPECT_EQ(again.now.wall, state.now.wall) << scheme;
+    EXPECT_EQ(again.now.fluid, state.now.fluid) << scheme;
+  }
+}
+
+TEST(RobinRobin, TimeSchemesThatRingAreRefused) {
+  for (const std::string time_scheme : every_time_scheme)
+    for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
+      const Case setup = short_pulse(scheme, 1e-6, time_scheme);
+      const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+      const Loads loads(setup);
+      const bool damps = time_scheme == "euler" || time_scheme == "bdf2" || time_scheme == "generalised-alpha";
+      if (scheme == "robin-robin" ? damps : time_scheme == "euler")
+        EXPECT_NO_THROW(CouplingStepper<2>(*scene, loads, setup)) << scheme << ", " << time_scheme;
+      else
+        EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError) << scheme << ", " << time_scheme;
+    }
 }
 
 // Nothing has a natural size: with a load that is a million million times smaller fluid and wall agree as well.

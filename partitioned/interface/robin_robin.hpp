@@ -1,0 +1,182 @@
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "partitioned/interface/interface_problem.hpp"
+#include "partitioned/interface/robin_coefficient.hpp"
+
+namespace fsi {
+
+/// The loosely coupled Robin-Robin scheme ([Burman2023]; docs/theory.md, section 10.5). A step is one wall and then one fluid
+/// solve, c being nodal areas times the coefficient alpha, F and W the momentum rows of fluid and wall on the interface,
+/// u the fluid's velocity there, w the wall's, and lambda^n = F^n of the last step:
+///   W^(n+1) + lambda^n + c (w^(n+1) - u^n) = 0,
+///   F^(n+1) - lambda^n + c (u^(n+1) - w^(n+1)) = 0.
+/// The fluid's domain follows the wall. alpha does not depend on the step: the gap c (u - w) = lambda^n - lambda^(n+1) is of
+/// first order then, and telescopes, so that the displacements do not drift apart. x is not used; r = period (w - u).
+template <int n>
+class RobinRobin : public InterfaceProblem<n> {
+  using Base = InterfaceProblem<n>;
+
+ public:
+  RobinRobin(Scene<n>& scene, const PartitionedData& options)
+      : Base(scene, options, &wall_side_),
+        coefficient_(robin_coefficient(options, scene, Base::membrane_)),
+        fluid_("fluid", scene, number_fluid(scene, /*free_interface=*/true), Base::solver_factory(options),
+               SystemNorm::entries, &fluid_side_) {
+    wall_side_.medium = InterfaceImpedance::Medium::wall;
+    for (const auto& node : scene.interface) {
+      fluid_side_.nodes.push_back(node.fluid);
+      wall_side_.nodes.push_back(node.wall);
+    }
+    fluid_side_.impedance = Base::membrane_.node_areas;
+    scale(coefficient_.value, fluid_side_.impedance);
+    wall_side_.impedance = fluid_side_.impedance;
+    for (auto* numbers : {&fluid_side_.velocity, &wall_side_.displacement, &traction_, &next_traction_, &load_})
+      numbers->assign(Base::interface_size(), 0.0);
+  }
+
+  const RobinCoefficient& coefficient() const { return coefficient_; }
+
+  void start(State& state, StepData& data) override {
+    Base::start(state, data);
+    fluid_.work_on(state, data);
+    if (known_) return;
+    known_ = true;
+    if (state.step > 0 || scene_.initial_load) find_data(state, data);
+  }
+
+  std::vector<double> first_guess(int) const override { return Base::wall_displacement(state_->now); }
+
+  Pass pass(const std::vector<double>&, const PassAccuracy& accuracy) override {
+    answer_of_wall(last_velocity(), traction_, accuracy);
+    const std::vector<double> d = Base::wall_displacement(state_->now);
+    Base::move_mesh(d);
+    answer_of_fluid(velocity_of_wall(d), traction_, accuracy);
+    return finished_pass(d);
+  }
+  Pass refine(const PassAccuracy& accuracy) override { return pass({}, accuracy); }
+
+  /// The mesh is there already.
+  void follow_wall() override {}
+
+  void accept() override { next_traction_ = last_rows(); }
+  void finish_step() override { traction_ = next_traction_; }
+
+  /// The gap stands for a change of the traction by alpha times its velocity within a step.
+  double pressure_per_gap() const override { return coefficient_.value * data_->rates.interface.rate(); }
+  /// Over the larger of the tractions of fluid and wall: in a step the wall may bear nothing yet.
+  double pressure_residual(const std::vector<double>& residual) const override {
+    return traction_size_ > 0 ? Base::gap_pressure(residual) / traction_size_ : 0.0;
+  }
+  double traction_gap() const override { return traction_gap_; }
+
+  void keep(Memory& memory) override {
+    Base::keep(memory);
+    keep_linearisation("fluid", fluid_, memory);
+    if (!memory.wants({"robin_traction"})) return;
+    memory.array("robin_traction", ArrayKind::interface, traction_);
+    known_ = true;
+  }
+
+ protected:
+  using Base::cost, Base::scene_, Base::state_, Base::data_;
+
+  /// u^n: the fluid's velocity on the interface in the last solution of the equations, n numbers per node, mm/ms.
+  std::vector<double> last_velocity() const { return velocity_of_fluid(state_->last_balance()); }
+
+  /// w, of a displacement d of the wall in this step.
+  std::vector<double> velocity_of_wall(const std::vector<double>& d) const {
+    std::vector<double> w(d.size());
+    for (std::size_t i = 0; i < d.size(); ++i) w[i] = data_->rates.interface.velocity(d[i], reference(i));
+    return w;
+  }
+
+  /// Solves W + lambda + c (w - u) = 0; leaves lambda + c (w - u) as the wall's load.
+  void answer_of_wall(const std::vector<double>& u, const std::vector<double>& lambda, const PassAccuracy& accuracy) {
+    for (std::size_t i = 0; i < u.size(); ++i) load_[i] = lambda[i] - wall_side_.impedance[i / n] * u[i];
+    put_load();
+    for (std::size_t i = 0; i < u.size(); ++i) wall_side_.displacement[i] = reference(i);
+    Base::solve_loaded_wall(accuracy);
+    const std::vector<double> w = velocity_of_wall(Base::wall_displacement(state_->now));
+    for (std::size_t i = 0; i < u.size(); ++i) load_[i] += wall_side_.impedance[i / n] * w[i];
+    put_load();
+  }
+
+  /// Solves F - lambda + c (u - w) = 0.
+  void answer_of_fluid(const std::vector<double>& w, const std::vector<double>& lambda, const PassAccuracy& accuracy) {
+    const Stopwatch watch(cost.fluid_seconds);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const double c = fluid_side_.impedance[i / n];
+      fluid_side_.velocity[i] = w[i] + (c > 0 ? lambda[i] / c : 0);
+    }
+    solve_sub_problem("fluid", fluid_, accuracy.tolerance, {}, cost.fluid_newton, cost.fluid_linear);
+  }
+
+  Pass finished_pass(const std::vector<double>& d) {
+    Pass pass;
+    pass.displacement = d;
+    pass.residual = velocity_of_wall(d);
+    axpy(-1, velocity_of_fluid(state_->now), pass.residual);
+    scale(data_->rates.interface.period, pass.residual);
+    std::vector<double> lack = last_rows();
+    traction_size_ = std::max(Base::root_mean_traction(lack), Base::root_mean_traction(load_));
+    axpy(-1, load_, lack);
+    traction_gap_ = Base::root_mean_traction(lack);
+    return pass;
+  }
+
+  const std::vector<double>& load() const { return load_; }
+
+  /// F of the fluid's last solution on the interface, rows of ghosts included.
+  std::vector<double> last_rows() {
+    const std::vector<double>* rows = &fluid_.fluid_residual();
+    if (const auto& share = scene_.fluid->nodes().share) {
+      whole_rows_ = *rows;
+      share->template update<MixedLayout<n>>(whole_rows_);
+      rows = &whole_rows_;
+    }
+    std::vector<double> on_interface(Base::interface_size());
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) on_interface[i * n + k] = (*rows)[Base::fluid_entry(scene_.interface[i], k)];
+    return on_interface;
+  }
+
+  /// The data of the last step, where another method made it, or where it is the state at rest under a load: the fluid's
+  /// rows at the start of this step.
+  virtual void find_data(State&, StepData&) {
+    fluid_.evaluate();
+    traction_ = last_rows();
+  }
+
+  std::vector<double> traction_;  ///< lambda^n, kPa mm^2
+
+ private:
+  double reference(std::size_t i) const {
+    return data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))];
+  }
+  std::vector<double> velocity_of_fluid(const Solution& solution) const {
+    std::vector<double> u(Base::interface_size());
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) u[i * n + k] = solution.fluid[Base::fluid_entry(scene_.interface[i], k)];
+    return u;
+  }
+  void put_load() {
+    data_->interface_load.assign(state_->now.wall.size(), 0.0);
+    for (std::size_t i = 0; i < load_.size(); ++i)
+      data_->interface_load[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))] = load_[i];
+  }
+
+  InterfaceImpedance wall_side_, fluid_side_;
+  RobinCoefficient coefficient_;
+  System<n> fluid_;
+  std::vector<double> next_traction_;            ///< of the step in progress
+  std::vector<double> load_;                     ///< of the wall in its last solution, kPa mm^2
+  std::vector<double> whole_rows_;               ///< the fluid's, ghosts too
+  double traction_size_ = 0, traction_gap_ = 0;  ///< kPa, of the last pass
+  bool known_ = false;                           ///< lambda^n
+};
+
+}  // namespace fsi

@@ -1,0 +1,28 @@
+#include "partitioned/loose_march.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace fsi {
+
+double LooseMarch::gap() const {
+  return movements_ > 0 ? std::sqrt(gaps_ / movements_) : 0.0;
+}
+
+std::string LooseMarch::unchecked() const {
+  if (!(gap() > small)) return {};
+  return fmt::format(
+      "the {} coupling does not iterate, and its error is not small: the velocities of fluid and wall on the interface "
+      "differ by {:.2g} of the wall's (root mean square over all steps, more than {:g}); take a smaller time.step, or "
+      "compare with partitioned.scheme = \"block-newton\"",
+      scheme_->name, gap(), small);
+}
+
+void LooseMarch::keep(Memory& memory) {
+  const Range sum{0};
+  memory.number_if_there("loose_gaps", gaps_, sum);
+  memory.number_if_there("loose_movements", movements_, sum);
+}
+
+}  // namespace fsi

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "partitioned/schemes.hpp"
+#include "time/memory.hpp"
+
+namespace fsi {
+
+/// Adds up by how much fluid and wall differ on the interface in a march of a loosely coupled scheme, which is stable but
+/// leaves an error in each step.
+class LooseMarch {
+ public:
+  /// Part of the interface's motion up to which the difference is small (docs/coupling.md).
+  static constexpr double small = 0.1;
+
+  /// \param scheme  must outlive this
+  explicit LooseMarch(const CouplingScheme& scheme) : scheme_(&scheme) {}
+
+  /// \param gap  between wall and fluid in a step, |d~ - d|, mm \param movement  of the wall in it, mm
+  void add(double gap, double movement) {
+    gaps_ += gap * gap;
+    movements_ += movement * movement;
+  }
+  /// Root mean square of the gaps over that of the movements.
+  double gap() const;
+  /// As Stepper::unchecked(): how large the difference is, where it is not small.
+  std::string unchecked() const;
+  void keep(Memory& memory);
+
+ private:
+  const CouplingScheme* scheme_;
+  double gaps_ = 0, movements_ = 0;  ///< sums of squares, mm^2
+};
+
+}  // namespace fsi
