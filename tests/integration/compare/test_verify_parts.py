@@ -6,6 +6,7 @@ import tomllib
 import types
 import unittest
 import unittest.mock
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from folder_case import FolderCase
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.verify import standard
 from fsi_compare.studies.verify.cost import Costs, learn
-from fsi_compare.studies.verify.demand import cheapest, shown_by, tolerance_factor
+from fsi_compare.studies.verify.demand import cheapest, refinable, shown_by, tolerance_factor
 from fsi_compare.studies.verify.doubt import doubt, on_common_points
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
@@ -23,7 +24,7 @@ from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
 from fsi_compare.studies.verify.tolerances import DEFAULT_SCHEME, GAP_TOLERANCE, NEWTON_TOLERANCE, governing
-from fsi_compare.studies.verify.verdict import Value, bar_of
+from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
 
 
 SOURCES = Path(__file__).resolve().parents[3]  # of the drivers and of fsi-mesh
@@ -243,6 +244,12 @@ class Demands(unittest.TestCase):
         found = cheapest([judged(0.001, 0.001)], self.COSTS, 0.1, 2.0, False, True)
         self.assertTrue(found.mesh > 1 and found.step > 1)
         self.assertEqual(cheapest([judged(0.001, 0.001)], self.COSTS, 0.1, 2.0, False, False).mesh, 1)
+
+    def test_refines_only_for_what_gets_a_bar_by_it(self):
+        one = judged(0.1, 0.02)
+        for advice, moves in (("shorten the step", 1), ("refine the mesh", 1), ("the line is another one", 0)):
+            without = replace(one, bar=replace(one.bar, verdict=NOT_IN_RANGE, advice=advice))
+            self.assertEqual(len(refinable([one, without])), moves)
 
     def test_bar_of_another_run_counts_its_distance(self):
         one = judged(0.1, 0.02)
