@@ -43,6 +43,17 @@ class OneDirection(unittest.TestCase):
         self.assertEqual(part.used, 2)
         self.assertGreater(part.bar, 0.1)
 
+    def test_difference_that_vanishes_by_chance_is_not_believed(self):
+        """An error a h^2 - b h^4 may be the same on two meshes: the last difference says nothing of what is left."""
+        values = [EXACT + 0.1 * h**2 - 0.08 * h**4 for h in (2, 1, 0.5)]
+        self.assertAlmostEqual(values[1], values[2])
+        part = part_of((2, 1, 0.5), values, 2, 1e-12)
+        self.assertEqual(part.state, WIDENED)
+        self.assertGreaterEqual(part.bar, 0.02)
+
+    def test_differences_down_to_noise_have_converged(self):
+        self.assertLess(part_of((2, 1, 0.5), (1 + 4e-6, 1.0, 1.0), 2, 1e-6).bar, 5e-6)
+
     def test_low_order_widens(self):
         sizes = (2, 1, 0.5)
         part = part_of(sizes, line(sizes, 0.9), 3, 1e-12)

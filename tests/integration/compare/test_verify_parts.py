@@ -6,6 +6,7 @@ import tomllib
 import types
 import unittest
 import unittest.mock
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,8 @@ from folder_case import FolderCase
 from fsi_compare.base.errors import InputError
 from fsi_compare.studies.verify import standard
 from fsi_compare.studies.verify.cost import Costs, learn
-from fsi_compare.studies.verify.demand import cheapest, shown_by, tolerance_factor
+from fsi_compare.studies.verify.demand import cheapest, refinable, shown_by, tolerance_factor
+from fsi_compare.studies.verify.doubt import doubt, on_common_points
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
@@ -22,7 +24,7 @@ from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
 from fsi_compare.studies.verify.tolerances import DEFAULT_SCHEME, GAP_TOLERANCE, NEWTON_TOLERANCE, governing
-from fsi_compare.studies.verify.verdict import Value, bar_of
+from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
 
 
 SOURCES = Path(__file__).resolve().parents[3]  # of the drivers and of fsi-mesh
@@ -68,6 +70,36 @@ class Quantities(unittest.TestCase):
     def test_order_of_what_is_made_of_gradients(self):
         for name, lower in (("a: pressure", True), ("a: velocity z", False), ("a: force x", True), ("p: flow", False)):
             self.assertEqual(curve(abs, name=name).is_pressure, lower)
+
+
+def line(s, values):
+    return Curve("axis: pressure", "Pa", np.array([1.0, 2.0]), np.array([values, values]), np.array(s))
+
+
+class Doubts(unittest.TestCase):
+    """What no sequence of values shows."""
+
+    def test_line_that_goes_another_way_in_each_member(self):
+        lines = [line((0.0, 1.0, 2.0), (1.0, 2.0, 3.0)), line((0.0, 1.1, 2.2), (1.0, 2.0, 3.0))]
+        one = quantities_of({"axis: pressure": lines[0]}, Asked(static=True))[0]
+        facts = types.SimpleNamespace(flow_interval=None)
+        self.assertEqual(doubt(one, [lines[0], lines[0]], facts), "")
+        self.assertIn("the line is another one in each member", doubt(one, lines, facts))
+
+    def test_points_that_one_mesh_lacks_count_in_none(self):
+        whole, lacking = line((0.0, 1.0, 2.0, 3.0), (1.0, 9.0, 1.0, 1.0)), line((0.0, 2.0, 3.0), (1.0, 1.0, 1.0))
+        members = {Member(1.0, 1.0): {whole.name: whole}, Member(0.5, 1.0): {whole.name: lacking}}
+        for of in on_common_points(members).values():
+            self.assertEqual(of[whole.name].s.tolist(), [0.0, 2.0, 3.0])
+            self.assertEqual(of[whole.name].largest, 1.0)
+
+    def test_extremes_of_pressure_need_steps_within_the_intervals_of_a_flow(self):
+        pressure = curve(lambda t: math.sin(t), step=0.1, name="inlet: mean pressure")
+        one = {q.name.partition(", ")[2]: q for q in quantities_of({pressure.name: pressure}, Asked())}
+        for interval, forbidden in ((0.1, True), (0.39, True), (0.4, False), (None, False)):
+            facts = types.SimpleNamespace(flow_interval=interval)
+            self.assertEqual("shorten the step" in doubt(one["largest"], [pressure], facts), forbidden)
+            self.assertEqual(doubt(one["L2 norm"], [pressure], facts), "")
 
 
 class Scripts(FolderCase):
@@ -213,6 +245,12 @@ class Demands(unittest.TestCase):
         self.assertTrue(found.mesh > 1 and found.step > 1)
         self.assertEqual(cheapest([judged(0.001, 0.001)], self.COSTS, 0.1, 2.0, False, False).mesh, 1)
 
+    def test_refines_only_for_what_gets_a_bar_by_it(self):
+        one = judged(0.1, 0.02)
+        for advice, moves in (("shorten the step", 1), ("refine the mesh", 1), ("the line is another one", 0)):
+            without = replace(one, bar=replace(one.bar, verdict=NOT_IN_RANGE, advice=advice))
+            self.assertEqual(len(refinable([one, without])), moves)
+
     def test_bar_of_another_run_counts_its_distance(self):
         one = judged(0.1, 0.02)
         self.assertAlmostEqual(shown_by(one, one.bar.value + 0.3).bar.total, one.bar.total + 0.3)
@@ -264,6 +302,11 @@ tip = [0, 1, 2]
         self.assertTrue(facts.adaptive)
         self.assertEqual((facts.step, facts.time_order, facts.space_order(True)), (0.02, 1.0, 2.0))
         self.assertEqual(read_case(path, {"time.scheme": "bdf2"}).time_order, 2.0)
+        self.assertIsNone(facts.flow_interval)  # beat.csv is not there: the driver says so
+        (self.base / "beat.csv").write_text("time_ms,flow_mm3_per_ms\n0,1\n2.5,3\n5,1\n")
+        self.assertEqual(read_case(path).flow_interval, 2.5)
+        given = {"opening": [{"surface": "inlet", "flow_rate": [[0, 0], [4, 1.5], [10, 1.5]]}]}
+        self.assertEqual(read_case(path, given).flow_interval, 5)
 
 
 class StandardPoints(unittest.TestCase):

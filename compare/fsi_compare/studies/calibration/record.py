@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from typing import List, Mapping, Optional, Sequence
 
 from ..running.study_run import StudyRun
+from ..verify.doubt import on_common_points
 from ..verify.family import CaseFacts, Member
-from ..verify.quantities import chosen, curves_of, quantities_of
+from ..verify.quantities import curves_of
 from ..verify.results import FamilyRuns, about, judge
 from ..verify.verdict import CONVERGES, Bar
 
@@ -57,14 +58,14 @@ def records(
     """Of all quantities of the family about `centre`, whose members are given by their sizes relative to the case; the truth is
     read from the reference."""
     family = about(FamilyRuns("monolithic", {m: run for m, run in runs.items() if run.done}), centre)
-    truth = curves_of(reference.folder)
-    own = next((run for member, run in family.runs.items() if member.is_own), None)
-    if own is None:
+    if family.own is None:
         return []
-    known = {q.name: q for q in chosen(quantities_of(curves_of(own.folder), facts.asked(())), ())}
+    far = Member(0.0, 0.0)  # stands for the reference
+    together = on_common_points({**family.read(), far: curves_of(reference.folder)})
+    truth = together.pop(far)
     found = []
-    for one in judge(family, family.read(), facts, (), ()):
-        quantity = known[one.quantity.name]
+    for one in judge(family, together, facts, (), ()):
+        quantity = one.quantity
         if quantity.curve not in truth or any(word in quantity.name for word in skipped):
             continue
         value = quantity.of(truth[quantity.curve])

@@ -83,6 +83,11 @@ def outside(judged: Sequence[Judged]) -> List[Judged]:
     return [one for one in judged if not one.bar.given]
 
 
+def refinable(judged: Sequence[Judged]) -> List[Judged]:
+    """Those without a bar that may get one by refinement: no mesh makes one line of several."""
+    return [one for one in outside(judged) if "mesh" in one.bar.advice or "step" in one.bar.advice]
+
+
 def direction_of(judged: Sequence[Judged]) -> str:
     """What to refine so that more of them get a bar: "mesh", "step" or "both"."""
     bars: List[Bar] = [one.bar for one in outside(judged)]

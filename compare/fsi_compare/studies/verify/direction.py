@@ -21,6 +21,7 @@ SWING = 3.0  # times the largest difference, where a sequence swings
 LEAST_ORDER = 0.3  # below it the differences do not fall enough to say what is left
 SHARE_OF_ORDER = 0.7  # of the elements' order that must be observed for them to converge as they do
 LARGEST_ORDER = 8.0
+TOO_FAST = 2.0  # times the order of theory: differences that fall faster do so by chance, as before a change of sign
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,13 @@ def _swings(steps: np.ndarray, noise: float) -> bool:
 
 def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, known: float) -> Part:
     last = float(y[-2] - y[-1])
-    if abs(last) <= noise:  # converged as far as can be seen
-        return Part(WIDENED, known + SWING * noise, None, expected, 0.0, _own(x, y) - float(y[-1]))
+    promised = _promised(x, y, expected)
+    if abs(last) <= noise or abs(last) < promised * float((x[-1] / x[-2]) ** (expected * (TOO_FAST - 1))):
+        left = max(abs(last), promised) / float((x[-2] / x[-1]) ** expected - 1.0)
+        chance = promised > SWING * noise  # else converged as far as can be seen
+        bar = known + (FACTOR[WIDENED] * left if chance else 0.0) + SWING * noise
+        error = _own(x, y) - float(y[-1])
+        return Part(WIDENED, bar, None, expected, 0.0, error)
     order, scatter = observed(x, y)
     if order is None or order < LEAST_ORDER:
         return Part(OUTSIDE, SWING * max(known, abs(last)), order)
@@ -94,6 +100,12 @@ def _of_monotone(x: np.ndarray, y: np.ndarray, expected: float, noise: float, kn
     bar = known + FACTOR[state] * abs(remaining) + scatter + noise
     seen = order if order < LARGEST_ORDER - 0.1 else None  # faster than any power
     return Part(state, bar, seen, used, remaining, _own(x, y) - float(y[-1]) + remaining)
+
+
+def _promised(x: np.ndarray, y: np.ndarray, expected: float) -> float:
+    """The last difference that the one before and the order of theory promise."""
+    before = x[-3] ** expected - x[-2] ** expected
+    return abs(float(y[-3] - y[-2])) * float((x[-2] ** expected - x[-1] ** expected) / before)
 
 
 def _own(x: np.ndarray, y: np.ndarray) -> float:

@@ -6,6 +6,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
+import numpy as np
+
 from ...base.errors import InputError
 from ...base.files import read_toml
 from ..running.study_file import Method, Request, Study, StudyMesh
@@ -35,6 +37,7 @@ class CaseFacts:
     end: float  # ms
     scheme: str
     period: Optional[float]  # ms
+    flow_interval: Optional[float] = None  # ms, between the points of the given flow's table
 
     @property
     def time_order(self) -> float:
@@ -113,7 +116,26 @@ def read_case(path: Path, settings: Mapping[str, Any] = MappingProxyType({})) ->
         end=float(time.get("end", 0.0) or 0.0),
         scheme=str(time.get("scheme", "midpoint")),
         period=float(max(periods)) if periods else None,
+        flow_interval=_flow_interval(path, openings),
     )
+
+
+def _flow_interval(case: Path, openings: Any) -> Optional[float]:
+    """The smallest of all tables of flow rates, each by the median of its intervals; None: no table, or none that can be
+    read here, which the driver then says."""
+    found = []
+    for opening in openings if isinstance(openings, list) else []:
+        table = opening.get("flow_rate") if isinstance(opening, dict) else None
+        try:
+            if isinstance(table, dict):
+                rows = np.genfromtxt(case.parent / str(table.get("file")), delimiter=",", skip_header=1, ndmin=2)
+            else:
+                rows = np.array(table if isinstance(table, list) else [], dtype=float, ndmin=2)
+        except (OSError, ValueError):
+            continue
+        if len(rows) > 2:
+            found.append(float(np.median(np.diff(rows[:, 0]))))
+    return min(found, default=None)
 
 
 def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> List[Member]:

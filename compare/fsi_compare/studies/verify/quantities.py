@@ -60,6 +60,7 @@ class Quantity:
     is_pressure: bool
     scale: float
     of: Callable[[Curve], float]
+    is_extreme: bool = False
 
 
 @dataclass(frozen=True)
@@ -128,8 +129,9 @@ def quantities_of(curves: Mapping[str, Curve], asked: Asked) -> List[Quantity]:
 
 
 def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
-    def quantity(what: str, of: Callable[[Curve], float]) -> Quantity:
-        return Quantity(f"{curve.name}, {what}", curve.name, curve.unit, curve.is_pressure, curve.largest, of)
+    def quantity(what: str, of: Callable[[Curve], float], extreme: bool = False) -> Quantity:
+        name = f"{curve.name}, {what}"
+        return Quantity(name, curve.name, curve.unit, curve.is_pressure, curve.largest, of, extreme)
 
     line = curve.values.shape[1] > 1
     at_end = quantity("L2 norm at the end" if line else "at the end", lambda c: _at(c, float(c.times[-1])))
@@ -138,9 +140,9 @@ def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
     found = []
     most, least = float(np.max(curve.values)), float(np.min(curve.values))
     if most > ONE_SIDED * curve.largest:
-        found.append(quantity("largest", lambda c: _extreme(c, 1.0)))
+        found.append(quantity("largest", lambda c: _extreme(c, 1.0), True))
     if least < -ONE_SIDED * curve.largest:
-        found.append(quantity("smallest", lambda c: _extreme(c, -1.0)))
+        found.append(quantity("smallest", lambda c: _extreme(c, -1.0), True))
     found += [at_end, quantity("L2 norm", _l2)]
     end = float(curve.times[-1])
     for time in asked.times:
@@ -149,7 +151,7 @@ def _of_curve(curve: Curve, asked: Asked) -> List[Quantity]:
     if asked.period is not None and not line and asked.period <= end * (1 + 1e-9):
         last = end - asked.period
         found.append(quantity("mean of the last period", lambda c: _mean(c, last)))
-        found.append(quantity("swing of the last period", lambda c: _swing(c, last)))
+        found.append(quantity("swing of the last period", lambda c: _swing(c, last), True))
     return found
 
 

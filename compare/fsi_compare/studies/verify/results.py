@@ -1,15 +1,16 @@
 """What the runs of a family say: bars of all quantities by driver, and bands of curves."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..running.study_run import StudyRun
 from .direction import FACTOR, OUTSIDE, WIDENED
+from .doubt import doubt, on_common_points
 from .family import CaseFacts, Member
 from .quantities import Curve, Quantity, chosen, curves_of, quantities_of
-from .verdict import Bar, Value, bar_of
+from .verdict import NOT_IN_RANGE, Bar, Value, bar_of
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,7 @@ def judge(
     own = next((member for member in curves if member.is_own), None)
     if own is None:
         return []
+    curves = on_common_points(curves)
     real = sizes(family.done)
     found = []
     for quantity in chosen(quantities_of(curves[own], facts.asked(times)), names):
@@ -126,6 +128,9 @@ def judge(
         )
         orders = facts.space_order(quantity.is_pressure), facts.time_order
         bar = bar_of(values, quantity.scale, *orders, facts.element)
+        advice = doubt(quantity, [of[quantity.curve] for of in curves.values() if quantity.curve in of], facts)
+        if bar is not None and advice:
+            bar = replace(bar, verdict=NOT_IN_RANGE, advice=advice)
         if bar is not None:
             found.append(Judged(family.driver, quantity, bar, values))
     return found

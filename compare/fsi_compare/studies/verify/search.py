@@ -10,7 +10,7 @@ from ...base.errors import InputError, printable
 from ..running.study_run import StudyRun
 from ..starting.progress import duration
 from .cost import learn
-from .demand import Settings, cheapest, direction_of, outside, reached, shown_by, tolerance_factor, widest
+from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .family import Member, members, with_settings
 from .found_case import write_case
 from .making import Maker
@@ -55,7 +55,7 @@ class Search:
         lines: List[str] = []
         for move in range(MOST_MOVES):
             asked = [one for one in judged if one.bar.given]
-            if outside(judged) and (move < MOVES_FOR_BARS or not asked):
+            if refinable(judged) and (move < MOVES_FOR_BARS or not asked):
                 target: Optional[Member] = self._finer(direction_of(judged))
             elif reached(asked, self.demand.error):
                 break
