@@ -16,13 +16,19 @@ from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
 from ..verify.family import STEP_RATIO, CaseFacts, Member, Requests, members, read_case
 from ..verify.mesh_family import Recipe, ratio_for, recipe_of_scene
+from ..verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
 from .record import Record, Score, records
 
 SCENE_KEYS = ("reference", "trap", "skipped", "levels")
 SIZES = ("normal", "coarse")
 HELD, WIDTH = 0.95, 4.0  # what is asked of the bars: share that holds, median of bar over true error
 LEVELS = 3
-VERDICT_COLOURS = ("#2c6fbb", "#e8871e", "#303030")  # told apart in grey by lightness
+# Told apart by shape and, in grey, by lightness.
+VERDICT_MARKS = {
+    CONVERGES: {"marker": "o", "color": "black", "markersize": 4},
+    BAR_WIDENED: {"marker": "o", "color": "#2c6fbb", "markerfacecolor": "none", "markersize": 5},
+    NOT_IN_RANGE: {"marker": "x", "color": "0.65", "markersize": 4},
+}
 
 
 @dataclass(frozen=True)
@@ -190,12 +196,11 @@ def _answer(whole: Score) -> List[str]:
 def scatter(found: Sequence[Record]) -> Figure:
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.add_subplot()
-    for verdict, color in zip(dict.fromkeys(r.bar.verdict for r in found), VERDICT_COLOURS):
+    for verdict, mark in reversed(VERDICT_MARKS.items()):
         shown = [r for r in found if r.bar.verdict == verdict]
         x = [100 * r.known / r.bar.scale for r in shown]
         y = [100 * max(r.bar.total / r.bar.scale, 1e-7) for r in shown]
-        marker = "x" if not shown[0].bar.given else "o"
-        axes.loglog(x, y, marker, color=color, markersize=4, alpha=0.7, linestyle="none", label=verdict)
+        axes.loglog(x, y, linestyle="none", label=verdict if shown else None, **mark)
     ends = [1e-4, 1e3]
     axes.loglog(ends, ends, color="black", linewidth=1, label="bar = error")
     axes.loglog(ends, [WIDTH * e for e in ends], color="black", linewidth=1, linestyle=":", label=f"{WIDTH:g} times")
