@@ -37,7 +37,8 @@ class LowRankCycle : public CycledMedium {
   int place(int node) const override { return medium_.place(node); }
   void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
     medium_.multiply(x, y);
-    for (std::size_t i = 0; i < terms_.size(); ++i) add(terms_[i].slope * dot(single_[i].columns, x), single_[i].rows, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      add(terms_[i].slope * dot(single_[i].columns, x), single_[i].rows, y);
   }
   void cycle(const std::vector<float>& x, std::vector<float>& y) override {
     medium_.cycle(x, y);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "system/jacobian_product.hpp"
-#include "system/low_rank_cycle.hpp"
 #include "system/linear_solver.hpp"
+#include "system/low_rank_cycle.hpp"
 
 namespace fsi {
 

@@ -21,8 +21,8 @@ namespace {
 constexpr double pass_share = 0.5;  // of a linear tolerance, for the gap that passes leave; the rest is the media's
 constexpr double loosest_answer = 1e-2;  // of a medium to a change of the datum: pairs are as exact as that
 constexpr double tightest_answer = 1e-8;
-constexpr int most_directions = 50;   // of the iteration over both media, between two residuals in double precision
-constexpr double stalled = 0.95;      // of the residual, left by a correction
+constexpr int most_directions = 50;  // of the iteration over both media, between two residuals in double precision
+constexpr double stalled = 0.95;     // of the residual, left by a correction
 constexpr double rounding_of_gap = 1e-14, rounding_of_load = 1e-13;  // relative: no pass makes less of them
 
 /// 1 where nothing is demanded of nothing.
@@ -50,8 +50,10 @@ BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData
       stiffness_(stiffness),
       most_passes_(options.max_iterations),
       fluid_("fluid", scene, number_fluid_and_domain(scene),
-             general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast)), SystemNorm::volumes, &robin_),
-      wall_("wall", scene, number_wall(scene), general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))),
+             general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast)), SystemNorm::volumes,
+             &robin_),
+      wall_("wall", scene, number_wall(scene),
+            general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))),
       space_(scene.processes(), scene.owned_interface() * n),
       map_(2 * options.quasi_newton.columns, options.quasi_newton.filter, space_),
       joint_(scene, fluid_.numbering(), wall_.numbering()) {
@@ -275,8 +277,8 @@ int BlockNewtonProblem<n>::correct_jointly(const Media& media, double accuracy, 
   media.wall->shorten(right_.wall, 1 / scale, single_right_.wall);
   single_right_.datum.resize(x_.size());
   for (std::size_t i = 0; i < x_.size(); ++i) single_right_.datum[i] = static_cast<float>(right_.gap[i] / scale);
-  const int iterations = joint_.solve(single_right_, accuracy, most_iterations, single_answer_,
-                                      {cost.fluid_seconds, cost.wall_seconds});
+  const int iterations =
+      joint_.solve(single_right_, accuracy, most_iterations, single_answer_, {cost.fluid_seconds, cost.wall_seconds});
   cost.passes += iterations;
   cost.fluid_linear += iterations;
   cost.wall_linear += iterations;

@@ -124,10 +124,10 @@ class BlockNewtonProblem : public NewtonProblem {
   InterfaceImpedance robin_;
   System<n> fluid_, wall_;
   InterfaceSpace space_;
-  AffineMap map_;      ///< from x_ to the gap
+  AffineMap map_;  ///< from x_ to the gap
   JointIteration<n> joint_;
   bool joint_is_current_ = false;  ///< joint_ knows these Jacobians
-  double period_ = 0;  ///< ms, for which it is
+  double period_ = 0;              ///< ms, for which it is
   State* state_ = nullptr;
   StepData* data_ = nullptr;
   std::vector<double> gap_;                         ///< at the last residual, n numbers per interface node, mm

@@ -19,7 +19,7 @@ namespace fsi::test {
 
 namespace {
 
-[[maybe_unused]] const int single_thread = set_threads(1);
+[[maybe_unused]] const int one_thread = set_threads(1);
 
 Case block_newton_case(std::int64_t factorised_below) {
   Case setup = coupled_case("neo-hookean");
