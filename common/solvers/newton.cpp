@@ -138,9 +138,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
       report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;
       return report;
     }
-    // A step that an old Jacobian makes too long is no worth halving: a new one makes a better.
     const double new_residual =
-        backtrack(problem, std::max(residual, rounding), increment, renew ? options.max_halvings : 0, iteration);
+        backtrack(problem, std::max(residual, rounding), increment, options.max_halvings, iteration);
     if (iteration.step == 0) {
       if (renew) {
         report.failure = "no step along Newton's direction lowers the residual";
