@@ -78,7 +78,7 @@ class InterfaceProblem {
   /// Takes the mesh to the wall's answer, where a step ends without agreement: the next velocities of the interface,
   /// differences of its positions, are then the wall's.
   /// \throws ConvergenceError when a nonlinear mesh motion finds no way there
-  virtual void follow_wall() { extend(wall_displacement(state_->now)); }
+  virtual void follow_wall() { move_mesh_to_wall(); }
 
   /// What a gap between fluid and wall is worth as a pressure, kPa/mm: the load that moves the wall by it within the
   /// stage. The fluid's pressure is off by that much, whatever the scheme: where the added mass is large it takes up what
@@ -170,6 +170,7 @@ class InterfaceProblem {
     return d;
   }
 
+  void move_mesh_to_wall() { extend(wall_displacement(state_->now)); }
   /// The mesh follows d on the interface. \throws PassFailure when a nonlinear motion finds no way there
   void move_mesh(const std::vector<double>& d) {
     try {

@@ -28,7 +28,7 @@ class RobinRobinParallel : public RobinRobin<n> {
     next_velocity_ = Base::velocity_of_wall(d);
     return Base::finished_pass(d);
   }
-  void follow_wall() override { InterfaceProblem<n>::follow_wall(); }
+  void follow_wall() override { Base::move_mesh_to_wall(); }
 
   void finish_step() override {
     Base::finish_step();
