@@ -152,7 +152,9 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
       leaf("linear_solver", optional, "of the sub-problems: {}",
            name_from(at(&P::linear_solver), general_solver_names())),
       leaf("direct_below", optional,
-           "unknowns of a sub-problem below which fast factorises the matrix, " + direct_below_standards(),
+           "unknowns of a sub-problem, of block-newton those of both together, below which fast factorises the "
+           "matrix, " +
+               direct_below_standards(),
            whole(at(&P::fast, &FastOptions::direct_below), 0, most_unknowns)),
   };
 }

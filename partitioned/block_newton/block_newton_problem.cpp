@@ -45,15 +45,18 @@ FastOptions for_both(const Scene<n>& scene, FastOptions fast) {
 
 template <int n>
 BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness)
+    : BlockNewtonProblem(scene, options, stiffness,
+                         general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))) {}
+
+template <int n>
+BlockNewtonProblem<n>::BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
+                                          const LinearSolverFactory<n>& make_solver)
     : scene_(scene),
       membrane_(membrane_of(scene)),
       stiffness_(stiffness),
       most_passes_(options.max_iterations),
-      fluid_("fluid", scene, number_fluid_and_domain(scene),
-             general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast)), SystemNorm::volumes,
-             &robin_),
-      wall_("wall", scene, number_wall(scene),
-            general_solver_factory<n>(options.linear_solver, for_both(scene, options.fast))),
+      fluid_("fluid", scene, number_fluid_and_domain(scene), make_solver, SystemNorm::volumes, &robin_),
+      wall_("wall", scene, number_wall(scene), make_solver),
       space_(scene.processes(), scene.owned_interface() * n),
       map_(2 * options.quasi_newton.columns, options.quasi_newton.filter, space_),
       joint_(scene, fluid_.numbering(), wall_.numbering()) {

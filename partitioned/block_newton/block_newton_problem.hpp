@@ -87,6 +87,9 @@ class BlockNewtonProblem : public NewtonProblem {
     CycledMedium *fluid, *wall;
   };
 
+  /// \param make_solver  of both media
+  BlockNewtonProblem(Scene<n>& scene, const PartitionedData& options, double stiffness,
+                     const LinearSolverFactory<n>& make_solver);
   std::vector<double> impedance_of(const StepRates& rates) const;
   std::vector<double> interface_gap() const;
   /// C times velocities that displacements of the interface are worth, Euclidean norm.

@@ -10,8 +10,7 @@ namespace fsi {
 
 namespace {
 
-/// Of the datum's rows beside those of the media: the gap is what lacks longest. 1 takes a tenth more iterations in the
-/// artery's quarter, 10 and 30 as many as 1.
+/// Of the datum's rows beside those of the media: the gap is what lacks longest (docs/tried.md).
 constexpr float weight_of_gap = 3;
 
 }  // namespace
