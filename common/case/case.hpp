@@ -90,7 +90,11 @@ struct TimeData {
   bool adaptive = false;                          ///< steps by an estimate of their error
   double tolerance = 0.01;                        ///< of adaptive steps, relative to the solution
   std::optional<double> first_step{}, smallest_step{}, largest_step{};  ///< ms, of adaptive ones; empty: from the scene
-  int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
+  /// Largest change from one period to the next with which the run ends, of the range within a period; empty: at `end`.
+  std::optional<double> periodic_change{};
+  std::optional<double> period{};                  ///< ms, of that; known once the case is read
+  StartOfOpenings start = StartOfOpenings::given;  ///< what Windkessels begin with
+  int retries = 4;                 ///< times that a step which found no solution is halved before the run gives up
 
   int steps() const;  ///< number of fixed steps; `end` is hit exactly, by shorter last ones where it has to be
 };

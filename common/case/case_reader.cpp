@@ -12,8 +12,10 @@
 #include "case/case_overrides.hpp"
 #include "case/derived_keys.hpp"
 #include "case/key_depth.hpp"
+#include "case/lumped_start_keys.hpp"
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
+#include "case/periodic_end.hpp"
 #include "case/support_keys.hpp"
 #include "case/windkessel_units.hpp"
 #include "time/time_schemes.hpp"
@@ -190,12 +192,14 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_sections(whole_case, scene);
   check_openings(whole_case, scene);
   check_closed(whole_case, scene);
+  set_lumped_start(whole_case, scene);
   warn_of_windkessel_units(whole_case, scene);
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
   check_gravity(whole_case, scene);
   check_output_times(whole_case, scene);
+  check_periodic_end(whole_case, scene);
   check_derived_output(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);

@@ -42,6 +42,12 @@ const NameTable<ElementPair>& element_pairs() {
   return table;
 }
 
+const NameTable<StartOfOpenings>& starts_of_openings() {
+  static const NameTable<StartOfOpenings> table{
+      "time.start", {{"given", StartOfOpenings::given}, {"lumped", StartOfOpenings::lumped}}};
+  return table;
+}
+
 const NameTable<Geometry>& geometries() {
   static const NameTable<Geometry> table{
       "geometry",

@@ -42,6 +42,11 @@ enum class ElementPair {
 };
 /// geometry: the space of a scene.
 enum class Geometry { three_dimensional, axisymmetric, plane };
+/// time.start: what Windkessels begin with.
+enum class StartOfOpenings {
+  given,  ///< their initial_pressure
+  lumped  ///< that of the periodic state of what lies behind the openings alone
+};
 /// structure.layer_pressure: the wall's pressure where layers meet.
 enum class LayerPressure {
   continuous,
@@ -66,6 +71,7 @@ const NameTable<InflowProfile>& inflow_profiles();
 const NameTable<ToleranceOf>& tolerance_kinds();
 /// mesh_motion.method: "harmonic", "stiffened", "nonlinear-elastic"
 const NameTable<MeshMotionMethod>& mesh_motion_methods();
+const NameTable<StartOfOpenings>& starts_of_openings();
 const NameTable<ElementPair>& element_pairs();
 const NameTable<Geometry>& geometries();
 const NameTable<LayerPressure>& layer_pressures();

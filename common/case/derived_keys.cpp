@@ -7,7 +7,7 @@
 #include <string>
 
 #include "case/key_values.hpp"
-#include "case/statistics_period.hpp"
+#include "case/scene_period.hpp"
 
 namespace fsi {
 
@@ -123,17 +123,7 @@ void check_derived_output(const CaseEntry& whole_case, Case& scene) {
   const CaseEntry statistics = output.child("statistics");
   if (!scene.fluid || !scene.time)
     statistics.refuse("are of a fluid in time, and the scene has none", "leave them out");
-  if (!wanted.period) {
-    const auto periods = periods_of_openings(scene);
-    if (periods.empty()) statistics.refuse("need a period, and no opening is periodic", "give output.period in ms");
-    for (const auto& [name, period] : periods)
-      if (period != periods.front().second)
-        statistics.refuse(
-            fmt::format("need a period, and the openings have different ones: {} of {:g} ms, {} of {:g} ms",
-                        periods.front().first, periods.front().second, name, period),
-            "give output.period in ms");
-    wanted.period = periods.front().second;
-  }
+  if (!wanted.period) wanted.period = require_period(statistics, scene, "output.period");
   if (scene.output.every == 0) statistics.refuse("are fields, and output.every = 0 writes none", "give another every");
   if (*wanted.period > scene.time->end)
     output.child("period").warn("is longer than the run: no period comes to its end",

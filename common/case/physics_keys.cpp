@@ -10,6 +10,7 @@
 #include "case/key_values.hpp"
 #include "case/opening_keys.hpp"
 #include "case/parameter_keys.hpp"
+#include "case/periodic_end.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_input.hpp"
 #include "materials/material.hpp"
@@ -368,6 +369,13 @@ std::vector<CaseKey<TimeData>> time_keys() {
       leaf("end", required,
            "end of the run in {unit}; hit exactly, by shorter last steps where it is no multiple of step",
            number(at(&TimeData::end), positive, quantity::time()), KeyRole::running),
+      periods_key(),
+      leaf("period", optional, "in {unit}, of `periods` and of the lumped start; without it that of the openings",
+           number(at(&TimeData::period), positive, quantity::time()), KeyRole::running),
+      leaf("start", optional,
+           "what Windkessels begin with: {}; lumped: initial_pressure of the periodic state that they have without the "
+           "vessel",
+           name_from(at(&TimeData::start), starts_of_openings())),
       leaf("scheme", optional,
            "time scheme: {}; without it midpoint, or tr-bdf2 where steps are long against the scene's time",
            name_from(at(&TimeData::scheme), time_schemes().names())),

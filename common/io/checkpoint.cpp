@@ -286,7 +286,8 @@ void require_same_run(const fs::path& file, const Checkpoint& checkpoint, const 
                      "belongs to another case (" +
                          (difference.empty() ? "hash " + checkpoint.case_hash + ", not " + case_hash : difference) +
                          ")",
-                     "restart with the case file of that run; only title, time.step, time.end, time.predictor, "
+                     "restart with the case file of that run; only title, time.step, time.end, time.periods, "
+                     "time.predictor, "
                      "static.load_steps, [monolithic], [partitioned] and [output] may differ");
   if (checkpoint.mesh_hash != mesh_hash)
     throw InputError(file.string(), "mesh",

@@ -39,6 +39,12 @@ class Observer {
   /// Rows of the tables of steps.
   virtual std::vector<TableRows> after_step(const FinishedStep& /*step*/) { return {}; }
 
+  /// Whether the run has come to what it was to come to, and may end before its time.
+  virtual bool wants_end() const { return false; }
+
+  /// The run has come to its end, and all levels have been looked at.
+  virtual void end() {}
+
   /// What it needs to go on after a restart. The names get the watcher's own word before them (observers.cpp).
   virtual void keep(Memory& /*memory*/) {}
   /// The phase of the profile that the seconds of after_step() count for; levels count as output.
@@ -51,6 +57,8 @@ class Voice {
   virtual ~Voice() = default;
   /// To the user: a line on the console and in the log.
   virtual void warn(const std::string& said) = 0;
+  /// The same of what is as it should be.
+  virtual void say(const std::string& said) = 0;
   /// An entry of the summary.
   virtual void note(const std::string& key, const nlohmann::json& value) = 0;
 };

@@ -9,6 +9,7 @@
 #include "observers/force_observer.hpp"
 #include "observers/observables.hpp"
 #include "observers/opening_observer.hpp"
+#include "observers/periodicity_observer.hpp"
 #include "observers/ringing_observer.hpp"
 #include "observers/same_rows.hpp"
 #include "observers/statistics_observer.hpp"
@@ -37,6 +38,7 @@ const std::vector<Kind<n>>& kinds() {
       {"", {centreline_file, wall_file, flow_file, points_file, lines_file, planes_file}, make_observables<n>},
       {"", {openings_file}, make_opening_observer<n>},
       {"statistics.", {}, make_statistics_observer<n>},
+      {"periodicity.", {}, make_periodicity_observer<n>},
       {"errors.", {}, make_error_observer<n>},
       {"", {}, make_field_observer<n>},
   };
@@ -90,6 +92,15 @@ void Observers::require_same(const State& level, const EarlierTables& earlier) c
       for (const ResultTable& table : tables)
         if (table.file == rows.file) require_same_rows(earlier, table, level.time, rows.rows);
   }
+}
+
+bool Observers::want_end() const {
+  return std::any_of(observers_.begin(), observers_.end(),
+                     [](const Entry& entry) { return entry.observer->wants_end(); });
+}
+
+void Observers::end() const {
+  for (const auto& [word, observer] : observers_) observer->end();
 }
 
 void Observers::keep(Memory& memory) const {

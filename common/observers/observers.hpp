@@ -30,6 +30,9 @@ class Observers {
   void after_step(const FinishedStep& step, ResultFolder& folder) const;
   /// Refuses tables of an earlier run whose last rows the level, from its checkpoint, does not give again. \throws InputError
   void require_same(const State& level, const EarlierTables& earlier) const;
+  /// Whether one of them has seen what the run was for.
+  bool want_end() const;
+  void end() const;
   void keep(Memory& memory) const;
 
  private:

@@ -9,7 +9,7 @@
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
 #include "base/version.hpp"
-#include "case/statistics_period.hpp"
+#include "case/scene_period.hpp"
 #include "fem/dimensions.hpp"
 #include "linear_solvers/general_solvers.hpp"
 #include "run/program.hpp"
@@ -74,6 +74,7 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
   }
   for (const auto& remark : parts.scene.remarks) log.info(remark);
   if (const auto said = about_statistics(parts.setup); !said.empty()) log.info(said);
+  if (const auto said = about_periodic_end(parts.setup); !said.empty()) log.info(said);
   for (const auto& note : parts.loaded.points.notes) log.info(note);
   for (const auto& warning : parts.loaded.points.warnings) {
     log.warning(warning);

@@ -13,7 +13,7 @@
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
 #include "base/threads.hpp"
-#include "case/statistics_period.hpp"
+#include "case/scene_period.hpp"
 #include "fem/dimensions.hpp"
 #include "linear_solvers/general_solvers.hpp"
 #include "observers/field_output.hpp"
@@ -55,6 +55,7 @@ void describe_samples(const Case& setup, const ObservationPoints& points, Descri
   for (const auto& [name, surfaces] : setup.output.derived.forces)
     lines.push_back({"forces on " + name, fmt::format("of the fluid, {} together", fmt::join(surfaces, ", "))});
   if (const auto said = about_statistics(setup); !said.empty()) lines.push_back({"statistics", said});
+  if (const auto said = about_periodic_end(setup); !said.empty()) lines.push_back({"end", said});
   for (const auto& note : points.notes) lines.push_back({"note", note});
 }
 

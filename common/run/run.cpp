@@ -76,11 +76,12 @@ class Run {
     prepare();
     try {
       parts_.about_processes.steps_begin();
-      while (state().step < last_step() && !is_stopped()) {
+      while (!is_finished() && !is_stopped()) {
         step();
         account_.measure_work_unit();
       }
-      if (state().step == last_step()) end();
+      if (is_finished()) end();
+      if (is_finished()) observers_.end();
     } catch (const Stopped&) {
       parts_.loads.axis().drop_insertions_after(state().step);
       gave_up_step_ = is_stopped();
@@ -91,7 +92,7 @@ class Run {
       throw;
     }
     folder_->close();
-    if (state().step < last_step()) return interrupted();
+    if (!is_finished()) return interrupted();
     if (const std::string about = account_.about_steps(); !about.empty()) log_->info(about);
     log_->info("done");
     log_->close();
@@ -102,6 +103,7 @@ class Run {
  private:
   State& state() { return parts_.state; }
   int last_step() const { return parts_.loads.steps(); }
+  bool is_finished() const { return parts_.state.step == last_step() || observers_.want_end(); }
 
   /// From what the earlier run has left, where there is one, to the moment before the first step.
   void prepare() {
@@ -157,7 +159,7 @@ class Run {
       checkpoints_.vouch(*folder_);
       parts_.first.agree();  // the tables hold what the checkpoint says
     }
-    if (checkpoints_.is_due()) checkpoints_.save();
+    if (checkpoints_.is_due(is_finished())) checkpoints_.save();
     complete_ = state().step;
     const auto& errors = parts_.march.errors();
     log_->info(fmt::format("step {}  t = {:g} ms  coupling {}  newton {}{}", record.step, record.time,

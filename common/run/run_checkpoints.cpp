@@ -94,9 +94,9 @@ void RunCheckpoints<n>::keep_finished() {
 }
 
 template <int n>
-bool RunCheckpoints<n>::is_due() const {
+bool RunCheckpoints<n>::is_due(bool finished) const {
   if (!pace_.writes_any()) return false;
-  if (parts_.state.step == parts_.loads.steps()) return true;
+  if (finished) return true;
   return parts_.processes.any(parts_.first.is_here() && pace_.is_due(parts_.state.step, seconds_since(parts_.start)));
 }
 

@@ -35,8 +35,8 @@ class RunCheckpoints {
   /// Before a step that may have to be given up. What it leaves behind would not go on to the same bits, so that the
   /// checkpoint is of what there is now; where the folder has it, nothing needs to be kept.
   void keep_finished();
-  /// After a step: the first process's clock decides.
-  bool is_due() const;
+  /// After a step: the first process's clock decides. \param finished  it is the last one
+  bool is_due(bool finished) const;
   bool writes_any() const { return pace_.writes_any(); }
   /// Of now.
   void save();

@@ -20,6 +20,10 @@ class RunVoice : public Voice {
     if (console_ != nullptr) console_->line(said);
     log_only(said);
   }
+  void say(const std::string& said) override {
+    if (console_ != nullptr) console_->line(said);
+    if (log_ != nullptr) log_->info(said);
+  }
   void note(const std::string& key, const nlohmann::json& value) override { summary[key] = value; }
   /// Into the log, of a step in progress.
   void log_only(const std::string& said) {

@@ -67,6 +67,7 @@ class CouplingStepper : public Stepper {
 class Silent : public Voice {
  public:
   void warn(const std::string& /*said*/) override {}
+  void say(const std::string& /*said*/) override {}
   void note(const std::string& /*key*/, const nlohmann::json& /*value*/) override {}
 };
 

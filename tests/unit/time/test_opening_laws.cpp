@@ -7,11 +7,13 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "openings/law_parameters.hpp"
+#include "openings/lumped_start.hpp"
 #include "openings/opening_laws.hpp"
 #include "openings/windkessel.hpp"
 #include "time/bdf2.hpp"
@@ -205,6 +207,47 @@ TEST(OpeningLaws, AreMarchedAtTheSchemesOrder) {
         EXPECT_NEAR(std::log2(errors[k] / errors[k + 1]), order, order == 1 ? 0.1 : 0.25) << errors[k];
     }
   }
+}
+
+constexpr double cycle = 2 * M_PI / frequency;
+
+TEST(LumpedStart, IsThePeriodicSolutionUnderAGivenFlow) {
+  const double w = frequency * law.distal * law.compliance;
+  const double exact = law.distal_pressure + amplitude * law.distal * (1 - 1 / (1 + w * w));
+  std::vector<double> errors;
+  for (const int steps : {32, 64})
+    errors.push_back(std::abs(
+        periodic_start({{std::make_shared<Windkessel>(law)}, nullptr, flow, cycle}, steps).at(0).at(0) - exact));
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.1);
+  EXPECT_LT(errors[1], 1e-3 * exact);
+}
+
+TEST(LumpedStart, IsThePeriodicSolutionUnderAGivenPressure) {
+  // C dp_c/dt = g (e - p_c) with g = 1 / R_p + 1 / R_d and g e = p / R_p + p_d / R_d.
+  const double g = 1 / law.proximal + 1 / law.distal, w = frequency * law.compliance / g;
+  const double mean = (amplitude / law.proximal + law.distal_pressure / law.distal) / g;
+  const double exact = mean - amplitude / law.proximal / g / (1 + w * w);
+  const auto found = periodic_start({{std::make_shared<Windkessel>(law)}, flow, nullptr, cycle});
+  EXPECT_NEAR(found.at(0).at(0), exact, 1e-5 * exact);
+}
+
+TEST(LumpedStart, SharesAFlowByConductance) {
+  Windkessel half = law;  // twice the resistances and half the compliance: takes half of what the other takes
+  half.proximal *= 2;
+  half.distal *= 2;
+  half.compliance /= 2;
+  const auto together = periodic_start(
+      {{std::make_shared<Windkessel>(law), std::make_shared<Windkessel>(half)}, nullptr, flow, cycle});
+  const auto alone = periodic_start({{std::make_shared<Windkessel>(law)},
+                                     nullptr,
+                                     [](double t) { return 2 * flow(t) / 3; },
+                                     cycle});
+  EXPECT_NEAR(together.at(0).at(0), alone.at(0).at(0), 1e-9);
+  EXPECT_NEAR(together.at(1).at(0), alone.at(0).at(0), 1e-9);
+}
+
+TEST(LumpedStart, NeedsAWayOut) {
+  EXPECT_THROW(periodic_start({{}, nullptr, flow, cycle}), std::runtime_error);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/case_entry.hpp"
+
+namespace fsi {
+
+/// Keys of the tables of openings that are periodic, with their periods in ms.
+std::vector<std::pair<std::string, double>> periods_of_openings(const Case& setup);
+
+/// The period that all periodic openings share, ms. \param asking  what needs it \param key  that gives it otherwise
+/// \throws InputError where none is periodic, or they have different periods
+double require_period(const CaseEntry& asking, const Case& setup, const char* key);
+
+/// A sentence for the log on a run that ends when it has become periodic; empty of others.
+std::string about_periodic_end(const Case& setup);
+/// A sentence for the log on the period of the statistics, and whose it is; empty without statistics.
+std::string about_statistics(const Case& setup);
+
+}  // namespace fsi

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "time/memory.hpp"
+
+namespace fsi {
+
+/// What is compared from period to period.
+struct PeriodicValues {
+  std::vector<double> pressures;     ///< of openings, kPa
+  std::vector<double> flows;         ///< outward, of the same, mm^3/ms
+  std::vector<double> displacement;  ///< vectors per node between fluid and wall, mm; empty without wall
+};
+
+/// How a period differs from the one before: for each quantity the largest difference at equal phases, over its range
+/// within the period. The range of pressures and flows is the largest that an opening has, that of the displacement its
+/// largest distance from where it is at the period's beginning. A range below `least_range` of the largest value counts
+/// as that, so that what has come to rest has not changed.
+struct PeriodChange {
+  double end = 0;  ///< ms, of the period
+  double pressure = 0, flow = 0, displacement = 0;
+
+  double largest() const;
+};
+
+/// Compares each period, 0 to T, T to 2 T, ..., with the one before, at `phases` equally spaced phases. Values are taken in
+/// at the end of each step, of any length, and count as linear in time between these.
+class PeriodComparison {
+ public:
+  static constexpr int phases = 32;
+  static constexpr double least_range = 1e-3;
+
+  /// Differences and ranges of a period, of the values here.
+  struct Extremes {
+    std::array<double, 3> difference{};  ///< of pressures, flows, displacement
+    std::array<double, 3> range{};
+    std::array<double, 3> size{};  ///< largest values
+  };
+
+  /// \param period      T, ms
+  /// \param openings    how many have pressures and flows
+  /// \param components  of a vector of the displacement
+  PeriodComparison(double period, std::size_t openings, int components)
+      : period_(period), openings_(openings), components_(components) {}
+
+  /// Values at a time (ms), as many each time. The first call begins; a time that is not behind the last one changes
+  /// nothing. \return the extremes of the period that has ended, if one has, and another before it
+  std::optional<Extremes> add(double time, const PeriodicValues& values);
+  /// ms, of the last period that has ended.
+  double last_end() const { return period_ * static_cast<double>(passed_ / phases); }
+
+  /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then periods
+  /// are compared from there on, which is said.
+  void keep(Memory& memory);
+
+ private:
+  void pass(int phase, const PeriodicValues& values);
+  void start_period(const PeriodicValues& values);
+
+  double period_;
+  std::size_t openings_;
+  int components_;
+  bool begun_ = false;
+  double time_ = 0;          ///< ms, of the last values
+  std::int64_t passed_ = 0;  ///< phases since time 0 that have been passed
+  std::int64_t known_ = 0;   ///< of the last ones, how many have been seen, two periods at most
+  PeriodicValues now_;       ///< at time_
+  std::vector<double> scalars_, vectors_;  ///< the values of a period, by phase: pressures and flows; displacement
+  std::vector<double> least_, most_;       ///< pressures and flows in the period
+  Extremes extremes_;                      ///< of the period so far
+};
+
+/// The change that these extremes amount to.
+PeriodChange change_of(const PeriodComparison::Extremes& extremes, double end);
+
+}  // namespace fsi

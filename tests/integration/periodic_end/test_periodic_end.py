@@ -1,0 +1,107 @@
+"""Runs that end when they have become periodic, and Windkessels that begin so."""
+
+import csv
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import DRIVERS, MONOLITHIC, PARTITIONED, FolderTest, attempt, make_small_mesh, restart, run, summary, times
+
+CASE = Path(__file__).with_name("periodic_end.toml")
+PERIOD, PHASES = 12, 32
+
+
+def changes_in_tables(folder):
+    """Changes of pressure and flow from the second period on, as openings.csv has them."""
+    series = {}
+    with (folder / "openings.csv").open() as file:
+        for row in csv.DictReader(file):
+            for column in ("mean_pressure_Pa", "flow_mm3_per_ms"):
+                series.setdefault((column, row["opening"]), []).append((float(row["time_ms"]), float(row[column])))
+    count = int(round(max(t for t, _ in series["flow_mm3_per_ms", "inlet"]) / PERIOD))
+    found = {}
+    for column in ("mean_pressure_Pa", "flow_mm3_per_ms"):
+        beats = []
+        for (name, _), values in series.items():
+            if name == column:
+                time, value = np.transpose([(0, np.nan), *values])
+                value[0] = value[1]  # the state at rest is in no table; it belongs to the first period only
+                beats.append(np.interp(np.arange(PHASES * count) * PERIOD / PHASES, time, value).reshape(count, PHASES))
+        ranges = np.max([beat.max(axis=1) - beat.min(axis=1) for beat in beats], axis=0)
+        differences = np.max([np.abs(np.diff(beat, axis=0)).max(axis=1) for beat in beats], axis=0)
+        found[column] = differences / ranges[1:]
+    return found
+
+
+class PeriodicEnd(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.settings = (f"mesh.file={make_small_mesh(cls.base / 'small.msh')}",)
+        cls.whole = run(MONOLITHIC, CASE, cls.base / "whole", *cls.settings)
+
+    def test_a_run_ends_after_the_first_period_that_repeats_the_one_before(self):
+        said = summary(self.whole)
+        periodicity = said["periodicity"]
+        self.assertTrue(periodicity["reached"])
+        self.assertEqual(said["status"], "done")
+        self.assertEqual(float(times(self.whole)[-1]), periodicity["changes"][-1]["end_ms"])
+        largest = [max(c["pressure"], c["flow"], c["displacement"]) for c in periodicity["changes"]]
+        self.assertGreater(len(largest), 2)
+        self.assertTrue(all(change > 0.01 for change in largest[:-1]), largest)
+        self.assertLessEqual(largest[-1], 0.01)
+
+    def test_changes_are_those_of_the_tables(self):
+        found = changes_in_tables(self.whole)
+        said = summary(self.whole)["periodicity"]["changes"]
+        # The second period's first phase is compared with the state at rest.
+        for key, column in (("pressure", "mean_pressure_Pa"), ("flow", "flow_mm3_per_ms")):
+            np.testing.assert_allclose([c[key] for c in said[1:]], found[column][1:], rtol=1e-6, err_msg=key)
+
+    def test_the_partitioned_driver_ends_at_the_same_time(self):
+        folder = run(PARTITIONED, CASE, self.base / "partitioned", *self.settings)
+        a, b = (summary(run)["periodicity"]["changes"] for run in (self.whole, folder))
+        self.assertEqual(len(a), len(b))
+        for mine, other in zip(a, b):
+            for key in mine:
+                self.assertAlmostEqual(mine[key], other[key], delta=1e-4 * mine[key] + 1e-6)
+
+    def test_a_restart_compares_with_the_period_before(self):
+        folder = run(MONOLITHIC, CASE, self.base / "part", *self.settings, "time.end=31")
+        self.assertIn("not periodic within 1 %", (folder / "run.log").read_text())
+        self.assertFalse(summary(folder)["periodicity"]["reached"])
+        restart(MONOLITHIC, CASE, folder, *self.settings)
+        self.assertEqual(summary(folder)["periodicity"], summary(self.whole)["periodicity"])
+        self.assertEqual((folder / "openings.csv").read_bytes(), (self.whole / "openings.csv").read_bytes())
+
+    def test_what_has_ended_goes_on_when_less_change_is_asked_for(self):
+        end = times(self.whole)[-1]
+        folder = restart(MONOLITHIC, CASE, self.whole, *self.settings, into=self.base / "again")
+        self.assertEqual(times(folder)[-1], end, "nothing is left to do")
+        restart(MONOLITHIC, CASE, folder, *self.settings, 'time.periods="until 0.5%"')
+        self.assertGreater(float(times(folder)[-1]), float(end))
+
+    def test_a_lumped_start_needs_fewer_periods(self):
+        folder = run(MONOLITHIC, CASE, self.base / "lumped", *self.settings, 'time.start="lumped"')
+        self.assertRegex((folder / "run.log").read_text(), r"outlet starts from 0\.\d+ kPa behind it")
+        self.assertLess(float(times(folder)[-1]), float(times(self.whole)[-1]))
+
+    def test_what_is_refused(self):
+        windkessel = "opening.outlet.windkessel.initial_pressure=1"
+        for settings, message in (
+            (["time.periods=5"], 'time.periods: is not a text; give "until 1%"'),
+            (['time.periods="until 1"'], 'time.periods: "until 1" is unknown; give "until 1%"'),
+            (['time.periods="until 0%"'], "time.periods: 0 % is not above 0"),
+            (["time.end=20"], "time.end: 20 ms is less than two periods of 12 ms, which are compared; give at least 24"),
+            (['time.start="lumped"', windkessel], 'is found by time.start = "lumped"; leave one of the two out'),
+            (['time.start="lumped"', "opening.third.pressure=1"], "needs one opening whose pressure is given"),
+        ):
+            for program in DRIVERS:
+                refused = attempt(program, CASE, folder=self.base / "refused", settings=[*self.settings, *settings])
+                self.assertEqual(refused.returncode, 1, refused.stderr)
+                self.assertIn(message, refused.stderr)
+                self.assertFalse((self.base / "refused").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
