@@ -1,8 +1,9 @@
 #include "openings/lumped_start.hpp"
 
-#include <Eigen/LU>
 #include <cstddef>
 #include <stdexcept>
+
+#include "algebra/dense_inverse.hpp"
 
 namespace fsi {
 
@@ -37,10 +38,10 @@ Kept marched(const LumpedVessel& vessel, Kept kept, int steps) {
   return kept;
 }
 
-Eigen::VectorXd flat(const Kept& kept) {
+std::vector<double> flat(const Kept& kept) {
   std::vector<double> values;
   for (const auto& own : kept) values.insert(values.end(), own.begin(), own.end());
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return values;
 }
 
 }  // namespace
@@ -49,21 +50,26 @@ std::vector<std::vector<double>> periodic_start(const LumpedVessel& vessel, int 
   if (vessel.laws.empty() && !vessel.pressure) throw std::runtime_error("nothing lets out what flows in");
   Kept zero;
   for (const auto& law : vessel.laws) zero.emplace_back(law->start().size(), 0.0);
-  const Eigen::VectorXd offset = flat(marched(vessel, zero, steps));
-  const Eigen::Index count = offset.size();
-  if (count == 0) return zero;
-  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(count, count);  // of the start, less what is left of it
-  Eigen::Index column = 0;
-  for (std::size_t a = 0; a < zero.size(); ++a)
-    for (double& number : zero[a]) {
-      number = 1;
-      change.col(column++) -= flat(marched(vessel, zero, steps)) - offset;
-      number = 0;
-    }
-  const Eigen::VectorXd found = change.partialPivLu().solve(offset);
-  Eigen::Index next = 0;
+  const std::vector<double> offset = flat(marched(vessel, zero, steps));
+  const std::size_t count = offset.size();
+  std::vector<double> change(count * count, 0.0);  // by columns: of what the march starts from, less what is left of it
+  std::size_t column = 0;
   for (auto& own : zero)
-    for (double& number : own) number = found[next++];
+    for (double& number : own) {
+      number = 1;
+      const std::vector<double> later = flat(marched(vessel, zero, steps));
+      number = 0;
+      for (std::size_t i = 0; i < count; ++i) change[column * count + i] = offset[i] - later[i] + (i == column ? 1 : 0);
+      ++column;
+    }
+  const std::vector<double> inverse = dense_inverse(change, static_cast<int>(count));
+  if (inverse.empty() && count > 0) throw std::runtime_error("the openings have no periodic state");
+  std::size_t row = 0;
+  for (auto& own : zero)
+    for (double& number : own) {
+      for (std::size_t j = 0; j < count; ++j) number += inverse[j * count + row] * offset[j];
+      ++row;
+    }
   return zero;
 }
 

@@ -243,7 +243,7 @@ class Comparison(FolderCase):
             "print([name for name in sys.modules if name.startswith(('fsi_compare.studies', 'fsi_compare.cli'))])\n"
         )
         place = str(Path(fsi_compare.__file__).parents[1])
-        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=place)
+        ended = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, cwd=place)
         self.assertEqual((ended.returncode, ended.stdout), (0, "[]\n"), ended.stderr)
 
 

@@ -5,6 +5,7 @@ import sys
 import unittest
 from pathlib import Path
 
+os.environ["PYTHONDONTWRITEBYTECODE"] = "1"  # of programs that tests start: nothing is left in the sources
 sys.path.insert(0, os.getcwd())  # this folder, with the helpers, is on the path already
 sys.path.append(str(Path(__file__).resolve().parents[2] / "support"))  # helpers of all kinds of tests
 
