@@ -94,7 +94,7 @@ struct TimeData {
   std::optional<double> periodic_change{};
   std::optional<double> period{};                  ///< ms, of that; known once the case is read
   StartOfOpenings start = StartOfOpenings::given;  ///< what Windkessels begin with
-  int retries = 4;                 ///< times that a step which found no solution is halved before the run gives up
+  int retries = 4;  ///< times that a step which found no solution is halved before the run gives up
 
   int steps() const;  ///< number of fixed steps; `end` is hit exactly, by shorter last ones where it has to be
 };

@@ -56,9 +56,9 @@ void check_periodic_end(const CaseEntry& whole_case, Case& scene) {
   if (!scene.fluid) periods.refuse("are of a fluid, and the scene has none", "leave them out");
   if (!time.period) time.period = require_period(periods, scene, "time.period");
   if (2 * *time.period > time.end)
-    section.child("end").refuse(fmt::format("{:g} ms is less than two periods of {:g} ms, which are compared", time.end,
-                                            *time.period),
-                                fmt::format("give at least {:g}", 2 * *time.period));
+    section.child("end").refuse(
+        fmt::format("{:g} ms is less than two periods of {:g} ms, which are compared", time.end, *time.period),
+        fmt::format("give at least {:g}", 2 * *time.period));
 }
 
 }  // namespace fsi

@@ -375,7 +375,7 @@ std::vector<CaseKey<TimeData>> time_keys() {
       leaf("start", optional,
            "what Windkessels begin with: {}; lumped: initial_pressure of the periodic state that they have without the "
            "vessel",
-           name_from(at(&TimeData::start), starts_of_openings())),
+           name_from(at(&TimeData::start), starts_of_openings()), KeyRole::running),
       leaf("scheme", optional,
            "time scheme: {}; without it midpoint, or tr-bdf2 where steps are long against the scene's time",
            name_from(at(&TimeData::scheme), time_schemes().names())),

@@ -47,7 +47,8 @@ std::string about_periodic_end(const Case& setup) {
   if (!setup.time || !setup.time->periodic_change) return "";
   const TimeData& time = *setup.time;
   return fmt::format(
-      "the run ends before {:g} ms once pressures, flows and displacements differ by at most {:g} % of their ranges from "
+      "the run ends before {:g} ms once pressures, flows and displacements differ by at most {:g} % of their ranges "
+      "from "
       "those one period before; periods of {}",
       time.end, 100 * *time.periodic_change, period_with_owners(setup, *time.period));
 }

@@ -51,7 +51,8 @@ std::optional<PeriodComparison::Extremes> PeriodComparison::add(double time, con
     scalars_.assign(phases * 2 * openings_, 0.0);
     vectors_.assign(phases * values.displacement.size(), 0.0);
     start_period(values);
-    if (std::abs(static_cast<double>(passed_) * spacing - time) <= time_rounding * time) pass(static_cast<int>(passed_ % phases), values);
+    if (std::abs(static_cast<double>(passed_) * spacing - time) <= time_rounding * time)
+      pass(static_cast<int>(passed_ % phases), values);
     return {};
   }
   if (time <= time_) return {};

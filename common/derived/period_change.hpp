@@ -65,10 +65,10 @@ class PeriodComparison {
   std::size_t openings_;
   int components_;
   bool begun_ = false;
-  double time_ = 0;          ///< ms, of the last values
-  std::int64_t passed_ = 0;  ///< phases since time 0 that have been passed
-  std::int64_t known_ = 0;   ///< of the last ones, how many have been seen, two periods at most
-  PeriodicValues now_;       ///< at time_
+  double time_ = 0;                        ///< ms, of the last values
+  std::int64_t passed_ = 0;                ///< phases since time 0 that have been passed
+  std::int64_t known_ = 0;                 ///< of the last ones, how many have been seen, two periods at most
+  PeriodicValues now_;                     ///< at time_
   std::vector<double> scalars_, vectors_;  ///< the values of a period, by phase: pressures and flows; displacement
   std::vector<double> least_, most_;       ///< pressures and flows in the period
   Extremes extremes_;                      ///< of the period so far

@@ -77,8 +77,7 @@ class PeriodicityObserver : public Observer {
       values.flows.push_back(open.outflow(level.now.mesh, level.now.fluid));
     }
     for (const InterfaceNode& node : scene_.interface)
-      for (int k = 0; k < n; ++k)
-        values.displacement.push_back(level.now.wall[MixedLayout<n>::vector(node.wall, k)]);
+      for (int k = 0; k < n; ++k) values.displacement.push_back(level.now.wall[MixedLayout<n>::vector(node.wall, k)]);
     return values;
   }
 

@@ -58,8 +58,7 @@ TEST(PeriodChange, IsTheLargestDifferenceAtEqualPhasesOverTheRange) {
 }
 
 TEST(PeriodChange, IsTheSameWithShorterStepsThatMissThePhases) {
-  const auto exact = changes(period / PeriodComparison::phases, 3 * period),
-             missed = changes(0.0137, 3.01 * period);
+  const auto exact = changes(period / PeriodComparison::phases, 3 * period), missed = changes(0.0137, 3.01 * period);
   ASSERT_EQ(exact.size(), 2u);
   ASSERT_EQ(missed.size(), 2u);
   for (std::size_t p = 0; p < 2; ++p) {

@@ -236,12 +236,10 @@ TEST(LumpedStart, SharesAFlowByConductance) {
   half.proximal *= 2;
   half.distal *= 2;
   half.compliance /= 2;
-  const auto together = periodic_start(
-      {{std::make_shared<Windkessel>(law), std::make_shared<Windkessel>(half)}, nullptr, flow, cycle});
-  const auto alone = periodic_start({{std::make_shared<Windkessel>(law)},
-                                     nullptr,
-                                     [](double t) { return 2 * flow(t) / 3; },
-                                     cycle});
+  const auto together =
+      periodic_start({{std::make_shared<Windkessel>(law), std::make_shared<Windkessel>(half)}, nullptr, flow, cycle});
+  const auto alone =
+      periodic_start({{std::make_shared<Windkessel>(law)}, nullptr, [](double t) { return 2 * flow(t) / 3; }, cycle});
   EXPECT_NEAR(together.at(0).at(0), alone.at(0).at(0), 1e-9);
   EXPECT_NEAR(together.at(1).at(0), alone.at(0).at(0), 1e-9);
 }
