@@ -12,6 +12,7 @@
 #include "case/parameter_keys.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_input.hpp"
+#include "case/viscosity_keys.hpp"
 #include "materials/material.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
@@ -99,8 +100,9 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
   return {
       leaf("density", required, "density in {unit}",
            number(at(&FluidData::density), positive, quantity::fluid_density())),
-      leaf("viscosity", required, "dynamic viscosity in {unit}",
+      leaf("viscosity", optional, "dynamic viscosity in {unit}",
            number(at(&FluidData::viscosity), positive, quantity::viscosity())),
+      viscosity_model_key(),
       leaf("outlet", optional, "whether fluid leaves through a surface outlet, free of traction, default {}",
            flag(at(&FluidData::outlet))),
       leaf<FluidData>(
@@ -415,7 +417,8 @@ std::vector<CaseKey<Case>> physics_keys() {
           "mesh", required, "where the mesh comes from", mesh_keys(),
           [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },
           KeyRole::running, check_mesh),  // a checkpoint knows the mesh by its contents
-      scene_section("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid),
+      scene_section<FluidData>("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid,
+                               check_viscosity),
       scene_section<StructureData>("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
                                    &Case::structure, check_structure),
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
