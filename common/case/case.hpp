@@ -59,7 +59,7 @@ struct ViscosityData {
 /// [fluid]
 struct FluidData {
   double density = 0;     ///< mg/mm^3
-  double viscosity = 0;   ///< kPa ms; where there is a model, one that stands for it (docs/theory.md, section 3.7)
+  double viscosity = 0;   ///< kPa ms; where there is a model, one that stands for it (docs/theory.md, section 3.9)
   bool outlet = true;     ///< whether there is a surface `outlet`, free of traction
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
   /// Surfaces that nothing passes although they have a name. Given at all, a case may be without openings.

@@ -7,8 +7,8 @@ namespace fsi {
 /// `fluid.viscosity_model`: the law that the viscosity follows, with its parameters.
 CaseKey<FluidData> viscosity_model_key();
 
-/// `fluid.viscosity` of the whole section: required where there is no law. Where there is one it may be absent, and is the
-/// law's at the reference shear rate then.
+/// `fluid.viscosity` of the whole section: required where there is no law. Where there is one it may be absent, and is
+/// the law's at the reference shear rate then.
 void check_viscosity(const CaseEntry& fluid, FluidData& data);
 
 }  // namespace fsi

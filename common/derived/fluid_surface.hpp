@@ -114,8 +114,8 @@ GradientRecovery fluid_gradients(const MeshOf<Element>& mesh, const PartOf<Eleme
   return gradients;
 }
 
-/// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa. Where the
-/// viscosity follows a law it is that of the recovered gradient.
+/// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa. Where
+/// the viscosity follows a law it is that of the recovered gradient.
 /// \param mesh  displacement of the domain, vector layout; empty where it is rigid. As GradientRecovery::reach() has it
 /// \param flow  (u, p), mixed layout, likewise
 template <int n>

@@ -47,11 +47,11 @@ struct ShearDependentViscosity {
 /// pi is the pressure gradient of the step's reference level, projected on continuous functions
 /// (pressure_projection.hpp), G_0 = (dxi/dX)^T (dxi/dX), h^2 = 3 / tr G_0.
 ///
-/// Where the viscosity follows a law it is that of the point everywhere, mu(g) with g^2 = 2 D : D, D the symmetric part of
-/// grad u F^-1, and is differentiated like the rest: ShearDependentFluid, below.
+/// Where the viscosity follows a law it is that of the point everywhere, mu(g) with g^2 = 2 D : D, D the symmetric part
+/// of grad u F^-1, and is differentiated like the rest: ShearDependentFluid, below.
 struct AleFluid {
   double density;    ///< mg/mm^3
-  double viscosity;  ///< kPa ms; where there is a law, one that stands for it (docs/theory.md, section 3.7)
+  double viscosity;  ///< kPa ms; where there is a law, one that stands for it (docs/theory.md, section 3.9)
   bool grad_div = false;
   double step = 0;        ///< dt in tau, ms: that of the step in progress, set where the form is assembled
   double wave_speed = 0;  ///< c_w, mm/ms; 0: without the projected term

@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// mu = mu_inf + (mu_0 - mu_inf) (1 + (lambda g)^a)^((n - 1) / a): docs/theory.md, section 3.7 [Yasuda1981]. a = 2 is
+/// mu = mu_inf + (mu_0 - mu_inf) (1 + (lambda g)^a)^((n - 1) / a): docs/theory.md, section 3.9 [Yasuda1981]. a = 2 is
 /// Carreau's law.
 struct CarreauYasuda {
   double mu0 = 0, mu_inf = 0;  ///< kPa ms

@@ -10,7 +10,7 @@ namespace fsi {
 
 /// Casson's law, sqrt(tau) = sqrt(tau_y) + sqrt(mu_p g), with the yield stress regularised as Papanastasiou does,
 ///   mu = (sqrt(mu_p) + sqrt(tau_y / g) (1 - exp(-sqrt(m g))))^2,
-/// so that it is (sqrt(mu_p) + sqrt(tau_y m))^2 at rest: docs/theory.md, section 3.7 [Casson1959, Papanastasiou1987].
+/// so that it is (sqrt(mu_p) + sqrt(tau_y m))^2 at rest: docs/theory.md, section 3.9 [Casson1959, Papanastasiou1987].
 struct Casson {
   double yield_stress = 0;       ///< tau_y, kPa
   double plastic_viscosity = 0;  ///< mu_p, kPa ms

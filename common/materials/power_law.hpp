@@ -10,7 +10,7 @@
 
 namespace fsi {
 
-/// mu = K g^(n - 1), no less than the lowest and no more than the highest viscosity: docs/theory.md, section 3.7
+/// mu = K g^(n - 1), no less than the lowest and no more than the highest viscosity: docs/theory.md, section 3.9
 /// [Ostwald1925]. At a limit its derivative jumps to zero.
 struct PowerLaw {
   double consistency = 0;                              ///< K, kPa ms^n

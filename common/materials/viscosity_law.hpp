@@ -15,8 +15,8 @@
 namespace fsi {
 
 /// How the viscosity of a generalised Newtonian fluid depends on its shear rate g = sqrt(2 D : D), D the symmetric part
-/// of the velocity's gradient: the table of all there are. A new one is a file beside these and an entry here; case files
-/// and `--help-keys` know it from then on. A law L states
+/// of the velocity's gradient: the table of all there are. A new one is a file beside these and an entry here; case
+/// files and `--help-keys` know it from then on. A law L states
 ///   L::name          its name in case files
 ///   L::parameters()  its parameters, see ParameterOf
 ///   problem()        what is wrong with them together; empty: nothing

@@ -45,9 +45,10 @@ struct FluidBlock {
 };
 
 /// Every block of the fluid's Jacobian against differences of its residual.
+/// \param law  whether the viscosity follows one: no block but those of the pressure is quadratic then
 template <class Element>
 void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>& state, const std::string& name,
-                        const std::vector<unsigned>& seeds) {
+                        const std::vector<unsigned>& seeds, bool law = false) {
   constexpr int n = Element::components;
   const auto& x = fluid.part().nodes;
   std::vector<double> at_state;
@@ -63,7 +64,7 @@ void check_fluid_blocks(FluidProblem<Element>& fluid, const FluidState<Element>&
   const Order by_tau = Element::stabilised ? Order::second : Order::exact;
   std::vector<FluidBlock> blocks = {{"momentum", 0, n, "mesh displacement", Order::second},
                                     {"continuity", n, 1, "mesh displacement", by_tau},
-                                    {"momentum", 0, n, "velocity", by_tau},
+                                    {"momentum", 0, n, "velocity", law ? Order::second : by_tau},
                                     {"continuity", n, 1, "velocity", by_tau},
                                     {"momentum", 0, n, "pressure", Order::exact}};
   if (Element::stabilised) blocks.push_back({"continuity", n, 1, "pressure", Order::exact});
