@@ -51,8 +51,8 @@ TEST(BadViscosityModel, IsRefusedInOneLine) {
             here + ".plastic_viscosity: missing; add it (viscosity at high shear rates in kPa ms)");
   EXPECT_EQ(complaint_about_model("{ name = \"casson\", yield_stres = 5e-6 }"),
             here + ".yield_stres: unknown key; did you mean fluid.viscosity_model.yield_stress?");
-  EXPECT_EQ(complaint_about_model("{ name = \"casson\", yield_stress = -5e-6 }"),
-            here + ".yield_stress: -5e-6 is negative; give a number >= 0 (yield stress in kPa)");
+  EXPECT_EQ(complaint_about_model("{ name = \"casson\", yield_stress = -0.5 }"),
+            here + ".yield_stress: -0.5 is negative; give a number >= 0 (yield stress in kPa)");
   EXPECT_EQ(complaint_about_model("{ name = \"casson\", mu0 = 1.0 }"),
             here +
                 ".mu0: is no parameter of casson but of carreau-yasuda; remove it (casson takes yield_stress, "
@@ -69,8 +69,9 @@ TEST(BadViscosityModel, IsRefusedInOneLine) {
                             "highest_viscosity = 0.1 }"),
       here + ".lowest_viscosity: 0.2 is more than highest_viscosity, 0.1; give at most 0.1 (lower limit in kPa ms)");
   EXPECT_EQ(complaint_about_model("{ name = \"newtonian\", mu0 = 1.0 }", "viscosity = 1.0"),
-            "case.toml:8: fluid.viscosity_model.mu0: is no parameter of newtonian but of carreau-yasuda; remove it "
-            "(newtonian takes none: fluid.viscosity is all)");
+            here +
+                ".mu0: is no parameter of newtonian but of carreau-yasuda; remove it "
+                "(newtonian takes none: fluid.viscosity is all)");
   EXPECT_EQ(complaint_about_model("{ name = \"newtonian\" }"),
             "case.toml:4: fluid.viscosity: missing; add it (dynamic viscosity in kPa ms)");
 }
