@@ -71,6 +71,7 @@ struct FluidData {
 struct MaterialData {
   std::string material;    ///< a name of materials()
   ParameterValues values;  ///< its parameters, for make_material()
+  double viscosity = 0;    ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
 };
 
 /// [structure]

@@ -15,6 +15,7 @@
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
 #include "case/support_keys.hpp"
+#include "case/viscosity_keys.hpp"
 #include "case/windkessel_units.hpp"
 #include "time/time_schemes.hpp"
 
@@ -194,6 +195,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
+  check_layer_viscosities(whole_case, scene);
   check_gravity(whole_case, scene);
   check_output_times(whole_case, scene);
   check_derived_output(whole_case, scene);

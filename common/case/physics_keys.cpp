@@ -134,6 +134,7 @@ std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
   std::vector<CaseKey<MaterialData>> keys = {
       leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
   for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, at(&MaterialData::values)));
+  keys.push_back(layer_viscosity_key());
   return keys;
 }
 
@@ -155,7 +156,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer) {
   // A parameter of another material is no misprint; say what this one takes.
   for (const auto& child : children) {
     const auto key = child.key().substr(entry.key().size() + 1);
-    if (key == "material" || kind.find(key) != nullptr) continue;
+    if (key == "material" || key == "viscosity" || kind.find(key) != nullptr) continue;
     for (const auto& [other, other_kind] : materials().rows()) {
       if (other_kind.find(key) == nullptr) continue;
       std::vector<std::string> own;
@@ -190,6 +191,7 @@ std::vector<KeyHelp> layers_help() {
   for (const auto& [material, kind] : materials().rows())
     for (const auto& parameter : kind.parameters)
       help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
+  help.push_back({"layers.NAME.viscosity", layer_viscosity_key().about, optional});
   return help;
 }
 

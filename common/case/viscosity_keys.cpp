@@ -17,6 +17,12 @@ namespace {
 using presence::optional, presence::required;
 constexpr const char* newtonian = "newtonian";
 
+/// eta of the wall: a thousand to a million times that of blood, and no other unit gives itself away.
+const Quantity& wall_viscosity() {
+  static const Quantity q{"kPa ms", {}};
+  return q;
+}
+
 /// The laws, and before them that of a constant viscosity.
 std::vector<std::string> model_names() {
   std::vector<std::string> names{newtonian};
@@ -109,6 +115,27 @@ void check_viscosity(const CaseEntry& fluid, FluidData& data) {
                   "since viscosity is "
                   "not given",
                   data.viscosity, name, 1e3 * reference_shear_rate));
+}
+
+CaseKey<MaterialData> layer_viscosity_key() {
+  auto key =
+      leaf("viscosity", optional, "of any material: stress in {unit} per rate of strain that it adds, default {}",
+           number(at(&MaterialData::viscosity), not_negative, wall_viscosity()));
+  key.list = [list = key.list](const MaterialData& layer, const std::string& path, std::vector<CaseValue>& values) {
+    if (layer.viscosity > 0) list(layer, path, values);
+  };
+  return key;
+}
+
+void check_layer_viscosities(const CaseEntry& whole_case, const Case& scene) {
+  if (!scene.structure || !scene.static_load) return;
+  const CaseEntry layers = whole_case.child("structure").child("layers");
+  for (const auto& [name, layer] : scene.structure->layers)
+    if (layer.viscosity > 0)
+      layers.child(name)
+          .child("viscosity")
+          .refuse("resists the rate of strain, which a static case has none of",
+                  "remove it, or replace [static] by [time]");
 }
 
 }  // namespace fsi

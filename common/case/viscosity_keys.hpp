@@ -11,4 +11,9 @@ CaseKey<FluidData> viscosity_model_key();
 /// the law's at the reference shear rate then.
 void check_viscosity(const CaseEntry& fluid, FluidData& data);
 
+/// `structure.layers.NAME.viscosity`, of any material. An elastic layer does not list it: its hash is that of before.
+CaseKey<MaterialData> layer_viscosity_key();
+/// Refuses it in a case without time. \throws InputError
+void check_layer_viscosities(const CaseEntry& whole_case, const Case& scene);
+
 }  // namespace fsi

@@ -101,6 +101,7 @@ std::string text_of_layer(const MaterialData& layer) {
     text += fmt::format(", {} = {:g}", parameter.name, value);
     if (const std::string unit = parameter.quantity->unit; !unit.empty()) text += " " + unit;
   }
+  if (layer.viscosity > 0) text += fmt::format(", viscosity = {:g} kPa ms", layer.viscosity);
   return text;
 }
 

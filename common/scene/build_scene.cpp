@@ -69,6 +69,8 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
   auto wall = std::make_unique<WallProblem<Element>>(
       std::move(parts.part), WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, parts.layers,
       cylinder_axis(s), std::move(parts.pressurised), parts.frame);
+  std::size_t number = 0;
+  for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
   scene.profile.count("structure elements", elements_of(wall->part(), regions));
   if (!with_fibres.empty()) scene.profile.count("elements with fibres", elements_of(wall->part(), with_fibres));
   support_wall<Element>(setup, parts.supports, *wall);
