@@ -139,6 +139,8 @@ Creep computed_creep(const std::string& scheme, int steps, double viscosity = et
   setup.time->step = end / steps;
   setup.time->end = end;
   setup.time->scheme = scheme;
+  // The scene's own shift, made for its waves, which hardly any mass makes fast, would be at its bound: first order.
+  setup.time->scheme_values["damping"] = 0.1;
   const auto scene = build_scene<Element>(setup, mesh);
   EXPECT_EQ(scene->wall->is_viscous(), viscosity > 0);
   const Loads loads(setup);
@@ -192,12 +194,16 @@ TEST(Creep, IsOfTheOrderOfTheSchemeInTime) {
   }
 }
 
-// What the traction does goes into the elastic energy and the viscosity, but for what the scheme takes: second order.
+// What the traction does goes into the elastic energy and the viscosity, but for what the scheme takes: of first order,
+// since the stress is that of the balance and not along the step (docs/energy.md).
 TEST(Creep, DissipatesWhatItDoesNotStore) {
   using Element = P1AxisymmetricTriangle;
-  const Creep viscous = computed_creep<Element>("bdf2", 80), elastic = computed_creep<Element>("bdf2", 80, 0);
+  const Creep coarse = computed_creep<Element>("bdf2", 40), viscous = computed_creep<Element>("bdf2", 80),
+              elastic = computed_creep<Element>("bdf2", 80, 0);
   fmt::print("work {:.4f} uJ, stored {:.4f}, dissipated {:.4f}\n", viscous.work, viscous.stored, viscous.dissipated);
-  EXPECT_NEAR(viscous.stored + viscous.dissipated, viscous.work, 2e-3 * viscous.work);
+  const auto taken = [](const Creep& creep) { return creep.work - creep.stored - creep.dissipated; };
+  EXPECT_LT(std::abs(taken(viscous)), 0.02 * viscous.work);
+  EXPECT_NEAR(std::log2(taken(coarse) / taken(viscous)), 1, 0.2);
   EXPECT_GT(viscous.dissipated, 0.3 * viscous.work);
   EXPECT_EQ(elastic.dissipated, 0);
   EXPECT_LT(viscous.stretch, elastic.stretch);
