@@ -50,20 +50,28 @@ struct MeshData {
   Waves waves = Waves::damped;  ///< for which `error` holds
 };
 
+/// fluid.viscosity_model: a law that the viscosity follows
+struct ViscosityData {
+  std::string name;        ///< a name of viscosity_laws()
+  ParameterValues values;  ///< its parameters
+};
+
 /// [fluid]
 struct FluidData {
   double density = 0;     ///< mg/mm^3
-  double viscosity = 0;   ///< kPa ms
+  double viscosity = 0;   ///< kPa ms; where there is a model, one that stands for it (docs/theory.md, section 3.9)
   bool outlet = true;     ///< whether there is a surface `outlet`, free of traction
   bool grad_div = false;  ///< grad-div stabilisation; damps the wave on coarse meshes (docs/theory.md, section 3.3)
   /// Surfaces that nothing passes although they have a name. Given at all, a case may be without openings.
   std::optional<std::vector<std::string>> closed{};
+  std::optional<ViscosityData> viscosity_model{};  ///< empty: the viscosity is constant
 };
 
 /// [structure.layers.NAME]
 struct MaterialData {
   std::string material;    ///< a name of materials()
   ParameterValues values;  ///< its parameters, for make_material()
+  double viscosity = 0;    ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
 };
 
 /// [structure]

@@ -17,6 +17,7 @@
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
 #include "case/support_keys.hpp"
+#include "case/viscosity_keys.hpp"
 #include "case/windkessel_units.hpp"
 #include "time/time_schemes.hpp"
 
@@ -197,6 +198,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   if (scene.structure) scene.structure->stabilisation = wall_stabilisation(scene);
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
+  check_layer_viscosities(whole_case, scene);
   check_gravity(whole_case, scene);
   check_output_times(whole_case, scene);
   check_periodic_end(whole_case, scene);

@@ -13,6 +13,7 @@
 #include "case/periodic_end.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_input.hpp"
+#include "case/viscosity_keys.hpp"
 #include "materials/material.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/artery_generator.hpp"
@@ -100,8 +101,9 @@ std::vector<CaseKey<FluidData>> fluid_keys() {
   return {
       leaf("density", required, "density in {unit}",
            number(at(&FluidData::density), positive, quantity::fluid_density())),
-      leaf("viscosity", required, "dynamic viscosity in {unit}",
+      leaf("viscosity", optional, "dynamic viscosity in {unit}",
            number(at(&FluidData::viscosity), positive, quantity::viscosity())),
+      viscosity_model_key(),
       leaf("outlet", optional, "whether fluid leaves through a surface outlet, free of traction, default {}",
            flag(at(&FluidData::outlet))),
       leaf<FluidData>(
@@ -133,6 +135,7 @@ std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
   std::vector<CaseKey<MaterialData>> keys = {
       leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
   for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, at(&MaterialData::values)));
+  keys.push_back(layer_viscosity_key());
   return keys;
 }
 
@@ -154,7 +157,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer) {
   // A parameter of another material is no misprint; say what this one takes.
   for (const auto& child : children) {
     const auto key = child.key().substr(entry.key().size() + 1);
-    if (key == "material" || kind.find(key) != nullptr) continue;
+    if (key == "material" || key == "viscosity" || kind.find(key) != nullptr) continue;
     for (const auto& [other, other_kind] : materials().rows()) {
       if (other_kind.find(key) == nullptr) continue;
       std::vector<std::string> own;
@@ -189,6 +192,7 @@ std::vector<KeyHelp> layers_help() {
   for (const auto& [material, kind] : materials().rows())
     for (const auto& parameter : kind.parameters)
       help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
+  help.push_back({"layers.NAME.viscosity", layer_viscosity_key().about, optional});
   return help;
 }
 
@@ -423,7 +427,8 @@ std::vector<CaseKey<Case>> physics_keys() {
           "mesh", required, "where the mesh comes from", mesh_keys(),
           [](Case& scene) -> MeshData& { return scene.mesh; }, [](const Case& scene) { return &scene.mesh; },
           KeyRole::running, check_mesh),  // a checkpoint knows the mesh by its contents
-      scene_section("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid),
+      scene_section<FluidData>("fluid", "the fluid; without it a wall only", fluid_keys(), &Case::fluid,
+                               check_viscosity),
       scene_section<StructureData>("structure", "the wall; without it a fluid between rigid walls", structure_keys(),
                                    &Case::structure, check_structure),
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),

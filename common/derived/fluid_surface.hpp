@@ -114,11 +114,12 @@ GradientRecovery fluid_gradients(const MeshOf<Element>& mesh, const PartOf<Eleme
   return gradients;
 }
 
-/// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa.
+/// The viscous stress mu (grad u + grad u^T) in the current configuration at entry i of the recovered nodes, kPa. Where
+/// the viscosity follows a law it is that of the recovered gradient.
 /// \param mesh  displacement of the domain, vector layout; empty where it is rigid. As GradientRecovery::reach() has it
 /// \param flow  (u, p), mixed layout, likewise
 template <int n>
-Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, double viscosity,
+Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, const AleFluid& fluid,
                             const std::vector<double>& mesh, const std::vector<double>& flow) {
   Mat3<double> l = gradients.gradient<MixedLayout<n>>(i, flow);
   if (!mesh.empty()) {
@@ -128,6 +129,7 @@ Mat3<double> viscous_stress(const GradientRecovery& gradients, std::size_t i, do
     const double ratio = f(0, 0) * cofactors(0, 0) + f(0, 1) * cofactors(0, 1) + f(0, 2) * cofactors(0, 2);
     l = (1 / ratio) * times_transposed(l, cofactors);
   }
+  const double viscosity = fluid.law ? viscosity_at(*fluid.law, std::sqrt(shear_rate_squared(l))) : fluid.viscosity;
   Mat3<double> stress;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) stress(r, c) = viscosity * (l(r, c) + l(c, r));

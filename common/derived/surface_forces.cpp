@@ -125,7 +125,7 @@ class SurfaceForcesOf : public SurfaceForces<Element::components> {
     scene_.assemble_fluid(balance.at, balance.data, residual);
     std::vector<Mat3<double>> stress;
     for (std::size_t i = 0; i < gradients_->size(); ++i)
-      stress.push_back(viscous_stress<n>(*gradients_, i, scene_.fluid->form().viscosity, mesh, flow));
+      stress.push_back(viscous_stress<n>(*gradients_, i, scene_.fluid->form(), mesh, flow));
     std::vector<SurfaceForce> forces;
     for (const Set& set : sets_) {
       SurfaceForce force;

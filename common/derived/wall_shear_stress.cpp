@@ -21,7 +21,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
   WallShearStressOf(const Case& setup, const MeshOf<Element>& mesh, const Scene<n>& scene,
                     const WholeParts<Element>& whole)
       : part_(fluid_part<Element>(scene)),
-        viscosity_(scene.fluid->form().viscosity),
+        fluid_(scene.fluid->form()),
         mirrored_(mirrored_components<Element>(mesh, whole_fluid(scene, whole))),
         facets_(solid_facets(fluid_surface<Element>(setup, mesh, whole_fluid(scene, whole)))),
         gradients_(fluid_gradients<Element>(mesh, whole_fluid(scene, whole), own_nodes(facets_, whole.fluid_here.get()),
@@ -46,7 +46,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
       const double length = std::sqrt(dot(normal, normal));
       if (length == 0) continue;
       normal = (1 / length) * normal;
-      const Vec3<double> traction = viscous_stress<n>(gradients_, i, viscosity_, mesh, flow) * normal;
+      const Vec3<double> traction = viscous_stress<n>(gradients_, i, fluid_, mesh, flow) * normal;
       const double along = dot(traction, normal);
       for (int k = 0; k < n; ++k)
         shear[VectorLayout<n>::vector(node, k)] = along * normal[Element::axis[k]] - traction[Element::axis[k]];
@@ -96,7 +96,7 @@ class WallShearStressOf : public WallShearStress<Element::components> {
   }
 
   const PartOf<Element>& part_;
-  double viscosity_;
+  AleFluid fluid_;
   VanishingComponents<n> mirrored_;
   std::vector<Facet> facets_;  ///< that the fluid sticks to, normals outward
   GradientRecovery gradients_;

@@ -37,6 +37,7 @@ class EnergyBalance {
       parts.dampers = supports->has_dampers();
       parts.support_loads = supports->load_count() > 0;
     }
+    parts.viscous_wall = scene.wall && scene.wall->is_viscous() && !scene.is_static();
     return parts;
   }
 
@@ -58,6 +59,7 @@ class EnergyBalance {
     record.remainder =
         record.supply() - (record.energy() - energy_) - record.viscous - record.damping - record.numerical();
     record.remainder -= record.backflow;
+    if (scene_.wall && scene_.wall->is_viscous()) record.remainder -= record.wall_viscous;
     energy_ = record.energy();
     keep(state);
     return record;
@@ -160,6 +162,7 @@ class EnergyBalance {
     record.wall_inertia += work.inertia;
     record.wall_stress += work.stress;
     record.wall_stabilisation += work.stabilisation;
+    record.wall_viscous += work.viscous;
     if (const auto* supports = scene_.wall->supports()) {
       const SupportWork of_supports = supports->work(in);
       record.support_work += of_supports.loads;

@@ -22,7 +22,8 @@ struct EnergyRecord {
   double support_work = 0;                       ///< of pressure and traction of the wall's supports
   double damping = 0;                            ///< dissipation in their dampers
   double inlet_kinetic = 0, outlet_kinetic = 0;  ///< kinetic energy that flows in, and out
-  double viscous = 0;                            ///< dissipation
+  double viscous = 0;                            ///< dissipation in the fluid
+  double wall_viscous = 0;                       ///< in the wall's layers
   double backflow = 0;                           ///< taken by the stabilisation of backflow at openings
 
   // Numerical dissipation by origin; negative where the discretisation adds energy.
@@ -31,7 +32,7 @@ struct EnergyRecord {
   double wall_inertia = 0, wall_stress = 0, wall_stabilisation = 0;
   double support_springs = 0;  ///< their forces are those of the balance, not along the step
 
-  double remainder = 0;  ///< supply() - change of energy() - viscous - damping - backflow - numerical()
+  double remainder = 0;  ///< supply() - change of energy() - viscous - wall_viscous - damping - backflow - numerical()
 
   double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric + springs; }
   double supply() const { return inlet_work + load_work + support_work + inlet_kinetic - outlet_kinetic; }
@@ -59,6 +60,7 @@ struct EnergyParts {
   bool quadratic = false;  ///< elements whose rule does not integrate convection exactly
   bool backflow = false;   ///< openings with stabilisation of backflow
   bool springs = false, dampers = false, support_loads = false;  ///< of the wall's supports
+  bool viscous_wall = false;
 };
 
 }  // namespace fsi

@@ -1,11 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "fem/contributions.hpp"
+#include "materials/viscosity_law.hpp"
 #include "math/kinematics.hpp"
 
 namespace fsi {
+
+/// What the weak form takes for the viscosity: a number of its own, so that it costs nothing at a point,
+struct ConstantViscosity {
+  template <class T>
+  using Value = Pack;
+  template <class T>
+  struct AtPoint {
+    static constexpr bool shear_dependent = false;
+  };
+};
+/// or that of a law, found at each point with its derivatives.
+struct ShearDependentViscosity {
+  template <class T>
+  using Value = T;
+  template <class T>
+  struct AtPoint {
+    static constexpr bool shear_dependent = true;
+    T viscosity;  ///< kPa ms
+  };
+};
 
 /// Incompressible Navier-Stokes equations in arbitrary Lagrangian-Eulerian form, pulled back to the reference domain,
 /// with equal-order SUPG and PSPG stabilisation (docs/theory.md, section 3). With F = I + grad d_m, J = det F, w the
@@ -24,18 +46,22 @@ namespace fsi {
 ///   tau_p = ((2/T)^2 + 36 nu^2 G_0 : G_0)^(-1/2) - ((2/dt)^2 + 36 nu^2 G_0 : G_0)^(-1/2),   T = max(dt, h / c_w).
 /// pi is the pressure gradient of the step's reference level, projected on continuous functions
 /// (pressure_projection.hpp), G_0 = (dxi/dX)^T (dxi/dX), h^2 = 3 / tr G_0.
+///
+/// Where the viscosity follows a law it is that of the point everywhere, mu(g) with g^2 = 2 D : D, D the symmetric part
+/// of grad u F^-1, and is differentiated like the rest: ShearDependentFluid, below.
 struct AleFluid {
   double density;    ///< mg/mm^3
-  double viscosity;  ///< kPa ms
+  double viscosity;  ///< kPa ms; where there is a law, one that stands for it (docs/theory.md, section 3.9)
   bool grad_div = false;
   double step = 0;        ///< dt in tau, ms: that of the step in progress, set where the form is assembled
   double wave_speed = 0;  ///< c_w, mm/ms; 0: without the projected term
+  std::optional<ViscosityLaw> law = {};  ///< of the viscosity, where it is no constant
 
   static constexpr double inverse_estimate = 36.0;  ///< C_I
 
   /// What depends on gradients alone. M: scalar of the domain's motion, T: of everything else.
-  template <class M, class T>
-  struct Galerkin {
+  template <class M, class T, class Viscosity>
+  struct Galerkin : Viscosity::template AtPoint<T> {
     static constexpr bool stabilised = false;
     Mat3<M> inverse_gradient;   ///< F^-1
     Mat3<M> cofactor_gradient;  ///< J F^-T
@@ -44,21 +70,48 @@ struct AleFluid {
     T divergence;               ///< its trace
   };
   /// The same with what stabilisation needs.
-  template <class M, class T>
-  struct Stabilised : Galerkin<M, T> {
+  template <class M, class T, class Viscosity>
+  struct Stabilised : Galerkin<M, T, Viscosity> {
+    using Number = typename Viscosity::template Value<T>;
     static constexpr bool stabilised = true;
-    Sym3<M> metric;             ///< G
-    M viscous_rate_squared;     ///< (2/dt)^2 + 36 nu^2 G : G
-    Vec3<T> pressure_gradient;  ///< F^-T grad p
-    Pack projected_tau;         ///< tau_p, ms
+    Sym3<M> metric;                           ///< G
+    Product<M, Number> viscous_rate_squared;  ///< (2/dt)^2 + 36 nu^2 G : G
+    Vec3<T> pressure_gradient;                ///< F^-T grad p
+    Number projected_tau;                     ///< tau_p, ms
   };
+  template <class Metric, class M, class T, class Viscosity>
+  using PreparedAs =
+      std::conditional_t<std::is_same_v<Metric, Unstabilised>, Galerkin<M, T, Viscosity>, Stabilised<M, T, Viscosity>>;
   template <class Metric, class M, class T>
-  using Prepared = std::conditional_t<std::is_same_v<Metric, Unstabilised>, Galerkin<M, T>, Stabilised<M, T>>;
+  using Prepared = PreparedAs<Metric, M, T, ConstantViscosity>;
+
+  /// mu at a point, kPa ms.
+  template <class K>
+  auto viscosity_at(const K& k) const {
+    if constexpr (K::shear_dependent)
+      return k.viscosity;
+    else
+      return Pack(viscosity);
+  }
+  /// 36 nu^2 at a point.
+  template <class K>
+  auto viscous_factor(const K& k) const {
+    if constexpr (K::shear_dependent) {
+      return Pack(inverse_estimate / (density * density)) * (k.viscosity * k.viscosity);
+    } else {
+      const double nu = viscosity / density;
+      return Pack(inverse_estimate * nu * nu);
+    }
+  }
 
   /// tau_p in ms. \param metric  G_0, 1/mm^2
   Pack projected_tau(const Sym3<Pack>& metric) const {
-    const double nu = viscosity / density;
-    const Pack viscous = Pack(inverse_estimate * nu * nu) * contract(metric, metric);
+    return projected_tau(metric, viscous_factor(ConstantViscosity::AtPoint<Pack>{}));
+  }
+  /// \param factor  36 nu^2
+  template <class Number>
+  Number projected_tau(const Sym3<Pack>& metric, const Number& factor) const {
+    const Number viscous = factor * contract(metric, metric);
     const Pack of_wave = Pack(4.0 / 3.0 * wave_speed * wave_speed) * trace(metric);  // (2 c_w / h)^2
     const Pack of_step = Pack(4.0 / (step * step));
     return Pack(1.0) / sqrt(select(of_step > of_wave, of_wave, of_step) + viscous) -
@@ -70,24 +123,29 @@ struct AleFluid {
   template <class M, class U, class Metric>
   auto prepare(const Mat3<M>& grad_d, const Mat3<U>& grad_u, const Vec3<U>& grad_p,
                const Metric& reference_metric) const {
-    Prepared<Metric, M, Product<M, U>> k;
+    return prepare_as<ConstantViscosity>(grad_d, grad_u, grad_p, reference_metric);
+  }
+  template <class Viscosity, class M, class U, class Metric>
+  auto prepare_as(const Mat3<M>& grad_d, const Mat3<U>& grad_u, const Vec3<U>& grad_p,
+                  const Metric& reference_metric) const {
+    PreparedAs<Metric, M, Product<M, U>, Viscosity> k;
     const auto f = deformation(grad_d);
     k.volume_ratio = f.volume_ratio;
     k.cofactor_gradient = f.cofactor_gradient;
     const M inverse_ratio = Pack(1.0) / f.volume_ratio;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) k.inverse_gradient(i, j) = inverse_ratio * f.cofactor_gradient(j, i);
+    k.velocity_gradient = grad_u * k.inverse_gradient;
+    if constexpr (decltype(k)::shear_dependent) k.viscosity = local_viscosity(*law, k.velocity_gradient);
     if constexpr (decltype(k)::stabilised) {
       k.metric = congruence(reference_metric, k.inverse_gradient);
-      const double nu = viscosity / density;
-      k.viscous_rate_squared =
-          Pack(4.0 / (step * step)) + Pack(inverse_estimate * nu * nu) * contract(k.metric, k.metric);
+      k.viscous_rate_squared = Pack(4.0 / (step * step)) + viscous_factor(k) * contract(k.metric, k.metric);
     }
-    k.velocity_gradient = grad_u * k.inverse_gradient;
     k.divergence = trace(k.velocity_gradient);
     if constexpr (decltype(k)::stabilised) {
       k.pressure_gradient = transposed_times(k.inverse_gradient, grad_p);
-      k.projected_tau = wave_speed > 0 ? projected_tau(reference_metric) : Pack(0.0);
+      k.projected_tau =
+          wave_speed > 0 ? projected_tau(reference_metric, viscous_factor(k)) : typename decltype(k)::Number(0.0);
     }
     return k;
   }
@@ -127,7 +185,7 @@ struct AleFluid {
     Mat3<T> stress;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        const T viscous = Pack(viscosity) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i));
+        const T viscous = viscosity_at(k) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i));
         if constexpr (K::stabilised) {
           stress(i, j) = viscous + (m.tau * m.strong_residual[i]) * c[j];
         } else {
@@ -169,7 +227,7 @@ struct AleFluid {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) shear += (l(i, j) + l(j, i)) * l(i, j);
     Power power;
-    power.viscous = Pack(viscosity) * k.volume_ratio * shear;
+    power.viscous = viscosity_at(k) * k.volume_ratio * shear;
     power.stabilisation = Pack(0.0);
     if constexpr (K::stabilised) {
       power.stabilisation = m.tau * dot(m.strong_residual, l * convection + Pack(1.0 / density) * k.pressure_gradient);
@@ -184,6 +242,18 @@ struct AleFluid {
 
  private:
   static Vec3<Pack> zero_vector() { return {{Pack(0.0), Pack(0.0), Pack(0.0)}}; }
+};
+
+/// The same fluid where its viscosity follows a law. \pre law
+struct ShearDependentFluid : AleFluid {
+  template <class Metric, class M, class T>
+  using Prepared = PreparedAs<Metric, M, T, ShearDependentViscosity>;
+
+  template <class M, class U, class Metric>
+  auto prepare(const Mat3<M>& grad_d, const Mat3<U>& grad_u, const Vec3<U>& grad_p,
+               const Metric& reference_metric) const {
+    return prepare_as<ShearDependentViscosity>(grad_d, grad_u, grad_p, reference_metric);
+  }
 };
 
 }  // namespace fsi

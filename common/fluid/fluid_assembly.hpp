@@ -8,6 +8,7 @@
 #include "fem/point_tangents.hpp"
 #include "fluid/ale_fluid.hpp"
 #include "fluid/fluid_input.hpp"
+#include "fluid/shear_dependent_loops.hpp"
 
 namespace fsi {
 
@@ -43,8 +44,8 @@ struct FluidPack {
 };
 
 /// Residual and, by seeding one node after the other, derivatives.
-template <class Element, FluidDerivatives Derivatives, bool Moving>
-AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
+template <class Element, FluidDerivatives Derivatives, bool Moving, class Form>
+AssemblyResult fluid_packs(const Form& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                            const FluidInput& in, double* residual, FluidJacobian<Element::components>* jacobian) {
   constexpr int n = Element::components;
   constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
@@ -94,8 +95,8 @@ AssemblyResult fluid_packs(const AleFluid& form, const std::vector<typename Elem
 
 /// Residual and derivatives by way of the points' tangents (fem/point_tangents.hpp), for elements without
 /// stabilisation.
-template <class Element, bool Domain, bool Moving>
-AssemblyResult fluid_packs_by_points(const AleFluid& form,
+template <class Element, bool Domain, bool Moving, class Form>
+AssemblyResult fluid_packs_by_points(const Form& form,
                                      const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                                      const FluidInput& in, double* residual,
                                      FluidJacobian<Element::components>* jacobian) {
@@ -156,14 +157,11 @@ AssemblyResult fluid_packs_by_points(const AleFluid& form,
   return result;
 }
 
-}  // namespace detail
-
-/// Adds the fluid's residual (momentum, continuity) in the mixed layout, without boundary conditions, and overwrites
-/// the derivatives asked for.
-template <class Element>
-AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs, const FluidInput& in,
-                              std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,
-                              FluidJacobian<Element::components>* jacobian = nullptr) {
+/// assemble_fluid() of one kind of fluid.
+template <class Element, class Form>
+AssemblyResult assemble_form(Form form, const ElementPacks<Element>& packs, const FluidInput& in,
+                             std::vector<double>& residual, FluidDerivatives derivatives,
+                             FluidJacobian<Element::components>* jacobian) {
   form.step = in.step;
   if (derivatives != FluidDerivatives::none) jacobian->fluid.set_zero();
   if (derivatives == FluidDerivatives::fluid_and_domain) jacobian->shape_derivatives.set_zero();
@@ -187,6 +185,18 @@ AssemblyResult assemble_fluid(AleFluid form, const ElementPacks<Element>& packs,
     if (derivatives == D::fluid_and_domain) run(std::integral_constant<D, D::fluid_and_domain>{}, std::true_type{});
   });
   return reduced(results);
+}
+
+}  // namespace detail
+
+/// Adds the fluid's residual (momentum, continuity) in the mixed layout, without boundary conditions, and overwrites
+/// the derivatives asked for.
+template <class Element>
+AssemblyResult assemble_fluid(const AleFluid& form, const ElementPacks<Element>& packs, const FluidInput& in,
+                              std::vector<double>& residual, FluidDerivatives derivatives = FluidDerivatives::none,
+                              FluidJacobian<Element::components>* jacobian = nullptr) {
+  if (form.law) return ShearDependentLoops<Element>::assemble({form}, packs, in, residual, derivatives, jacobian);
+  return detail::assemble_form(form, packs, in, residual, derivatives, jacobian);
 }
 
 }  // namespace fsi

@@ -3,14 +3,15 @@
 #include "fem/element_sums.hpp"
 #include "fem/interpolation.hpp"
 #include "fluid/fluid_assembly.hpp"
+#include "fluid/shear_dependent_loops.hpp"
 
 namespace fsi {
 
 namespace detail {
 
-template <class Element>
+template <class Element, class Form>
 struct PreparedWork {
-  AleFluid::Prepared<MetricOf<Element>, Pack, Pack> form;
+  typename Form::template Prepared<MetricOf<Element>, Pack, Pack> form;
   Pack since_start;      ///< J - J_0
   Pack to_end;           ///< J_1 - J
   Pack mesh_divergence;  ///< D = W cof F : grad w
@@ -37,9 +38,11 @@ double fluid_kinetic_energy(const AleFluid& form, const ElementPacks<Element>& p
   return sum_over_elements<1>(packs, integrals)[0];
 }
 
-/// Of one balance of a step, but for what the openings take.
-template <class Element>
-FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const FluidStep& step) {
+namespace detail {
+
+/// fluid_work() of one kind of fluid.
+template <class Element, class Form>
+FluidWork work_of_form(Form form, const ElementPacks<Element>& packs, const FluidStep& step) {
   constexpr int n = Element::components;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
@@ -61,7 +64,7 @@ FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const Fl
     return pack_integrals<Element, 6>(
         pack.geometry,
         [&](const auto& g) {
-          detail::PreparedWork<Element> k;
+          PreparedWork<Element, Form> k;
           const Mat3<Pack> h = gradient_of(at.d, g);
           k.form = form.prepare(h, gradient_of(at.u, g), gradient_of(at.p, g), pack.geometry.metric);
           const Pack change = volume_change(h);
@@ -71,7 +74,7 @@ FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const Fl
               duration * Pack(in.mesh_factor) * contract(k.form.cofactor_gradient, h - gradient_of(at.d_reference, g));
           return k;
         },
-        [&](const detail::PreparedWork<Element>& k, const auto& g, int) {
+        [&](const PreparedWork<Element, Form>& k, const auto& g, int) {
           const Vec3<Pack> u = value_of(at.u, g), u0 = value_of(u_start, g), u1 = value_of(u_end, g);
           const Vec3<Pack> rate = value_of(at.rate, g), c = value_of(at.convection, g);
           const auto power = form.power(k.form, rate, c, value_of(at.projected, g));
@@ -101,6 +104,14 @@ FluidWork fluid_work(AleFluid form, const ElementPacks<Element>& packs, const Fl
   work.divergence = sums[4];
   work.convection = sums[5];
   return work;
+}
+
+}  // namespace detail
+
+/// Of one balance of a step, but for what the openings take.
+template <class Element>
+FluidWork fluid_work(const AleFluid& form, const ElementPacks<Element>& packs, const FluidStep& step) {
+  return form.law ? ShearDependentLoops<Element>::work({form}, packs, step) : detail::work_of_form(form, packs, step);
 }
 
 }  // namespace fsi

@@ -63,6 +63,8 @@ constexpr PartColumn all_columns[] = {
      [](const EnergyParts& parts) { return parts.dampers; }},
     {{"spring_force_uJ", [](const R& r) { return r.support_springs; }},
      [](const EnergyParts& parts) { return parts.springs; }},
+    {{"wall_viscous_dissipation_uJ", [](const R& r) { return r.wall_viscous; }},
+     [](const EnergyParts& parts) { return parts.viscous_wall; }},
 };
 
 template <int n>

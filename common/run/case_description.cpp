@@ -9,6 +9,7 @@
 #include "base/quantity.hpp"
 #include "case/openings.hpp"
 #include "materials/material.hpp"
+#include "materials/viscosity_law.hpp"
 #include "mesh/group_names.hpp"
 
 namespace fsi {
@@ -55,6 +56,18 @@ std::string text_of_support(const SupportData& support) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
+/// Of a viscosity that is no constant: ", which stands for carreau-yasuda (mu0 0.056, ...)".
+std::string model_of(const FluidData& fluid) {
+  if (!fluid.viscosity_model) return "";
+  std::vector<std::string> parameters;
+  for (const auto& parameter : viscosity_laws().at(fluid.viscosity_model->name).parameters) {
+    const auto given = fluid.viscosity_model->values.find(parameter.name);
+    const double value = given == fluid.viscosity_model->values.end() ? parameter.standard : given->second;
+    parameters.push_back(fmt::format("{} {:g}", parameter.name, value));
+  }
+  return fmt::format(", which stands for {} ({})", fluid.viscosity_model->name, fmt::join(parameters, ", "));
+}
+
 }  // namespace
 
 const char* unit_of_volume(const Case& setup) {
@@ -63,8 +76,8 @@ const char* unit_of_volume(const Case& setup) {
 
 void describe_fluid(const Case& setup, Description& lines) {
   if (setup.fluid)
-    lines.push_back({"fluid", fmt::format("density {:g} mg/mm^3, viscosity {:g} kPa ms", setup.fluid->density,
-                                          setup.fluid->viscosity)});
+    lines.push_back({"fluid", fmt::format("density {:g} mg/mm^3, viscosity {:g} kPa ms{}", setup.fluid->density,
+                                          setup.fluid->viscosity, model_of(*setup.fluid))});
 }
 
 void describe_wall(const Case& setup, Description& lines) {
@@ -88,6 +101,7 @@ std::string text_of_layer(const MaterialData& layer) {
     text += fmt::format(", {} = {:g}", parameter.name, value);
     if (const std::string unit = parameter.quantity->unit; !unit.empty()) text += " " + unit;
   }
+  if (layer.viscosity > 0) text += fmt::format(", viscosity = {:g} kPa ms", layer.viscosity);
   return text;
 }
 

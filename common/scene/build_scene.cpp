@@ -8,6 +8,7 @@
 #include "fem/elements.hpp"
 #include "fluid/backflow.hpp"
 #include "fluid/fluid_problem.hpp"
+#include "materials/viscosity_law.hpp"
 #include "mesh/group_names.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
@@ -68,6 +69,8 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
   auto wall = std::make_unique<WallProblem<Element>>(
       std::move(parts.part), WallConstants{s.density, s.bulk_modulus, wall_stabilisation(setup)}, parts.layers,
       cylinder_axis(s), std::move(parts.pressurised), parts.frame);
+  std::size_t number = 0;
+  for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
   scene.profile.count("structure elements", elements_of(wall->part(), regions));
   if (!with_fibres.empty()) scene.profile.count("elements with fibres", elements_of(wall->part(), with_fibres));
   support_wall<Element>(setup, parts.supports, *wall);
@@ -81,7 +84,8 @@ template <class Element>
 void build_fluid(const Case& setup, int region, FluidParts<Element> parts, Scene<Element::components>& scene) {
   constexpr int n = Element::components;
   auto& boundary = parts.boundary;
-  const AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
+  AleFluid form{setup.fluid->density, setup.fluid->viscosity, setup.fluid->grad_div};
+  if (const auto& model = setup.fluid->viscosity_model) form.law = viscosity_laws().at(model->name).make(model->values);
   auto fluid = std::make_unique<FluidProblem<Element>>(std::move(parts.part), form, std::move(boundary.open),
                                                        std::move(boundary.mirrored));
   scene.profile.count("fluid elements", elements_of(fluid->part(), {region}));

@@ -35,6 +35,7 @@ class Wall {
   /// \param speed  of pressure waves in the scene, mm/ms, for the stabilisation; 0, as at first: not known
   virtual void set_wave_speed(double speed) = 0;
   virtual const std::vector<LayerData>& layer_data() const = 0;
+  virtual bool is_viscous() const = 0;  ///< whether a layer resists the rate of its strain
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }
 

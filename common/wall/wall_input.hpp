@@ -32,6 +32,7 @@ struct WallLayer {
   ElementPacks<Element> packs;
   Material material;
   FibreField<Element> fibres;  ///< empty for materials without
+  double viscosity = 0;        ///< eta, kPa ms, of wall/kelvin_voigt.hpp
 };
 
 /// Blocks with rows (momentum, volume) and columns (d, p).
@@ -91,11 +92,13 @@ struct WallWork {
   /// the step
   double stress = 0;
   double stabilisation = 0;  ///< S(d, p, p) - S(d_b, p_b, p)
+  double viscous = 0;        ///< W (eta dE/dt, dE/dt), dissipation in the layers' viscosity
 
   WallWork& operator+=(const WallWork& b) {
     inertia += b.inertia;
     stress += b.stress;
     stabilisation += b.stabilisation;
+    viscous += b.viscous;
     return *this;
   }
 };

@@ -4,6 +4,7 @@
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
+#include "wall/viscous_layers.hpp"
 #include "wall/wall_assembly.hpp"
 #include "wall/wall_energy.hpp"
 
@@ -49,7 +50,7 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
     layers_.push_back(
-        {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}});
+        {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}, 0});
     layer_cells_.push_back(cells);
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
     if (!has_fibres(material)) continue;
@@ -68,7 +69,13 @@ AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressu
   const auto result = assemble_wall(constants_, layers_, prestressed(in), residual, matrix);
   if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
   if (this->supports()) this->supports()->add(in, residual, matrix);
+  if (is_viscous()) ViscousLayers<Element>::add(layers_, prestressed(in), residual, matrix);
   return result;
+}
+
+template <class Element>
+bool WallProblem<Element>::is_viscous() const {
+  return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.viscosity > 0; });
 }
 
 template <class Element>
@@ -126,7 +133,9 @@ template <class Element>
 WallWork WallProblem<Element>::work(const WallStep& step) const {
   WallStep here = step;
   here.balance = prestressed(step.balance);
-  return wall_work(constants_, layers_, here);
+  WallWork work = wall_work(constants_, layers_, here);
+  if (is_viscous()) work.viscous = ViscousLayers<Element>::work(layers_, here);
+  return work;
 }
 
 template <class Element>

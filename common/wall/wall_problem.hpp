@@ -25,12 +25,15 @@ class WallProblem : public Wall<Element::components> {
 
   const Part& part() const { return part_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
+  /// \param viscosity  eta of a layer, kPa ms; 0, as at first: elastic
+  void set_viscosity(std::size_t layer, double viscosity) { layers_.at(layer).viscosity = viscosity; }
 
   const PartNodes& nodes() const override { return part_; }
   const FunctionSpace<n>& space() const override { return space_; }
   const WallConstants& constants() const override { return constants_; }
   void set_wave_speed(double speed) override { constants_.wave_speed = speed; }
   const std::vector<LayerData>& layer_data() const override { return layer_data_; }
+  bool is_viscous() const override;
 
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                           std::vector<double>& residual, bool derivatives = false) override;

@@ -30,18 +30,22 @@ struct HarmonicRates {
 
 /// The oscillating pipe of docs/theory.md, section 13.3: blood and wall of section 13.1 move along the axis alone under
 /// the pressure gradient -P cos(w t); the wall's outer face is held. Fields are real parts of what is given times
-/// e^(i w t).
+/// e^(i w t). With viscous layers of Kelvin and Voigt's kind the shear modulus is mu + eta/2 first, first being i w in
+/// continuous time: where the shear is small, since their stress is of third degree in it. The wave number across a layer,
+/// k^2 = -rho second / (mu + eta/2 first), is then complex.
 class OscillatingPipe {
  public:
   double frequency = 1;  ///< w, rad/ms
   double gradient;       ///< P, kPa/mm
   double fluid_density = 1, viscosity = 3.5e-3, wall_density = 1.2;
 
-  OscillatingPipe(const Tube& tube, const HarmonicRates& rates, double of_pressure = 0.1)
+  /// \param wall_viscosity  eta of both layers, kPa ms
+  OscillatingPipe(const Tube& tube, const HarmonicRates& rates, double of_pressure = 0.1, double wall_viscosity = 0)
       : gradient(of_pressure), tube_(tube), rates_(rates) {
     l_ = std::sqrt(-rates.first * fluid_density / viscosity);
     for (int i = 0; i < 2; ++i) {
-      mu_[i] = std::visit([](const auto& m) { return m.shear_modulus(); }, tube.layers[i].material);
+      mu_[i] = std::visit([](const auto& m) { return m.shear_modulus(); }, tube.layers[i].material) +
+               0.5 * wall_viscosity * rates.first;
       k_[i] = std::sqrt(-rates.second * wall_density / mu_[i]);
     }
     // Unknowns: A J0(l Ri), B and C of both layers. Rows: u = first d and equal shear stresses at the inner face, d and
@@ -103,8 +107,7 @@ class OscillatingPipe {
   Tube tube_;
   HarmonicRates rates_;
   Complex l_;
-  std::array<double, 2> mu_{};
-  std::array<Complex, 2> k_{};
+  std::array<Complex, 2> mu_{}, k_{};
   std::array<Complex, 5> coefficient_{};
 };
 

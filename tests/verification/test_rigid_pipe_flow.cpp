@@ -17,7 +17,7 @@
 #include "scene/boundary_conditions.hpp"
 #include "support/bessel_series.hpp"
 #include "support/errors.hpp"
-#include "support/ring_meshes.hpp"
+#include "support/rigid_pipes.hpp"
 #include "support/scene_errors.hpp"
 #include "support/scenes.hpp"
 #include "support/told_of_stages.hpp"
@@ -29,44 +29,7 @@ namespace {
 
 [[maybe_unused]] const int single_thread = set_threads(1);
 
-constexpr double radius = 1.2, density = 1.06;  // mm, mg/mm^3
-
-/// A rigid pipe 0 < z < length with groups inlet and outlet: of revolution, cells smaller towards the wall; of
-/// tetrahedra the quarter x, y > 0, quadratic edges on the circle.
-template <class Element>
-SimplexMesh<Element::dim, Element::order> rigid_pipe(int across, int along, double length) {
-  const auto groups = [&](auto& mesh, const auto& list) {
-    for (const auto& [name, axis, value] : list)
-      mesh.facet_groups.push_back({name, boundary_where(mesh, where(axis, value))});
-  };
-  using Group = std::tuple<const char*, int, double>;
-  if constexpr (Element::dim == 2) {
-    auto mesh = triangle_grid(
-        {across, along}, {"fluid"},
-        [&](int i, int j) {
-          const double s = 1 - static_cast<double>(i) / across;
-          return Point{radius * (1 - s * (0.5 + 0.5 * s)), 0, length * j / along};
-        },
-        [](int, int) { return 0; });
-    groups(mesh, std::vector<Group>{{group::inlet, 2, 0.0}, {group::outlet, 2, length}});
-    return in_order<Element>(mesh);
-  } else {
-    auto linear = grid_mesh(
-        {across, across, along}, {"fluid"},
-        [&](int i, int j, int k) {
-          return Point{static_cast<double>(i) / across, static_cast<double>(j) / across, length * k / along};
-        },
-        [](int, int, int) { return 0; });
-    groups(linear, std::vector<Group>{{group::inlet, 2, 0.0},
-                                      {group::outlet, 2, length},
-                                      {group::symmetry[0], 0, 0.0},
-                                      {group::symmetry[1], 1, 0.0}});
-    auto mesh = in_order<Element>(linear);
-    for (auto& x : mesh.nodes)  // the square's outer sides become the arc
-      x = {radius * x[0] * std::sqrt(1 - 0.5 * x[1] * x[1]), radius * x[1] * std::sqrt(1 - 0.5 * x[0] * x[0]), x[2]};
-    return mesh;
-  }
-}
+constexpr double radius = pipe_radius, density = 1.06;  // mm, mg/mm^3
 
 /// A fluid between rigid walls, marched from an exact start, its velocity across the axis held at the ends.
 template <class Element>

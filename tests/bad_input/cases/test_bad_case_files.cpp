@@ -74,7 +74,8 @@ const std::vector<BadCase>& bad_cases() {
       {"KeyNothingIsLike", coupled_case, "until = 0.125", "end = 0.125",
        "case.toml:23: inlet.end: unknown key; there are pressure or until"},
       {"FirstOfTwoUnknownKeys", coupled_case, "viscosity = 3.5e-3", "zeta = 1\nalpha = 2",
-       "case.toml:7: fluid.zeta: unknown key; there are density, viscosity, outlet, closed or grad_div"},
+       "case.toml:7: fluid.zeta: unknown key; there are density, viscosity, viscosity_model, outlet, closed or "
+       "grad_div"},
       {"ParameterOfAnotherMaterial", static_case, "c10 = 3", "c10 = 3\nk1 = 2",
        "case.toml:10: structure.layers.wall.k1: is no parameter of neo-hookean but of artery; remove it (neo-hookean "
        "takes c10, young or poisson)"},

@@ -1,0 +1,27 @@
+#pragma once
+
+// What the laws of a fluid's viscosity state besides their parameters.
+
+#include <string>
+
+#include "materials/parameter.hpp"
+
+namespace fsi {
+
+/// What is wrong with parameters that are each within their bounds, said of one of them.
+struct ParameterMismatch {
+  std::string parameter, problem, remedy;
+};
+
+/// Of the exponent: below 1 the fluid thins with the shear rate, above it thickens.
+inline constexpr Bounds shear_exponent{0, 2, false, true};
+
+namespace quantity {
+/// K of K g^(n - 1)
+inline const Quantity& consistency() {
+  static const Quantity q{"kPa ms^n", {}};
+  return q;
+}
+}  // namespace quantity
+
+}  // namespace fsi

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "wall/kelvin_voigt.hpp"
+#include "wall/wall_input.hpp"
+
+namespace fsi {
+
+/// The element loops of the layers with a viscosity, beside those of their elastic laws: a wall without such layers has
+/// none of them, and its other loops do not know of them.
+template <class Element>
+struct ViscousLayers {
+  static constexpr int n = Element::components;
+
+  /// Adds to the residual and, if there is one, to the Jacobian. Without velocity, in statics, nothing.
+  static void add(const std::vector<WallLayer<Element>>& layers, const WallInput& in, std::vector<double>& residual,
+                  WallMatrix<n>* jacobian);
+  /// What they take in a balance of a step, tested with its velocity for its duration, uJ.
+  static double work(const std::vector<WallLayer<Element>>& layers, const WallStep& step);
+};
+
+}  // namespace fsi

@@ -1,0 +1,141 @@
+"""Blood whose viscosity depends on the shear rate, in a wall of viscous layers: both drivers, solvers, restart, processes."""
+
+import unittest
+from pathlib import Path
+
+import numpy as np
+from programs import (
+    DRIVERS,
+    MONOLITHIC,
+    FolderTest,
+    arrays,
+    attempt,
+    difference,
+    differing_arrays,
+    energy,
+    pressure,
+    restart,
+    run,
+    wall,
+)
+from scenes import KINDS, WALL, scene
+
+LAWS = {
+    "carreau-yasuda": "mu0 = 0.056, mu_inf = 3.45e-3, lambda = 3313.0, n = 0.3568",
+    "casson": "yield_stress = 5e-4, plastic_viscosity = 4e-3, regularisation = 1e3",
+    "power-law": "consistency = 0.01, exponent = 0.6, lowest_viscosity = 1e-3, highest_viscosity = 0.5",
+}
+CASE = """[mesh]
+file = "tube.msh"
+[fluid]
+density = 1.06
+viscosity_model = {{ name = "{name}", {constants} }}
+{wall}
+[inlet]
+pressure = [[0, 0], [0.5, 1.0]]
+[time]
+step = 0.125
+end = 0.5
+[monolithic]
+newton_tolerance = 1e-11
+[partitioned]
+tolerance = 1e-10
+[output]
+every = 4
+fields = ["displacement", "velocity", "pressure", "wall_shear_stress"]
+"""
+VISCOUS = WALL.replace("c10 = 3.0", "c10 = 3.0\nviscosity = 2.0").replace("c10 = 0.3\n", "c10 = 0.3\nviscosity = 0.5\n")
+
+
+class ViscousTest(FolderTest):
+    def case(self, law="carreau-yasuda", walls=VISCOUS):
+        file = self.base / f"{law}.toml"
+        file.write_text(CASE.format(name=law, constants=LAWS[law], wall=walls))
+        return file
+
+    def assertAgree(self, one, other, most):
+        for k in (2, 3):
+            scale = np.abs(wall(one)[..., 2:]).max()
+            self.assertLess(np.abs(wall(one)[..., k] - wall(other)[..., k]).max(), most * scale)
+        self.assertLess(difference(pressure(one), pressure(other)).max(), most)
+
+
+class Viscous(ViscousTest):
+    def test_drivers_agree_and_energy_is_accounted_for(self):
+        for kind, law in zip(KINDS, [*LAWS, *LAWS]):
+            case, settings = self.case(law), scene(self.base, *kind)
+            with self.subTest(kind=kind, law=law):
+                folders = [run(program, case, self.base / Path(program).name, *settings) for program in DRIVERS]
+                self.assertGreater(np.abs(wall(folders[0])[..., 2]).max(), 1e-3)
+                self.assertAgree(*folders, 1e-8)
+                rows = energy(folders[0])
+                self.assertGreater(rows["viscous_dissipation"][-1], 0)
+                self.assertGreater(rows["wall_viscous_dissipation"][-1], 0)
+                self.assertLess(np.abs(rows["remainder"]).max(), 1e-7 * np.abs(rows["inlet_work"]).sum())
+
+    def test_a_run_goes_on_with_the_same_bits(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        for program in DRIVERS:
+            whole = run(program, self.case(), self.base / "whole", *settings)
+            begun = run(program, self.case(), self.base / "begun", *settings, "time.end=0.25")
+            self.assertEqual(restart(program, self.case(), begun, *settings), begun)
+            self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+
+    def test_a_checkpoint_knows_both_viscosities(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        begun = run(MONOLITHIC, self.case(), self.base / "known", *settings, "time.end=0.25")
+        for change in ("fluid.viscosity_model.n=0.4", "structure.layers.media.viscosity=2.1"):
+            refused = attempt(
+                MONOLITHIC, self.case(), "-q", "--restart", begun, folder=begun, settings=(*settings, change)
+            )
+            self.assertEqual(refused.returncode, 1, refused.stderr)
+            self.assertIn(change.split("=")[0], refused.stderr)
+
+    def test_the_log_says_which_viscosity_stands_for_all(self):
+        folder = run(MONOLITHIC, self.case(), self.base / "said", *scene(self.base, "p1", "axisymmetric"))
+        self.assertIn("kPa ms, that of carreau-yasuda at 100 1/s", (folder / "run.log").read_text())
+
+    def test_a_constant_law_is_the_constant(self):
+        """The loops of a law, with one that does not change, give what a constant viscosity gives, to rounding."""
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        constants = "consistency = 0.01, exponent = 1.0, lowest_viscosity = 1e-6, highest_viscosity = 1.0"
+        file = self.case("power-law", WALL)
+        text = file.read_text()
+        law = f'viscosity_model = {{ name = "power-law", {LAWS["power-law"]} }}'
+        self.assertIn(law, text)
+        folders = []
+        for name, entry in (
+            ("law", f'viscosity_model = {{ name = "power-law", {constants} }}'),
+            ("constant", "viscosity = 0.01"),
+        ):
+            file.write_text(text.replace(law, entry))
+            folders.append(run(MONOLITHIC, file, self.base / name, *settings))
+        self.assertAgree(*folders, 1e-9)
+        fields = [arrays(folder / "checkpoint.h5") for folder in folders]
+        for key in ("arrays/level0.fluid", "arrays/level0.wall"):
+            scale = np.abs(fields[1][key]).max()
+            self.assertLess(np.abs(fields[0][key] - fields[1][key]).max(), 1e-8 * scale)
+
+
+class Shared(ViscousTest):
+    """Several processes, and PETSc."""
+
+    def test_solvers_agree(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        folders = [
+            run(MONOLITHIC, self.case(), self.base / solver, *settings, f"monolithic.linear_solver={solver}")
+            for solver in ("direct", "fast", "petsc")
+        ]
+        for folder in folders[1:]:
+            self.assertAgree(folders[0], folder, 1e-8)
+
+    def test_two_processes_agree_with_one(self):
+        settings = scene(self.base, "p1", "3d")
+        for program in DRIVERS:
+            alone = run(program, self.case(), self.base / "alone", *settings)
+            together = run(program, self.case(), self.base / "two", *settings, processes=2)
+            self.assertAgree(alone, together, 1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()
