@@ -98,8 +98,12 @@ std::vector<KeyHelp> model_help() {
 }  // namespace
 
 CaseKey<FluidData> viscosity_model_key() {
-  return {"viscosity_model", optional,   "a table { name = \"NAME\", ... }: the law of a viscosity that is no constant",
-          read_model,        list_model, KeyRole::physics,
+  return {"viscosity_model",
+          optional,
+          "a table { name = \"NAME\", ... }: the law of a viscosity that is no constant, in place of viscosity",
+          read_model,
+          list_model,
+          KeyRole::physics,
           model_help()};
 }
 
@@ -118,9 +122,9 @@ void check_viscosity(const CaseEntry& fluid, FluidData& data) {
 }
 
 CaseKey<MaterialData> layer_viscosity_key() {
-  auto key =
-      leaf("viscosity", optional, "of any material: stress in {unit} per rate of strain that it adds, default {}",
-           number(at(&MaterialData::viscosity), not_negative, wall_viscosity()));
+  auto key = leaf("viscosity", optional,
+                  "of any material: eta in {unit} of a stress eta dE/dt beside the elastic one, default {}",
+                  number(at(&MaterialData::viscosity), not_negative, wall_viscosity()));
   key.list = [list = key.list](const MaterialData& layer, const std::string& path, std::vector<CaseValue>& values) {
     if (layer.viscosity > 0) list(layer, path, values);
   };

@@ -18,13 +18,12 @@ struct Casson {
 
   static constexpr const char* name = "casson";
   static std::vector<ParameterOf<Casson>> parameters() {
-    return {{&Casson::yield_stress, "yield_stress", "yield stress", quantity::pressure(), not_negative},
-            {&Casson::plastic_viscosity, "plastic_viscosity", "viscosity at high shear rates", quantity::viscosity(),
-             positive},
-            {&Casson::regularisation, "regularisation",
-             "time m of the regularised yield stress: fluid that shears by less "
-             "than 1/m flows as one of high viscosity",
-             quantity::time(), positive}};
+    return {
+        {&Casson::yield_stress, "yield_stress", "yield stress", quantity::pressure(), not_negative},
+        {&Casson::plastic_viscosity, "plastic_viscosity", "viscosity at high shear rates", quantity::viscosity(),
+         positive},
+        {&Casson::regularisation, "regularisation",
+         "time m by which the yield stress is regularised, long against 1/(shear rate)", quantity::time(), positive}};
   }
   std::optional<ParameterMismatch> problem() const { return std::nullopt; }
 

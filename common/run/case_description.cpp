@@ -56,16 +56,17 @@ std::string text_of_support(const SupportData& support) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Of a viscosity that is no constant: ", which stands for carreau-yasuda (mu0 0.056, ...)".
-std::string model_of(const FluidData& fluid) {
-  if (!fluid.viscosity_model) return "";
+/// "viscosity 0.0035 kPa ms", or "viscosity of carreau-yasuda (mu0 0.056, ...), 0.0047 kPa ms where one number stands for it".
+std::string text_of_viscosity(const FluidData& fluid) {
+  if (!fluid.viscosity_model) return fmt::format("viscosity {:g} kPa ms", fluid.viscosity);
   std::vector<std::string> parameters;
   for (const auto& parameter : viscosity_laws().at(fluid.viscosity_model->name).parameters) {
     const auto given = fluid.viscosity_model->values.find(parameter.name);
     const double value = given == fluid.viscosity_model->values.end() ? parameter.standard : given->second;
     parameters.push_back(fmt::format("{} {:g}", parameter.name, value));
   }
-  return fmt::format(", which stands for {} ({})", fluid.viscosity_model->name, fmt::join(parameters, ", "));
+  return fmt::format("viscosity of {} ({}), {:g} kPa ms where one number stands for it", fluid.viscosity_model->name,
+                     fmt::join(parameters, ", "), fluid.viscosity);
 }
 
 }  // namespace
@@ -76,8 +77,8 @@ const char* unit_of_volume(const Case& setup) {
 
 void describe_fluid(const Case& setup, Description& lines) {
   if (setup.fluid)
-    lines.push_back({"fluid", fmt::format("density {:g} mg/mm^3, viscosity {:g} kPa ms{}", setup.fluid->density,
-                                          setup.fluid->viscosity, model_of(*setup.fluid))});
+    lines.push_back(
+        {"fluid", fmt::format("density {:g} mg/mm^3, {}", setup.fluid->density, text_of_viscosity(*setup.fluid))});
 }
 
 void describe_wall(const Case& setup, Description& lines) {

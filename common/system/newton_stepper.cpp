@@ -45,6 +45,7 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
   const auto if_any = [&](const char* part, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule = {}) {
     if (memory.recalls() ? memory.has(name + part) : !values.empty()) memory.array(name + part, kind, values, rule);
   };
+  if_any(".wall_reference", ArrayKind::wall, rates.wall_reference);  // of a viscous wall
   if_any(".support_loads", ArrayKind::support_loads, point.support_loads);
   if_any(".opening_pressures", ArrayKind::alike, point.opening_pressures, {{}, {}, most_openings});
   if (point.opening_pressures.empty()) return true;

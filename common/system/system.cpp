@@ -95,7 +95,7 @@ void System<n>::linearise() {
   }
   point_.now = state_->now;
   point_.rates = data_->rates;
-  point_.rates.wall_reference.clear();
+  if (!scene_.wall || !scene_.wall->is_viscous()) point_.rates.wall_reference.clear();  // no derivative depends on it
   point_.wall_pressure = data_->wall_pressure;
   point_.support_loads = data_->support_loads;
   if (openings_move()) point_.opening_pressures = data_->opening_pressures;

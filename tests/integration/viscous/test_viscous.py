@@ -4,20 +4,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from programs import (
-    DRIVERS,
-    MONOLITHIC,
-    FolderTest,
-    arrays,
-    attempt,
-    difference,
-    differing_arrays,
-    energy,
-    pressure,
-    restart,
-    run,
-    wall,
-)
+from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, energy, restart, run
 from scenes import KINDS, WALL, scene
 
 LAWS = {
@@ -54,10 +41,12 @@ class ViscousTest(FolderTest):
         return file
 
     def assertAgree(self, one, other, most):
-        for k in (2, 3):
-            scale = np.abs(wall(one)[..., 2:]).max()
-            self.assertLess(np.abs(wall(one)[..., k] - wall(other)[..., k]).max(), most * scale)
-        self.assertLess(difference(pressure(one), pressure(other)).max(), most)
+        """Displacements, velocities and pressures of the last level, relative to the largest of each field."""
+        fields = [arrays(folder / "checkpoint.h5") for folder in (one, other)]
+        for medium in ("mesh", "wall", "flow"):
+            values, others = (of[f"arrays/level0.{medium}"] for of in fields)
+            self.assertGreater(np.abs(values).max(), 1e-4)
+            self.assertLess(np.abs(values - others).max(), most * np.abs(values).max(), medium)
 
 
 class Viscous(ViscousTest):
@@ -66,7 +55,6 @@ class Viscous(ViscousTest):
             case, settings = self.case(law), scene(self.base, *kind)
             with self.subTest(kind=kind, law=law):
                 folders = [run(program, case, self.base / Path(program).name, *settings) for program in DRIVERS]
-                self.assertGreater(np.abs(wall(folders[0])[..., 2]).max(), 1e-3)
                 self.assertAgree(*folders, 1e-8)
                 rows = energy(folders[0])
                 self.assertGreater(rows["viscous_dissipation"][-1], 0)
@@ -82,7 +70,7 @@ class Viscous(ViscousTest):
             self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
 
     def test_a_checkpoint_knows_both_viscosities(self):
-        settings = scene(self.base, "p2p1", "axisymmetric")
+        settings = (*scene(self.base, "p2p1", "axisymmetric"), "fluid.viscosity=4e-3")
         begun = run(MONOLITHIC, self.case(), self.base / "known", *settings, "time.end=0.25")
         for change in ("fluid.viscosity_model.n=0.4", "structure.layers.media.viscosity=2.1"):
             refused = attempt(
@@ -111,10 +99,6 @@ class Viscous(ViscousTest):
             file.write_text(text.replace(law, entry))
             folders.append(run(MONOLITHIC, file, self.base / name, *settings))
         self.assertAgree(*folders, 1e-9)
-        fields = [arrays(folder / "checkpoint.h5") for folder in folders]
-        for key in ("arrays/level0.fluid", "arrays/level0.wall"):
-            scale = np.abs(fields[1][key]).max()
-            self.assertLess(np.abs(fields[0][key] - fields[1][key]).max(), 1e-8 * scale)
 
 
 class Shared(ViscousTest):
