@@ -66,6 +66,15 @@ OpenedLumen read(const LumenOptions& options, std::vector<std::string>& done) {
   return lumen;
 }
 
+/// Layers are given by their first thickness, or by the Womersley number.
+void require_layers(const LumenRequest& request) {
+  const bool sized = request.layers.first > 0 || request.womersley > 0;
+  if (request.layers.count > 0 && !sized)
+    throw InputError(mesh_program, "--layers", "has no thickness", "give --first-thickness MM or --womersley NUMBER");
+  if (request.layers.count == 0 && sized)
+    throw InputError(mesh_program, "--layers", "is not given", "say how many: --layers 4, for one");
+}
+
 void make(LumenOptions& options) {
   std::vector<std::string> done;
   auto& request = options.request;
@@ -86,12 +95,28 @@ void make(LumenOptions& options) {
   request.cuts = lengths_of("--cut", options.cuts);
   request.extensions = lengths_of("--extension", options.extensions);
   request.file = options.surface;
+  require_layers(request);
   auto lumen = read(options, done);
   const auto made = mesh_lumen(std::move(lumen), request);
   done.insert(done.end(), made.done.begin(), made.done.end());
   std::string foreword;
   for (const auto& sentence : done) foreword += sentence + "\n";
-  write_and_report(made.mesh, options.output, TriangleGeometry::plane, foreword);
+  write_and_report(made.mesh, options.output, TriangleGeometry::plane, foreword, request.layers.count == 0);
+}
+
+void add_layer_options(CLI::App& command, LumenRequest& request) {
+  command.add_option("--layers", request.layers.count, "Layers of thin cells along the wall")->check(CLI::Range(1, 50));
+  auto* first = command.add_option("--first-thickness", request.layers.first, "Of the cells at the wall, mm")
+                    ->check(CLI::PositiveNumber);
+  command.add_option("--growth", request.layers.growth, "Thickness of a layer over that of the one before")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3.0));
+  command
+      .add_option("--womersley", request.womersley,
+                  "In place of a thickness: R sqrt(omega / nu) of the widest opening; the layers are as thick as the "
+                  "Stokes layer")
+      ->excludes(first)
+      ->check(CLI::PositiveNumber);
 }
 
 }  // namespace
@@ -125,6 +150,7 @@ MeshCommand lumen_command(CLI::App& app) {
                       "NAME=LENGTH: cut this opening square to the centre line, mm behind its centre");
   command->add_option("--extension", options->extensions,
                       "NAME=DIAMETERS: draw this opening out by so many of its diameters, to a circle");
+  add_layer_options(*command, options->request);
   add_output_options(*command, options->output, false);
   options->output.advise = true;
   return {command, [options] { make(*options); }};

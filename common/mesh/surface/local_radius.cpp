@@ -40,16 +40,20 @@ std::vector<double> local_radius(const TriangleSurface& surface, int passes) {
     if (radius[p] < std::numeric_limits<double>::infinity()) largest = std::max(largest, radius[p]);
   }
   for (double& r : radius) r = std::min(r, largest);  // where nothing lies opposite
+  average_with_neighbours(surface, radius, passes);
+  return radius;
+}
+
+void average_with_neighbours(const TriangleSurface& surface, std::vector<double>& field, int passes) {
   const auto neighbours = neighbours_of(surface);
   for (int pass = 0; pass < passes; ++pass) {
-    const auto old = radius;
-    for (std::size_t i = 0; i < radius.size(); ++i) {
+    const auto old = field;
+    for (std::size_t i = 0; i < field.size(); ++i) {
       double sum = 0;
       for (const int next : neighbours[i]) sum += old[next];
-      radius[i] = 0.5 * (old[i] + sum / static_cast<double>(neighbours[i].size()));
+      field[i] = 0.5 * (old[i] + sum / static_cast<double>(neighbours[i].size()));
     }
   }
-  return radius;
 }
 
 }  // namespace fsi

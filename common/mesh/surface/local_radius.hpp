@@ -12,4 +12,7 @@ namespace fsi {
 /// \param passes  the field is averaged with its neighbours' so many times
 std::vector<double> local_radius(const TriangleSurface& surface, int passes);
 
+/// Smooths a field of the nodes: each pass takes it half of the way to the mean of the neighbours', on rims of those on the rim.
+void average_with_neighbours(const TriangleSurface& surface, std::vector<double>& field, int passes);
+
 }  // namespace fsi

@@ -114,15 +114,39 @@ std::string remesh(TriangleSurface& surface, const LumenRequest& request) {
   return fmt::format("edges of {:.3g} mm", edge);
 }
 
-/// The wall without a name, then each opening's cap.
+/// The wall without a name, then each opening's cap. Rims are flat.
 std::vector<TetrahedralMesh::FacetGroup> capped(TriangleSurface& surface, std::vector<LumenOpening>& openings,
                                                 const std::string& file) {
   std::vector<TetrahedralMesh::FacetGroup> groups{{"", surface.triangles}};
-  for (auto& opening : openings) {
-    flatten_rim(surface, opening);
-    groups.push_back({opening.name, flat_cap(surface, rim_of(surface, opening), file)});
-  }
+  for (auto& opening : openings) groups.push_back({opening.name, flat_cap(surface, rim_of(surface, opening), file)});
   return groups;
+}
+
+BoundaryLayers layers_of(const LumenRequest& request, const std::vector<LumenOpening>& openings) {
+  BoundaryLayers layers = request.layers;
+  if (request.womersley > 0) {
+    double widest = 0;
+    for (const auto& opening : openings) widest = std::max(widest, opening.diameter());
+    layers.first = 1;
+    layers.first = std::sqrt(2.0) * 0.5 * widest / request.womersley / layers.thickness();
+  }
+  return layers;
+}
+
+/// Tetrahedra inside the wall, with layers of thin ones along it where they are asked for.
+TetrahedralMesh filled(const TriangleSurface& wall, std::vector<LumenOpening>& openings, const LumenRequest& request,
+                       std::vector<std::string>& done) {
+  const BoundaryLayers layers = layers_of(request, openings);
+  const TriangleSurface inner = layers.count > 0 ? moved_inwards(wall, layers) : wall;
+  TriangleSurface closed = inner;
+  const auto groups = capped(closed, openings, request.file);
+  TetrahedralMesh mesh = fill_surface(closed.nodes, groups, request.file);
+  if (layers.count == 0) return mesh;
+  const auto flat = mesh.cells.size();
+  grow_layers(mesh, wall, inner, layers);
+  done.push_back(fmt::format("{} layers along the wall: {:.3g} mm at the wall, {:.3g} mm together, {} tetrahedra.",
+                             layers.count, layers.first, layers.thickness(), mesh.cells.size() - flat));
+  return mesh;
 }
 
 }  // namespace
@@ -149,11 +173,12 @@ LumenMesh mesh_lumen(OpenedLumen lumen, const LumenRequest& request) {
   }
   const double before = enclosed_volume(surface);
   const std::string edges = remesh(surface, request);
-  const auto groups = capped(surface, lumen.openings, request.file);
-  made.mesh = fill_surface(surface.nodes, groups, request.file);
-  const double after = enclosed_volume({surface.nodes, groups.front().facets});
+  for (auto& opening : lumen.openings) flatten_rim(surface, opening);
+  const double after = enclosed_volume(surface);
+  const std::size_t triangles = surface.triangles.size();
   made.done.push_back(fmt::format("Remeshed to {}: {} triangles, volume {:.5g} mm^3 before, {:.5g} after ({:+.2f} %).",
-                                  edges, groups.front().facets.size(), before, after, 100 * (after / before - 1)));
+                                  edges, triangles, before, after, 100 * (after / before - 1)));
+  made.mesh = filled(surface, lumen.openings, request, made.done);
   made.openings = std::move(lumen.openings);
   return made;
 }

@@ -4,19 +4,23 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/surface/boundary_layers.hpp"
 #include "mesh/surface/lumen_openings.hpp"
 
 namespace fsi {
 
 /// What a lumen's mesh is to be like.
 struct LumenRequest {
-  std::string file;                                  ///< for messages
-  std::vector<OpeningChoice> openings;               ///< with names: all openings but those that are closed
-  std::vector<OpeningChoice> closed;                 ///< holes and flat parts that become wall
-  int smoothing = 20;                                ///< passes
-  double edge = 0;                                   ///< length of the surface's edges, mm; 0: as they are on average
-  double edges_per_diameter = 0;                     ///< in place of `edge`: a length that follows the local diameter
-  std::vector<std::pair<std::string, double>> cuts;  ///< by opening, mm behind its centre
+  std::string file;                     ///< for messages
+  std::vector<OpeningChoice> openings;  ///< with names: all openings but those that are closed
+  std::vector<OpeningChoice> closed;    ///< holes and flat parts that become wall
+  int smoothing = 20;                   ///< passes
+  double edge = 0;                      ///< length of the surface's edges, mm; 0: as they are on average
+  double edges_per_diameter = 0;        ///< in place of `edge`: a length that follows the local diameter
+  BoundaryLayers layers;                ///< inside the wall
+  double womersley =
+      0;  ///< above 0: the layers are as thick as the Stokes layer, sqrt(2) R / it, in the widest opening
+  std::vector<std::pair<std::string, double>> cuts;        ///< by opening, mm behind its centre
   std::vector<std::pair<std::string, double>> extensions;  ///< by opening, in diameters
 };
 

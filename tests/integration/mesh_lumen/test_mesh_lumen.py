@@ -14,6 +14,7 @@ from programs import MESH, MONOLITHIC, FolderTest, attempt, execute
 
 NAMES = tuple(f"--opening={name}={','.join(map(str, at))}" for name, at in carotid.OPENINGS.items())
 CASE = """
+element = "p1"
 [mesh]
 file = "wall.msh"
 [fluid]
