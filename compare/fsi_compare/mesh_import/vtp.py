@@ -13,7 +13,11 @@ import numpy as np
 
 from ..base.errors import InputError
 
-TYPES = {f"{kind}{bits}": f"{letter}{bits // 8}" for kind, letter in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)}
+TYPES = {
+    f"{kind}{bits}": f"{letter}{bits // 8}"
+    for kind, letter in (("Int", "i"), ("UInt", "u"))
+    for bits in (8, 16, 32, 64)
+}
 TYPES |= {"Float32": "f4", "Float64": "f8"}
 
 
@@ -62,7 +66,9 @@ class _File:
         if form == "ascii":
             numbers = np.array((element.text or "").split(), dtype=kind)
         elif form == "binary":
-            numbers = np.frombuffer(self._unpacked(self._coded((element.text or "").strip().encode())), self.order + kind)
+            numbers = np.frombuffer(
+                self._unpacked(self._coded((element.text or "").strip().encode())), self.order + kind
+            )
         else:
             data = self.appended[int(element.get("offset", "0")) :]
             numbers = np.frombuffer(self._unpacked(data if self.raw else self._coded(data)), self.order + kind)

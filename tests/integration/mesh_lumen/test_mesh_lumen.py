@@ -1,16 +1,14 @@
 """fsi-mesh lumen: from a segmented surface to the mesh of a lumen, and on to a run."""
 
-import base64
 import math
 import re
-import struct
 import unittest
-import zlib
 
 import numpy as np
 
 import carotid_surface as carotid
 from programs import MESH, MONOLITHIC, FolderTest, attempt, execute
+from vtp_files import write_vtp
 
 NAMES = tuple(f"--opening={name}={','.join(map(str, at))}" for name, at in carotid.OPENINGS.items())
 CASE = """
@@ -54,45 +52,6 @@ def tube(radius=2.0, length=12.0, around=20, slant=0.0):
             c, d = a + around, b + around
             triangles += [(a, b, d), (a, d, c)] if row % 2 else [(a, b, c), (b, d, c)]
     return np.stack((x, y, z), axis=-1).reshape(-1, 3), np.array(triangles)
-
-
-def vtp_array(kind, values, form):
-    data = np.ascontiguousarray(values, dtype=kind)
-    names = {"f8": "Float64", "i8": "Int64"}
-    head = f'<DataArray type="{names[kind]}" NumberOfComponents="{data.shape[1] if data.ndim > 1 else 1}"'
-    if form == "ascii":
-        text = " ".join(map(repr, data.ravel().tolist()))
-    elif form == "binary":
-        text = base64.b64encode(struct.pack("<I", data.nbytes) + data.tobytes()).decode()
-    else:
-        packed = zlib.compress(data.tobytes())
-        text = base64.b64encode(struct.pack("<4I", 1, data.nbytes, data.nbytes, len(packed))).decode()
-        text += base64.b64encode(packed).decode()
-    return head, form, text
-
-
-def write_vtp(path, nodes, triangles, form, **fields):
-    """form: ascii, binary, zlib, or raw, which is appended."""
-    appended = b""
-
-    def element(name, kind, values):
-        nonlocal appended
-        head, _, text = vtp_array(kind, values, "binary" if form == "raw" else form)
-        if form != "raw":
-            return f'{head} Name="{name}" format="{"ascii" if form == "ascii" else "binary"}">{text}</DataArray>'
-        offset = len(appended)
-        appended += base64.b64decode(text)
-        return f'{head} Name="{name}" format="appended" offset="{offset}"/>'
-
-    body = f'<Piece NumberOfPoints="{len(nodes)}" NumberOfPolys="{len(triangles)}"><PointData>'
-    body += "".join(element(name, "f8", values) for name, values in fields.items())
-    body += f'</PointData><Points>{element("Points", "f8", nodes)}</Points><Polys>'
-    body += element("connectivity", "i8", triangles.ravel())
-    body += element("offsets", "i8", 3 * np.arange(1, len(triangles) + 1)) + "</Polys></Piece>"
-    packing = ' compressor="vtkZLibDataCompressor"' if form == "zlib" else ""
-    text = f'<VTKFile type="PolyData" byte_order="LittleEndian" header_type="UInt32"{packing}><PolyData>{body}</PolyData>'
-    tail = b'<AppendedData encoding="raw">_' + appended + b"</AppendedData>" if form == "raw" else b""
-    path.write_bytes(text.encode() + tail + b"</VTKFile>")
 
 
 class MeshLumen(FolderTest):
@@ -169,7 +128,9 @@ class MeshLumen(FolderTest):
     def test_from_surface_to_run(self):
         self.write(*carotid.carotid(jitter=0.05))
         self.done(self.lumen(*NAMES, "--edges-per-diameter", 4))
-        process = execute(MESH, "thicken", self.base / "lumen.msh", "-o", self.base / "wall.msh", "--layer", "media=0.4")
+        process = execute(
+            MESH, "thicken", self.base / "lumen.msh", "-o", self.base / "wall.msh", "--layer", "media=0.4"
+        )
         self.assertEqual(process.returncode, 0, process.stderr)
         (self.base / "case.toml").write_text(CASE)
         process = attempt(MONOLITHIC, self.base / "case.toml", "-q", folder=self.base / "out")
@@ -204,6 +165,43 @@ class MeshLumen(FolderTest):
         self.assertLess(max(away) / min(away), 1.03)  # of the ellipse 1.25
         self.assertAlmostEqual(max(away), 2 * math.sqrt(0.8), delta=0.06)
 
+    def test_boundary_layers(self):
+        """Layers of 0.1, 0.15 and 0.225 mm in a tube: as thick as asked, in the lumen, and their ends in the openings."""
+        self.write(*tube(around=32))
+        named = ("--opening=inlet=0,0,0", "--opening=outlet=0,0,12", "--smoothing", 0)
+        volume, _ = self.done(self.lumen(*named))
+        area = self.plane("outlet")[2]
+        process = self.lumen(*named, "--layers", 3, "--first-thickness", 0.1, "--growth", 1.5)
+        self.assertAlmostEqual(self.done(process)[0] / volume, 1, delta=1e-9)
+        self.assertIn("3 layers along the wall: 0.1 mm at the wall, 0.475 mm together", process.stdout)
+        centre, normal, with_layers, off = self.plane("outlet")
+        self.assertAlmostEqual(with_layers / area, 1, delta=1e-9)
+        self.assertLess(off, 1e-9)
+        # Along each column of nodes that begins on the rim.
+        points = np.unique(self.surface("outlet").reshape(-1, 3).round(9), axis=0)
+        radius = np.hypot(points[:, 0], points[:, 1])
+        for depth in (0, 0.1, 0.25, 0.475):
+            self.assertGreater((np.abs(radius - 2 + depth) < 0.03).sum(), 20, depth)
+        for depth in (0.05, 0.175, 0.36):
+            self.assertEqual((np.abs(radius - 2 + depth) < 0.02).sum(), 0, depth)
+        # Of the Stokes layer, sqrt(2) 2 / 8 mm.
+        process = self.lumen(*named, "--layers", 3, "--womersley", 8)
+        self.assertRegex(process.stdout, r"3 layers along the wall: .*, 0.35\d? mm together")
+        self.done(process)
+        process = execute(
+            MESH, "thicken", self.base / "lumen.msh", "-o", self.base / "wall.msh", "-q", "--layer", "a=0.3"
+        )
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        for options, words in (
+            (("--layers", 3), ("--layers: has no thickness", "--womersley")),
+            (("--womersley", 3), ("--layers: is not given",)),
+            (
+                ("--layers", 3, "--first-thickness", 0.4),
+                ("--layers: are 1.46 mm thick together", "more than 0.4 of the radius"),
+            ),
+        ):
+            self.expect(self.lumen(*named, *options), *words)
+
     def test_every_format_gives_the_same(self):
         nodes, triangles = tube()
         named = ("--opening=inlet=0,0,0", "--opening=outlet=0,0,12", "--edge-length", 0.9)
@@ -212,7 +210,9 @@ class MeshLumen(FolderTest):
         ply = f"ply\nformat ascii 1.0\nelement vertex {len(nodes)}\nproperty double x\nproperty double y\nproperty double z\n"
         ply += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n{points}\n{faces}\n"
         (self.base / "lumen.ply").write_text(ply)
-        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in nodes.tolist()] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in nodes.tolist()] + [
+            f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles
+        ]
         (self.base / "lumen.obj").write_text("\n".join(lines) + "\n")
         found = {}
         for name in ("lumen.ply", "lumen.obj"):
@@ -277,7 +277,9 @@ class MeshLumen(FolderTest):
         self.expect(self.lumen(*named), "--unit: is not given", "0.00397 mm", "the file may be in m")
         wave = 1.2 * np.sin(1.5 * nodes[:, [1]]) * np.clip((nodes[:, [2]] - 8) / 4, 0, 1)
         self.write(nodes + wave * (0, 0, 1), triangles)
-        self.expect(self.lumen(*named, "--smoothing", 0), "--opening outlet: its rim at", "off a plane", "--cut outlet=")
+        self.expect(
+            self.lumen(*named, "--smoothing", 0), "--opening outlet: its rim at", "off a plane", "--cut outlet="
+        )
         pushed = nodes.copy()
         pushed[np.linalg.norm(nodes - (2, 0, 6), axis=1) < 0.5] -= (4.5, 0, 0)  # through the other side
         self.write(pushed, triangles)
@@ -285,8 +287,8 @@ class MeshLumen(FolderTest):
         edge = np.vstack((nodes, (5, 0, 6)))
         self.write(edge, np.vstack((triangles, (*triangles[200, :2], len(nodes)))))
         self.expect(self.lumen(*named), "lumen.stl: edge at (", "3 triangles meet there")
-        self.write(*tube(around=6))
-        self.expect(self.lumen(*named, "--smoothing", 200), "--smoothing: 200 passes change the volume from")
+        self.write(*tube(around=4))
+        self.expect(self.lumen(*named, "--smoothing", 1000), "--smoothing: 1000 passes change the volume from")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,10 @@ import re
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute
+from vtp_files import write_vtp
 
 GALLERY = Path(__file__).resolve().parents[3] / "gallery"
 TUBE = """
@@ -250,19 +253,26 @@ class MeshThicken(FolderTest):
         # Along the centre line, and at points of the surface: 0.1 mm at one end to 0.3 at the other.
         line = [(0, 0, z / 4, 0.1 + 0.04 * z / 4) for z in range(21)]
         around = [(math.cos(i), math.sin(i), z / 8, 0.1 + 0.04 * z / 8) for z in range(41) for i in range(7)]
-        for rows in (line, around):
-            self.volumes(self.thicken(*layers, *self.table(rows), "--thickness-smoothing", 1, "--format", "2.2"))
+        points = np.array(around)
+        write_vtp(self.base / "wall.vtp", points[:, :3], np.array([[0, 1, 2]]), "zlib", wall=points[:, 3])
+        painted = ("--thickness-from", self.base / "wall.vtp", "--thickness-field", "wall")
+        for given in (self.table(line, "line.csv"), self.table(around), painted):
+            self.volumes(self.thicken(*layers, *given, "--thickness-smoothing", 1, "--format", "2.2"))
             for radius, z in self.outer():
                 self.assertAlmostEqual(radius, 1.1 + 0.04 * z, delta=0.025)
         hole = [row for row in around if not 2 < row[2] < 4.2]
         unknown = [(*row[:3], "nan" if 2 < row[2] < 3 else row[3]) for row in around]
         for options, words in (
             (self.table(hole), ("wall.csv: thickness: has a hole at (", "the nearest point is")),
-            (self.table(line[:10]), ("wall.csv: thickness: has a hole at (", "mm are allowed")),
-            (self.table(unknown), ("has a hole at (", "the value there is nan")),
-            (self.table([(0, 0, 0, "thick"), (0, 0, 1, 1)]), ("wall.csv: line 2, thickness: 'thick' is no number",)),
-            ((*self.table(line), "--thickness-field", "t"), ("wall.csv: column t: is missing",)),
-            ((*self.table(line), "--thickness-ratio", "0.1"), ("--thickness-",)),
+            (self.table(line[:10], "short.csv"), ("short.csv: thickness: has a hole at (", "mm are allowed")),
+            (self.table(unknown, "unknown.csv"), ("has a hole at (", "the value there is nan")),
+            (
+                self.table([(0, 0, 0, "thick"), (0, 0, 1, 1)], "text.csv"),
+                ("text.csv: line 2, thickness: 'thick' is no number",),
+            ),
+            ((*self.table(line, "line.csv"), "--thickness-field", "t"), ("line.csv: column t: is missing",)),
+            ((*painted[:3], "w"), ("wall.vtp: w: is no field of one number at each point; those there are: wall",)),
+            ((*self.table(line, "line.csv"), "--thickness-ratio", "0.1"), ("--thickness-",)),
             ((), ("media=75%:2: '75%' is no thickness in mm",)),
         ):
             with self.subTest(words=words):

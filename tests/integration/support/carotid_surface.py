@@ -126,7 +126,9 @@ def capped(nodes: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.nda
     return nodes, triangles
 
 
-def carotid(edge: float = 0.6, jitter: float = 0.0, closed: bool = False, seed: int = 1) -> Tuple[np.ndarray, np.ndarray]:
+def carotid(
+    edge: float = 0.6, jitter: float = 0.0, closed: bool = False, seed: int = 1
+) -> Tuple[np.ndarray, np.ndarray]:
     """Nodes and triangles. jitter: each node is off by up to this, mm, along each axis."""
     nodes, triangles = surface_nets(edge)
     for (axis, place), side in zip(ENDS.values(), (1, -1)):
