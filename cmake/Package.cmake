@@ -32,7 +32,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME fsi-duo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "cmake, pkg-config, libeigen3-dev, libfmt-dev, libspdlog-dev, libcli11-dev, nlohmann-json3-dev, libtomlplusplus-dev, "
-  "libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev, ")
+  "libsuitesparse-dev, libopenblas-pthread-dev, libgmsh-dev, libcgal-dev, ")
 if(FSI_MPI)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libhdf5-openmpi-dev, libopenmpi-dev, petsc-dev, libptscotch-dev")
 else()

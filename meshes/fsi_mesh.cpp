@@ -15,6 +15,7 @@
 #include "meshes/artery_command.hpp"
 #include "meshes/geo_command.hpp"
 #include "meshes/import_command.hpp"
+#include "meshes/lumen_command.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/refine_command.hpp"
 #include "meshes/thicken_command.hpp"
@@ -36,9 +37,9 @@ int run(int argc, const char* const* argv) {
   CLI::App app("Makes meshes for the FSI programs. Lengths in mm.", fsi::mesh_program);
   app.set_version_flag("--version", fsi::version_text(fsi::mesh_program));
   app.require_subcommand(1);
-  const std::vector<fsi::MeshCommand> commands{fsi::artery_command(app), fsi::geo_command(app),
-                                               fsi::import_command(app), fsi::thicken_command(app),
-                                               fsi::refine_command(app), fsi::adapt_command(app)};
+  const std::vector<fsi::MeshCommand> commands{
+      fsi::artery_command(app),  fsi::geo_command(app),    fsi::import_command(app), fsi::lumen_command(app),
+      fsi::thicken_command(app), fsi::refine_command(app), fsi::adapt_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

@@ -8,7 +8,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/child_program.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/standard_streams.hpp"
@@ -16,6 +15,7 @@
 #include "mesh/gmsh_file.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/temporary_mesh.hpp"
+#include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
 
@@ -32,27 +32,12 @@ struct ImportRequest {
   MeshOutput output;
 };
 
-/// What was said of a file, said of the one that the user knows.
-[[noreturn]] void refuse_mesh(const std::string& file, const std::string& said_of, std::string said) {
-  if (said.rfind(said_of + ": ", 0) == 0) said.erase(0, said_of.size() + 2);
-  throw InputError(file, "", said, "");
-}
-
 /// meshio is Python's, so fsi-compare reads the file. Returns what it printed.
 std::string convert(const ImportRequest& request, const std::vector<std::string>& more) {
-  const auto program = beside_this_program("fsi-compare");
-  if (program.empty())
-    throw InputError("fsi-compare", "", "is not beside fsi-mesh, which needs it to read other formats",
-                     "install both from the same sources");
-  std::vector<std::string> words{program.string(), "convert-mesh", request.file, "--scale",
-                                 fmt::format("{}", request.scale)};
+  std::vector<std::string> words{"convert-mesh", request.file, "--scale", fmt::format("{}", request.scale)};
   for (const auto& group : request.groups) words.insert(words.end(), {"--group", group});
   words.insert(words.end(), more.begin(), more.end());
-  const ChildEnd end = run_child(words);
-  if (end.code == 0) return end.output;
-  std::string said = end.errors.substr(0, end.errors.find('\n'));
-  if (const std::string mark = "fsi-compare: error: "; said.rfind(mark, 0) == 0) said.erase(0, mark.size());
-  refuse_mesh(request.file, request.file, said.empty() ? "fsi-compare ended without a message" : said);
+  return converted(request.file, words);
 }
 
 template <int Dim, int Order>
@@ -73,7 +58,7 @@ AnyMesh read_any(const ImportRequest& request, const std::filesystem::path& file
     if (dimension == 3) return order == 1 ? read_mesh<3, 1>(file, openings) : read_mesh<3, 2>(file, openings);
     return order == 1 ? read_mesh<2, 1>(file, openings) : read_mesh<2, 2>(file, openings);
   } catch (const InputError& error) {
-    refuse_mesh(request.file, file.string(), error.what());
+    refuse_file(request.file, file.string(), error.what());
   }
 }
 

@@ -29,6 +29,11 @@ FlatPart flat_part_of(const std::string& text) {
   return part;
 }
 
+/// NUMBER or X,Y,Z; false when the text says something else.
+bool read_choice(const std::string& text, OpeningChoice& choice) {
+  return read_point(text, choice.at) || (CLI::detail::lexical_cast(text, choice.number) && choice.number > 0);
+}
+
 }  // namespace
 
 std::vector<FlatPart> flat_parts_of(const std::vector<std::string>& options) {
@@ -43,6 +48,41 @@ std::vector<Point> points_of(const std::string& option, const std::vector<std::s
     if (!read_point(text, points.emplace_back()))
       throw InputError(option, text, "is no X,Y,Z", "write, for one, " + option + " 0,0,0, a point on it");
   return points;
+}
+
+OpeningChoice opening_choice_of(const std::string& text) {
+  const auto equals = text.find('=');
+  OpeningChoice choice{text.substr(0, equals)};
+  if (equals == std::string::npos || choice.name.empty() || !read_choice(text.substr(equals + 1), choice))
+    throw InputError("--opening", text, "is no NAME=NUMBER and no NAME=X,Y,Z",
+                     "write, for one, --opening inlet=1; --list-openings shows the numbers");
+  return choice;
+}
+
+OpeningChoice closed_choice_of(const std::string& text) {
+  OpeningChoice choice{""};
+  if (!read_choice(text, choice))
+    throw InputError("--closed", text, "is no NUMBER and no X,Y,Z",
+                     "write, for one, --closed 3; --list-openings shows the numbers");
+  return choice;
+}
+
+std::vector<std::pair<std::string, double>> lengths_of(const std::string& option,
+                                                       const std::vector<std::string>& given) {
+  std::vector<std::pair<std::string, double>> lengths;
+  for (const auto& text : given) {
+    const auto equals = text.find('=');
+    double length = 0;
+    if (equals == std::string::npos || equals == 0 || !CLI::detail::lexical_cast(text.substr(equals + 1), length) ||
+        !(length > 0 && length < 1e6))
+      throw InputError(option, text, "is no NAME=LENGTH with a length above 0",
+                       "write, for one, " + option + " inlet=2");
+    const std::string name = text.substr(0, equals);
+    for (const auto& [known, unused] : lengths)
+      if (known == name) throw InputError(option, text, name + " is given twice", "give it once");
+    lengths.emplace_back(name, length);
+  }
+  return lengths;
 }
 
 std::map<std::string, double> numbers_of(const std::vector<std::string>& settings) {

@@ -16,6 +16,7 @@
 #include "mesh/wall_growth.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
+#include "meshes/thickness_options.hpp"
 
 namespace fsi {
 
@@ -25,20 +26,29 @@ struct ThickenRequest {
   std::string lumen;
   std::vector<std::string> layers, openings, closed;
   WallGrowth growth;
+  ThicknessOptions thickness;
   MeshOutput output;
 };
 
-/// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS
-GrownLayer layer_of(const std::string& text) {
-  constexpr const char* remedy = "write, for one, --layer media=0.26:2, for 0.26 mm of two elements";
+/// NAME=THICKNESS or NAME=THICKNESS:ELEMENTS. \param share  the thickness is one of a wall that varies, SHARE%
+GrownLayer layer_of(const std::string& text, bool share) {
+  const std::string remedy =
+      share ? "the wall's thickness varies: write, for one, --layer media=67%:2, for two thirds of it, of two elements"
+            : "write, for one, --layer media=0.26:2, for 0.26 mm of two elements";
   const auto equals = text.find('=');
   const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
   GrownLayer layer{text.substr(0, equals)};
   if (equals == std::string::npos || layer.name.empty())
     throw InputError("--layer", text, "is no NAME=THICKNESS", remedy);
-  const std::string thickness = text.substr(equals + 1, colon == std::string::npos ? colon : colon - equals - 1);
+  std::string thickness = text.substr(equals + 1, colon == std::string::npos ? colon : colon - equals - 1);
+  if (share) {
+    if (thickness.empty() || thickness.back() != '%')
+      throw InputError("--layer", text, "'" + thickness + "' is no share of the wall", remedy);
+    thickness.pop_back();
+  }
   if (!CLI::detail::lexical_cast(thickness, layer.thickness) || !(layer.thickness > 0 && layer.thickness < 1e6))
     throw InputError("--layer", text, "'" + thickness + "' is no thickness in mm", remedy);
+  if (share) layer.thickness /= 100;
   if (colon != std::string::npos && (!CLI::detail::lexical_cast(text.substr(colon + 1), layer.elements) ||
                                      layer.elements < 1 || layer.elements > 100))
     throw InputError("--layer", text, "'" + text.substr(colon + 1) + "' is no number of elements from 1 to 100",
@@ -62,9 +72,10 @@ void make(ThickenRequest& request) {
   require_known_extension(request.output.file);
   set_threads(request.output.threads);
   regular_output_file(request.output.file);  // before anything is computed
-  for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text));
+  for (const auto& text : request.layers) request.growth.layers.push_back(layer_of(text, request.thickness.varies()));
   const auto lumen = lumen_of(request);
   if (request.growth.on.empty()) require_flat_parts_named(lumen, points_of("--closed", request.closed));
+  request.growth.total = total_thickness(lumen, request.growth, request.thickness);
   write_and_report(request.growth.layers.empty() ? lumen : grow_wall(lumen, request.growth), request.output,
                    TriangleGeometry::plane);
 }
@@ -78,8 +89,11 @@ MeshCommand thicken_command(CLI::App& app) {
       ->add_option("lumen", request->lumen,
                    "Mesh of the lumen (.msh with a volume fluid), or its closed surface (.stl, .msh), which is filled")
       ->required();
-  options->add_option("--layer", request->layers,
-                      "NAME=THICKNESS[:ELEMENTS], from the lumen outwards; none: the lumen alone");
+  options->add_option(
+      "--layer", request->layers,
+      "NAME=THICKNESS[:ELEMENTS], from the lumen outwards; NAME=SHARE%[:ELEMENTS] of a wall that varies; "
+      "none: the lumen alone");
+  add_thickness_options(*options, request->thickness);
   options->add_option("--opening", request->openings,
                       "NAME=X,Y,Z: of a surface without names, the flat part on which this point lies");
   options->add_option("--closed", request->closed, "X,Y,Z: a flat part on which this point lies is wall, no opening");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -88,14 +89,91 @@ void orient(TetrahedralMesh& mesh) {
     for (auto& facet : group.facets) facet = outward.at(facet_key<3>(facet));
 }
 
+/// Fills what the surfaces of gmsh's model enclose. \throws InputError saying it of `file`
+void generate_volume(const std::string& file) {
+  std::string failure;
+  try {
+    gmsh::vectorpair surfaces;
+    gmsh::model::getEntities(surfaces, 2);
+    std::vector<int> tags;
+    for (const auto& [dimension, tag] : surfaces) tags.push_back(tag);
+    gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(tags)});
+    gmsh::model::geo::synchronize();
+    gmsh::model::mesh::generate(3);
+  } catch (...) {
+    failure = GmshSession::last_error();
+  }
+  if (!failure.empty())
+    throw InputError(file, "surface", "cannot be filled: " + failure, "mend it: no triangle may cut another one");
+}
+
+/// The filled model as a mesh, with its physical surfaces. \throws InputError saying of `file` that it has no volume
+TetrahedralMesh take_mesh(const std::string& file) {
+  TetrahedralMesh mesh;
+  const auto number = take_nodes(mesh);
+  mesh.cells = take_elements<4>(tetrahedron_type, -1, number);
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  for (const auto& [dimension, tag] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+    TetrahedralMesh::FacetGroup group{name, {}};
+    for (const int entity : entities) {
+      const auto part = take_elements<3>(triangle_type, entity, number);
+      group.facets.insert(group.facets.end(), part.begin(), part.end());
+    }
+    if (!name.empty()) mesh.facet_groups.push_back(std::move(group));
+  }
+  if (mesh.cells.empty())
+    throw InputError(file, "surface", "encloses no volume", "mend it: its triangles must bound one lumen");
+  mesh.regions = {group::fluid};
+  mesh.cell_region.assign(mesh.cells.size(), 0);
+  for (auto& cell : mesh.cells)
+    if (tetrahedron_volume(mesh.nodes[cell[0]], mesh.nodes[cell[1]], mesh.nodes[cell[2]], mesh.nodes[cell[3]]) < 0)
+      std::swap(cell[2], cell[3]);
+  orient(mesh);
+  return mesh;
+}
+
+/// One of the model's surfaces, of triangles that are there. \param name  of its physical group; none when empty
+void add_surface(const std::string& name, const std::vector<Facet>& triangles, const std::vector<double>& coordinates) {
+  const int tag = gmsh::model::addDiscreteEntity(2);
+  if (!coordinates.empty()) {
+    std::vector<std::size_t> nodes(coordinates.size() / 3);
+    std::iota(nodes.begin(), nodes.end(), std::size_t{1});
+    gmsh::model::mesh::addNodes(2, tag, nodes, coordinates);
+  }
+  std::vector<std::size_t> corners;
+  for (const auto& t : triangles)
+    for (const int node : t) corners.push_back(static_cast<std::size_t>(node) + 1);
+  gmsh::model::mesh::addElementsByType(tag, triangle_type, {}, corners);
+  if (!name.empty()) gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {tag}), name);
+}
+
 }  // namespace
+
+TetrahedralMesh fill_surface(const std::vector<Point>& nodes, const std::vector<TetrahedralMesh::FacetGroup>& surfaces,
+                             const std::string& file) {
+  const GmshSession session;
+  gmsh::option::setNumber("General.NumThreads", 1);
+  gmsh::model::add("lumen");
+  std::vector<double> coordinates;
+  for (const Point& x : nodes) coordinates.insert(coordinates.end(), x.begin(), x.end());
+  for (const auto& [name, triangles] : surfaces) {
+    add_surface(name, triangles, coordinates);
+    coordinates.clear();
+  }
+  generate_volume(file);
+  return take_mesh(file);
+}
 
 TetrahedralMesh fill_lumen(const std::filesystem::path& surface, const std::vector<FlatPart>& openings) {
   const std::string file = surface.string();
   if (std::error_code error; !std::filesystem::is_regular_file(surface, error))
     throw InputError(file, "", "no such file", "give a surface of triangles, .stl or .msh");
   TetrahedralMesh mesh;
-  std::vector<Facet> triangles;
   std::string failure;
   {
     const GmshSession session;
@@ -109,50 +187,14 @@ TetrahedralMesh fill_lumen(const std::filesystem::path& surface, const std::vect
     {
       TetrahedralMesh points;
       const auto number = take_nodes(points);
-      triangles = take_elements<3>(triangle_type, -1, number);
+      const auto triangles = take_elements<3>(triangle_type, -1, number);
       if (triangles.empty())
         throw InputError(file, "", "holds no triangles", "give a surface of triangles, .stl or .msh");
       require_closed(file, points, triangles);
     }
-    try {
-      gmsh::vectorpair surfaces;
-      gmsh::model::getEntities(surfaces, 2);
-      std::vector<int> tags;
-      for (const auto& [dimension, tag] : surfaces) tags.push_back(tag);
-      gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(tags)});
-      gmsh::model::geo::synchronize();
-      gmsh::model::mesh::generate(3);
-    } catch (...) {
-      failure = GmshSession::last_error();
-    }
-    if (!failure.empty())
-      throw InputError(file, "surface", "cannot be filled: " + failure, "mend it: no triangle may cut another one");
-    const auto number = take_nodes(mesh);
-    triangles = take_elements<3>(triangle_type, -1, number);
-    mesh.cells = take_elements<4>(tetrahedron_type, -1, number);
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups, 2);
-    for (const auto& [dimension, tag] : groups) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, tag, name);
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-      TetrahedralMesh::FacetGroup group{name, {}};
-      for (const int entity : entities) {
-        const auto part = take_elements<3>(triangle_type, entity, number);
-        group.facets.insert(group.facets.end(), part.begin(), part.end());
-      }
-      if (!name.empty()) mesh.facet_groups.push_back(std::move(group));
-    }
+    generate_volume(file);
+    mesh = take_mesh(file);
   }
-  if (mesh.cells.empty())
-    throw InputError(file, "surface", "encloses no volume", "mend it: its triangles must bound one lumen");
-  mesh.regions = {group::fluid};
-  mesh.cell_region.assign(mesh.cells.size(), 0);
-  for (auto& cell : mesh.cells)
-    if (tetrahedron_volume(mesh.nodes[cell[0]], mesh.nodes[cell[1]], mesh.nodes[cell[2]], mesh.nodes[cell[3]]) < 0)
-      std::swap(cell[2], cell[3]);
-  orient(mesh);
   name_flat_parts(mesh, openings);
   if (mesh.facet_groups.empty())
     throw InputError("fsi-mesh", "--opening", "is not given, and the surface has no names",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace fsi {
 /// A layer that a wall is to get.
 struct GrownLayer {
   std::string name;      ///< of its volume group
-  double thickness = 0;  ///< mm
+  double thickness = 0;  ///< mm; with WallGrowth::total its share of that
   int elements = 1;      ///< through it
 };
 
@@ -18,8 +19,14 @@ struct WallGrowth {
   std::vector<GrownLayer> layers;  ///< from the lumen outwards
   /// The fluid's surface that the wall grows on; empty: what no named surface but `inner` holds.
   std::string on;
+  /// Thickness of the whole wall at each node that it grows on, mm; empty: the layers have their own everywhere.
+  std::map<int, double> total;
   int smoothing = 2;  ///< times that the normals are averaged with their neighbours'
 };
+
+/// The facets that a wall grows on, seen from outside the lumen counter-clockwise: those of WallGrowth::on.
+/// \throws InputError where there are none
+std::vector<TetrahedralMesh::Facet> facets_to_grow_on(const TetrahedralMesh& lumen, const std::string& on);
 
 /// Grows a wall on the lumen's surface. Each layer follows the surface at its distance along smoothed vertex normals,
 /// [Max1999]'s, which are those of a sphere or a cylinder up to rounding; on the rims they lie in the plane of the

@@ -5,6 +5,7 @@ from typing import NoReturn, Sequence
 
 from .base.errors import InputError
 from .mesh_import import command as mesh_import
+from .mesh_import import surface_command
 from .reporting import accuracy, cost, export, picture_command, pressure, run_report, watch
 from .studies import command as study
 from .studies.gallery import command as gallery
@@ -24,6 +25,7 @@ COMMANDS = (
     gallery,
     verify,
     mesh_import,
+    surface_command,
 )
 
 

@@ -6,7 +6,10 @@ import re
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 from programs import MESH, MONOLITHIC, PARTITIONED, FolderTest, attempt, execute
+from vtp_files import write_vtp
 
 GALLERY = Path(__file__).resolve().parents[3] / "gallery"
 TUBE = """
@@ -225,6 +228,57 @@ class MeshThicken(FolderTest):
                 else:
                     once[key] = face
         return [face for face in once.values() if face]
+
+    def outer(self):
+        """Distance from the z axis and height of each node of the surface `outer` of wall.msh."""
+        text = (self.base / "wall.msh").read_text()
+        number = re.search(r'^2 (\d+) "outer"', text, re.MULTILINE).group(1)
+        nodes, elements = surface_of(text.splitlines())
+        on = {node for e in elements if e[1] == "2" and e[3] == number for node in e[-3:]}
+        return [(math.hypot(*nodes[node][:2]), nodes[node][2]) for node in on]
+
+    def table(self, rows, name="wall.csv"):
+        lines = ["x,y,z,thickness", *(",".join(map(str, row)) for row in rows)]
+        (self.base / name).write_text("\n".join(lines) + "\n")
+        return ("--thickness-from", self.base / name)
+
+    def test_thickness_that_varies(self):
+        layers = ("--layer", "media=75%:2", "--layer", "adventitia=25%")
+        self.geo(TUBE)
+        found = self.volumes(self.thicken(*layers, "--thickness-ratio", 0.2, "--format", "2.2"))
+        for radius, _ in self.outer():
+            self.assertAlmostEqual(radius, 1.2, delta=0.01)
+        share = found["fluid"][0] / (5 * math.pi)
+        self.assertAlmostEqual(found["media"][0] / (5 * math.pi * (1.15**2 - 1)) / share, 1, delta=0.03)
+        # Along the centre line, and at points of the surface: 0.1 mm at one end to 0.3 at the other.
+        line = [(0, 0, z / 4, 0.1 + 0.04 * z / 4) for z in range(21)]
+        around = [(math.cos(i), math.sin(i), z / 8, 0.1 + 0.04 * z / 8) for z in range(41) for i in range(7)]
+        points = np.array(around)
+        write_vtp(self.base / "wall.vtp", points[:, :3], np.array([[0, 1, 2]]), "zlib", wall=points[:, 3])
+        painted = ("--thickness-from", self.base / "wall.vtp", "--thickness-field", "wall")
+        for given in (self.table(line, "line.csv"), self.table(around), painted):
+            self.volumes(self.thicken(*layers, *given, "--thickness-smoothing", 1, "--format", "2.2"))
+            for radius, z in self.outer():
+                self.assertAlmostEqual(radius, 1.1 + 0.04 * z, delta=0.025)
+        hole = [row for row in around if not 2 < row[2] < 4.2]
+        unknown = [(*row[:3], "nan" if 2 < row[2] < 3 else row[3]) for row in around]
+        for options, words in (
+            (self.table(hole), ("wall.csv: thickness: has a hole at (", "the nearest point is")),
+            (self.table(line[:10], "short.csv"), ("short.csv: thickness: has a hole at (", "mm are allowed")),
+            (self.table(unknown, "unknown.csv"), ("has a hole at (", "the value there is nan")),
+            (
+                self.table([(0, 0, 0, "thick"), (0, 0, 1, 1)], "text.csv"),
+                ("text.csv: line 2, thickness: 'thick' is no number",),
+            ),
+            ((*self.table(line, "line.csv"), "--thickness-field", "t"), ("line.csv: column t: is missing",)),
+            ((*painted[:3], "w"), ("wall.vtp: w: is no field of one number at each point; those there are: wall",)),
+            ((*self.table(line, "line.csv"), "--thickness-ratio", "0.1"), ("--thickness-",)),
+            ((), ("media=75%:2: '75%' is no thickness in mm",)),
+        ):
+            with self.subTest(words=words):
+                self.expect(self.thicken(*layers, *options), *words)
+        for text, words in (("media=0.2", "is no share of the wall"), ("media=50%", "are 50 % of the wall together")):
+            self.expect(self.thicken("--layer", text, "--thickness-ratio", 0.1), words)
 
     def expect(self, process, *words):
         self.assertEqual(process.returncode, 1, process.stdout)

@@ -1,0 +1,159 @@
+#include "meshes/lumen_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/printable.hpp"
+#include "base/standard_streams.hpp"
+#include "base/threads.hpp"
+#include "mesh/point_math.hpp"
+#include "mesh/surface/lumen_mesh.hpp"
+#include "mesh/surface/sound_surface.hpp"
+#include "mesh/surface/surface_file.hpp"
+#include "meshes/converted.hpp"
+#include "meshes/mesh_report.hpp"
+#include "meshes/options.hpp"
+
+namespace fsi {
+
+namespace {
+
+struct LumenOptions {
+  std::string surface, unit;
+  std::vector<std::string> openings, closed, cuts, extensions;
+  bool list = false, largest_shell = false;
+  LumenRequest request;
+  MeshOutput output;
+};
+
+const std::map<std::string, double> units{{"mm", 1}, {"cm", 10}, {"m", 1000}};  // in mm
+
+/// Openings no vessel has in mm: a file in another unit, unless the unit is given.
+void require_plausible(const LumenOptions& options, const std::vector<LumenOpening>& openings) {
+  constexpr double narrowest = 0.1, widest = 100;  // mm: arterioles, twice an aneurysm of the aorta
+  if (!options.unit.empty() || openings.empty()) return;
+  const double width = openings.front().diameter();
+  if (width >= narrowest && width <= widest) return;
+  std::string fitting;
+  for (const auto& [unit, length] : units)
+    if (width * length >= 1 && width * length <= widest) fitting += (fitting.empty() ? "" : " or ") + unit;
+  throw InputError(
+      options.surface, "--unit",
+      fmt::format("is not given, and in mm the widest opening would measure {:.3g} mm, as no vessel's does", width),
+      fitting.empty() ? "give --unit m, cm or mm: that of the file"
+                      : "the file may be in " + fitting + ": give --unit, mm if it is so");
+}
+
+OpenedLumen read(const LumenOptions& options, std::vector<std::string>& done) {
+  const std::filesystem::path file = options.surface;
+  auto surface =
+      file.extension() == ".vtp"
+          ? triangles_of_obj(converted(options.surface, {"convert-surface", options.surface}), options.surface)
+          : read_triangles(file);
+  if (!options.unit.empty())
+    for (auto& node : surface.nodes) node = units.at(options.unit) * node;
+  auto sound = sound_surface(std::move(surface), options.largest_shell, options.surface);
+  done = std::move(sound.done);
+  auto lumen = opened(sound.surface);
+  require_plausible(options, lumen.openings);
+  return lumen;
+}
+
+/// Layers are given by their first thickness, or by the Womersley number.
+void require_layers(const LumenRequest& request) {
+  const bool sized = request.layers.first > 0 || request.womersley > 0;
+  if (request.layers.count > 0 && !sized)
+    throw InputError(mesh_program, "--layers", "has no thickness", "give --first-thickness MM or --womersley NUMBER");
+  if (request.layers.count == 0 && sized)
+    throw InputError(mesh_program, "--layers", "is not given", "say how many: --layers 4, for one");
+}
+
+void make(LumenOptions& options) {
+  std::vector<std::string> done;
+  auto& request = options.request;
+  if (options.list) {
+    const auto lumen = read(options, done);
+    std::string text;
+    for (const auto& sentence : done) text += sentence + "\n";
+    print(text + to_text(lumen.openings));
+    return;
+  }
+  if (options.output.file.empty())
+    throw InputError(mesh_program, "--output", "is not given", "give -o FILE.msh, or --list-openings");
+  require_known_extension(options.output.file);
+  set_threads(options.output.threads);
+  regular_output_file(options.output.file);  // before anything is computed
+  for (const auto& text : options.openings) request.openings.push_back(opening_choice_of(text));
+  for (const auto& text : options.closed) request.closed.push_back(closed_choice_of(text));
+  request.cuts = lengths_of("--cut", options.cuts);
+  request.extensions = lengths_of("--extension", options.extensions);
+  request.file = options.surface;
+  require_layers(request);
+  auto lumen = read(options, done);
+  const auto made = mesh_lumen(std::move(lumen), request);
+  done.insert(done.end(), made.done.begin(), made.done.end());
+  std::string foreword;
+  for (const auto& sentence : done) foreword += sentence + "\n";
+  write_and_report(made.mesh, options.output, TriangleGeometry::plane, foreword, request.layers.count == 0);
+}
+
+void add_layer_options(CLI::App& command, LumenRequest& request) {
+  command.add_option("--layers", request.layers.count, "Layers of thin cells along the wall")->check(CLI::Range(1, 50));
+  auto* first = command.add_option("--first-thickness", request.layers.first, "Of the cells at the wall, mm")
+                    ->check(CLI::PositiveNumber);
+  command.add_option("--growth", request.layers.growth, "Thickness of a layer over that of the one before")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3.0));
+  command
+      .add_option("--womersley", request.womersley,
+                  "In place of a thickness: R sqrt(omega / nu) of the widest opening; the layers are as thick as the "
+                  "Stokes layer")
+      ->excludes(first)
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+
+MeshCommand lumen_command(CLI::App& app) {
+  auto* command = app.add_subcommand("lumen", "The mesh of a lumen, from a segmented surface as it comes");
+  const auto options = std::make_shared<LumenOptions>();
+  command->add_option("surface", options->surface, "Surface of the lumen, open or closed: .stl, .ply, .obj or .vtp")
+      ->required();
+  command->add_flag("--list-openings", options->list,
+                    "Print number, area, place and normal of each opening, and write nothing");
+  command->add_option("--opening", options->openings,
+                      "NAME=NUMBER or NAME=X,Y,Z: names an opening, by its number in the list or by a point near it");
+  command->add_option("--closed", options->closed,
+                      "NUMBER or X,Y,Z: a hole or flat part that is no opening; it is closed");
+  command->add_option("--unit", options->unit, "Unit of length of the surface's file; mm unless given")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command->add_flag("--largest-shell", options->largest_shell, "Leave out all parts of the surface but the largest");
+  command->add_option("--smoothing", options->request.smoothing, "Passes of smoothing that keeps the volume (Taubin's)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--edge-length", options->request.edge, "Length of the surface's edges, mm; their mean unless given")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--edges-per-diameter", options->request.edges_per_diameter,
+                   "In place of a length: edges along the local diameter, for surfaces that widen and narrow")
+      ->excludes("--edge-length")
+      ->check(CLI::Range(1.0, 100.0));
+  command->add_option("--cut", options->cuts,
+                      "NAME=LENGTH: cut this opening square to the centre line, mm behind its centre");
+  command->add_option("--extension", options->extensions,
+                      "NAME=DIAMETERS: draw this opening out by so many of its diameters, to a circle");
+  add_layer_options(*command, options->request);
+  add_output_options(*command, options->output, false);
+  options->output.advise = true;
+  return {command, [options] { make(*options); }};
+}
+
+}  // namespace fsi

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/wall_growth.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace fsi {
+
+/// A wall whose thickness varies.
+struct ThicknessOptions {
+  double ratio = 0;  ///< thickness over local radius
+  std::string file;  ///< .csv or .vtp
+  std::string field = "thickness";
+  int smoothing = 5;
+  bool varies() const { return ratio > 0 || !file.empty(); }
+};
+
+/// --thickness-ratio, --thickness-from, --thickness-field and --thickness-smoothing.
+void add_thickness_options(CLI::App& command, ThicknessOptions& options);
+
+/// The whole wall's thickness at each node that it grows on, mm; empty where it does not vary.
+/// \throws InputError for layers that are no shares of it, and what the file lacks
+std::map<int, double> total_thickness(const TetrahedralMesh& lumen, const WallGrowth& growth,
+                                      const ThicknessOptions& options);
+
+}  // namespace fsi
