@@ -16,6 +16,7 @@ from ..starting.progress import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .adapting import adapted
 from .family import CaseFacts, Member, Requests, read_case
+from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
 from .preparing import SHAPE, plan, sample, tell_mesh, within_budget
@@ -157,9 +158,9 @@ def make(
     facts = requests.facts
     maker = Maker(runner, requests, dimension_of(facts), options.quiet)
     tell_mesh(maker, requests.recipe)
-    sample(maker)
     if options.error is not None:
         return seek(options, maker, times, programs)
+    sample(maker)
     if options.budget is not None:
         family = within_budget(options, maker, family)
     maker.run(family)
@@ -171,9 +172,10 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     """--error: on to settings that reach it."""
     requests = maker.requests
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
-    levels = list(range(-1, options.levels))
+    levels = list(range(-1, options.levels + 1))
     ratio = requests.recipe.ratio(levels)
-    search = Search(maker, demand, ratio, options.levels)
+    start = sample(maker, starting_member(requests.recipe, requests.facts.static, ratio, options.levels))
+    search = Search(maker, demand, ratio, options.levels, start)
     outcome = search.go()
     others = [name.removeprefix("fsi-") for name in programs]
     seconds = by_each_driver(maker, outcome, others)

@@ -31,14 +31,20 @@ def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[
     return members(recipe, facts, ratio, levels, not options.coarser)
 
 
-def sample(maker: Maker) -> None:
-    """Where the case asks for no samples and has none by itself, standard ones, and says which. Raises InputError where the
-    user's own run fails or has no fields to choose by."""
-    own = Member(1.0, 1.0)
-    maker.run([own])
-    run = next(iter(maker.families.values())).runs[own]
+OWN = Member(1.0, 1.0)
+
+
+def sample(maker: Maker, start: Member = OWN) -> Member:
+    """Where the case asks for no samples and has none by itself, standard ones, and says which. `start`: the member to run first;
+    gives it back, or the user's own where it fails. Raises InputError where that fails, too, or has no fields to choose by.
+    """
+    maker.run([start])
+    run = next(iter(maker.families.values())).runs[start]
+    if not run.done and start != OWN:
+        maker.note(f"begins with the case's own settings, for the coarser run is missing: {run.message or run.status}")
+        return sample(maker)
     if curves_of(run.folder):
-        return
+        return start
     points = standard_points(run.folder)
     if not points:
         facts = maker.requests.facts
@@ -48,6 +54,7 @@ def sample(maker: Maker) -> None:
     maker.begin_again(points)
     places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
     maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
+    return start
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:

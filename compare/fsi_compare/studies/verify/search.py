@@ -9,17 +9,19 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence
 from ...base.errors import InputError, printable
 from ..running.study_run import StudyRun
 from ..starting.progress import duration
+from .adapting import Adapted
 from .cost import learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
 from .family import Member, members, with_settings
 from .found_case import write_case
+from .lean import lean
 from .making import Maker
 from .quantities import curves_of
 from .results import BarsOfRun, Judged, about, judge
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
-MOVES_FOR_BARS = 2  # of them for quantities that have no bar; then the others decide
+MOVES_FOR_BARS = 3  # of them for quantities that have no bar; then the others decide
 FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
 
 
@@ -43,10 +45,10 @@ class Demand:
 class Search:
     """One driver's: what it finds holds for the other, which solves the same equations."""
 
-    def __init__(self, maker: Maker, demand: Demand, ratio: float, levels: int) -> None:
+    def __init__(self, maker: Maker, demand: Demand, ratio: float, levels: int, start: Member) -> None:
         self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
         self.driver = next(iter(maker.families))
-        self.centre = Member(1.0, 1.0)
+        self.centre = start
         self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
@@ -75,12 +77,16 @@ class Search:
         found = self._finish(asked)
         return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
-    def _members(self, finer: bool = False) -> List[Member]:
-        requests = self.maker.requests
-        relative = members(
-            requests.recipe, requests.facts, self.ratio, self.levels, finer or not requests.recipe.coarsens
-        )
-        centre = self.centre
+    def _members(self) -> List[Member]:
+        recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
+        coarser = self.levels - 1 if recipe.coarsens else 0
+        if isinstance(recipe, Adapted):
+            coarser = min(self.levels - 1, recipe.level(centre.mesh))
+        if coarser:
+            meshes = [self.ratio ** (coarser - k) for k in range(self.levels)]
+            relative = lean(meshes, facts.static)
+        else:
+            relative = members(recipe, facts, self.ratio, self.levels, True)
         return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser, m.other) for m in relative]
 
     def _family(self) -> List[Judged]:
