@@ -12,7 +12,7 @@ from ..starting.progress import duration
 from .adapting import Adapted
 from .cost import learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
-from .family import Member, members, with_settings
+from .family import INDICATOR, Member, members, with_settings
 from .found_case import write_case
 from .lean import lean
 from .making import Maker
@@ -197,6 +197,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     requests = maker.requests
     facts = requests.facts
     settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
+    settings.pop(INDICATOR, None)  # of a family of adapted meshes; the case's own entry stays
     settings.update(outcome.settings)
     made = requests.mesh(outcome.final)
     mesh = maker.runner.mesh_file(made)

@@ -84,6 +84,8 @@ def bar_of(
     if others and (mesh is NOTHING or mesh.lacking):
         finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
         mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
+    elif mesh is NOTHING:  # all other meshes are missing
+        mesh = Part(OUTSIDE, scale, lacking=True)
     row = _mesh_of_steps(table)
     step = _along([(s, y) for (m, s), y in table.items() if m == row], time_order, noise)
     together = _together(table, row, mesh, step, noise)
