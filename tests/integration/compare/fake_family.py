@@ -1,7 +1,7 @@
 """Stand in for fsi-mesh and both drivers in tests of `fsi-compare verify`: answer at once, with errors that are known.
 
-A mesh is a file with the size of its elements, from `--set size=` or `--set cells=` of a script, or half of that of the file
-that `refine` is given. A run has one point, whose values are
+A mesh is a file with the size of its elements, from `--set size=` or `--set cells=` of a script, half of that of the file
+that `refine` is given, or that of as many nodes as `adapt` is asked for; behind it stand the nodes as gmsh has them. A run has one point, whose values are
 
     displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
 
@@ -66,15 +66,32 @@ def main(words):
             return code
     place = Path(words[words.index("-o") + 1])
     if program.name == "fsi-mesh":
-        place.write_text(repr(mesh_size(words)))
+        write_mesh(place, mesh_size(words))
     else:
         run(words, place, program.name, behaviour)
     return 0
 
 
+def nodes(size):
+    return round(5e3 / size**2)
+
+
+def write_mesh(path, size):
+    path.write_text(
+        f"{size!r}\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {nodes(size)} 1 {nodes(size)}\n$EndNodes\n"
+    )
+
+
+def size_of(path):
+    return float(Path(path).read_text().split()[0])
+
+
 def mesh_size(words):
     if words[1] == "refine":
-        return float(Path(words[2]).read_text()) / 2 ** int(words[words.index("--times") + 1])
+        return size_of(words[2]) / 2 ** int(words[words.index("--times") + 1])
+    if words[1] == "adapt":
+        assert json.loads((Path(words[3]) / "summary.json").read_text())["indicator"], "a run without error_indicator"
+        return math.sqrt(5e3 / float(words[words.index("--nodes") + 1]))
     given = settings(words)
     if "size" in given:
         return float(given["size"])
@@ -96,7 +113,7 @@ def run(words, place, name, behaviour):
     case = Path(words[1])
     entries = tomllib.loads(case.read_text())
     given = settings(words)
-    h = float((case.parent / given.get("mesh.file", entries["mesh"]["file"])).read_text()) / SIZE
+    h = size_of(case.parent / given.get("mesh.file", entries["mesh"]["file"])) / SIZE
     step = float(given.get("time.step", entries["time"]["step"]))
     end = float(given.get("time.end", entries["time"]["end"]))
     tolerance = tolerance_of(name, entries, given)
@@ -121,6 +138,7 @@ def run(words, place, name, behaviour):
         "status": "done",
         "case": str(case),
         "case_hash": "0123",
+        "indicator": given.get("output.error_indicator") == "true",
         "peak_memory_MiB": 50 + 10 / h**2,
         "mesh": {"name": "mesh", "nodes": cells // 2, "triangles": cells, "hash": f"{h:.6g}"},
         "totals": {"steps": steps, "wall_s": 0.01 * steps},

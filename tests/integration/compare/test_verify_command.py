@@ -56,7 +56,7 @@ class VerifyCase(FolderCase):
 
     def mesh_of_size(self, size):
         path = self.base / "mine.msh"
-        path.write_text(repr(size))
+        fake_family.write_mesh(path, size)
         return path
 
     def rows(self, path):
@@ -168,7 +168,7 @@ class OtherFamilies(VerifyCase):
         self.assertEqual(read_sizes(self.geo).settings(2.0, {}), {"cells": 16})
 
     def test_mesh_file_is_refined(self):
-        (self.base / "tube.msh").write_text("1.0")
+        fake_family.write_mesh(self.base / "tube.msh", 1.0)
         code, _, err = self.verify("--coarser", mesh=False)
         self.assertEqual(code, 1)
         code, _, err = self.verify(mesh=False)
@@ -179,7 +179,7 @@ class OtherFamilies(VerifyCase):
         self.assertEqual({line.split("--times ")[1].split()[0] for line in refined}, {"1", "2"})
 
     def test_says_that_the_shape_is_in_no_bar_of_a_mesh_file(self):
-        (self.base / "tube.msh").write_text("1.0")
+        fake_family.write_mesh(self.base / "tube.msh", 1.0)
         said = "is in no bar"
         _, out, _ = self.verify("--of", "pressure", mesh=False)
         self.assertIn(said, out)
@@ -197,6 +197,73 @@ class OtherFamilies(VerifyCase):
         self.assertEqual(calls(self.programs), [])
 
 
+class AdaptedMeshes(VerifyCase):
+    """--adapt: meshes made from the runs before."""
+
+    def adaptations(self):
+        return [line.split(" adapt ")[1].split() for line in calls(self.programs) if " adapt " in line]
+
+    def test_each_is_made_from_the_run_on_the_one_before(self):
+        code, out, err = self.verify("--adapt", "--of", "displacement")
+        self.assertEqual(code, 0, err)
+        sizes = sorted({round(float(row["mesh"]), 3) for row in self.csv("members.csv")})
+        self.assertEqual(sizes, [0.444, 0.667, 1])
+        runs = {row["member"]: self.out / "runs" / row["folder"] for row in self.csv("members.csv")}
+        first, second = self.adaptations()
+        self.assertEqual(
+            [Path(words[1]).name for words in (first, second)], [runs["own"].name, runs["mesh 0.667"].name]
+        )
+        self.assertEqual(Path(second[0]).name, "tube-a1.msh")
+        self.assertEqual([words[words.index("--nodes") + 1] for words in (first, second)], ["11250", "25312"])
+        self.assertIn(str(self.geo.resolve()), first)
+        row = self.bars()["tip: displacement x, at the end"]
+        self.assertEqual(row["verdict"], "converges as its elements do")
+        self.assertIn("from the error indicator of the run on the one before", (self.out / "report.md").read_text())
+        before = len(calls(self.programs))
+        self.verify("--adapt", "--of", "displacement")  # all of it is found again
+        self.assertFalse([line for line in calls(self.programs)[before:] if "-o" in line])
+
+    def test_bare_mesh_and_counts_of_cells_are_halved(self):
+        fake_family.write_mesh(self.base / "tube.msh", 1.0)
+        code, _, err = self.verify("--adapt", "--of", "displacement", mesh=False)
+        self.assertEqual(code, 0, err)
+        self.assertNotIn("--geo", self.adaptations()[0])
+        self.assertEqual(self.adaptations()[0][0], str((self.base / "tube.msh").resolve()))
+        self.assertIn("cells are halved", (self.out / "report.md").read_text())
+        self.assertIn("is in no bar", (self.out / "report.md").read_text())
+
+    def test_demand_is_met_by_adapted_meshes(self):
+        code, _, err = self.verify("--adapt", "--error", "0.5%", "--of", "displacement")
+        self.assertEqual(code, 0, err)
+        text = (self.out / "found.toml").read_text()
+        self.assertIn("found.msh: fsi-mesh adapt ", text)
+        self.assertNotIn("error_indicator", text)  # the case has not asked for it
+        found = tomllib.loads(text)
+        step, size = found["time"]["step"], fake_family.size_of(found["mesh"]["file"])
+        self.assertLess(A * size**3 + B * (step / STEP) ** 2, 0.005)
+
+    def test_mesh_that_cannot_be_adapted_leaves_what_is_there(self):
+        behave(self.programs, end={" adapt ": [1, "the mesh has no room"]})
+        code, _, err = self.verify("--adapt", "--of", "displacement")
+        self.assertEqual(code, 2)
+        self.assertIn("the mesh of size 0.667 cannot be made", err)
+        self.assertIn("the run on the mesh before it is missing", err)
+        self.assertIn("a third mesh is missing", self.bars()["tip: displacement x, at the end"]["advice"])
+
+    def test_wrong_words(self):
+        code, _, err = self.verify("--adapt", "--coarser")
+        self.assertEqual(code, 1)
+        self.assertEqual(len([line for line in err.splitlines() if "error:" in line]), 1, err)
+        self.assertIn("--adapt", err)
+        fake_family.install(self.base / "bin")
+        (self.base / "tube.msh").write_text("no mesh")
+        from fsi_compare.base.errors import InputError
+        from fsi_compare.studies.verify.adapting import nodes_of
+
+        with self.assertRaisesRegex(InputError, "cannot be read"):
+            nodes_of(self.base / "tube.msh")
+
+
 class DemandedError(VerifyCase):
     def test_reaches_it_and_leaves_a_case_that_runs(self):
         code, out, err = self.verify("--error", "2%", "--of", "displacement", "--drivers", "monolithic,partitioned")
@@ -204,7 +271,7 @@ class DemandedError(VerifyCase):
         self.assertTrue(all(float(row["error_percent"]) <= 2 for row in self.csv("bars.csv")))
         self.assertIn("fsi-partitioned with these settings", out)
         found = tomllib.loads((self.out / "found.toml").read_text())
-        step, size = found["time"]["step"], float(Path(found["mesh"]["file"]).read_text())
+        step, size = found["time"]["step"], fake_family.size_of(found["mesh"]["file"])
         self.assertLess(A * size**3 + B * (step / STEP) ** 2, 0.02)
         self.assertTrue(step < STEP or size < SIZE)
         family = [line for line in calls(self.programs) if "fsi-partitioned" in line]
@@ -220,19 +287,20 @@ class DemandedError(VerifyCase):
         self.assertIn("fsi-partitioned stops by partitioned.tolerance, as in the case", out)
 
     def test_each_run_has_its_own_bars(self):
-        """The case's own beside the case's own run, those of the settings found beside a run of these."""
+        """Those of the family's first centre beside a run of its settings, those of the settings found beside a run of these."""
         self.verify("--error", "1%", "--of", "displacement")
         found = self.csv("bars.csv")
-        runs = {name: self.base / name for name in ("as_it_was", "as_found")}
-        self.run_case(self.case, runs["as_it_was"], f"mesh.file={self.mesh_of_size(SIZE)}")
+        runs = {name: self.base / name for name in ("as_it_began", "as_found")}
+        begin = f"mesh.file={self.mesh_of_size(1.5 * SIZE)}", f"time.step={2 * STEP}"
+        self.run_case(self.case, runs["as_it_began"], *begin)
         self.run_case(self.out / "found.toml", runs["as_found"])
-        own, best = (bars_beside(self, run) for run in runs.values())
+        first, best = (bars_beside(self, run) for run in runs.values())
         self.assertEqual({row["quantity"]: row["error"] for row in found}, {n: row["error"] for n, row in best.items()})
         name = "tip: displacement x, at the end"
-        for bars, run in ((own, "as_it_was"), (best, "as_found")):
+        for bars, run in ((first, "as_it_began"), (best, "as_found")):
             last = self.rows(runs[run] / "points.csv")[-1]
             self.assertAlmostEqual(float(bars[name]["value"]), float(last["displacement_x_mm"]), places=12)
-        self.assertLess(float(best[name]["error"]), 0.7 * float(own[name]["error"]))
+        self.assertLess(float(best[name]["error"]), 0.7 * float(first[name]["error"]))
 
     def test_out_of_reach_of_the_budget(self):
         code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.05")
@@ -278,7 +346,7 @@ class Trouble(VerifyCase):
         self.assertFalse(self.out.exists())
 
     def test_mesh_that_cannot_be_refined(self):
-        (self.base / "tube.msh").write_text("1.0")
+        fake_family.write_mesh(self.base / "tube.msh", 1.0)
         behave(self.programs, end={"refine": [1, "a cell would fold"]})
         code, _, err = self.verify(mesh=False)
         self.assertEqual(code, 2)

@@ -14,9 +14,11 @@ from ..running.runner import Runner, sweep_study
 from ..starting.folder_lock import locked
 from ..starting.progress import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
+from .adapting import adapted
 from .family import CaseFacts, Member, Requests, read_case
+from .lean import starting_member
 from .making import Maker
-from .mesh_family import find_recipe, ratio_for
+from .mesh_family import find_recipe
 from .preparing import SHAPE, plan, sample, tell_mesh, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
@@ -71,6 +73,11 @@ def add_parser(commands: Commands, version: str) -> None:
         "--coarser", action="store_true", help="no member finer than the case itself: cheaper, wider bars"
     )
     command.add_argument(
+        "--adapt",
+        action="store_true",
+        help="finer members by fsi-mesh adapt, from the error indicator of the run on the mesh before",
+    )
+    command.add_argument(
         "--budget", metavar="MINUTES", type=float, help="that all runs of the family may take together"
     )
     command.add_argument(
@@ -101,6 +108,8 @@ def verify(options: argparse.Namespace) -> int:
     if mesh_maker is None:
         raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
     recipe = find_recipe(options.case, facts.entries, options.mesh, mesh_maker)
+    if options.adapt:
+        recipe = adapted(recipe, dimension_of(facts))
     family = plan(recipe, facts, options)
     if options.list:
         print("\n".join(f"{name}: {member.name}" for name in names for member in family))
@@ -110,6 +119,10 @@ def verify(options: argparse.Namespace) -> int:
         members_of = names if options.error is None else names[:1]  # the others solve the same equations
         requests = Requests(facts, recipe, place, members_of, options.time_limit)
         return make(options, requests, family, programs, mesh_maker, times)
+
+
+def dimension_of(facts: CaseFacts) -> int:
+    return 3 if facts.entries.get("geometry", "3d") == "3d" else 2
 
 
 def _share(text: str) -> float:
@@ -143,12 +156,11 @@ def make(
         requests.study(options.threads or 1), place, programs, mesh_maker, options.threads, 1, options.quiet
     )
     facts = requests.facts
-    dimension = 3 if facts.entries.get("geometry", "3d") == "3d" else 2
-    maker = Maker(runner, requests, dimension, options.quiet)
+    maker = Maker(runner, requests, dimension_of(facts), options.quiet)
     tell_mesh(maker, requests.recipe)
-    sample(maker)
     if options.error is not None:
         return seek(options, maker, times, programs)
+    sample(maker)
     if options.budget is not None:
         family = within_budget(options, maker, family)
     maker.run(family)
@@ -160,9 +172,10 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     """--error: on to settings that reach it."""
     requests = maker.requests
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
-    levels = list(range(-1, options.levels))
-    ratio = ratio_for(requests.recipe.counts, levels) if requests.recipe.coarsens else 2.0
-    search = Search(maker, demand, ratio, options.levels)
+    levels = list(range(-1, options.levels + 1))
+    ratio = requests.recipe.ratio(levels)
+    start = sample(maker, starting_member(requests.recipe, requests.facts.static, ratio, options.levels))
+    search = Search(maker, demand, ratio, options.levels, start)
     outcome = search.go()
     others = [name.removeprefix("fsi-") for name in programs]
     seconds = by_each_driver(maker, outcome, others)

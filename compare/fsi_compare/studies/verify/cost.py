@@ -6,7 +6,7 @@ alpha is fitted to the members of several meshes; of too few it is that of a spa
 the dimension."""
 
 from dataclasses import dataclass
-from typing import Mapping, Optional
+from typing import Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..running.study_run import StudyRun
 from .family import Member
 
 USUAL_POWER = {2: 2.6, 3: 4.2}  # of 1/h, by dimension: a little more than the number of cells
-RANGE = {2: (1.5, 3.6), 3: (2.5, 6.5)}  # what a fit is held within
+RANGE = {2: (1.5, 3.6), 3: (2.5, 5.0)}  # what a fit is held within
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,11 @@ def learn(runs: Mapping[Member, StudyRun], dimension: int) -> Optional[Costs]:
     if not done:
         return None
     low, high = RANGE[dimension]
-    power = _slope({1 / m.mesh: r.seconds for m, r in done.items() if m.step == 1}, USUAL_POWER[dimension], low, high)
-    step_power = _slope({1 / m.step: r.seconds for m, r in done.items() if m.mesh == 1}, 1.0, 0.5, 1.0)
+    steps, meshes = {m.step for m in done}, {m.mesh for m in done}
+    rows = [{1 / m.mesh: r.seconds for m, r in done.items() if m.step == step} for step in steps]
+    columns = [{1 / m.step: r.seconds for m, r in done.items() if m.mesh == mesh} for mesh in meshes]
+    power = _slope(_dearest(rows), USUAL_POWER[dimension], low, high)
+    step_power = _slope(_dearest(columns), 1.0, 0.5, 1.0)
     memory = {m: float(r.summary.get("peak_memory_MiB", 0.0)) for m, r in done.items()}
     of_mesh = {1 / m.mesh: value for m, value in memory.items() if value > 0}
     memory_power = _slope(of_mesh, power * 0.8, 0.0, high)
@@ -49,6 +52,11 @@ def learn(runs: Mapping[Member, StudyRun], dimension: int) -> Optional[Costs]:
     seconds_own = done[base].seconds * base.mesh**power * base.step**step_power
     widest = min(memory, key=lambda m: m.mesh)
     return Costs(seconds_own, power, memory[widest] * widest.mesh**memory_power, memory_power, step_power)
+
+
+def _dearest(lines: Sequence[Mapping[float, float]]) -> Mapping[float, float]:
+    """Of those with two members at least that of the longest run."""
+    return max((line for line in lines if len(line) > 1), key=lambda line: max(line.values()), default={})
 
 
 def _slope(points: Mapping[float, float], usual: float, low: float, high: float) -> float:

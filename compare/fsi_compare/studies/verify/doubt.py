@@ -1,7 +1,7 @@
 """What forbids a bar however a sequence looks, because its members do not show all of the error."""
 
 from dataclasses import replace
-from typing import Dict, Mapping, Sequence
+from typing import Dict, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -27,6 +27,13 @@ def doubt(quantity: Quantity, curves: Sequence[Curve], facts: CaseFacts) -> str:
     if finest * PER_INTERVAL <= interval * (1 + 1e-9):
         return ""
     return f"shorten the step until {PER_INTERVAL} are in an interval of the flow's table, {interval:g} ms"
+
+
+def step_within(facts: CaseFacts) -> Optional[float]:
+    """Steps relative to the case's that are short enough for the table of its flow; None: it has none, or no steps of its own."""
+    if not facts.flow_interval or facts.adaptive or facts.static:
+        return None
+    return facts.flow_interval / PER_INTERVAL / facts.step
 
 
 def is_another_line(curves: Sequence[Curve]) -> bool:

@@ -21,6 +21,7 @@ ORDERS = {"euler": 1.0}  # of time schemes; all others are of second order
 # Of quantities by element: what is solved for, and pressures with all that is made of gradients.
 SPACE_ORDERS = {"p1": (2.0, 1.0), "p2p1": (3.0, 2.0)}
 OTHER_ELEMENT = {"p1": "p2p1", "p2p1": "p1"}
+INDICATOR = "output.error_indicator"
 GIVE = "give a case file that a driver runs"
 
 
@@ -144,7 +145,7 @@ def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: 
     below = -1 if finer else 0
     powers = [k for k in range(levels + below - 1, below - 1, -1)] if recipe.coarsens else list(range(0, -levels, -1))
     meshes = [ratio**k if k else 1.0 for k in powers]
-    beside = [] if recipe.coarsens else [Member(1.0, 1.0, False, True)]
+    beside = [] if recipe.coarsens or recipe.adapts else [Member(1.0, 1.0, False, True)]
     if facts.static:
         return [Member(m, 1.0) for m in meshes] + [Member(1.0, 1.0, True)] + beside
     steps = [STEP_RATIO, 1.0, 1 / STEP_RATIO] if finer else [STEP_RATIO**2, STEP_RATIO, 1.0]
@@ -200,6 +201,8 @@ class Requests:
             settings.update(self.tolerances(method.program, LOOSER))
         if member.other:
             settings["element"] = OTHER_ELEMENT[self.facts.element]
+        if self.recipe.adapts and member.step == 1 and not (member.looser or member.other):
+            settings[INDICATOR] = True  # a finer mesh may be made from it
         case = self.facts.path
         values = {
             "mesh": f"{member.mesh:.4g}",

@@ -5,8 +5,10 @@ from dataclasses import replace
 from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
+from ...base.files import absolute
 from ..running.runner import Runner
 from ..running.study_run import REFUSED, StudyRun
+from .adapting import Adapted, adapting_member
 from .cost import learn
 from .family import Member, Requests
 from .results import FamilyRuns
@@ -30,7 +32,28 @@ class Maker:
     def run(self, members: Sequence[Member]) -> None:
         """Those that are not there yet. Raises InputError where the user's own cannot run."""
         wanted = [(m, driver) for m in members for driver in self.families if m not in self.families[driver].runs]
-        self._together([pair for pair in wanted if self._has_mesh(pair[0], pair[1])])
+        recipe = self.requests.recipe
+        if not isinstance(recipe, Adapted):
+            self._together([pair for pair in wanted if self._has_mesh(pair[0], pair[1])])
+            return
+        for mesh in sorted({member.mesh for member, _ in wanted}, reverse=True):  # each from the runs on the one before
+            for level in range(recipe.level(mesh)):
+                self._climb(recipe, level)
+            self._together([pair for pair in wanted if pair[0].mesh == mesh and self._has_mesh(pair[0], pair[1])])
+
+    def _climb(self, recipe: Adapted, level: int) -> None:
+        """The run whose indicator makes the mesh of the next level: that of the first driver by the case's own step."""
+        if level in recipe.parents:
+            return
+        driver, family = next(iter(self.families.items()))
+        parent = adapting_member(recipe, family.runs, level)
+        if parent not in family.runs and self._has_mesh(parent, driver):
+            self._together([(parent, driver)])
+        run = family.runs[parent]
+        if run.done:
+            mesh = self.runner.mesh_file(self.requests.mesh(parent)) or recipe.file
+            assert mesh is not None  # a case without a mesh file has one made
+            recipe.parents[level] = absolute(mesh), absolute(run.folder)
 
     def _together(self, wanted: Sequence[Tuple[Member, str]]) -> None:
         runs = self.runner.run([self.requests.of(member, driver) for member, driver in wanted])
@@ -52,9 +75,8 @@ class Maker:
     def _has_mesh(self, member: Member, driver: str) -> bool:
         if member.mesh not in self._meshes:
             self._meshes[member.mesh] = ""
-            mesh = self.requests.mesh(member)
             try:
-                self.runner.mesh_file(mesh)
+                self.runner.mesh_file(self.requests.mesh(member))
             except InputError as error:
                 if member.mesh == 1:
                     raise
@@ -72,6 +94,9 @@ class Maker:
         self.requests.settings.update(settings)
         for family in self.families.values():
             family.runs.clear()
+        self._meshes.clear()
+        if isinstance(self.requests.recipe, Adapted):
+            self.requests.recipe.parents.clear()
 
     def predicted(self, members: Sequence[Member]) -> float:
         """Seconds of those that are not there yet, by all drivers, from those that are."""

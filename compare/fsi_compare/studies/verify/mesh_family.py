@@ -22,6 +22,7 @@ from ..running.study_file import StudyMesh
 from ..starting.processes import answer
 from .geo_sizes import GeoSizes, graded_text, read_sizes
 
+HALVES = 2.0  # all that fsi-mesh refine makes
 RATIOS = (1.5, 2.0, 1.4, 1.6, 1.75)  # between members
 LEVEL_SIZES = ("--level", "--for", "--error", "--waves")
 RECOMMENDED = re.compile(
@@ -47,6 +48,15 @@ class Recipe:
     @property
     def coarsens(self) -> bool:
         return self.command != "refine"
+
+    @property
+    def adapts(self) -> bool:
+        """Whether meshes are made from runs on others (adapting.py)."""
+        return False
+
+    def ratio(self, levels: Sequence[int]) -> float:
+        """Between meshes at `levels`, powers of it."""
+        return ratio_for(self.counts, levels) if self.coarsens else HALVES
 
     @property
     def counts(self) -> List[float]:

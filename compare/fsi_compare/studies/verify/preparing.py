@@ -5,9 +5,10 @@ from typing import List, Sequence
 
 from ...base.errors import InputError
 from ..starting.progress import duration
+from .adapting import Adapted, about_adapted
 from .family import CaseFacts, Member, members
 from .making import Maker
-from .mesh_family import Recipe, ratio_for
+from .mesh_family import Recipe
 from .quantities import curves_of
 from .standard import standard_points
 
@@ -20,22 +21,30 @@ SHAPE = (
 
 def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
     below = 0 if options.coarser else -1
-    ratio = ratio_for(recipe.counts, [-k for k in range(below, options.levels + below)]) if recipe.coarsens else 2.0
+    ratio = recipe.ratio([-k for k in range(below, options.levels + below)])
+    if recipe.adapts and options.coarser:
+        raise InputError("", "--adapt", "makes finer meshes only", "leave --coarser out")
     if not recipe.coarsens and options.coarser:
         problem = "a mesh file alone has no coarser ones"
         raise InputError(facts.path, "mesh.file", problem, 'say how it is made: --mesh "geo SCRIPT.geo"')
-    levels = options.levels if recipe.coarsens else 3
+    levels = options.levels if recipe.coarsens or recipe.adapts else 3
     return members(recipe, facts, ratio, levels, not options.coarser)
 
 
-def sample(maker: Maker) -> None:
-    """Where the case asks for no samples and has none by itself, standard ones, and says which. Raises InputError where the
-    user's own run fails or has no fields to choose by."""
-    own = Member(1.0, 1.0)
-    maker.run([own])
-    run = next(iter(maker.families.values())).runs[own]
+OWN = Member(1.0, 1.0)
+
+
+def sample(maker: Maker, start: Member = OWN) -> Member:
+    """Where the case asks for no samples and has none by itself, standard ones, and says which. `start`: the member to run first;
+    gives it back, or the user's own where it fails. Raises InputError where that fails, too, or has no fields to choose by.
+    """
+    maker.run([start])
+    run = next(iter(maker.families.values())).runs[start]
+    if not run.done and start != OWN:
+        maker.note(f"begins with the case's own settings, for the coarser run is missing: {run.message or run.status}")
+        return sample(maker)
     if curves_of(run.folder):
-        return
+        return start
     points = standard_points(run.folder)
     if not points:
         facts = maker.requests.facts
@@ -45,6 +54,7 @@ def sample(maker: Maker) -> None:
     maker.begin_again(points)
     places = "; ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in points.items())
     maker.note(f"the case samples nothing; points are taken where most happens at its end: {places}")
+    return start
 
 
 def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Member]) -> Sequence[Member]:
@@ -68,6 +78,10 @@ def within_budget(options: argparse.Namespace, maker: Maker, family: Sequence[Me
 
 def tell_mesh(maker: Maker, recipe: Recipe) -> None:
     """What the family's meshes come from, where nobody has said it."""
+    if isinstance(recipe, Adapted):
+        maker.notes.append(about_adapted(recipe))
+        maker.notes += [] if recipe.remakes else [SHAPE]
+        return
     if recipe.command == "refine":
         maker.notes.append(
             f"Meshes: {recipe.file} and what fsi-mesh refine makes of it; none is coarser than the case's own."

@@ -9,17 +9,20 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence
 from ...base.errors import InputError, printable
 from ..running.study_run import StudyRun
 from ..starting.progress import duration
+from .adapting import Adapted
 from .cost import learn
 from .demand import Settings, cheapest, direction_of, outside, reached, refinable, shown_by, tolerance_factor, widest
-from .family import Member, members, with_settings
+from .doubt import step_within
+from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
 from .found_case import write_case
+from .lean import lean
 from .making import Maker
 from .quantities import curves_of
 from .results import BarsOfRun, Judged, about, judge
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
-MOVES_FOR_BARS = 2  # of them for quantities that have no bar; then the others decide
+MOVES_FOR_BARS = 3  # of them for quantities that have no bar; then the others decide
 FURTHEST = 2  # powers of a ratio, of settings beyond the family's centre
 
 
@@ -43,10 +46,10 @@ class Demand:
 class Search:
     """One driver's: what it finds holds for the other, which solves the same equations."""
 
-    def __init__(self, maker: Maker, demand: Demand, ratio: float, levels: int) -> None:
+    def __init__(self, maker: Maker, demand: Demand, ratio: float, levels: int, start: Member) -> None:
         self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
         self.driver = next(iter(maker.families))
-        self.centre = Member(1.0, 1.0)
+        self.centre = start
         self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
@@ -56,7 +59,7 @@ class Search:
         for move in range(MOST_MOVES):
             asked = [one for one in judged if one.bar.given]
             if refinable(judged) and (move < MOVES_FOR_BARS or not asked):
-                target: Optional[Member] = self._finer(direction_of(judged))
+                target: Optional[Member] = self._for_bars(judged)
             elif reached(asked, self.demand.error):
                 break
             else:
@@ -72,15 +75,19 @@ class Search:
             demand, far = 100 * self.demand.error, 100 * widest(asked)
             lines.append(f"{demand:g} % are not reached; the widest bar so far is {far:.2g} %, of {self._words(1, 1)}.")
             return Outcome(judged, False, lines)
-        found = self._finish(asked)
+        found = self._finish(asked, bool(outside(judged)))
         return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
-    def _members(self, finer: bool = False) -> List[Member]:
-        requests = self.maker.requests
-        relative = members(
-            requests.recipe, requests.facts, self.ratio, self.levels, finer or not requests.recipe.coarsens
-        )
-        centre = self.centre
+    def _members(self) -> List[Member]:
+        recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
+        coarser = self.levels - 1 if recipe.coarsens else 0
+        if isinstance(recipe, Adapted):
+            coarser = min(self.levels - 1, recipe.level(centre.mesh))
+        if coarser:
+            meshes = [self.ratio ** (coarser - k) for k in range(self.levels)]
+            relative = lean(meshes, facts.static)
+        else:
+            relative = members(recipe, facts, self.ratio, self.levels, True)
         return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser, m.other) for m in relative]
 
     def _family(self) -> List[Judged]:
@@ -110,10 +117,20 @@ class Search:
             return None
         return cheapest(judged, costs, demand, self.ratio, requests.facts.static, requests.recipe.coarsens)
 
+    def _for_bars(self, judged: Sequence[Judged]) -> Member:
+        """Finer by a ratio; steps at once as short as the table of a flow asks for, where nothing but that is missing."""
+        target = self._finer(direction_of(judged))
+        needed = step_within(self.maker.requests.facts)
+        if target.mesh != self.centre.mesh or needed is None:
+            return target
+        while target.step > needed * (1 + 1e-9):
+            target = Member(target.mesh, _round(target.step / STEP_RATIO))
+        return target
+
     def _finer(self, what: str) -> Member:
         """The centre moved by one ratio."""
         mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
-        step = self.centre.step / 2 if what != "mesh" else self.centre.step
+        step = self.centre.step / STEP_RATIO if what != "mesh" else self.centre.step
         return Member(_round(mesh), _round(step))
 
     def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
@@ -151,33 +168,43 @@ class Search:
         budget = self.demand.budget
         return budget is None or self.maker.seconds + seconds <= budget
 
-    def _finish(self, asked: Sequence[Judged]) -> Outcome:
-        """The centre, or what is coarser and still good enough, with tolerances that suit the demand."""
+    def _finish(self, asked: Sequence[Judged], lacking: bool) -> Outcome:
+        """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities without a bar
+        remain; then the centre, which shows most of them."""
         demand = self.demand.error
-        best = self._best(asked, demand)
-        mesh, step = (max(best.mesh, 1.0), max(best.step, 1.0)) if best is not None else (1.0, 1.0)
         tolerance = tolerance_factor(asked, demand)
-        outcome = self._run(asked, mesh, step, tolerance)
-        if not outcome.reached and (mesh, step) != (1.0, 1.0):
-            outcome = self._run(asked, 1.0, 1.0, tolerance)
-        if not outcome.reached:
-            outcome = self._run(asked, 1.0, 1.0, 1.0)
-        return outcome
+        found = [self.centre] if lacking else self._good_enough(asked)
+        for final in dict.fromkeys([*found, self.centre]):
+            outcome = self._run(asked, final, tolerance)
+            if outcome.reached:
+                return outcome
+        return self._run(asked, self.centre, 1.0)
 
-    def _run(self, asked: Sequence[Judged], mesh: float, step: float, tolerance: float) -> Outcome:
-        final = Member(_round(mesh * self.centre.mesh), _round(step * self.centre.step))
+    def _good_enough(self, asked: Sequence[Judged]) -> List[Member]:
+        """The cheapest member whose distance from the centre is within what the demand leaves beside the centre's bar; empty: none.
+        Its values are known, so that nothing is run for it."""
+        done = self.maker.families[self.driver].done
+        for member, run in sorted(done.items(), key=lambda pair: pair[1].seconds):
+            if not (member.looser or member.other) and reached(_shown(asked, run), self.demand.error):
+                return [member]
+        return []
+
+    def _run(self, asked: Sequence[Judged], final: Member, tolerance: float) -> Outcome:
         settings = {} if tolerance == 1 else self.maker.requests.tolerances(f"fsi-{self.driver}", tolerance)
         run = self.maker.single(final, self.driver, settings)
+        words = self._words(final.mesh / self.centre.mesh, final.step / self.centre.step)
         if not run.done:
-            line = f"The run with {self._words(mesh, step)} is missing: {run.status}, {run.message}."
-            return Outcome(list(asked), False, [line])
-        curves = curves_of(run.folder)
-        judged = [
-            shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves
-        ]
+            return Outcome(list(asked), False, [f"The run with {words} is missing: {run.status}, {run.message}."])
+        judged = _shown(asked, run)
         self._keep(run, judged)
-        line = f"{self._words(mesh, step).capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
+        line = f"{words.capitalize()} leave {100 * widest(judged):.2g} %, in {duration(run.seconds)}."
         return Outcome(judged, reached(judged, self.demand.error), [line], final, settings)
+
+
+def _shown(asked: Sequence[Judged], run: StudyRun) -> List[Judged]:
+    """Bars of a run by those of the centre."""
+    curves = curves_of(run.folder)
+    return [shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves]
 
 
 def _round(size: float) -> float:
@@ -191,6 +218,7 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     requests = maker.requests
     facts = requests.facts
     settings: Dict[str, Any] = dict(requests.of(outcome.final, next(iter(maker.families))).settings)
+    settings.pop(INDICATOR, None)  # of a family of adapted meshes; the case's own entry stays
     settings.update(outcome.settings)
     made = requests.mesh(outcome.final)
     mesh = maker.runner.mesh_file(made)

@@ -84,8 +84,11 @@ def bar_of(
     if others and (mesh is NOTHING or mesh.lacking):
         finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
         mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
-    step = _along([(s, y) for (m, s), y in table.items() if m == 1.0], time_order, noise)
-    together = _together(table, mesh, step, noise)
+    elif mesh is NOTHING:  # all other meshes are missing
+        mesh = Part(OUTSIDE, scale, lacking=True)
+    row = _mesh_of_steps(table)
+    step = _along([(s, y) for (m, s), y in table.items() if m == row], time_order, noise)
+    together = _together(table, row, mesh, step, noise)
     best = own - mesh.error - step.error
     verdict, advice = _judged(mesh, step, together, solver, NEGLIGIBLE * scale)
     return Bar(own, scale, mesh, step, together, solver, verdict, advice, best)
@@ -97,17 +100,24 @@ def _along(points: Sequence[Tuple[float, float]], expected: float, noise: float)
     return part_of([x for x, _ in points], [y for _, y in points], expected, noise)
 
 
-def _together(table: Mapping[Tuple[float, float], float], mesh: Part, step: Part, noise: float) -> float:
-    """Of the members refined in both the finest."""
-    corners = [(m, s) for m, s in table if m != 1.0 and s != 1.0 and (m, 1.0) in table and (1.0, s) in table]
+def _mesh_of_steps(table: Mapping[Tuple[float, float], float]) -> float:
+    """The mesh whose members tell the error of the step: the user's own, or that on which most steps were tried."""
+    numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
+    return max(numbers, key=lambda m: (numbers[m] >= 3 and m == 1.0, numbers[m], -abs(m - 1.0)))
+
+
+def _together(table: Mapping[Tuple[float, float], float], row: float, mesh: Part, step: Part, noise: float) -> float:
+    """Of the members refined in both the finest. `row`: the mesh that the step's part is of. Where it is coarser than the user's
+    own that part is off by c (row^p - 1), at most what is added here."""
+    corners = [(m, s) for m, s in table if m != row and s != 1.0 and (m, 1.0) in table and (row, s) in table]
     if not corners:
         return 0.0
     m, s = min(corners, key=lambda corner: corner[0] * corner[1])
-    mixed = abs(table[m, s] - table[m, 1.0] - table[1.0, s] + table[1.0, 1.0])
+    mixed = abs(table[m, s] - table[m, 1.0] - table[row, s] + table[row, 1.0])
     if mixed <= 2 * noise:
         return 0.0
-    share = abs(1 - m**mesh.used) * abs(1 - s**step.used)
-    return TOGETHER_FACTOR * mixed / max(share, 0.25)
+    share = abs(row**mesh.used - m**mesh.used) * abs(1 - s**step.used)
+    return TOGETHER_FACTOR * mixed * max(1.0, row**mesh.used) / max(share, 0.25)
 
 
 def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> Tuple[str, str]:
