@@ -79,6 +79,26 @@ TYPED_TEST(WallShear, OfAParabolaIsExact) {
   EXPECT_LT(shear_error<TypeParam>(*shear, *scene, level, 1, 2 * 0.4 * 3), 1e-11);
 }
 
+// The viscosity is that of the shear rate at the wall, 6 1/ms, on a channel that has widened 4.8 1/ms: by hand
+// 0.4 / sqrt(6) and 0.4 / sqrt(4.8).
+TYPED_TEST(WallShear, OfALawIsThatOfTheShearRateAtTheWall) {
+  constexpr int n = TypeParam::components;
+  const auto mesh = channel<TypeParam>(TypeParam::dim == 3 ? 3 : 4, 0);
+  Case setup = fluid_case(1, 123);
+  setup.fluid->viscosity_model = ViscosityData{
+      "power-law", {{"consistency", 0.4}, {"exponent", 0.5}, {"lowest_viscosity", 1e-6}, {"highest_viscosity", 1e6}}};
+  const auto scene = build_scene<TypeParam>(setup, mesh);
+  const auto shear = make_wall_shear_stress<TypeParam>(setup, mesh, *scene);
+  auto level = flow_along<TypeParam>(*scene, [](double r) { return 3 * (1 - r * r); });
+  EXPECT_LT(shear_error<TypeParam>(*shear, *scene, level, 1, 0.4 * std::sqrt(6.0)), 1e-11);
+  level.mesh.assign(VectorLayout<n>::size(scene->fluid->node_count()), 0.0);
+  for (int a = 0; a < scene->fluid->node_count(); ++a)
+    for (int k = 0; k < n; ++k)
+      if (TypeParam::axis[k] == across_axis<TypeParam>)
+        level.mesh[VectorLayout<n>::vector(a, k)] = 0.25 * scene->fluid->nodes().nodes[a][across_axis<TypeParam>];
+  EXPECT_LT(shear_error<TypeParam>(*shear, *scene, level, 1, 0.4 * std::sqrt(6.0 / 1.25)), 1e-11);
+}
+
 /// Womersley's flow [Womersley1955] in a pipe of radius 1 at the time when the pressure gradient is `phase` of its
 /// period old: u(r) = Re[(1 - J_0(b r) / J_0(b)) e^(i phase)], b = i^(3/2) alpha.
 class Womersley {

@@ -230,8 +230,11 @@ TEST(SteadyFlowOfALaw, TablesHoldClosedForms) {
   EXPECT_LT(last, 1e-5);
 }
 
+// On the axis the velocity goes like r^(1 + 1/n), which no polynomial of second degree follows to third order, under a
+// viscosity without bound: the order of quadratic elements falls to 2.5 with n = 0.6. Laws that have a viscosity at rest
+// keep the third, below.
 TEST(SteadyFlowOfALaw, PowerLawInAPipeOfRevolution) {
-  expect_order<P2P1AxisymmetricTriangle>("power-law", power_law, gradient, {8, 16, 32, 64}, 3, 0.35, 1e-4);
+  expect_order<P2P1AxisymmetricTriangle>("power-law", power_law, gradient, {8, 16, 32}, 2.5, 0.2, 1e-5);
   expect_order<P1AxisymmetricTriangle>("power-law", power_law, gradient, {32, 64, 128}, 2, 0.2, 1e-2);
 }
 TEST(SteadyFlowOfALaw, CassonInAPipeOfRevolution) {
