@@ -20,6 +20,7 @@ from fsi_compare.studies.verify.doubt import doubt, on_common_points
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
+from fsi_compare.studies.verify.lean import lean, starting_member
 from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_words, ratio_for
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
@@ -140,6 +141,44 @@ class Scripts(FolderCase):
         ):
             with self.assertRaisesRegex(InputError, said):
                 read_sizes(self.script(text))
+
+
+class LeanFamilies(unittest.TestCase):
+    """On the way to a demanded error."""
+
+    def test_centre_is_the_dearest_member(self):
+        found = lean([2.25, 1.5, 1.0], False)
+        self.assertEqual({(m.mesh, m.step) for m in found if m.step == 1}, {(2.25, 1), (1.5, 1), (1, 1)})
+        self.assertEqual({(m.mesh, m.step) for m in found if m.step != 1}, {(1.5, 2), (1.5, 4), (2.25, 2)})
+        self.assertEqual(sum(m.looser for m in found), 1)
+        seconds = [m.mesh**-4.2 / m.step for m in found]
+        self.assertLess(sum(seconds), 1.5 * max(seconds))
+        self.assertEqual({m.step for m in lean([1.5, 1.0], True)}, {1.0})
+
+    def test_bar_holds_with_steps_on_the_coarser_mesh(self):
+        """The part of the product is more than what the step's parts on the two meshes differ by."""
+
+        def y(h, dt, tolerance=0.0):
+            return 1 + 0.02 * h**2 + 0.03 * dt**2 - 0.002 * h**2 * dt**2 + tolerance
+
+        family = [Value(m.mesh, m.step, y(m.mesh, m.step), m.looser) for m in lean([2.25, 1.5, 1.0], False)]
+        bar = bar_of(family, 1.0, 2.0, 2.0)
+        self.assertTrue(bar.given)
+        self.assertGreater(bar.total, abs(y(1, 1) - 1))
+        self.assertGreater(bar.step.bar + bar.together, 0.03)
+        self.assertAlmostEqual(bar.step.order, 2, delta=1e-3)
+        self.assertAlmostEqual(bar.together, 2 * 0.002 * 1.5**2, delta=1e-6)
+
+    def test_begins_coarser_where_that_makes_another_mesh(self):
+        recipe = types.SimpleNamespace(coarsens=True, counts=[])
+        for nodes, mesh in (
+            (lambda size: round(1e4 / size**3), 1.5),
+            (lambda size: 300, 1.0),
+            (lambda size: None, 1.0),
+        ):
+            self.assertEqual(starting_member(recipe, False, 1.5, 3, nodes), Member(mesh, 2.0))
+        few = types.SimpleNamespace(coarsens=True, counts=[2.0])
+        self.assertEqual(starting_member(few, True, 1.5, 3, lambda size: 1), Member(1.0, 1.0))
 
 
 class Tolerances(unittest.TestCase):

@@ -174,7 +174,7 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
     levels = list(range(-1, options.levels + 1))
     ratio = requests.recipe.ratio(levels)
-    start = sample(maker, starting_member(requests.recipe, requests.facts.static, ratio, options.levels))
+    start = sample(maker, starting_member(requests.recipe, requests.facts.static, ratio, options.levels, maker.nodes))
     search = Search(maker, demand, ratio, options.levels, start)
     outcome = search.go()
     others = [name.removeprefix("fsi-") for name in programs]

@@ -2,7 +2,7 @@
 it. Steps are varied on the next coarser mesh. What a step's error changes by from there to the centre is told by the product of
 both (verdict.py)."""
 
-from typing import List, Sequence
+from typing import Callable, List, Optional, Sequence
 
 from .family import STEP_RATIO, Member
 from .mesh_family import Recipe
@@ -20,9 +20,14 @@ def lean(meshes: Sequence[float], static: bool) -> List[Member]:
     return [*found, *steps, Member(near, STEP_RATIO, True)]
 
 
-def starting_member(recipe: Recipe, static: bool, ratio: float, levels: int) -> Member:
+def starting_member(
+    recipe: Recipe, static: bool, ratio: float, levels: int, nodes: Callable[[float], Optional[int]]
+) -> Member:
     """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little. Its mesh is the case's own where no
-    coarser ones can be made or would have fewer than one cell where the case has some."""
-    counts = recipe.counts if recipe.coarsens else []
-    coarsens = recipe.coarsens and all(count >= ratio**levels for count in counts)
+    coarser ones can be made, would have fewer than one cell where the case has some, or stay as they are, since walls and
+    curves leave a mesh generator no choice. `nodes`: of the mesh of a size, which is made; None: it cannot be."""
+    coarsens = recipe.coarsens and all(count >= ratio**levels for count in recipe.counts)
+    if coarsens:
+        near, far = nodes(ratio), nodes(ratio**levels)
+        coarsens = near is not None and far is not None and near >= far * ratio ** (levels - 1)
     return Member(ratio if coarsens else 1.0, 1.0 if static else STEP_RATIO)

@@ -2,13 +2,13 @@
 
 import shlex
 from dataclasses import replace
-from typing import Any, Dict, List, Mapping, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
 from ...base.files import absolute
 from ..running.runner import Runner
 from ..running.study_run import REFUSED, StudyRun
-from .adapting import Adapted, adapting_member
+from .adapting import Adapted, adapting_member, nodes_of
 from .cost import learn
 from .family import Member, Requests
 from .results import FamilyRuns
@@ -88,6 +88,14 @@ class Maker:
             place = self.requests.folder / "runs" / "none"
             self.families[driver].runs[member] = StudyRun(request, place, REFUSED, problem, 0.0, "")
         return not problem
+
+    def nodes(self, size: float) -> Optional[int]:
+        """Of the mesh of a size relative to the case's; None: there is none."""
+        try:
+            mesh = self.runner.mesh_file(self.requests.mesh(Member(round(size, 9), 1.0)))
+            return None if mesh is None else nodes_of(mesh)
+        except InputError:
+            return None
 
     def begin_again(self, settings: Mapping[str, Any]) -> None:
         """All members with further entries of the case."""
