@@ -276,6 +276,9 @@ class DemandedError(VerifyCase):
         self.assertTrue(step < STEP or size < SIZE)
         family = [line for line in calls(self.programs) if "fsi-partitioned" in line]
         self.assertEqual(len(family), 1)  # the family is one driver's
+        members = [tuple(round(float(row[name]), 6) for name in ("mesh", "step")) for row in self.csv("members.csv")]
+        plain = [key for key, row in zip(members, self.csv("members.csv")) if "looser" not in row["member"]]
+        self.assertEqual(len(plain), len(set(plain)))  # each once, whatever way has led to it
         newton = found["monolithic"]["newton_tolerance"]  # the other driver has it, too: it stops by the same
         self.assertIn(f"monolithic.newton_tolerance={newton}", family[0])
         self.assertNotIn("partitioned", found)

@@ -16,7 +16,7 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.studies.verify import standard
 from fsi_compare.studies.verify.cost import Costs, learn
 from fsi_compare.studies.verify.demand import cheapest, refinable, shown_by, tolerance_factor
-from fsi_compare.studies.verify.doubt import doubt, on_common_points
+from fsi_compare.studies.verify.doubt import doubt, on_common_points, step_within
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
@@ -79,6 +79,12 @@ def line(s, values):
 
 class Doubts(unittest.TestCase):
     """What no sequence of values shows."""
+
+    def test_steps_that_a_flow_asks_for(self):
+        facts = types.SimpleNamespace(flow_interval=20.0, adaptive=False, static=False, step=8.0)
+        self.assertEqual(step_within(facts), 20 / 4 / 8)
+        facts.flow_interval = None
+        self.assertIsNone(step_within(facts))
 
     def test_line_that_goes_another_way_in_each_member(self):
         lines = [line((0.0, 1.0, 2.0), (1.0, 2.0, 3.0)), line((0.0, 1.1, 2.2), (1.0, 2.0, 3.0))]

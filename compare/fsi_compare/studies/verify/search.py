@@ -1,5 +1,6 @@
 """`verify --error`: from the family to settings that reach a demanded error, and the case file that has them."""
 
+import math
 import shlex
 import shutil
 from dataclasses import dataclass, field, replace
@@ -88,7 +89,7 @@ class Search:
             relative = lean(meshes, facts.static)
         else:
             relative = members(recipe, facts, self.ratio, self.levels, True)
-        return [Member(_round(m.mesh * centre.mesh), _round(m.step * centre.step), m.looser, m.other) for m in relative]
+        return [replace(m, mesh=self._size(m.mesh * centre.mesh), step=_round(m.step * centre.step)) for m in relative]
 
     def _family(self) -> List[Judged]:
         self.maker.run(self._members())
@@ -131,7 +132,11 @@ class Search:
         """The centre moved by one ratio."""
         mesh = self.centre.mesh / self.ratio if what != "step" else self.centre.mesh
         step = self.centre.step / STEP_RATIO if what != "mesh" else self.centre.step
-        return Member(_round(mesh), _round(step))
+        return Member(self._size(mesh), _round(step))
+
+    def _size(self, mesh: float) -> float:
+        """The power of the ratio that it is but for round-off, so that a mesh has one size whatever way leads to it."""
+        return _round(self.ratio ** round(math.log(mesh) / math.log(self.ratio)))
 
     def _towards(self, asked: Sequence[Judged]) -> Optional[Member]:
         """The cheapest settings that are predicted to reach the demand, but no further from the centre than FURTHEST ratios: the
@@ -144,7 +149,7 @@ class Search:
         if mesh >= 1 and step >= 1:
             return None
         self.maker.tell(f"predicted for {self._words(best.mesh, best.step)}: {100 * best.error:.2g} %")
-        return Member(_round(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
+        return Member(self._size(self.centre.mesh * min(mesh, 1.0)), _round(self.centre.step * min(step, 1.0)))
 
     def _words(self, mesh: float, step: float) -> str:
         return f"elements of {mesh * self.centre.mesh:.3g} and steps of {step * self.centre.step:.3g} of the case's"
