@@ -104,7 +104,7 @@ std::string remesh(TriangleSurface& surface, const LumenRequest& request) {
     auto edges = local_radius(surface, 10);
     for (double& edge : edges) edge *= 2 / request.edges_per_diameter;
     const auto [least, most] = std::minmax_element(edges.begin(), edges.end());
-    const std::string said =
+    std::string said =
         fmt::format("{:.3g} edges per diameter, of {:.3g} to {:.3g} mm", request.edges_per_diameter, *least, *most);
     surface = remeshed(surface, std::move(edges), request.file);
     return said;

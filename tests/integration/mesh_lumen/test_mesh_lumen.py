@@ -106,7 +106,7 @@ class MeshLumen(FolderTest):
         low, high = np.array((-9, -5, -12)), np.array((9, 5, 14))
         cells = np.meshgrid(*(np.arange(low[k] + step / 2, high[k], step) for k in range(3)), indexing="ij")
         exact = (carotid.level(np.stack(cells, axis=-1)) < 0).sum() * step**3
-        for jitter, closed in ((0, False), (0.05, False), (0.05, True)):
+        for jitter, closed in ((0, True), (0.05, False)):
             with self.subTest(jitter=jitter, closed=closed):
                 self.write(*carotid.carotid(jitter=jitter, closed=closed))
                 text = self.listed()
