@@ -51,7 +51,10 @@ class PeriodComparison {
   /// nothing. \return the extremes of the period that has ended, if one has, and another before it
   std::optional<Extremes> add(double time, const PeriodicValues& values);
   /// ms, of the last period that has ended.
-  double last_end() const { return period_ * static_cast<double>(passed_ / phases); }
+  double last_end() const {
+    const std::int64_t ended = passed_ / phases;
+    return period_ * static_cast<double>(ended);
+  }
 
   /// What a restart needs to go on bit for bit. An earlier run without, or of another period, does not serve: then periods
   /// are compared from there on, which is said.
