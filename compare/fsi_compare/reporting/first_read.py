@@ -132,11 +132,27 @@ TRUST: Sequence[Column[Labelled]] = (
 )
 
 
+def periodic_end(run: RunResults) -> str:
+    """What `time.periods` of the case came to; empty for a run that does not end by it."""
+    found = run.summary.get("periodicity")
+    if not isinstance(found, dict):
+        return ""
+    try:
+        last, asked = found["changes"][-1], float(found["asked"])
+        change = max(float(last[name]) for name in ("pressure", "flow", "displacement"))
+        periods = round(float(last["end_ms"]) / float(found["period_ms"]))
+    except (KeyError, IndexError, TypeError, ValueError, ZeroDivisionError):
+        return "no two periods were compared"
+    reached = f"periodic within {100 * asked:g} %" if change <= asked else f"not periodic within {100 * asked:g} %"
+    return f"{reached} after {periods} periods, the last of which changed by {100 * change:.2g} %"
+
+
 def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     notes = [
         "`left over`: what the energy balance does not explain, the solver's error. `ringing`: the largest part of an opening's mean "
         "pressure that changes its sign from step to step, over the largest range of one."
     ]
+    notes += [f"{label}: {said}." for run, label in zip(runs, labels) if (said := periodic_end(run))]
     return Table("trust", "Whether it can be trusted", TRUST, list(zip(labels, runs)), notes=notes)
 
 
@@ -234,21 +250,6 @@ CHANGES: Sequence[Column[Change]] = (
 )
 
 
-def periodic_end(run: RunResults) -> str:
-    """What `time.periods` of the case came to; empty for a run that does not end by it."""
-    found = run.summary.get("periodicity")
-    if not isinstance(found, dict):
-        return ""
-    try:
-        last, asked = found["changes"][-1], float(found["asked"])
-        change = max(float(last[name]) for name in ("pressure", "flow", "displacement"))
-        periods = round(float(last["end_ms"]) / float(found["period_ms"]))
-    except (KeyError, IndexError, TypeError, ValueError, ZeroDivisionError):
-        return "no two periods were compared"
-    reached = f"periodic within {100 * asked:g} %" if change <= asked else f"not periodic within {100 * asked:g} %"
-    return f"{reached} after {periods} periods, the last of which changed by {100 * change:.2g} %"
-
-
 def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     """Empty where no flow repeats."""
     records = []
@@ -258,8 +259,7 @@ def cycles_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
             changes = (cycle_change(o.time, values, float(period or 0)) for values in (o.flow, o.mean_pressure))
             records.append(Change(label, name, float(period or 0), *changes))
     note = "The largest difference of the last cycle from the one before, over the range of the last."
-    ended = [f"{label}: {said}" for run, label in zip(runs, labels) if (said := periodic_end(run))]
-    return Table("cycles", "From cycle to cycle", CHANGES, records, notes=[note, *ended])
+    return Table("cycles", "From cycle to cycle", CHANGES, records, notes=[note])
 
 
 def _each_step(run: RunResults, name: str) -> Optional[float]:

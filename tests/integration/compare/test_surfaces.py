@@ -26,6 +26,7 @@ from fsi_compare.drawing.camera import Camera
 from fsi_compare.drawing.colours import scale_of, scale_of_difference
 from fsi_compare.drawing.raster import BACKGROUND, Mesh, rendered
 from fsi_compare.drawing.sweep import OPEN, swept
+from fsi_compare.reporting.first_read import periodic_end
 from fsi_compare.reporting.scene_packing import NONE, packed_counts, packed_numbers
 from fsi_compare.reporting.scene_thinning import clustered
 from fsi_compare.results.boundary import boundary_of, normals_of
@@ -233,6 +234,26 @@ class Curves(unittest.TestCase):
         self.assertIsNone(period_of(t, {"a": t, "b": np.ones_like(t)}))
         drift = flow + 0.001 * t
         self.assertAlmostEqual(cycle_change(t, drift, 100.0), 0.1 / np.ptp(drift[-50:]), places=9)
+
+
+class PeriodicEnd(FolderCase):
+    def said(self, name, **periodicity):
+        return periodic_end(open_run(write_run(self.base / name, lambda t, z: z + t, periodicity=periodicity)))
+
+    def test_what_a_run_came_to_is_said(self):
+        changes = [
+            {"end_ms": end, "pressure": 0.001, "flow": c, "displacement": 0.0} for end, c in ((24, 0.2), (36, 0.008))
+        ]
+        self.assertEqual(
+            self.said("reached", period_ms=12, asked=0.01, changes=changes),
+            "periodic within 1 % after 3 periods, the last of which changed by 0.8 %",
+        )
+        self.assertEqual(
+            self.said("missed", period_ms=12, asked=0.005, changes=changes),
+            "not periodic within 0.5 % after 3 periods, the last of which changed by 0.8 %",
+        )
+        self.assertEqual(self.said("short", period_ms=12, asked=0.01, changes=[]), "no two periods were compared")
+        self.assertEqual(periodic_end(open_run(write_run(self.base / "other", lambda t, z: z + t))), "")
 
 
 class Command(FolderCase):
