@@ -116,18 +116,18 @@ void PeriodComparison::pass(int phase, const PeriodicValues& values) {
 void PeriodComparison::keep(Memory& memory) {
   if (!memory.recalls() && !begun_) return;
   const auto columns = static_cast<std::size_t>(phases);
-  std::vector<double> clock{period_, time_, static_cast<double>(passed_), static_cast<double>(known_)};
+  std::vector<double> clock{period_, time_};
   std::vector<double> extremes;
   for (const auto* part : {&extremes_.difference, &extremes_.range, &extremes_.size})
     extremes.insert(extremes.end(), part->begin(), part->end());
-  const bool kept = memory.wants({"clock", "extremes", "pressures", "flows", "scalars", "least", "most"});
+  const bool kept = memory.wants({"clock", "passed", "known", "extremes", "pressures", "flows", "scalars", "least", "most"});
   if (kept) memory.array("clock", ArrayKind::alike, clock, {clock.size()});
   if (!kept || clock[0] != period_)
     return memory.warn("periods are compared anew: the earlier run had no comparison of this period");
   begun_ = true;
   time_ = clock[1];
-  passed_ = static_cast<std::int64_t>(clock[2]);
-  known_ = static_cast<std::int64_t>(clock[3]);
+  memory.integer("passed", passed_, count_range);
+  memory.integer("known", known_, {0, 2 * phases, true});
   const auto alike = [&](const char* name, std::vector<double>& values, std::size_t length) {
     memory.array(name, ArrayKind::alike, values, {length});
   };

@@ -14,7 +14,7 @@ from ..running.study_run import StudyRun
 from .family import Member
 
 USUAL_POWER = {2: 2.6, 3: 4.2}  # of 1/h, by dimension: a little more than the number of cells
-RANGE = {2: (1.5, 3.6), 3: (2.5, 5.0)}  # what a fit is held within
+RANGE = {2: (1.5, 3.6), 3: (2.5, 6.5)}  # what a fit is held within
 
 
 @dataclass(frozen=True)
