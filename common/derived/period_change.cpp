@@ -120,7 +120,8 @@ void PeriodComparison::keep(Memory& memory) {
   std::vector<double> extremes;
   for (const auto* part : {&extremes_.difference, &extremes_.range, &extremes_.size})
     extremes.insert(extremes.end(), part->begin(), part->end());
-  const bool kept = memory.wants({"clock", "passed", "known", "extremes", "pressures", "flows", "scalars", "least", "most"});
+  const bool kept =
+      memory.wants({"clock", "passed", "known", "extremes", "pressures", "flows", "scalars", "least", "most"});
   if (kept) memory.array("clock", ArrayKind::alike, clock, {clock.size()});
   if (!kept || clock[0] != period_)
     return memory.warn("periods are compared anew: the earlier run had no comparison of this period");
