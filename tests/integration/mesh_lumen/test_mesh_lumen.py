@@ -2,13 +2,17 @@
 
 import math
 import re
+import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 
-import carotid_surface as carotid
 from programs import MESH, MONOLITHIC, FolderTest, attempt, execute
 from vtp_files import write_vtp
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "gallery" / "carotid-from-stl"))
+import surface as carotid  # noqa: E402
 
 NAMES = tuple(f"--opening={name}={','.join(map(str, at))}" for name, at in carotid.OPENINGS.items())
 CASE = """

@@ -1,5 +1,6 @@
 """The gallery's page: what each scene is, what is known of it, what both drivers make of it and what that costs."""
 
+import shlex
 from os.path import normpath
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Sequence, Tuple
@@ -36,8 +37,8 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     report.section(scene.title)
     report.text(*scene.paragraphs)
     place = f"gallery/{scene.name}"
-    words = [normpath(f"{place}/{word}") if word.endswith(".geo") else word for word in scene.mesh_words(quick)]
-    commands = [f"fsi-mesh {' '.join(words)} -o {scene.name}.msh"]
+    chain = [*scene.preparations(quick), ["fsi-mesh", *scene.mesh_words(quick), "-o", f"{scene.name}.msh"]]
+    commands = [shlex.join(_shown(scene, words)) for words in chain]
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [
         f"{program} {place}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
@@ -60,6 +61,14 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
         notes.append(NOTE)
     report.table(Table(f"{stem}_cost", "What it costs", COSTS, list(outcome.runs.items()), notes=notes))
     return numbers
+
+
+def _shown(scene: Scene, words: Sequence[str]) -> List[str]:
+    """Files of the scene as seen from the sources' top."""
+    place = Path("gallery") / scene.name
+    return [
+        word if word == placed else normpath(place / word) for word, placed in zip(words, scene.placed(words, Path()))
+    ]
 
 
 def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:

@@ -1,5 +1,6 @@
 """Makes a scene's mesh and its runs."""
 
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Sequence
@@ -73,12 +74,18 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     words = scene.mesh_words(quick)
     if len(words) < 1:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
-    # A script's name is relative to the scene.
-    command = [str(scene.folder / word) if word.endswith(".geo") else word for word in words]
-    end = execute([mesh_maker, *command, "-q", "-o", mesh])
-    if end.code:
-        raise ProgramError(scene.folder / "scene.py", "MESH", end.message, "mend the scene's mesh")
+    for program, *others in scene.preparations(quick):
+        placed = scene.placed(others, place)
+        # -B: a script leaves no compiled file beside itself
+        command = [sys.executable, "-B", *placed] if program == "python3" else [mesh_maker, *placed, "-q"]
+        _made(scene, "PREPARE", execute(command))
+    _made(scene, "MESH", execute([mesh_maker, *scene.placed(words, place), "-q", "-o", mesh]))
     return mesh
+
+
+def _made(scene: Scene, key: str, end: End) -> None:
+    if end.code:
+        raise ProgramError(scene.folder / "scene.py", key, end.message, "mend the scene's mesh")
 
 
 def _command(scene: Scene, program: Program, mesh: Path, place: Path, quick: bool) -> List[Any]:

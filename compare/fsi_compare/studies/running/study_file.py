@@ -133,8 +133,15 @@ def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
     """A scene's mesh, its script named by an absolute path; None where the case is no scene."""
     if scene is None:
         return None
+    if scene.preparations(quick):
+        raise InputError(
+            scene.folder / "scene.py",
+            "PREPARE",
+            "makes a mesh by several commands",
+            "name a scene whose mesh one makes",
+        )
     command, *options = scene.mesh_words(quick)
-    places = tuple(str(scene.folder / word) if word.endswith(".geo") else word for word in options)
+    places = tuple(scene.placed(options, scene.folder))
     return StudyMesh(scene.name + ("-quick" if quick else ""), "", places, command)
 
 

@@ -1,4 +1,4 @@
-"""carotid_surface.py FILE.stl [--edge MM] [--jitter MM] [--closed] [--seed N]: the surface of a carotid-like bifurcation, as a
+"""surface.py FILE.stl [--edge MM] [--jitter MM] [--closed] [--seed N]: the surface of a carotid-like bifurcation, as a
 segmentation leaves it.
 
 The lumen is where a field is negative: the smooth minimum of the distances from tapered tubes, with a bulb at the root of the
