@@ -22,8 +22,8 @@ python3 surface.py carotid.stl --jitter 0.05
 lumen carotid.stl -o lumen.msh {OPENINGS} --edges-per-diameter 5
 """
 MESH = "thicken lumen.msh --thickness-ratio 0.25 --layer media=60% --layer adventitia=40%"
-QUICK_PREPARE = PREPARE.replace("diameter 5", "diameter 3.5")
-QUICK = {"time.step": 20, "time.end": 240}
+QUICK_PREPARE = PREPARE.replace("diameter 5", "diameter 3")
+QUICK = {"time.step": 20, "time.end": 100}
 
 BEAT = 800.0  # ms
 PROXIMAL = {"ica": 0.25, "eca": 0.4}  # kPa ms/mm^3

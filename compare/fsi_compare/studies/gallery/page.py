@@ -11,7 +11,7 @@ from ...reporting.report import Report
 from ...results.run import RunResults
 from ...runs.work_units import NOTE, per_step
 from .running import Outcome
-from .scene import Number, SceneRun
+from .scene import Number, Scene, SceneRun
 from ...reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
