@@ -78,6 +78,7 @@ def draw(runs):
             flow.plot(opening.time, np.abs(opening.flow), **words)
     pressure.set_ylabel("mean pressure [kPa]")
     flow.set_ylabel("flow in (cca) or out [mm³/ms]")
+    flow.set_ylim(0, 19)
     flow.set_xlabel("time [ms]")
     flow.legend(fontsize="small", ncols=2)
     return figure
