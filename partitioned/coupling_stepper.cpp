@@ -76,6 +76,7 @@ StepReport CouplingStepper<n>::advance(State& state) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
       advance_stage(state, data);
       scene_.settle_openings(state.now, data.rates);
+      scene_.settle_branches(state.now, data.rates);
       if (rejects(state, data)) {
         take_back();
         return report_;

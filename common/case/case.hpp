@@ -15,6 +15,7 @@
 #include "case/pressure_table.hpp"
 #include "case/quasi_newton_options.hpp"
 #include "case/sample_requests.hpp"
+#include "materials/maxwell_branch.hpp"
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
 #include "mesh/simplex_mesh.hpp"
@@ -72,6 +73,7 @@ struct MaterialData {
   std::string material;    ///< a name of materials()
   ParameterValues values;  ///< its parameters, for make_material()
   double viscosity = 0;    ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
+  std::vector<MaxwellBranch> maxwell{};  ///< spring and dashpot in series beside the material; none: that alone
 };
 
 /// [structure]

@@ -13,6 +13,7 @@
 #include "case/derived_keys.hpp"
 #include "case/key_depth.hpp"
 #include "case/lumped_start_keys.hpp"
+#include "case/maxwell_keys.hpp"
 #include "case/named_lists.hpp"
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
@@ -199,6 +200,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_axis(whole_case, scene);
   check_supports(whole_case, scene);
   check_layer_viscosities(whole_case, scene);
+  check_layer_branches(whole_case, scene);
   check_gravity(whole_case, scene);
   check_output_times(whole_case, scene);
   check_periodic_end(whole_case, scene);

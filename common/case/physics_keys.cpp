@@ -8,6 +8,7 @@
 #include "base/names.hpp"
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
+#include "case/maxwell_keys.hpp"
 #include "case/opening_keys.hpp"
 #include "case/parameter_keys.hpp"
 #include "case/periodic_end.hpp"
@@ -136,6 +137,7 @@ std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
       leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
   for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, at(&MaterialData::values)));
   keys.push_back(layer_viscosity_key());
+  keys.push_back(layer_branches_key());
   return keys;
 }
 
@@ -157,7 +159,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer) {
   // A parameter of another material is no misprint; say what this one takes.
   for (const auto& child : children) {
     const auto key = child.key().substr(entry.key().size() + 1);
-    if (key == "material" || key == "viscosity" || kind.find(key) != nullptr) continue;
+    if (key == "material" || key == "viscosity" || key == "maxwell" || kind.find(key) != nullptr) continue;
     for (const auto& [other, other_kind] : materials().rows()) {
       if (other_kind.find(key) == nullptr) continue;
       std::vector<std::string> own;
@@ -193,6 +195,7 @@ std::vector<KeyHelp> layers_help() {
     for (const auto& parameter : kind.parameters)
       help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
   help.push_back({"layers.NAME.viscosity", layer_viscosity_key().about, optional});
+  help.push_back({"layers.NAME.maxwell", layer_branches_key().about, optional});
   return help;
 }
 

@@ -38,6 +38,7 @@ class EnergyBalance {
       parts.support_loads = supports->load_count() > 0;
     }
     parts.viscous_wall = scene.wall && scene.wall->is_viscous() && !scene.is_static();
+    parts.branches = scene.wall && scene.wall->branch_places().entries > 0;
     return parts;
   }
 
@@ -87,6 +88,7 @@ class EnergyBalance {
     record.wall_kinetic = level.wall_kinetic;
     record.wall_isochoric = level.wall_isochoric;
     record.wall_volumetric = level.wall_volumetric;
+    record.wall_branches = level.wall_branches;
     if (const auto* supports = scene_.wall ? scene_.wall->supports() : nullptr)
       record.springs = supports->stored(state.before[0].wall);
     return record;
@@ -158,6 +160,11 @@ class EnergyBalance {
       in.velocity_end = state.wall_velocity.data();
     }
     if (wall_before) in.wall_before = wall_before->data();
+    if (!balance.at.branches.empty()) {
+      in.branches = balance.at.branches.data();
+      in.branches_start = start.branches.data();
+      in.branches_end = end.branches.data();
+    }
     const WallWork work = scene_.wall->work(in);
     record.wall_inertia += work.inertia;
     record.wall_stress += work.stress;

@@ -15,7 +15,8 @@ struct EnergyRecord {
   double fluid_kinetic = 0, wall_kinetic = 0;
   double wall_isochoric = 0, wall_volumetric = 0;  ///< elastic energy of the wall
 
-  double springs = 0;  ///< stored in the springs of the wall's supports
+  double springs = 0;        ///< stored in the springs of the wall's supports
+  double wall_branches = 0;  ///< in those of the Maxwell branches of its layers
 
   double inlet_work = 0;                         ///< of the inlet's pressure on the fluid
   double load_work = 0;                          ///< of the pressure on a wall without fluid
@@ -34,7 +35,9 @@ struct EnergyRecord {
 
   double remainder = 0;  ///< supply() - change of energy() - viscous - wall_viscous - damping - backflow - numerical()
 
-  double energy() const { return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric + springs; }
+  double energy() const {
+    return fluid_kinetic + wall_kinetic + wall_isochoric + wall_volumetric + springs + wall_branches;
+  }
   double supply() const { return inlet_work + load_work + support_work + inlet_kinetic - outlet_kinetic; }
   double numerical() const {
     return fluid_inertia + fluid_mesh_motion + fluid_divergence + fluid_stabilisation + fluid_quadrature +
@@ -60,7 +63,7 @@ struct EnergyParts {
   bool quadratic = false;  ///< elements whose rule does not integrate convection exactly
   bool backflow = false;   ///< openings with stabilisation of backflow
   bool springs = false, dampers = false, support_loads = false;  ///< of the wall's supports
-  bool viscous_wall = false;
+  bool viscous_wall = false, branches = false;
 };
 
 }  // namespace fsi

@@ -65,6 +65,8 @@ constexpr PartColumn all_columns[] = {
      [](const EnergyParts& parts) { return parts.springs; }},
     {{"wall_viscous_dissipation_uJ", [](const R& r) { return r.wall_viscous; }},
      [](const EnergyParts& parts) { return parts.viscous_wall; }},
+    {{"wall_branch_energy_uJ", [](const R& r) { return r.wall_branches; }},
+     [](const EnergyParts& parts) { return parts.branches; }},
 };
 
 template <int n>

@@ -39,6 +39,10 @@ ArrayOrders<n>::ArrayOrders(const Scene<n>& scene, const std::vector<int>* shear
     interface_.emplace(order_of(scene.fluid->nodes(), nodes));
   }
   if (shear_nodes != nullptr) shear_.emplace(order_of(scene.fluid->nodes(), *shear_nodes));
+  if (scene.wall && scene.wall->branch_places().entries > 0) {
+    const BranchPlaces& places = scene.wall->branch_places();
+    branches_.emplace(WholeOrder::by_keys(processes(), places.whole_cell, places.counted));
+  }
 }
 
 template <int n>
@@ -74,6 +78,9 @@ std::optional<SharedArray> ArrayOrders<n>::of(ArrayKind kind) const {
     case ArrayKind::wall_cells:
       if (const auto* order = (kind == ArrayKind::fluid_cells ? fluid_cells_ : wall_cells_).order)
         return SharedArray{order, 2, false};
+      break;
+    case ArrayKind::wall_branches:
+      if (scene_.wall) return shared(branches_, static_cast<int>(scene_.wall->branch_places().entries));
       break;
   }
   return {};
@@ -115,6 +122,8 @@ std::optional<std::size_t> ArrayOrders<n>::length(ArrayKind kind, const State& r
       return 2 * fluid_cells_.cells;
     case ArrayKind::wall_cells:
       return 2 * wall_cells_.cells;
+    case ArrayKind::wall_branches:
+      return rest.now.branches.size();
   }
   return {};
 }

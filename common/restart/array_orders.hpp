@@ -40,7 +40,7 @@ class ArrayOrders {
   const Scene<n>& scene_;
   std::size_t shear_nodes_;
   CellShare fluid_cells_, wall_cells_;
-  std::optional<WholeOrder> fluid_, wall_, interface_, shear_;
+  std::optional<WholeOrder> fluid_, wall_, interface_, shear_, branches_;
 };
 
 }  // namespace fsi

@@ -30,11 +30,13 @@ void keep_sized(const std::string& name, ArrayKind kind, std::vector<double>& va
   memory.array(name, kind, values, {values.size()});
 }
 
-void keep_fields(const std::string& name, Solution& fields, Memory& memory) {
+/// \param branches  whether there are Maxwell branches in the scene
+void keep_fields(const std::string& name, Solution& fields, bool branches, Memory& memory) {
   keep_sized(name + ".mesh", ArrayKind::mesh, fields.mesh, memory);
   keep_sized(name + ".flow", ArrayKind::flow, fields.fluid, memory);
   keep_sized(name + ".wall", ArrayKind::wall, fields.wall, memory);
   if (!fields.openings.empty()) keep_sized(name + ".windkessel", ArrayKind::opening_values, fields.openings, memory);
+  if (branches) keep_sized(name + ".branches", ArrayKind::wall_branches, fields.branches, memory);
 }
 
 template <std::size_t count>
@@ -121,7 +123,7 @@ std::vector<Insertion> stored_insertions(const fs::path& file, const StepNumbers
 void keep(State& state, Memory& memory) {
   keep_times(level_times, state.times, memory);
   for (std::size_t level = 0; level < state.before.size(); ++level)
-    keep_fields(fmt::format("level{}", level), state.before[level], memory);
+    keep_fields(fmt::format("level{}", level), state.before[level], state.has_branches, memory);
   keep_sized("wall_velocity", ArrayKind::wall_vectors, state.wall_velocity, memory);
   keep_sized("wall_acceleration", ArrayKind::wall_vectors, state.wall_acceleration, memory);
   if (!state.has_balances()) return;  // backward Euler has no more
@@ -131,9 +133,9 @@ void keep(State& state, Memory& memory) {
   state.since_jump = static_cast<int>(counts[0]);
   state.balances_since_jump = static_cast<int>(counts[1]);
   for (std::size_t k = 0; k < state.balances.size(); ++k)
-    keep_fields(fmt::format("balance{}", k), state.balances[k], memory);
+    keep_fields(fmt::format("balance{}", k), state.balances[k], state.has_branches, memory);
   keep_sized("wall_velocity_before", ArrayKind::wall_vectors, state.wall_velocity_before, memory);
-  keep_fields("rate", state.rate, memory);
+  keep_fields("rate", state.rate, state.has_branches && !state.rate.wall.empty(), memory);
   keep_sized("rate.wall_velocity", ArrayKind::wall_vectors, state.velocity_rate, memory);
   keep_sized("rate.loads", ArrayKind::alike, state.load_rates, memory);
 }

@@ -71,6 +71,9 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
       cylinder_axis(s), std::move(parts.pressurised), parts.frame);
   std::size_t number = 0;
   for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
+  std::vector<std::vector<MaxwellBranch>> branches;
+  for (const auto& [name, layer] : s.layers) branches.push_back(layer.maxwell);
+  wall->set_branches(branches, parts.whole_cell);
   scene.profile.count("structure elements", elements_of(wall->part(), regions));
   if (!with_fibres.empty()) scene.profile.count("elements with fibres", elements_of(wall->part(), with_fibres));
   support_wall<Element>(setup, parts.supports, *wall);

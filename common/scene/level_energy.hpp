@@ -13,10 +13,12 @@ LevelEnergy level_energy(const Scene<n>& scene, const State& state) {
   const Solution& level = state.before[0];
   if (scene.fluid) energy.fluid_kinetic = scene.fluid->kinetic_energy(level.mesh, level.fluid);
   if (scene.wall) {
-    const WallEnergy wall = scene.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall);
+    const WallEnergy wall =
+        scene.wall->energy(level.wall, state.wall_velocity, state.last_balance().wall, level.branches);
     energy.wall_kinetic = wall.kinetic;
     energy.wall_isochoric = wall.isochoric;
     energy.wall_volumetric = wall.volumetric;
+    energy.wall_branches = wall.branches;
   }
   return energy;
 }

@@ -119,6 +119,10 @@ class Scene {
     }
     impose_conditions(state.now);
     state.now.openings = openings.start(initial_load ? initial_load->pressure : 0.0);
+    if (wall) {
+      state.has_branches = wall->branch_places().entries > 0;
+      if (state.has_branches) state.now.branches = wall->relaxed_branches(state.now.wall);
+    }
     state.before = {state.now, state.now, state.now};
     integrator->prepare(state);
     if (!state.rate.openings.empty())
@@ -174,6 +178,7 @@ class Scene {
       in.acceleration_factor = rates.acceleration_factor;
       in.velocity_rate = rates.interface.rate();
       if (!rates.wall_reference.empty()) in.velocity_reference = rates.wall_reference.data();
+      if (!rates.branches_reference.empty()) in.branch_reference = rates.branches_reference.data();
     }
     return in;
   }
@@ -202,6 +207,10 @@ class Scene {
   /// Sets what openings keep at a balance from the flow there.
   void settle_openings(Solution& balance, const StepRates& rates) const {
     if (fluid) openings.settle(fluid_input(balance, rates), rates.openings_reference, balance.openings);
+  }
+  /// Sets what Maxwell branches of the wall keep at a balance from the displacement there.
+  void settle_branches(Solution& balance, const StepRates& rates) const {
+    if (!balance.branches.empty()) wall->settle_branches(wall_input(balance, rates), balance.branches);
   }
 
   /// Imposes d_m = d_s and the velocity that belongs to it on the interface of state.now.

@@ -110,8 +110,7 @@ void restrict_interface(const PartRestriction& here, const PartRestriction& wall
 
 template <class Element>
 void restrict_wall(const PartRestriction& here, const PartOf<Element>& whole, WallParts<Element>& wall) {
-  std::vector<int> cells;
-  wall.part = here.part(whole, cells);
+  wall.part = here.part(whole, wall.whole_cell);
   wall.held = {restricted(wall.held.conditions, here), restricted(wall.held.frames, here)};
   wall.pressurised = here.facets(wall.pressurised);
   if (!wall.frame.empty()) wall.frame = restricted(wall.frame, here);

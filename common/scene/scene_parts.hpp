@@ -18,6 +18,7 @@ namespace fsi {
 template <class Element>
 struct WallParts {
   PartOf<Element> part;
+  std::vector<int> whole_cell;  ///< per cell, its number in the whole wall; empty: the part is whole
   WallConditions<Element::components> held;
   std::vector<std::pair<int, Material>> layers;  ///< region and material
   FacetsOf<Element> pressurised;                 ///< where the case's pressure acts on a wall without fluid

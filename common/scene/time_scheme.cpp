@@ -78,7 +78,7 @@ double scene_frequency(const Case& setup, const Scene<n>& scene) {
   if (scene.wall) {
     double stiffness = 0, volume = 0;
     for (const auto& layer : scene.wall->layer_data()) {
-      stiffness += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * layer.volume;
+      stiffness += layer.sudden_hoop_modulus(scene.wall->constants().bulk_modulus) * layer.volume;
       volume += layer.volume;
     }
     return std::sqrt(stiffness / volume / scene.wall->constants().density) /

@@ -45,7 +45,12 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
   const auto if_any = [&](const char* part, ArrayKind kind, std::vector<double>& values, const ArrayRule& rule = {}) {
     if (memory.recalls() ? memory.has(name + part) : !values.empty()) memory.array(name + part, kind, values, rule);
   };
-  if_any(".wall_reference", ArrayKind::wall, rates.wall_reference);  // of a viscous wall
+  // Whether there are such is known to all processes, also to those without nodes of the wall.
+  const auto if_there = [&](bool there, const char* part, ArrayKind kind, std::vector<double>& values) {
+    if (memory.recalls() ? memory.has(name + part) : there) memory.array(name + part, kind, values);
+  };
+  if_there(point.viscous_wall, ".wall_reference", ArrayKind::wall, rates.wall_reference);
+  if_there(point.branches, ".branches_reference", ArrayKind::wall_branches, rates.branches_reference);
   if_any(".support_loads", ArrayKind::support_loads, point.support_loads);
   if_any(".opening_pressures", ArrayKind::alike, point.opening_pressures, {{}, {}, most_openings});
   if (point.opening_pressures.empty()) return true;
@@ -82,6 +87,7 @@ StepReport NewtonMarch<n>::advance(State& state) {
     StepData data = loads_.next(state, *scene_.integrator, stage);
     advance_stage(state, data);
     scene_.settle_openings(state.now, data.rates);
+    scene_.settle_branches(state.now, data.rates);
     if (rejects(state, data)) {
       abandon();
       break;

@@ -95,7 +95,11 @@ void System<n>::linearise() {
   }
   point_.now = state_->now;
   point_.rates = data_->rates;
-  if (!scene_.wall || !scene_.wall->is_viscous()) point_.rates.wall_reference.clear();  // no derivative depends on it
+  const bool in_time = scene_.wall && !data_->rates.is_static();
+  point_.viscous_wall = in_time && scene_.wall->is_viscous();
+  point_.branches = in_time && numbering_.has_wall() && scene_.wall->branch_places().entries > 0;
+  if (!point_.viscous_wall) point_.rates.wall_reference.clear();  // no derivative depends on it
+  if (!point_.branches) point_.rates.branches_reference.clear();
   point_.wall_pressure = data_->wall_pressure;
   point_.support_loads = data_->support_loads;
   if (openings_move()) point_.opening_pressures = data_->opening_pressures;

@@ -18,7 +18,9 @@ namespace fsi {
 /// The data a Jacobian was made from: enough to make the same one again after a restart.
 struct LinearisationPoint {
   Solution now;
-  StepRates rates;  ///< but for the wall's references and history, which no derivative knows
+  StepRates
+      rates;  ///< but for the wall's history, and its references where it is not viscous: no derivative knows them
+  bool viscous_wall = false, branches = false;  ///< the rates have references of a viscous wall, of Maxwell branches
   double wall_pressure = 0;
   std::vector<double> support_loads = {};
   std::vector<double> opening_pressures = {};  ///< where openings move; empty otherwise: no derivative knows them

@@ -20,6 +20,7 @@ void for_each_field(Function function) {
   function(&Solution::fluid);
   function(&Solution::wall);
   function(&Solution::openings);
+  function(&Solution::branches);
 }
 
 std::vector<double> combine(double a, const std::vector<double>& x, double b, const std::vector<double>& y) {
@@ -139,6 +140,7 @@ StepRates BalanceScheme<n>::rates_from(double step, double k, References referen
   rates.fluid_reference = std::move(references.of.fluid);
   rates.wall_reference = std::move(references.of.wall);
   rates.openings_reference = std::move(references.of.openings);
+  rates.branches_reference = std::move(references.of.branches);
   return rates;
 }
 

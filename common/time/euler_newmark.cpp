@@ -22,6 +22,7 @@ StepRates EulerNewmark<Components>::rates_of(const State& state, double step, in
   rates.fluid_reference = old.fluid;
   rates.wall_reference = old.wall;
   rates.openings_reference = old.openings;
+  rates.branches_reference = old.branches;
 
   using Vector = VectorLayout<Components>;
   using Mixed = MixedLayout<Components>;

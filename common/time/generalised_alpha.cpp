@@ -60,6 +60,7 @@ void GeneralisedAlpha<n>::keep(State& state, const StepData& data, const Solutio
   follow(state.rate.fluid, end.fluid, start.fluid);
   follow(state.rate.wall, end.wall, start.wall);
   follow(state.rate.openings, end.openings, start.openings);
+  follow(state.rate.branches, end.branches, start.branches);
   follow(state.velocity_rate, end_velocity, state.wall_velocity);
   for (std::size_t i = 0; i < loads.size(); ++i)
     state.load_rates[i] = (loads[i] - (1 - a_m) * state.load_rates[i]) / a_m;

@@ -25,7 +25,8 @@ enum class ArrayKind {
   shear_vectors,      ///< vectors of space per node with wall shear stress
   shear_scalars,      ///< a number per node with wall shear stress
   fluid_cells,        ///< two numbers per cell of the fluid
-  wall_cells          ///< the same of the wall
+  wall_cells,         ///< the same of the wall
+  wall_branches       ///< what Maxwell branches keep, per cell of their layers
 };
 
 /// What a number may be; finite in any case.

@@ -15,6 +15,7 @@ struct Solution {
   std::vector<double> fluid;       ///< (u, p_f), vectors and scalars per fluid node, mm/ms and kPa
   std::vector<double> wall;        ///< (d_s, p_s), vectors and scalars per wall node, mm and kPa
   std::vector<double> openings{};  ///< what openings keep (openings/openings.hpp): its owner knows what stands where
+  std::vector<double> branches{};  ///< what Maxwell branches of the wall keep (wall/wall_input.hpp, BranchPlaces)
 };
 
 /// Everything a time step starts from and works on.
@@ -38,6 +39,7 @@ struct State {
   /// What stands for the loads' values there, kPa (generalised-alpha): of openings, supports and the wall's inner face.
   std::vector<double> load_rates;
   std::size_t support_loads = 0;  ///< how many of them are those of supports
+  bool has_branches = false;  ///< the wall has Maxwell branches: at all processes, also where none of their cells is
 
   // A first stage of the step in progress, of schemes with two.
   Solution stage, stage_balance;         ///< the level at its end, the solution of its equations

@@ -22,6 +22,7 @@ struct StepRates {
   double acceleration_factor = 0;  ///< 1/ms^2: wall's acceleration = acceleration_factor d + acceleration_history
   std::vector<double> mesh_reference, fluid_reference, wall_reference;
   std::vector<double> openings_reference{};  ///< of what openings keep: dy/dt = fluid_factor (y - reference)
+  std::vector<double> branches_reference{};  ///< of what Maxwell branches keep, with the rate of the wall
   std::vector<double> acceleration_history;  ///< mm/ms^2
 
   int stage = 0;               ///< from 0

@@ -95,6 +95,7 @@ void TrBdf2<n>::keep(State& state, const StepData& data, const Solution&, const 
   state.rate.fluid = differenced(rates.fluid_factor, state.now.fluid, rates.fluid_reference);
   state.rate.wall = differenced(rates.interface.rate(), state.now.wall, rates.wall_reference);
   state.rate.openings = differenced(rates.fluid_factor, state.now.openings, rates.openings_reference);
+  state.rate.branches = differenced(rates.interface.rate(), state.now.branches, rates.branches_reference);
   state.velocity_rate = state.wall_acceleration;
   state.load_rates = data.opening_pressures;
   state.load_rates.insert(state.load_rates.end(), data.support_loads.begin(), data.support_loads.end());

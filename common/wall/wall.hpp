@@ -20,6 +20,11 @@ struct LayerData {
   std::size_t elements = 0;  ///< of this process's part
   double volume = 0;         ///< of the whole layer at rest, mm^3
   std::vector<int> nodes;    ///< of the wall's part here, ascending
+  double springs = 0;        ///< shear moduli of its Maxwell branches together, kPa
+
+  /// Hoop modulus (materials/material.hpp) of a sudden load, kPa: branches, 2 G E each, count 4 G where the wall is held
+  /// along its axis and nearly incompressible. \param of_structure  bulk modulus of layers without one, kPa
+  double sudden_hoop_modulus(double of_structure) const { return hoop_modulus(material, of_structure) + 4 * springs; }
 };
 
 /// The wall sub-problem as everything above the element loops sees it, vectors with n components: residual and Jacobian
@@ -35,7 +40,13 @@ class Wall {
   /// \param speed  of pressure waves in the scene, mm/ms, for the stabilisation; 0, as at first: not known
   virtual void set_wave_speed(double speed) = 0;
   virtual const std::vector<LayerData>& layer_data() const = 0;
-  virtual bool is_viscous() const = 0;  ///< whether a layer resists the rate of its strain
+  virtual bool is_viscous() const = 0;  ///< whether a layer resists the rate of its strain, or has Maxwell branches
+  /// Where what Maxwell branches keep stands in an array.
+  virtual const BranchPlaces& branch_places() const = 0;
+  /// Such an array of a wall, (d, .), at which all branches are at rest; empty without branches.
+  virtual std::vector<double> relaxed_branches(const std::vector<double>& wall) const = 0;
+  /// Writes the one of a balance.
+  virtual void settle_branches(const WallInput& in, std::vector<double>& branches) const = 0;
   const std::shared_ptr<const NodeGraph>& graph() const { return space().graph(); }
   int node_count() const { return nodes().node_count(); }
 
@@ -47,8 +58,9 @@ class Wall {
   /// \param wall      (d, .) of a level
   /// \param velocity  of the level, vector layout; empty in statics
   /// \param balance   (., p) of the balance whose pressures are to count
+  /// \param branches  of the level, what Maxwell branches keep
   virtual WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
-                            const std::vector<double>& balance) const = 0;
+                            const std::vector<double>& balance, const std::vector<double>& branches) const = 0;
   virtual WallWork work(const WallStep& step) const = 0;
   /// Work of the pressure on the pressurised facets, as they are in `now`, on the way from `old` to `now`; uJ, of this
   /// process's nodes. So are energy() and work(): of the elements and nodes that sums count here.

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
 #include "materials/material.hpp"
+#include "materials/maxwell_branch.hpp"
 #include "wall/fibre_directions.hpp"
 
 namespace fsi {
@@ -24,6 +27,7 @@ struct WallInput {
   const double* velocity_reference = nullptr;  ///< r of v = velocity_rate (d - r), mixed layout, mm; null: not known
   double velocity_rate = 0;                    ///< 1/ms; 0 in statics
   const double* support_loads = nullptr;       ///< kPa, in the order of the supports' loads; null: none
+  const double* branch_reference = nullptr;  ///< r of what Maxwell branches keep (BranchPlaces); null: none, or statics
 };
 
 /// One layer of the wall: its elements and its material, with fibre directions where the material has fibres.
@@ -31,8 +35,24 @@ template <class Element>
 struct WallLayer {
   ElementPacks<Element> packs;
   Material material;
-  FibreField<Element> fibres;  ///< empty for materials without
-  double viscosity = 0;        ///< eta, kPa ms, of wall/kelvin_voigt.hpp
+  FibreField<Element> fibres;             ///< empty for materials without
+  double viscosity = 0;                   ///< eta, kPa ms, of wall/kelvin_voigt.hpp
+  std::vector<MaxwellBranch> branches{};  ///< wall/maxwell_form.hpp
+};
+
+/// Where the strains that Maxwell branches keep stand in an array (Solution::branches): cell by cell of the layers with
+/// branches, point by point, branch by branch, six numbers each (xx, yy, zz and the three shears, in the order of Sym3).
+/// Layers with fewer branches than others leave room. Empty for a wall without branches.
+struct BranchPlaces {
+  std::vector<int> cells;          ///< of the part, ascending
+  std::vector<int> place_of_cell;  ///< per cell of the part its place among these; -1: none
+  std::size_t branches = 0;        ///< most of a layer, of all processes alike
+  std::size_t entries = 0;         ///< numbers per cell; 0: no layer has branches
+  /// Per cell with a place: its number in the whole wall, and whether sums count it here.
+  std::vector<std::int64_t> whole_cell{};
+  std::vector<char> counted{};
+
+  std::size_t size() const { return cells.size() * entries; }
 };
 
 /// Blocks with rows (momentum, volume) and columns (d, p).
@@ -61,6 +81,8 @@ struct WallStep {
   const double* end = nullptr;
   const double* velocity_start = nullptr;  ///< mm/ms; null in statics
   const double* velocity_end = nullptr;
+  /// What Maxwell branches keep, of the balance and of both levels; null: there are none.
+  const double *branches = nullptr, *branches_start = nullptr, *branches_end = nullptr;
 };
 
 /// Energy of the wall, uJ = mm^3 kPa.
@@ -68,11 +90,13 @@ struct WallEnergy {
   double kinetic = 0;     ///< rho/2 (v, v)
   double isochoric = 0;   ///< (Psi', 1), the materials' energy
   double volumetric = 0;  ///< (p / kappa, p) / 2
+  double branches = 0;    ///< in the springs of Maxwell branches
 
   WallEnergy& operator+=(const WallEnergy& b) {
     kinetic += b.kinetic;
     isochoric += b.isochoric;
     volumetric += b.volumetric;
+    branches += b.branches;
     return *this;
   }
 };
@@ -92,7 +116,7 @@ struct WallWork {
   /// the step
   double stress = 0;
   double stabilisation = 0;  ///< S(d, p, p) - S(d_b, p_b, p)
-  double viscous = 0;        ///< W (eta dE/dt, dE/dt), dissipation in the layers' viscosity
+  double viscous = 0;        ///< W (eta dE/dt, dE/dt) and that in the dashpots of branches: dissipation in the layers
 
   WallWork& operator+=(const WallWork& b) {
     inertia += b.inertia;

@@ -4,6 +4,7 @@
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
+#include "wall/maxwell_layers.hpp"
 #include "wall/viscous_layers.hpp"
 #include "wall/wall_assembly.hpp"
 #include "wall/wall_energy.hpp"
@@ -28,7 +29,7 @@ double volume_of(const Part& part, const std::vector<int>& cells) {
 
 template <class Element, class Part>
 LayerData measured_layer(const Part& part, const std::vector<int>& cells, const Material& material) {
-  LayerData data{material, cells.size(), part.processes().sum(volume_of<Element>(part, cells)), {}};
+  LayerData data{material, cells.size(), part.processes().sum(volume_of<Element>(part, cells)), {}, 0};
   for (int c : cells) data.nodes.insert(data.nodes.end(), part.cells[c].begin(), part.cells[c].end());
   std::sort(data.nodes.begin(), data.nodes.end());
   data.nodes.erase(std::unique(data.nodes.begin(), data.nodes.end()), data.nodes.end());
@@ -50,7 +51,7 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
     for (std::size_t c = 0; c < part_.cells.size(); ++c)
       if (part_.cell_region[c] == region) cells.push_back(static_cast<int>(c));
     layers_.push_back(
-        {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}, 0});
+        {ElementPacks<Element>(part_.nodes, part_.cells, cells, *space_.graph(), part_.counted), material, {}, 0, {}});
     layer_cells_.push_back(cells);
     layer_data_.push_back(measured_layer<Element>(part_, cells, material));
     if (!has_fibres(material)) continue;
@@ -70,12 +71,50 @@ AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressu
   if (pressure != 0) add_follower_pressure<Element>(part_.nodes, pressurised_, pressure, solution, residual, matrix);
   if (this->supports()) this->supports()->add(in, residual, matrix);
   if (is_viscous()) ViscousLayers<Element>::add(layers_, prestressed(in), residual, matrix);
+  if (places_.entries > 0) MaxwellLayers<Element>::add(layers_, places_, prestressed(in), residual, matrix);
   return result;
 }
 
 template <class Element>
 bool WallProblem<Element>::is_viscous() const {
-  return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.viscosity > 0; });
+  return places_.entries > 0 ||
+         std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.viscosity > 0; });
+}
+
+template <class Element>
+void WallProblem<Element>::set_branches(const std::vector<std::vector<MaxwellBranch>>& branches,
+                                        const std::vector<int>& whole_cell) {
+  places_ = {};
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    layers_[i].branches = branches.at(i);
+    layer_data_[i].springs = 0;
+    for (const auto& branch : branches[i]) layer_data_[i].springs += branch.shear;
+    places_.branches = std::max(places_.branches, branches[i].size());
+    if (!branches[i].empty()) places_.cells.insert(places_.cells.end(), layer_cells_[i].begin(), layer_cells_[i].end());
+  }
+  places_.entries = places_.branches * Element::points * 6;
+  if (places_.entries == 0) return;
+  std::sort(places_.cells.begin(), places_.cells.end());
+  places_.place_of_cell.assign(part_.cells.size(), -1);
+  for (const int cell : places_.cells) {
+    places_.place_of_cell[cell] = static_cast<int>(places_.whole_cell.size());
+    places_.whole_cell.push_back(whole_cell.empty() ? cell : whole_cell[cell]);
+    places_.counted.push_back(part_.counted.empty() ? 1 : part_.counted[cell]);
+  }
+}
+
+template <class Element>
+std::vector<double> WallProblem<Element>::relaxed_branches(const std::vector<double>& wall) const {
+  std::vector<double> branches(places_.size(), 0.0);
+  WallInput in;
+  in.wall = wall.data();
+  settle_branches(in, branches);
+  return branches;
+}
+
+template <class Element>
+void WallProblem<Element>::settle_branches(const WallInput& in, std::vector<double>& branches) const {
+  if (places_.size() > 0) MaxwellLayers<Element>::settle(layers_, places_, prestressed(in), branches.data());
 }
 
 template <class Element>
@@ -124,9 +163,14 @@ void WallProblem<Element>::set_prestress(std::vector<double> displacement) {
 
 template <class Element>
 WallEnergy WallProblem<Element>::energy(const std::vector<double>& wall, const std::vector<double>& velocity,
-                                        const std::vector<double>& balance) const {
-  return wall_energy(constants_, layers_, wall.data(), velocity.empty() ? nullptr : velocity.data(), balance.data(),
-                     prestress_.empty() ? nullptr : prestress_.data());
+                                        const std::vector<double>& balance, const std::vector<double>& branches) const {
+  WallEnergy energy = wall_energy(constants_, layers_, wall.data(), velocity.empty() ? nullptr : velocity.data(),
+                                  balance.data(), prestress_.empty() ? nullptr : prestress_.data());
+  if (branches.empty()) return energy;
+  WallInput level;
+  level.wall = wall.data();
+  energy.branches = MaxwellLayers<Element>::stored(layers_, places_, prestressed(level), branches.data());
+  return energy;
 }
 
 template <class Element>
@@ -135,6 +179,11 @@ WallWork WallProblem<Element>::work(const WallStep& step) const {
   here.balance = prestressed(step.balance);
   WallWork work = wall_work(constants_, layers_, here);
   if (is_viscous()) work.viscous = ViscousLayers<Element>::work(layers_, here);
+  if (here.branches) {
+    const MaxwellWork of_branches = MaxwellLayers<Element>::work(layers_, places_, here);
+    work.viscous += of_branches.dissipated;
+    work.stress += of_branches.beyond;
+  }
   return work;
 }
 

@@ -27,6 +27,9 @@ class WallProblem : public Wall<Element::components> {
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
   /// \param viscosity  eta of a layer, kPa ms; 0, as at first: elastic
   void set_viscosity(std::size_t layer, double viscosity) { layers_.at(layer).viscosity = viscosity; }
+  /// \param branches    of each layer; none, as at first
+  /// \param whole_cell  per cell of the part its number in the whole wall; empty: the part is whole
+  void set_branches(const std::vector<std::vector<MaxwellBranch>>& branches, const std::vector<int>& whole_cell = {});
 
   const PartNodes& nodes() const override { return part_; }
   const FunctionSpace<n>& space() const override { return space_; }
@@ -34,11 +37,14 @@ class WallProblem : public Wall<Element::components> {
   void set_wave_speed(double speed) override { constants_.wave_speed = speed; }
   const std::vector<LayerData>& layer_data() const override { return layer_data_; }
   bool is_viscous() const override;
+  const BranchPlaces& branch_places() const override { return places_; }
+  std::vector<double> relaxed_branches(const std::vector<double>& wall) const override;
+  void settle_branches(const WallInput& in, std::vector<double>& branches) const override;
 
   AssemblyResult assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                           std::vector<double>& residual, bool derivatives = false) override;
   WallEnergy energy(const std::vector<double>& wall, const std::vector<double>& velocity,
-                    const std::vector<double>& balance) const override;
+                    const std::vector<double>& balance, const std::vector<double>& branches) const override;
   WallWork work(const WallStep& step) const override;
   double pressure_work(double pressure, const std::vector<double>& old, const std::vector<double>& now) const override;
   WallMatrix<n>& jacobian() override;
@@ -59,6 +65,7 @@ class WallProblem : public Wall<Element::components> {
   Facets pressurised_;
   FunctionSpace<n> space_;
   std::vector<WallLayer<Element>> layers_;
+  BranchPlaces places_;
   std::vector<LayerData> layer_data_;
   std::vector<std::vector<int>> layer_cells_;  ///< of the part
   WallMatrix<n> jacobian_;

@@ -60,7 +60,7 @@ Membrane membrane_of(const Scene<n>& scene) {
     const double h = layer.volume / m.area;
     m.thickness += h;
     m.shear_modulus += shear_modulus(layer.material) * h;
-    m.tension += hoop_modulus(layer.material, scene.wall->constants().bulk_modulus) * h;
+    m.tension += layer.sudden_hoop_modulus(scene.wall->constants().bulk_modulus) * h;
   }
   m.shear_modulus /= m.thickness;
   return m;

@@ -5,21 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "diagnostics/energy_balance.hpp"
 #include "support/differences.hpp"
 #include "support/element_meshes.hpp"
 #include "support/errors.hpp"
 #include "support/every_element.hpp"
 #include "support/problems.hpp"
+#include "support/pulled_block.hpp"
 #include "support/random.hpp"
-#include "support/scenes.hpp"
-#include "support/supported_meshes.hpp"
-#include "system/newton_stepper.hpp"
 #include "wall/viscous_layers.hpp"
 
 namespace fsi::test {
@@ -106,65 +102,14 @@ double creep(bool plane) {
   return l;
 }
 
-struct Creep {
-  double stretch = 1;
-  double work = 0, dissipated = 0, stored = 0, left_over = 0;  ///< uJ
-};
-
-/// A cube, a square, or a ring of inner radius 1, of hardly any mass, pulled along its last axis.
+/// The block computed: neo-Hookean, with a viscosity.
 template <class Element>
-Creep computed_creep(const std::string& scheme, int steps, double viscosity = eta) {
-  constexpr int n = Element::components;
-  const int axis = Element::axis[n - 1];
-  const double first = Element::axisymmetric ? 1 : 0;
-  auto mesh = irregular_mesh<Element>(1, "media");
-  Case setup;
-  setup.structure = StructureData{};
-  setup.structure->density = 1e-6;
-  setup.structure->bulk_modulus = 1e8;
-  setup.structure->layers["media"] = layer_of("neo-hookean", {{"c10", mu}});
-  setup.structure->layers["media"].viscosity = viscosity;
-  for (int k = 0; k < n; ++k) {
-    if (Element::axisymmetric && k == 0) continue;
-    const std::string name = std::string("low_") + "xyz"[Element::axis[k]];
-    name_boundary(mesh, name,
-                  [&](const Point& x) { return std::abs(x[Element::axis[k]] - (k == 0 ? first : 0.0)) < 1e-9; });
-    setup.supports[name].fixed = {"normal"};
-  }
-  name_boundary(mesh, "high", [&](const Point& x) { return std::abs(x[axis] - 1) < 1e-9; });
-  for (int k = 0; k < n; ++k)
-    setup.supports["high"].traction.push_back(k == n - 1 ? PressureTable{{{0.0, 0.0}, {2 * end, 2 * end * pull}}}
-                                                         : PressureTable{{{0.0, 0.0}}});
-  setup.time.emplace();
-  setup.time->step = end / steps;
-  setup.time->end = end;
-  setup.time->scheme = scheme;
-  // The scene's own shift, made for its waves, which hardly any mass makes fast, would be at its bound: first order.
-  setup.time->scheme_values["damping"] = 0.1;
-  const auto scene = build_scene<Element>(setup, mesh);
-  EXPECT_EQ(scene->wall->is_viscous(), viscosity > 0);
-  const Loads loads(setup);
-  NewtonOptions options;
-  options.tolerance = 1e-11;
-  options.mode = NewtonMode::full;
-  NewtonStepper<n> stepper(*scene, loads, options, number_wall(*scene));
-  stepper.keep_balances(true);
-  State state = scene->at_rest();
-  EnergyBalance<n> balance(*scene, state);
-  Creep creep;
-  while (state.step < loads.steps()) {
-    const StepReport report = stepper.advance(state);
-    const EnergyRecord record = balance.step_to(state, report);
-    creep.work += record.support_work;
-    creep.dissipated += record.wall_viscous;
-    creep.stored = record.energy();
-    creep.left_over = std::max(creep.left_over, std::abs(record.remainder));
-  }
-  const auto& x = scene->wall->nodes().nodes;
-  for (std::size_t a = 0; a < x.size(); ++a)
-    if (std::abs(x[a][axis] - 1) < 1e-9)
-      creep.stretch = 1 + state.before[0].wall[MixedLayout<n>::vector(static_cast<int>(a), n - 1)];
-  return creep;
+PulledBlock computed_creep(const std::string& scheme, int steps, double viscosity = eta) {
+  MaterialData layer = layer_of("neo-hookean", {{"c10", mu}});
+  layer.viscosity = viscosity;
+  const PulledBlock block = pulled_block<Element>(layer, scheme, steps, end, pull);
+  EXPECT_EQ(block.viscous, viscosity > 0);
+  return block;
 }
 
 TYPED_TEST(ViscousWallOf, BlockCreepsAsItsEquationSays) {
@@ -172,7 +117,7 @@ TYPED_TEST(ViscousWallOf, BlockCreepsAsItsEquationSays) {
   const double exact = creep(Element::dim == 2 && !Element::axisymmetric);
   ConvergenceTable errors("creep of a block, tr-bdf2", {"stretch"});
   for (const int steps : {6, 12}) {
-    const Creep block = computed_creep<Element>("tr-bdf2", steps);
+    const PulledBlock block = computed_creep<Element>("tr-bdf2", steps);
     errors.add(end / steps, {std::abs(block.stretch - exact)});
     EXPECT_LT(block.left_over, 1e-7 * block.work);
   }
@@ -198,10 +143,10 @@ TEST(Creep, IsOfTheOrderOfTheSchemeInTime) {
 // since the stress is that of the balance and not along the step (docs/energy.md).
 TEST(Creep, DissipatesWhatItDoesNotStore) {
   using Element = P1AxisymmetricTriangle;
-  const Creep coarse = computed_creep<Element>("bdf2", 40), viscous = computed_creep<Element>("bdf2", 80),
-              elastic = computed_creep<Element>("bdf2", 80, 0);
+  const PulledBlock coarse = computed_creep<Element>("bdf2", 40), viscous = computed_creep<Element>("bdf2", 80),
+                    elastic = computed_creep<Element>("bdf2", 80, 0);
   fmt::print("work {:.4f} uJ, stored {:.4f}, dissipated {:.4f}\n", viscous.work, viscous.stored, viscous.dissipated);
-  const auto taken = [](const Creep& creep) { return creep.work - creep.stored - creep.dissipated; };
+  const auto taken = [](const PulledBlock& creep) { return creep.work - creep.stored - creep.dissipated; };
   EXPECT_LT(std::abs(taken(viscous)), 0.02 * viscous.work);
   EXPECT_NEAR(std::log2(taken(coarse) / taken(viscous)), 1, 0.2);
   EXPECT_GT(viscous.dissipated, 0.3 * viscous.work);

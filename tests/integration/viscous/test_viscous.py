@@ -1,4 +1,5 @@
-"""Blood whose viscosity depends on the shear rate, in a wall of viscous layers: both drivers, solvers, restart, processes."""
+"""Blood whose viscosity depends on the shear rate, in a wall of viscous layers and such with Maxwell branches: both drivers,
+solvers, restart, processes."""
 
 import unittest
 from pathlib import Path
@@ -32,6 +33,10 @@ every = 4
 fields = ["displacement", "velocity", "pressure", "wall_shear_stress"]
 """
 VISCOUS = WALL.replace("c10 = 3.0", "c10 = 3.0\nviscosity = 2.0").replace("c10 = 0.3\n", "c10 = 0.3\nviscosity = 0.5\n")
+MAXWELL = WALL.replace(  # a layer with two branches, one with a branch and a viscosity
+    "c10 = 3.0", "c10 = 3.0\nmaxwell = [{ shear = 2.0, time = 0.2 }, { shear = 1.0, time = 2.0 }]"
+).replace("c10 = 0.3\n", "c10 = 0.3\nviscosity = 0.5\nmaxwell = [{ shear = 0.2, time = 0.1 }]\n")
+BRANCHES = "arrays/level0.branches"
 
 
 class ViscousTest(FolderTest):
@@ -51,28 +56,50 @@ class ViscousTest(FolderTest):
 
 class Viscous(ViscousTest):
     def test_drivers_agree_and_energy_is_accounted_for(self):
-        for kind, law in zip(KINDS, [*LAWS, *LAWS]):
-            case, settings = self.case(law), scene(self.base, *kind)
+        for number, (kind, law) in enumerate(zip(KINDS, [*LAWS, *LAWS])):
+            wall = (MAXWELL, VISCOUS)[number % 2]
+            case, settings = self.case(law, wall), scene(self.base, *kind)
             with self.subTest(kind=kind, law=law):
                 folders = [run(program, case, self.base / Path(program).name, *settings) for program in DRIVERS]
                 self.assertAgree(*folders, 1e-8)
                 rows = energy(folders[0])
                 self.assertGreater(rows["viscous_dissipation"][-1], 0)
                 self.assertGreater(rows["wall_viscous_dissipation"][-1], 0)
+                if wall == MAXWELL:
+                    self.assertGreater(rows["wall_branch_energy"][-1], 0)
                 self.assertLess(np.abs(rows["remainder"]).max(), 1e-7 * np.abs(rows["inlet_work"]).sum())
 
     def test_a_run_goes_on_with_the_same_bits(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
         for program in DRIVERS:
-            whole = run(program, self.case(), self.base / "whole", *settings)
-            begun = run(program, self.case(), self.base / "begun", *settings, "time.end=0.25")
-            self.assertEqual(restart(program, self.case(), begun, *settings), begun)
+            case = self.case(walls=MAXWELL)
+            whole = run(program, case, self.base / "whole", *settings)
+            begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+            self.assertEqual(restart(program, case, begun, *settings), begun)
             self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+            self.assertGreater(np.abs(arrays(whole / "checkpoint.h5")[BRANCHES]).max(), 1e-4)
+
+    def test_every_scheme_and_adaptive_steps_keep_branches(self):
+        settings = scene(self.base, "p1", "axisymmetric")
+        case = self.case(walls=MAXWELL)
+        for scheme in ("euler", "bdf2", "generalised-alpha", "tr-bdf2"):
+            with self.subTest(scheme=scheme):
+                settled = (*settings, f"time.scheme={scheme}")
+                whole = run(MONOLITHIC, case, self.base / "whole", *settled)
+                begun = run(MONOLITHIC, case, self.base / "begun", *settled, "time.end=0.25")
+                restart(MONOLITHIC, case, begun, *settled)
+                self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+                rows = energy(whole)
+                self.assertLess(np.abs(rows["remainder"]).max(), 1e-7 * np.abs(rows["inlet_work"]).sum())
+        steps = (*settings, "time.step=adaptive", "time.tolerance=1e-3")
+        folders = [run(program, case, self.base / Path(program).name, *steps) for program in DRIVERS]
+        self.assertAgree(*folders, 1e-7)
 
     def test_a_checkpoint_knows_both_viscosities(self):
         settings = (*scene(self.base, "p2p1", "axisymmetric"), "fluid.viscosity=4e-3")
         begun = run(MONOLITHIC, self.case(), self.base / "known", *settings, "time.end=0.25")
-        for change in ("fluid.viscosity_model.n=0.4", "structure.layers.media.viscosity=2.1"):
+        branch = "structure.layers.media.maxwell=[{ shear = 1.0, time = 1.0 }]"
+        for change in ("fluid.viscosity_model.n=0.4", "structure.layers.media.viscosity=2.1", branch):
             refused = attempt(
                 MONOLITHIC, self.case(), "-q", "--restart", begun, folder=begun, settings=(*settings, change)
             )
@@ -113,12 +140,24 @@ class Shared(ViscousTest):
         for folder in folders[1:]:
             self.assertAgree(folders[0], folder, 1e-8)
 
-    def test_two_processes_agree_with_one(self):
+    def test_two_and_three_processes_agree_with_one(self):
         settings = scene(self.base, "p1", "3d")
+        case = self.case(walls=MAXWELL)
         for program in DRIVERS:
-            alone = run(program, self.case(), self.base / "alone", *settings)
-            together = run(program, self.case(), self.base / "two", *settings, processes=2)
-            self.assertAgree(alone, together, 1e-8)
+            alone = run(program, case, self.base / "alone", *settings)
+            for processes in (2, 3):
+                together = run(program, case, self.base / "together", *settings, processes=processes)
+                self.assertAgree(alone, together, 1e-8)
+                kept, others = (arrays(folder / "checkpoint.h5")[BRANCHES] for folder in (alone, together))
+                self.assertLess(np.abs(kept - others).max(), 1e-8 * np.abs(kept).max())
+
+    def test_a_run_of_three_processes_goes_on_with_one(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        case = self.case(walls=MAXWELL)
+        alone = run(MONOLITHIC, case, self.base / "alone", *settings)
+        begun = run(MONOLITHIC, case, self.base / "begun", *settings, "time.end=0.25", processes=3)
+        restart(MONOLITHIC, case, begun, *settings)
+        self.assertAgree(alone, begun, 1e-8)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "case/case_keys.hpp"
+
+namespace fsi {
+
+/// `structure.layers.NAME.maxwell`, of any material: branches of spring and dashpot beside it. A layer without does not
+/// list it: its hash is that of before.
+CaseKey<MaterialData> layer_branches_key();
+/// Refuses it in a case without time. \throws InputError
+void check_layer_branches(const CaseEntry& whole_case, const Case& scene);
+
+}  // namespace fsi
