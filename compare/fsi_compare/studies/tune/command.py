@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional
 
 from ...base.errors import InputError, ProgramError, printable, say_note, say_warning
-from ...base.files import absolute, folder, is_file, output_folder, read_toml, together
+from ...base.files import absolute, folder, is_file, output_folder, read_toml, remove_tree, together
 from ...base.options import Commands, add_command, add_drivers, add_usual
 from ...results.run import open_run
 from ..running.runner import Runner, sweep_study
@@ -23,7 +23,7 @@ from .targets import read_targets
 from .tuning import Demand, Outcome, Ran, tune
 
 DRIVERS = ("monolithic", "partitioned")
-ONE_BEAT = "one-beat.toml"
+ONE_BEAT, TUNED = "one-beat.toml", "tuned.toml"
 GIVE = "give a case file that a driver runs"
 MOST_BEATS = 10
 
@@ -212,6 +212,8 @@ def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: O
         tables, written = write_results(inside, scene, demand, outcome, beats.name)
         if outcome.reached:
             written.insert(0, _write_tuned(inside, scene, outcome, beats))
+    if not outcome.reached:
+        remove_tree(beats.place / TUNED)  # of an earlier call
     if not options.quiet:
         show(tables, outcome, beats.place, written)
     return 0 if outcome.reached else 2
@@ -228,7 +230,7 @@ def _write_tuned(inside: Path, scene: Scene, outcome: Outcome, beats: Beats) -> 
     if mesh is not None:
         entries["mesh"] = {"file": str(absolute(mesh))}
     words = f"{printable(str(scene.path))} with the Windkessels that fsi-compare tune has found:"
-    path = inside / "tuned.toml"
+    path = inside / TUNED
     write_case(path, entries, absolute(scene.path.parent), [words, *outcome.lines])
     return path
 

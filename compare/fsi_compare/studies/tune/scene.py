@@ -84,7 +84,7 @@ def _period(path: Path, entries: Mapping[str, Any], openings: Mapping[str, Mappi
     longest = max(found)
     for period in found:
         if abs(longest / period - round(longest / period)) > 1e-6:
-            problem = f"periods of {period:g} and {longest:g} ms have no beat in common"
+            problem = f"periods of {min(found):g} and {longest:g} ms have no beat in common"
             raise InputError(path, "opening", problem, "give them one period")
     return longest
 

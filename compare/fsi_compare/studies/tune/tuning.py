@@ -14,7 +14,7 @@ from .solving import DIGITS, Model, Rule, reachable_pulse, solved
 from .targets import FLOW, SYSTOLIC, Target
 from .vessel import Vessel, fitted_vessel
 
-NEAR = 0.05  # of the pressure: beats that far from periodic say nothing of what the model lacks
+NEAR = 0.01  # of the pressure: beats that begin further from periodic say nothing of what the model lacks
 FEWEST_LEVELS = 16  # behind the lead of a beat
 
 
