@@ -1,5 +1,5 @@
 // A rigid channel that forks into two, in the plane. Lengths in mm.
-DefineConstant[ size = 1.2 ];
+DefineConstant[ size = 2.0 ];
 Point(1) = {0, -2, 0, size};
 Point(2) = {8, -2, 0, size};
 Point(3) = {14, -8, 0, size};
