@@ -10,6 +10,7 @@ from .reporting import accuracy, cost, export, picture_command, pressure, run_re
 from .studies import command as study
 from .studies.gallery import command as gallery
 from .studies.linear import command as linear
+from .studies.tune import command as tune
 from .studies.verify import command as verify
 
 COMMANDS = (
@@ -24,6 +25,7 @@ COMMANDS = (
     study,
     gallery,
     verify,
+    tune,
     mesh_import,
     surface_command,
 )

@@ -68,7 +68,7 @@ def _loaded() -> Callable[[Sequence[str], str], int]:
 
 
 def _what_stays(arguments: Sequence[str]) -> str:
-    if arguments[:1] in (["study"], ["solvers"], ["verify"]):
+    if arguments[:1] in (["study"], ["solvers"], ["verify"], ["tune"]):
         return "; finished runs are kept, the same command goes on"
     return ""
 

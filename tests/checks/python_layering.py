@@ -32,6 +32,7 @@ FLOORS = (
         "studies.scaling",
         "studies.skip",
         "studies.stability",
+        "studies.tune",
     ),
     ("studies",),
     ("",),

@@ -1,0 +1,1 @@
+"""The command `tune`: Windkessels for given pressures and flow splits."""

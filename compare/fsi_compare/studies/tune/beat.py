@@ -1,0 +1,107 @@
+"""What a beat shows: of a run, and of the periodic state of the model."""
+
+from dataclasses import dataclass
+from typing import Dict, List, Mapping, Sequence
+
+import numpy as np
+
+from .circuit import End, GivenFlow, GivenPressure, State, Windkessel, mean_flows
+from .curves import LEAD, Curves, mean, over_period
+from .scene import Scene
+from .targets import DIASTOLIC, FLOW, MEAN, SPLIT, SYSTOLIC, Target
+from .vessel import Vessel
+
+
+def given_ends(scene: Scene, curves: Curves, phases: int) -> Dict[str, End]:
+    """Of all openings, as the case has their laws; what the case gives there, as a run shows it."""
+    found: Dict[str, End] = {}
+    for name in curves.names:
+        kind = scene.kind(name)
+        if kind in ("resistance", "windkessel"):
+            found[name] = scene.law(name)
+        elif kind == "flow_rate":
+            found[name] = GivenFlow(over_period(curves.time, curves.flow[name], scene.period, phases))
+        else:
+            found[name] = GivenPressure(over_period(curves.time, curves.pressure[name], scene.period, phases))
+    return found
+
+
+def with_values(ends: Mapping[str, End], values: Mapping[str, Windkessel]) -> Dict[str, End]:
+    return {name: values.get(name, end) for name, end in ends.items()}
+
+
+def shown_by_run(curves: Curves, targets: Sequence[Target], outlets: Sequence[str], period: float) -> np.ndarray:
+    """The targets' values, (targets,): extremes behind the first LEAD of the beat, means over all of it."""
+    late = curves.after(LEAD * period)
+    flows = {name: mean(curves.time, curves.flow[name], period) for name in outlets}
+    means = {t.opening: mean(curves.time, curves.pressure[t.opening], period) for t in targets if t.kind == MEAN}
+    return _shown(targets, late.pressure, means, flows)
+
+
+def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], targets: Sequence[Target]) -> np.ndarray:
+    flows = mean_flows(vessel, ends)
+    outlets = outlets_of(ends)
+    means = {t.opening: float(state.pressure[t.opening].mean()) for t in targets if t.kind == MEAN}
+    return _shown(targets, state.pressure, means, {name: flows[name] for name in outlets})
+
+
+def outlets_of(ends: Mapping[str, End]) -> List[str]:
+    """What flow leaves by that nobody gives: laws, and openings free of traction where something else drives the flow."""
+    laws = [name for name, end in ends.items() if isinstance(end, Windkessel)]
+    if not any(isinstance(end, GivenFlow) for end in ends.values()):
+        return laws
+    return laws + [name for name, end in ends.items() if isinstance(end, GivenPressure)]
+
+
+def _shown(
+    targets: Sequence[Target],
+    pressure: Mapping[str, np.ndarray],
+    means: Mapping[str, float],
+    flows: Mapping[str, float],
+) -> np.ndarray:
+    total = sum(flows.values())
+    found = []
+    for target in targets:
+        if target.kind == DIASTOLIC:
+            found.append(float(pressure[target.opening].min()))
+        elif target.kind == SYSTOLIC:
+            found.append(float(pressure[target.opening].max()))
+        elif target.kind == MEAN:
+            found.append(means[target.opening])
+        elif target.kind == FLOW:
+            found.append(flows[target.opening])
+        else:
+            assert target.kind == SPLIT
+            found.append(flows[target.opening] / total if total else 0.0)
+    return np.array(found)
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """Of the pressure that a Windkessel stores, from the beginning of a beat to its end."""
+
+    begin: float  # kPa
+    end: float  # kPa
+    kept: float  # share of a difference from the periodic state that is left after the beat
+
+    @property
+    def periodic(self) -> float:
+        """Where it would begin if it were periodic with the flow of this beat, kPa."""
+        return (self.end - self.kept * self.begin) / (1 - self.kept)
+
+    @property
+    def distance(self) -> float:
+        """From there, at the beat's beginning, kPa: it is largest then."""
+        return abs(self.begin - self.periodic)
+
+
+def repetitions(
+    curves: Curves, values: Mapping[str, Windkessel], starts: Mapping[str, float], period: float
+) -> Dict[str, Repetition]:
+    """Of all Windkessels. `starts`: their pressures in kPa at the start, where these are known; else the first level's."""
+    found = {}
+    for name, law in values.items():
+        stored = curves.stored.get(name, np.zeros(1))
+        kept = float(np.exp(-period / (law.distal * law.compliance)))
+        found[name] = Repetition(starts.get(name, float(stored[0])), float(stored[-1]), kept)
+    return found
