@@ -7,6 +7,7 @@
 #include "observers/error_observer.hpp"
 #include "observers/field_observer.hpp"
 #include "observers/force_observer.hpp"
+#include "observers/interface_observer.hpp"
 #include "observers/observables.hpp"
 #include "observers/opening_observer.hpp"
 #include "observers/periodicity_observer.hpp"
@@ -34,6 +35,7 @@ const std::vector<Kind<n>>& kinds() {
       {"", {iterations_file, coupling_file}, make_step_observer<n>},
       {"", {}, make_ringing_observer<n>},
       {"", {energy_file}, make_energy_observer<n>},
+      {"interface.", {}, make_interface_observer<n>},
       {"", {surfaces_file}, make_force_observer<n>},
       {"", {centreline_file, wall_file, flow_file, points_file, lines_file, planes_file}, make_observables<n>},
       {"", {openings_file}, make_opening_observer<n>},

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "time/memory.hpp"
+#include "time/stepper.hpp"
+
+namespace fsi {
+
+/// How well fluid and wall have kept together where they meet (docs/theory.md, section 10.6). Root mean squares are over the
+/// interface's area.
+struct InterfaceAgreement {
+  double slip = 0;                ///< mm, root mean square of the integral of u - v over time
+  double largest_slip = 0;        ///< mm, of a node, at the end
+  double largest_separation = 0;  ///< mm, of a node, of d_m - d_s at any level so far
+  double motion = 0;              ///< mm, the largest displacement of a node from where the run began, so far
+  double lasting_traction = 0;    ///< kPa, root mean square of the time mean of what fluid and wall leave unbalanced
+  double largest_traction = 0;    ///< kPa, root mean square of that in the worst of the steps looked at
+  double traction = 0;            ///< kPa, root mean square of the fluid's own, largest of these steps
+  int weighed_steps = 0;          ///< steps whose tractions were looked at
+
+  /// Shares of what moves and what bears; 0 where nothing does.
+  double gap_share() const { return motion > 0 ? std::max(largest_slip, largest_separation) / motion : 0; }
+  double traction_share() const { return traction > 0 ? lasting_traction / traction : 0; }
+};
+
+/// Watches the conditions between fluid and wall by what a run's steps leave in them, whatever the solver says of its own
+/// convergence. A gap too small for a step's test shows when it always goes the same way. Reads states and balances only.
+/// Processes that share the scene call it together.
+template <int n>
+class InterfaceWatch {
+ public:
+  using Vector = VectorLayout<n>;
+  using Mixed = MixedLayout<n>;
+
+  /// \param scene  coupled, in time; must outlive this
+  explicit InterfaceWatch(const Scene<n>& scene) : scene_(scene) {}
+
+  /// The run begins, or goes on, from a level.
+  void begin(const State& level);
+  /// Takes in the step that led to a level. \param balances  of it
+  void follow(const State& level, const std::vector<Balance>& balances);
+  /// Looks at the tractions of a balance, for which fluid and wall are assembled once.
+  void weigh(const Balance& balance);
+
+  InterfaceAgreement so_far() const;
+  /// What a restart needs.
+  void keep(Memory& memory);
+
+ private:
+  /// Square of the root mean square of vectors over the interface; of forces the mean traction's.
+  double mean_square(const std::vector<double>& vectors, bool forces) const;
+  double largest(const std::vector<double>& vectors) const;
+  /// Leaves the components of nodal forces that no condition of the wall holds.
+  void leave_free(std::vector<double>& forces) const;
+
+  const Scene<n>& scene_;
+  std::vector<double> start_;       ///< mm, vectors per interface node: d_s where the run began
+  std::vector<double> slip_;        ///< mm, likewise: integral of u - v
+  std::vector<double> unbalanced_;  ///< mN, likewise: sum over the steps weighed
+  double weighed_ = 0, separation_ = 0, motion_ = 0, largest_traction_ = 0, traction_ = 0;
+  std::vector<double> fluid_rows_, wall_rows_;
+};
+
+}  // namespace fsi
