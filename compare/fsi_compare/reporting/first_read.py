@@ -99,6 +99,23 @@ def _ringing(run: RunResults) -> Optional[float]:
     return max(sawtooth(curve) for curve in curves) / span if span > 0 else None
 
 
+def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]:
+    """How far fluid and wall have come apart where they meet, over the interface's largest displacement, and what they leave
+    unbalanced in the mean over time, over the fluid's traction. None: the run did not watch it, or nothing moved."""
+    found = run.summary.get("interface")
+    if not isinstance(found, dict):
+        return None, None
+
+    def number(name: str) -> float:
+        value = found.get(name)
+        return float(value) if isinstance(value, (int, float)) else 0.0
+
+    gap = max(number("largest_slip_mm"), number("largest_separation_mm"))
+    moved, load = number("largest_displacement_mm"), number("largest_traction_kPa")
+    lasting = number("lasting_unbalanced_traction_kPa")
+    return (gap / moved if moved > 0 else None), (lasting / load if load > 0 else None)
+
+
 TRUST: Sequence[Column[Labelled]] = (
     Column("run", "run", lambda r: r[0], left=True),
     Column("steps", "steps", lambda r: _total(r[1], "steps"), "g"),
@@ -129,6 +146,10 @@ TRUST: Sequence[Column[Labelled]] = (
         group="energy over supply",
     ),
     Column("ringing", "sawtooth_of_range", lambda r: _ringing(r[1]), ".1e"),
+    Column("apart, of its motion", "gap_of_motion", lambda r: interface_shares(r[1])[0], ".1e", group="interface"),
+    Column(
+        "unbalanced, of its load", "imbalance_of_load", lambda r: interface_shares(r[1])[1], ".1e", group="interface"
+    ),
 )
 
 
@@ -150,7 +171,9 @@ def periodic_end(run: RunResults) -> str:
 def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     notes = [
         "`left over`: what the energy balance does not explain, the solver's error. `ringing`: the largest part of an opening's mean "
-        "pressure that changes its sign from step to step, over the largest range of one."
+        "pressure that changes its sign from step to step, over the largest range of one. `interface`: how far fluid and wall have "
+        "come apart over the run, over the interface's largest displacement, and the mean over time of what they leave unbalanced, "
+        "over the largest traction."
     ]
     notes += [f"{label}: {said}." for run, label in zip(runs, labels) if (said := periodic_end(run))]
     return Table("trust", "Whether it can be trusted", TRUST, list(zip(labels, runs)), notes=notes)
