@@ -70,9 +70,9 @@ struct FluidData {
 
 /// [structure.layers.NAME]
 struct MaterialData {
-  std::string material;    ///< a name of materials()
-  ParameterValues values;  ///< its parameters, for make_material()
-  double viscosity = 0;    ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
+  std::string material;                  ///< a name of materials()
+  ParameterValues values;                ///< its parameters, for make_material()
+  double viscosity = 0;                  ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
   std::vector<MaxwellBranch> maxwell{};  ///< spring and dashpot in series beside the material; none: that alone
 };
 
