@@ -34,8 +34,9 @@ toml::table by_name(const NamedList& kind, toml::array& entries, const CaseSourc
     const std::string name = named_by.line();
     if (name.empty()) named_by.refuse_value("is empty", fmt::format("give the {}", kind.about));
     if (named.contains(name))
-      named_by.refuse_value("has a [[" + list + "]] already",
-                            std::string(kind.key) == "surface" ? "put all that holds there into one" : "give another name");
+      named_by.refuse_value("has a [[" + list + "]] already", std::string(kind.key) == "surface"
+                                                                  ? "put all that holds there into one"
+                                                                  : "give another name");
     toml::table& table = *entries[i].as_table();
     table.erase(kind.key);
     named.insert(name, std::move(table));

@@ -81,12 +81,13 @@ std::vector<CaseKey<ElementInput>> keys_of_kind(const NetworkElementKind& kind) 
 /// The keys of every element.
 std::vector<CaseKey<ElementInput>> common_keys() {
   const Place<ElementInput, std::string> kind{[](ElementInput& input) -> std::string& { return input.data.kind; }};
-  return {leaf("kind", required, one_of(network_element_kinds().names()),
-               name_from(kind, network_element_kinds().names())),
-          leaf<ElementInput>("between", required,
-                             "[\"FROM\", \"TO\"], two nodes: surfaces with an [[opening]], \"ground\", or names of your own; "
-                             "flows are positive from the first to the second",
-                             ends())};
+  return {
+      leaf("kind", required, one_of(network_element_kinds().names()), name_from(kind, network_element_kinds().names())),
+      leaf<ElementInput>(
+          "between", required,
+          "[\"FROM\", \"TO\"], two nodes: surfaces with an [[opening]], \"ground\", or names of your own; "
+          "flows are positive from the first to the second",
+          ends())};
 }
 
 NetworkElementData read_element(const CaseEntry& entry) {
@@ -105,12 +106,13 @@ NetworkElementData read_element(const CaseEntry& entry) {
     finish_table(entry, *table, input.table);
     input.data.course = input.table.table;
     if (!input.table.table.jumps().empty())
-      entry.child(table->key).refuse("jumps, also where a period ends with another value than it begins with",
-                                     "let it change within a time that a few steps resolve");
+      entry.child(table->key)
+          .refuse("jumps, also where a period ends with another value than it begins with",
+                  "let it change within a time that a few steps resolve");
     for (const auto& [time, value] : input.table.table.points)
       if (kind.course == ElementCourse::elastance && !(value > 0))
-        entry.child(table->key).refuse(fmt::format("is {:g} at {:g} ms, which is not positive", value, time),
-                                       "give elastances > 0");
+        entry.child(table->key)
+            .refuse(fmt::format("is {:g} at {:g} ms, which is not positive", value, time), "give elastances > 0");
   }
   return input.data;
 }
@@ -187,11 +189,13 @@ void join_openings(const CaseEntry& whole_case, Case& scene) {
               "keep one of the two");
         opening->second.joined = any = true;
       } else if (node == group::inlet && scene.inlet) {
-        between.refuse("joins the inlet, whose pressure [inlet] gives", "replace [inlet] by an [[opening]] without pressure");
+        between.refuse("joins the inlet, whose pressure [inlet] gives",
+                       "replace [inlet] by an [[opening]] without pressure");
       } else if (node == group::outlet && scene.fluid->outlet) {
-        between.refuse("joins the node \"outlet\", which has no [[opening]]: the surface of that name would be free of "
-                       "traction",
-                       "add [[opening]] with surface = \"outlet\", or name the node otherwise");
+        between.refuse(
+            "joins the node \"outlet\", which has no [[opening]]: the surface of that name would be free of "
+            "traction",
+            "add [[opening]] with surface = \"outlet\", or name the node otherwise");
       }
     }
   if (!any)

@@ -20,11 +20,12 @@ class Capacitor : public NetworkElement {
   static constexpr const char* name = "capacitor";
   static std::vector<ParameterOf<Capacitor>> parameters() {
     using E = Capacitor;
-    return {{&E::compliance, "compliance", "volume stored over the drop of the pressure", quantity::compliance(), positive},
-            {&E::initial_pressure, "initial_pressure", "drop of the pressure at the start", quantity::pressure(),
-             any_number, false},
-            {&E::unstressed_volume, "unstressed_volume", "stored without pressure", quantity::volume(), not_negative,
-             false}};
+    return {
+        {&E::compliance, "compliance", "volume stored over the drop of the pressure", quantity::compliance(), positive},
+        {&E::initial_pressure, "initial_pressure", "drop of the pressure at the start", quantity::pressure(),
+         any_number, false},
+        {&E::unstressed_volume, "unstressed_volume", "stored without pressure", quantity::volume(), not_negative,
+         false}};
   }
 
   Equation equation(const NetworkMoment& at, double reference, double drop, double flow) const override {

@@ -12,12 +12,12 @@ namespace fsi {
 ///   e = (1 - cos(pi t / T_1)) / 2 up to T_1,   (1 + cos(pi (t - T_1) / (T_2 - T_1))) / 2 up to T_2,   0 behind.
 class Chamber : public TimeVaryingElastance {
  public:
-  double minimum = 1;   ///< E_min, kPa/mm^3
-  double maximum = 1;   ///< E_max, kPa/mm^3
-  double beat = 800;    ///< ms
-  double peak = 300;    ///< T_1, ms
-  double relaxed = 450; ///< T_2, ms
-  double delay = 0;     ///< ms, of the first begin
+  double minimum = 1;    ///< E_min, kPa/mm^3
+  double maximum = 1;    ///< E_max, kPa/mm^3
+  double beat = 800;     ///< ms
+  double peak = 300;     ///< T_1, ms
+  double relaxed = 450;  ///< T_2, ms
+  double delay = 0;      ///< ms, of the first begin
 
   static constexpr const char* name = "chamber";
   static std::vector<ParameterOf<Chamber>> parameters() {
@@ -44,7 +44,8 @@ class Chamber : public TimeVaryingElastance {
   double period() const override { return beat; }
   std::optional<Contradiction> contradiction() const override {
     if (maximum < minimum)
-      return Contradiction{"maximum", fmt::format("{:g} is below minimum, {:g}", maximum, minimum), "give a larger one"};
+      return Contradiction{"maximum", fmt::format("{:g} is below minimum, {:g}", maximum, minimum),
+                           "give a larger one"};
     if (!(relaxed > peak))
       return Contradiction{"relaxed", fmt::format("{:g} ms are not behind peak, {:g} ms", relaxed, peak),
                            "give a later time"};

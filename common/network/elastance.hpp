@@ -34,8 +34,9 @@ class TimeVaryingElastance : public NetworkElement {
  protected:
   template <class Law>
   static std::vector<ParameterOf<Law>> volumes() {
-    return {{&Law::initial_volume, "initial_volume", "at the start", quantity::volume(), not_negative},
-            {&Law::unstressed_volume, "unstressed_volume", "without pressure", quantity::volume(), not_negative, false}};
+    return {
+        {&Law::initial_volume, "initial_volume", "at the start", quantity::volume(), not_negative},
+        {&Law::unstressed_volume, "unstressed_volume", "without pressure", quantity::volume(), not_negative, false}};
   }
 };
 

@@ -37,12 +37,11 @@ NameTable<NetworkElementKind>::Row row(ElementCourse course = ElementCourse::non
 }  // namespace
 
 const NameTable<NetworkElementKind>& network_element_kinds() {
-  static const NameTable<NetworkElementKind> table{"kind of a network's element",
-                                                   {row<Resistor>(), row<Capacitor>(), row<Inductor>(), row<Diode>(),
-                                                    row<Valve>(), row<Chamber>(),
-                                                    row<Elastance>(ElementCourse::elastance),
-                                                    row<PressureSource>(ElementCourse::pressure),
-                                                    row<FlowSource>(ElementCourse::flow)}};
+  static const NameTable<NetworkElementKind> table{
+      "kind of a network's element",
+      {row<Resistor>(), row<Capacitor>(), row<Inductor>(), row<Diode>(), row<Valve>(), row<Chamber>(),
+       row<Elastance>(ElementCourse::elastance), row<PressureSource>(ElementCourse::pressure),
+       row<FlowSource>(ElementCourse::flow)}};
   return table;
 }
 

@@ -19,8 +19,9 @@ class Inductor : public NetworkElement {
   static constexpr const char* name = "inductor";
   static std::vector<ParameterOf<Inductor>> parameters() {
     using E = Inductor;
-    return {{&E::inertance, "inertance", "drop of the pressure over the rate of the flow", quantity::inertance(), positive},
-            {&E::initial_flow, "initial_flow", "at the start", quantity::flow_rate(), any_number, false}};
+    return {
+        {&E::inertance, "inertance", "drop of the pressure over the rate of the flow", quantity::inertance(), positive},
+        {&E::initial_flow, "initial_flow", "at the start", quantity::flow_rate(), any_number, false}};
   }
 
   Equation equation(const NetworkMoment& at, double reference, double drop, double flow) const override {

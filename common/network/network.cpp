@@ -10,8 +10,8 @@ namespace fsi {
 namespace {
 
 constexpr int most_iterations = 60, most_halvings = 40;
-constexpr double rounding_of_valve = 1e-14;       // of a valve's equation, of the terms in it
-constexpr double least_decrease = 1e-4;  // of a step of Newton's method, [Nocedal2006]
+constexpr double rounding_of_valve = 1e-14;  // of a valve's equation, of the terms in it
+constexpr double least_decrease = 1e-4;      // of what valves lack, by a step
 
 double number_of(const double* numbers, std::size_t place, const NetworkElement& law) {
   return law.keeps() == NetworkElement::Keeps::nothing ? 0 : numbers[place];
@@ -21,10 +21,7 @@ double number_of(const double* numbers, std::size_t place, const NetworkElement&
 
 Network::Network(std::vector<std::string> nodes, std::size_t openings, std::vector<Element> elements,
                  double ground_pressure)
-    : nodes_(std::move(nodes)),
-      openings_(openings),
-      elements_(std::move(elements)),
-      ground_pressure_(ground_pressure) {
+    : nodes_(std::move(nodes)), openings_(openings), elements_(std::move(elements)), ground_pressure_(ground_pressure) {
   for (const Element& element : elements_) {
     places_.push_back(size_);
     if (element.law->keeps() != NetworkElement::Keeps::nothing) ++size_;
@@ -202,6 +199,15 @@ std::vector<double> Network::slopes(const NetworkMoment& at, const double* refer
   return slopes;
 }
 
+std::vector<double> Network::conductances(const NetworkMoment& at, const double* reference,
+                                          const NetworkState& state) const {
+  const auto all = equations(at, reference, state);
+  std::vector<double> conductances(all.size(), 0.0);
+  for (std::size_t e = 0; e < all.size(); ++e)
+    if (elements_[e].law->switches()) conductances[e] = -all[e].by_drop / all[e].by_flow;
+  return conductances;
+}
+
 double Network::contradiction_at_start() const {
   const std::vector<double> y = start();
   const std::vector<double> zero(openings_, 0.0);
@@ -214,8 +220,7 @@ double Network::contradiction_at_start() const {
 
 bool Network::is_closed() const {
   return std::all_of(elements_.begin(), elements_.end(), [](const Element& element) {
-    return (element.from != ground && element.to != ground) ||
-           element.law->keeps() == NetworkElement::Keeps::volume;
+    return (element.from != ground && element.to != ground) || element.law->keeps() == NetworkElement::Keeps::volume;
   });
 }
 

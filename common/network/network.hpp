@@ -64,6 +64,9 @@ class Network {
   /// dF_i/dQ_j of a solution, openings() numbers a row, kPa ms/mm^3.
   std::vector<double> slopes(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
 
+  /// dq/d(dp) of each element that switches, mm^3/(kPa ms); 0 of others.
+  std::vector<double> conductances(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
+
   /// The Jacobian of the equations, of pressures, then flows; columns of openings' pressures last in the order of pivots.
   CompletePivoting jacobian(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
   /// What of the start contradicts itself: of what is kept then without flow at openings, mm^3/ms; 0: nothing.

@@ -48,14 +48,17 @@ Fault ends(const Network& network) {
           at.front()->name, "between",
           fmt::format("nothing else is joined to the node \"{}\", which is no [[opening]]: no fluid can pass it",
                       network.nodes()[i]),
-          fmt::format("join it to one of {}, or give \"{}\" an [[opening]]", fmt::join(known, ", "), network.nodes()[i])};
+          fmt::format("join it to one of {}, or give \"{}\" an [[opening]]", fmt::join(known, ", "),
+                      network.nodes()[i])};
   return std::nullopt;
 }
 
 /// Nodes that are joined to a node, the ground being no node unless it is that.
 std::vector<bool> joined_to(const Network& network, const std::vector<int>& from, bool through_ground) {
   std::vector<bool> reached(network.nodes().size() + 1, false);  // the ground is the last
-  const auto place = [&](int node) { return node == Network::ground ? network.nodes().size() : static_cast<std::size_t>(node); };
+  const auto place = [&](int node) {
+    return node == Network::ground ? network.nodes().size() : static_cast<std::size_t>(node);
+  };
   for (const int node : from) reached[place(node)] = true;
   for (bool more = true; more;) {
     more = false;
@@ -97,10 +100,11 @@ Fault parts(const Network& network) {
 NetworkFault of_open_column(const Network& network, std::size_t column) {
   const std::size_t nodes = network.nodes().size();
   if (column >= nodes)
-    return {network.elements()[column - nodes].name, "between",
-            "closes a loop of elements that each give a difference of pressure (sources, capacitors, elastances): it is "
-            "over-determined",
-            "put a resistor into the loop, or replace these elements by one"};
+    return {
+        network.elements()[column - nodes].name, "between",
+        "closes a loop of elements that each give a difference of pressure (sources, capacitors, elastances): it is "
+        "over-determined",
+        "put a resistor into the loop, or replace these elements by one"};
   const auto at = elements_at(network, static_cast<int>(column));
   return {at.empty() ? "" : at.front()->name, "between",
           fmt::format("the flows into the node \"{}\" are all given, by {}: it is over-determined, and its pressure is "

@@ -16,7 +16,8 @@ class Resistor : public NetworkElement {
 
   static constexpr const char* name = "resistor";
   static std::vector<ParameterOf<Resistor>> parameters() {
-    return {{&Resistor::resistance, "resistance", "drop of the pressure over the flow", quantity::resistance(), positive}};
+    return {
+        {&Resistor::resistance, "resistance", "drop of the pressure over the flow", quantity::resistance(), positive}};
   }
 
   Equation equation(const NetworkMoment&, double, double drop, double flow) const override {

@@ -63,7 +63,8 @@ class Diode : public Valve {
     std::vector<ParameterOf<Diode>> parameters;
     for (const auto& p : Valve::parameters())
       if (p.member != &Valve::quadratic)
-        parameters.push_back({static_cast<double Diode::*>(p.member), p.name, p.about, p.quantity, p.bounds, p.required});
+        parameters.push_back(
+            {static_cast<double Diode::*>(p.member), p.name, p.about, p.quantity, p.bounds, p.required});
     return parameters;
   }
 };

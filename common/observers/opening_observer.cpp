@@ -10,7 +10,8 @@ namespace {
 struct OpeningRecord {
   double flow = 0;      ///< mm^3/ms, out of the fluid
   double pressure = 0;  ///< of the fluid, mean over the surface, kPa; written in Pa
-  double behind = 0;    ///< stored by a Windkessel, of the network's node, behind a resistance the distal one, else 0; kPa; written in Pa
+  double behind =
+      0;  ///< stored by a Windkessel, of the network's node, behind a resistance the distal one, else 0; kPa; written in Pa
 };
 
 const Columns<OpeningRecord>& opening_columns() {
@@ -39,9 +40,8 @@ class OpeningObserver : public Observer {
     for (const std::size_t i : openings_) {
       const auto& open = scene_.fluid->open_boundaries()[i];
       const auto* answering = scene_.openings.answering(i);
-      const double behind = answering
-                                ? answering->law->pressure_behind(level.now.openings.data() + answering->place)
-                                : of_network[i];
+      const double behind =
+          answering ? answering->law->pressure_behind(level.now.openings.data() + answering->place) : of_network[i];
       const auto &mesh = level.now.mesh, &flow = level.now.fluid;
       records.push_back({open.outflow(mesh, flow), open.mean_pressure(mesh, flow), behind});
     }

@@ -12,6 +12,7 @@ namespace fsi {
 
 namespace {
 
+constexpr double far = 2;        // of a valve's conductance: a kept Jacobian bears less
 constexpr int many_changes = 4;  // of a valve in one stage: it opens or closes once in a step that goes well
 
 NetworkMoment balance_at(double factor, double time) {
@@ -53,10 +54,9 @@ void JoinedOpenings<n>::add_pressures(const FluidInput& in, double time, const s
                                       std::vector<double>& pressures) const {
   if (empty()) return;
   const NetworkState state = at_balance(in, time, reference);
-  watch_valves(state);
+  watch_valves(in, time, reference, state);
   for (std::size_t i = 0; i < openings_.size(); ++i)
-    pressures[openings_[i].number] +=
-        state.settled ? state.pressures[i] : std::numeric_limits<double>::quiet_NaN();
+    pressures[openings_[i].number] += state.settled ? state.pressures[i] : std::numeric_limits<double>::quiet_NaN();
 }
 
 template <int n>
@@ -73,8 +73,7 @@ void JoinedOpenings<n>::settle(const FluidInput& in, double time, const std::vec
                                std::vector<double>& kept) const {
   if (empty()) return;
   const NetworkState state = at_balance(in, time, reference);
-  const std::vector<double> own =
-      network_->kept(balance_at(in.fluid_factor, time), reference.data() + place_, state);
+  const std::vector<double> own = network_->kept(balance_at(in.fluid_factor, time), reference.data() + place_, state);
   std::copy(own.begin(), own.end(), kept.begin() + static_cast<std::ptrdiff_t>(place_));
   std::fill(courses_.begin(), courses_.end(), Course());
   unsettled_.clear();
@@ -83,8 +82,10 @@ void JoinedOpenings<n>::settle(const FluidInput& in, double time, const std::vec
 template <int n>
 std::vector<double> JoinedOpenings<n>::slopes(const FluidInput& in, double time,
                                               const std::vector<double>& reference) const {
-  return network_->slopes(balance_at(in.fluid_factor, time), reference.data() + place_,
-                          at_balance(in, time, reference));
+  const NetworkMoment at = balance_at(in.fluid_factor, time);
+  const NetworkState state = at_balance(in, time, reference);
+  of_slopes_ = conductances_ = network_->conductances(at, reference.data() + place_, state);
+  return network_->slopes(at, reference.data() + place_, state);
 }
 
 template <int n>
@@ -99,7 +100,18 @@ NetworkState JoinedOpenings<n>::at_level(double time, const std::vector<double>&
 }
 
 template <int n>
-void JoinedOpenings<n>::watch_valves(const NetworkState& state) const {
+bool JoinedOpenings<n>::outdated() const {
+  if (of_slopes_.size() != conductances_.size()) return false;
+  for (std::size_t e = 0; e < conductances_.size(); ++e)
+    if (conductances_[e] > far * of_slopes_[e] || of_slopes_[e] > far * conductances_[e]) return true;
+  return false;
+}
+
+template <int n>
+void JoinedOpenings<n>::watch_valves(const FluidInput& in, double time, const std::vector<double>& reference,
+                                     const NetworkState& state) const {
+  if (state.settled)
+    conductances_ = network_->conductances(balance_at(in.fluid_factor, time), reference.data() + place_, state);
   const auto& elements = network_->elements();
   if (!state.settled) {
     unsettled_ = elements[state.unsettled].name;

@@ -48,6 +48,8 @@ class JoinedOpenings {
   void settle(const FluidInput& in, double time, const std::vector<double>& reference, std::vector<double>& kept) const;
   /// dp_i/dQ_j at a balance, row by row, kPa ms/mm^3.
   std::vector<double> slopes(const FluidInput& in, double time, const std::vector<double>& reference) const;
+  /// Whether a valve that opened or closed since then has made the last slopes others, by far.
+  bool outdated() const;
   /// At a finished level. \param level  its values, whose kept ones are the network's among them
   NetworkState at_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
                         const std::vector<double>& flow) const;
@@ -55,24 +57,25 @@ class JoinedOpenings {
   /// Of a stage that finds no solution: what a valve did in it; empty where none had a part in it.
   std::string complaint() const;
   /// What helps against that.
-  static constexpr const char* remedy =
-      "a larger width or leak of that valve, or a capacitor or an inductor beside it";
+  static constexpr const char* remedy = "a larger width or leak of that valve, or a capacitor or an inductor beside it";
 
  private:
   std::vector<double> inflows(const FluidInput& in) const;
   NetworkState at_balance(const FluidInput& in, double time, const std::vector<double>& reference) const;
-  void watch_valves(const NetworkState& state) const;
+  void watch_valves(const FluidInput& in, double time, const std::vector<double>& reference,
+                    const NetworkState& state) const;
 
   std::vector<Opening> openings_;
   std::shared_ptr<const Network> network_;
   std::size_t place_ = 0;
   /// Of elements that switch, since the last settle(): whether they were open, how often that changed. Told to the user of a
-  /// run that fails; nothing is computed from it.
+  /// run that fails.
   struct Course {
     bool seen = false, open = false;
     int changes = 0;
   };
   mutable std::vector<Course> courses_;
+  mutable std::vector<double> conductances_, of_slopes_;  ///< of valves: at the last pressures, and at the last slopes
   mutable std::string unsettled_;
 };
 

@@ -62,8 +62,8 @@ std::vector<double> Openings<n>::start_rates(const std::vector<double>& kept, co
 }
 
 template <int n>
-std::vector<double> Openings<n>::pressures(const std::vector<double>& applied, const FluidInput& in,
-                                           double time, const std::vector<double>& reference,
+std::vector<double> Openings<n>::pressures(const std::vector<double>& applied, const FluidInput& in, double time,
+                                           const std::vector<double>& reference,
                                            const std::vector<double>& kept) const {
   assert(applied.size() <= count_);
   std::vector<double> pressures = applied;

@@ -7,7 +7,6 @@
 #include "base/names.hpp"
 #include "base/printable.hpp"
 #include "base/quantity.hpp"
-#include "case/network_data.hpp"
 #include "case/openings.hpp"
 #include "materials/material.hpp"
 #include "materials/viscosity_law.hpp"
@@ -112,7 +111,6 @@ void describe_openings(const Case& setup, const std::vector<std::string>& surfac
   for (const OpeningData& opening : openings_of(setup))
     if (opening.demanded || contains(surfaces, opening.surface))
       lines.push_back({"opening " + opening.surface, text_of_opening(opening, unit_of_volume(setup))});
-  if (setup.network) lines.push_back({"network", text_of_network(*make_network(setup), unit_of_volume(setup))});
   if (setup.load) lines.push_back({"load", "pressure " + course(*setup.load, "kPa") + " on the inner face"});
 }
 

@@ -24,13 +24,18 @@ class LowRankCycle : public CycledMedium {
   /// A term in the unknowns of the system; all must outlive this.
   struct Term {
     double slope;
-    const std::vector<double>* slopes;  ///< by all flows; empty: by its own alone
+    const std::vector<double>* slopes;                    ///< by all flows; empty: by its own alone
     const std::vector<double>*rows, *columns, *solution;  ///< w, v, Y
   };
 
   /// \param inverse  (1 + S V^T Y)^-1, row by row
   LowRankCycle(CycledMedium& medium, const std::vector<Term>& terms, std::vector<double> inverse)
-      : medium_(medium), terms_(terms), inverse_(std::move(inverse)), single_(terms.size()), flows_(terms.size()), pressures_(terms.size()) {
+      : medium_(medium),
+        terms_(terms),
+        inverse_(std::move(inverse)),
+        single_(terms.size()),
+        flows_(terms.size()),
+        pressures_(terms.size()) {
     std::vector<double> right;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const auto shorten = [&](const std::vector<double>& of_system, std::vector<float>& x) {
@@ -92,9 +97,7 @@ class LowRankCycle : public CycledMedium {
     std::vector<float> rows, columns, solution;
   };
 
-  double pressure_of(std::size_t i) const {
-    return pressure_by_flows(terms_[i].slope, *terms_[i].slopes, i, flows_);
-  }
+  double pressure_of(std::size_t i) const { return pressure_by_flows(terms_[i].slope, *terms_[i].slopes, i, flows_); }
   static double dot(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<double>(a[k]) * b[k];

@@ -66,8 +66,7 @@ LinearReport LowRankLinearSolver<n>::prepare() {
   for (std::size_t j = 0; j < m; ++j) {
     const std::vector<double> answers = flows(of_system_[j].solution);
     for (std::size_t i = 0; i < m; ++i)
-      matrix[i * m + j] =
-          of_system_[i].given ? answers[i] : (i == j ? 1 : 0) + answer(of_system_[i], i, answers);
+      matrix[i * m + j] = of_system_[i].given ? answers[i] : (i == j ? 1 : 0) + answer(of_system_[i], i, answers);
     of_system_[j].answer = answers[j];
   }
   for (std::size_t i = 0; i < m; ++i)
@@ -168,7 +167,8 @@ CycledMedium* LowRankLinearSolver<n>::cycled() {
   if (!prepared_ || medium == nullptr) return nullptr;
   if (!cycle_) {
     std::vector<LowRankCycle::Term> terms;
-    for (const Term& term : of_system_) terms.push_back({term.slope, &term.slopes, &term.rows, &term.columns, &term.solution});
+    for (const Term& term : of_system_)
+      terms.push_back({term.slope, &term.slopes, &term.rows, &term.columns, &term.solution});
     cycle_ = std::make_unique<LowRankCycle>(*medium, terms, inverse_);
   }
   return cycle_.get();

@@ -63,7 +63,7 @@ class OpeningTerms {
 
   const Scene<n>& scene_;
   std::vector<OpeningTerm> terms_;
-  std::vector<Moving> moving_;  ///< in their order, empty for openings that stay
+  std::vector<Moving> moving_;               ///< in their order, empty for openings that stay
   std::vector<std::vector<double>> slopes_;  ///< of openings that a network joins, by the flows of all terms
   GivenFlows<n> given_flows_;
   std::vector<double> increments_;                  ///< of the pressures where the flow is given

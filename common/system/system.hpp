@@ -63,6 +63,7 @@ class System : public NewtonProblem {
 
   void linearise() override;
   bool linearised() const override { return usable_ && solver_->ready(); }
+  bool outdated() const override { return numbering_.has_fluid() && scene_.openings.joined().outdated(); }
 
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
   void linearise_at(const LinearisationPoint& point);
@@ -129,9 +130,7 @@ class System : public NewtonProblem {
   double solve(double tolerance, const std::vector<double>& b);
 
   /// Whether derivatives depend on the pressures at openings or on what these keep: where one moves, or a network joins some.
-  bool openings_differ() const {
-    return !numbering_.fluid_rows.empty() && (openings_.move() || openings_.vary());
-  }
+  bool openings_differ() const { return !numbering_.fluid_rows.empty() && (openings_.move() || openings_.vary()); }
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;
