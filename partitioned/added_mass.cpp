@@ -23,6 +23,9 @@ double added_mass(const Scene<n>& scene, InterfaceProblem<n>& problem, const Int
     for (const auto& opening : scene.openings.answering())
       push.opening_pressures[opening.number] -=
           opening.law->pressure(push.rates.fluid_factor, push.rates.openings_reference.data() + opening.place, 0);
+    const StepRates& rates = push.rates;
+    scene.openings.joined().subtract_still_pressures(rates.fluid_factor, rates.time, rates.openings_reference,
+                                                     push.opening_pressures);
   };
   const double at_rest = scene.initial_load ? scene.initial_load->pressure : 0.0;
   if (scene.initial_load)

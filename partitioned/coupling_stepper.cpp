@@ -226,6 +226,7 @@ void CouplingStepper<n>::log_pass() {
 
 template <int n>
 void CouplingStepper<n>::give_up(const State& state, const StepData& data, const char* what) const {
+  const std::string valve = scene_.openings.joined().complaint();
   throw ConvergenceError(
       fmt::format("step {} (to t = {:g} ms): the {} coupling {} in {} iterations, |d~ - d| / |d~| = "
                   "{:.2e}, wanted {:g}; pressure {:.2e}{}; force {:.2e}{}",
@@ -233,8 +234,9 @@ void CouplingStepper<n>::give_up(const State& state, const StepData& data, const
                   options_.gap_tolerance(), coupling_.pressure_residual,
                   agreement_.weighs_pressure() ? fmt::format(", wanted {:g}", options_.gap_tolerance()) : "",
                   coupling_.force_residual,
-                  options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : ""),
-      scheme_.advice);
+                  options_.force_tolerance > 0 ? fmt::format(", wanted {:g}", options_.force_tolerance) : "") +
+          (valve.empty() ? "" : "; " + valve),
+      valve.empty() ? scheme_.advice : std::string(scheme_.advice) + ", or " + JoinedOpenings<n>::remedy);
 }
 
 template <int n>
@@ -255,10 +257,13 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
   const bool stiffened = more && !good.found && !extrapolated && problem_->stiffen();
   if (!more || (!good.found && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
+    const std::string valve = scene_.openings.joined().complaint();
     throw ConvergenceError(
         fmt::format("step {} (to t = {:g} ms): the {} coupling found no answer in pass {}: {}", state.step + 1,
-                    data.time, scheme_.name, passes_, failure.what()),
-        scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step");
+                    data.time, scheme_.name, passes_, failure.what()) +
+            (valve.empty() ? "" : "; " + valve),
+        (scheme_.one_pass ? scheme_.advice : "a smaller partitioned.relaxation or a smaller time.step") +
+            (valve.empty() ? std::string() : std::string(", or ") + JoinedOpenings<n>::remedy));
   }
   if (extrapolated || stiffened) {
     order_ = 0;  // the extrapolated start can be the culprit, after a jump of the load for example

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,6 +25,8 @@
 #include "solvers/newton.hpp"
 
 namespace fsi {
+
+struct NetworkData;  // case/network_data.hpp
 
 /// [support.SURFACE]: what holds a surface of the wall from outside, and loads it (docs/theory.md, section 4.5).
 struct SupportData {
@@ -70,9 +73,9 @@ struct FluidData {
 
 /// [structure.layers.NAME]
 struct MaterialData {
-  std::string material;    ///< a name of materials()
-  ParameterValues values;  ///< its parameters, for make_material()
-  double viscosity = 0;    ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
+  std::string material;                  ///< a name of materials()
+  ParameterValues values;                ///< its parameters, for make_material()
+  double viscosity = 0;                  ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
   std::vector<MaxwellBranch> maxwell{};  ///< spring and dashpot in series beside the material; none: that alone
 };
 
@@ -196,6 +199,7 @@ struct Case {
   std::optional<PressureTable> inlet;                   ///< [inlet]: pressure on the fluid's inlet
   std::optional<PressureTable> load;                    ///< [load]: pressure on the inner face of a wall without fluid
   std::map<std::string, OpeningConditions> openings{};  ///< [[opening]], by surface
+  std::shared_ptr<const NetworkData> network{};         ///< [network] behind openings; null: there is none
   std::map<std::string, SupportData> supports;          ///< [support.SURFACE] by surface group
   std::optional<PrestressData> prestress;
   std::optional<TimeData> time;

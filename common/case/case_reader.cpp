@@ -15,6 +15,7 @@
 #include "case/lumped_start_keys.hpp"
 #include "case/maxwell_keys.hpp"
 #include "case/named_lists.hpp"
+#include "case/network_keys.hpp"
 #include "case/opening_keys.hpp"
 #include "case/periodic_end.hpp"
 #include "case/support_keys.hpp"
@@ -184,7 +185,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 Case parse_case(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   CaseSource source{file.string(), {}, {}};
   toml::table document = parsed_document(text, source);
-  name_lists_by_surface(document, source);
+  name_lists(document, source);
   apply_overrides(overrides, document, source);
 
   const CaseEntry whole_case(document, "", "", source);
@@ -192,6 +193,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   scene.path = file;
   read_keys(whole_case, case_keys(), scene);
   check_sections(whole_case, scene);
+  join_network(whole_case, scene);
   check_openings(whole_case, scene);
   check_closed(whole_case, scene);
   set_lumped_start(whole_case, scene);

@@ -32,9 +32,9 @@ const std::vector<CaseKey<MaxwellBranch>>& branch_keys() {
 }
 
 void read_branches(const CaseEntry& entry, MaterialData& layer) {
-  if (!entry.is_array()) entry.refuse_value("is no list of branches", fmt::format("give {}", form));
+  if (!entry.is_array()) entry.refuse_name("is no list of branches", fmt::format("give {}", form));
   const auto given = entry.elements();
-  if (given.empty()) entry.refuse_value("has no branch", fmt::format("give {}, or leave it out", form));
+  if (given.empty()) entry.refuse_name("has no branch", fmt::format("give {}, or leave it out", form));
   if (given.size() > most_branches)
     entry.refuse(fmt::format("{} branches", given.size()), fmt::format("give at most {}", most_branches));
   for (const CaseEntry& branch : given) {

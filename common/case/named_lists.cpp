@@ -11,22 +11,34 @@ namespace fsi {
 
 namespace {
 
-constexpr std::array<const char*, 2> lists = {"opening", "support"};
-constexpr const char* name_key = "surface";
+/// A list of sections, each with a name.
+struct NamedList {
+  const char *section, *list;  ///< section: "" where the list stands in none
+  const char *key, *about;     ///< of the name
 
-toml::table by_surface(const std::string& list, toml::array& entries, const CaseSource& source) {
+  std::string path() const { return *section == '\0' ? list : std::string(section) + "." + list; }
+};
+constexpr const char* surface = "name of a surface group of the mesh";
+constexpr std::array<NamedList, 3> lists = {NamedList{"", "opening", "surface", surface},
+                                            NamedList{"", "support", "surface", surface},
+                                            NamedList{"network", "element", "name", "name of the element"}};
+
+toml::table by_name(const NamedList& kind, toml::array& entries, const CaseSource& source) {
   toml::table named;
+  const std::string list = kind.path();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const CaseEntry entry(entries[i], fmt::format("{}[{}]", list, i + 1), "", source);
     if (!entry.is_section()) entry.refuse("is no section", "begin each with a line [[" + list + "]]");
-    if (!entry.has(name_key)) entry.refuse_missing(name_key, "add it (name of a surface group of the mesh)");
-    const CaseEntry surface = entry.child(name_key, "name of a surface group of the mesh");
-    const std::string name = surface.line();
-    if (name.empty()) surface.refuse_value("is empty", "give the name of a surface group of the mesh");
+    if (!entry.has(kind.key)) entry.refuse_missing(kind.key, fmt::format("add it ({})", kind.about));
+    const CaseEntry named_by = entry.child(kind.key, kind.about);
+    const std::string name = named_by.line();
+    if (name.empty()) named_by.refuse_value("is empty", fmt::format("give the {}", kind.about));
     if (named.contains(name))
-      surface.refuse_value("has a [[" + list + "]] already", "put all that holds there into one");
+      named_by.refuse_value("has a [[" + list + "]] already", std::string(kind.key) == "surface"
+                                                                  ? "put all that holds there into one"
+                                                                  : "give another name");
     toml::table& table = *entries[i].as_table();
-    table.erase(name_key);
+    table.erase(kind.key);
     named.insert(name, std::move(table));
   }
   return named;
@@ -34,12 +46,14 @@ toml::table by_surface(const std::string& list, toml::array& entries, const Case
 
 }  // namespace
 
-void name_lists_by_surface(toml::table& document, const CaseSource& source) {
-  for (const char* list : lists)
-    if (auto* entries = document[list].as_array()) {
-      toml::table named = by_surface(list, *entries, source);
-      document.insert_or_assign(list, std::move(named));
-    }
+void name_lists(toml::table& document, const CaseSource& source) {
+  for (const NamedList& kind : lists) {
+    toml::table* section = *kind.section == '\0' ? &document : document[kind.section].as_table();
+    auto* entries = section == nullptr ? nullptr : (*section)[kind.list].as_array();
+    if (entries == nullptr) continue;
+    toml::table named = by_name(kind, *entries, source);
+    section->insert_or_assign(kind.list, std::move(named));
+  }
 }
 
 }  // namespace fsi

@@ -6,10 +6,10 @@
 
 namespace fsi {
 
-/// Turns the lists of a case, [[opening]] and [[support]], into sections by the name of the surface that each entry is
-/// for: what follows reads, checks, overrides and names `opening.outlet.pressure` as any other key. The key `surface` is
-/// taken out. A case that already says [opening.outlet] is left as it is.
-/// \throws InputError for an entry without a surface, and for two of one surface
-void name_lists_by_surface(toml::table& document, const CaseSource& source);
+/// Turns the lists of a case, [[opening]], [[support]] and [[network.element]], into sections by the name of the surface
+/// that each entry is for, or by its own: what follows reads, checks, overrides and names `opening.outlet.pressure` as any
+/// other key. The key `surface`, or `name`, is taken out. A case that already says [opening.outlet] is left as it is.
+/// \throws InputError for an entry without a name, and for two of one name
+void name_lists(toml::table& document, const CaseSource& source);
 
 }  // namespace fsi

@@ -9,6 +9,7 @@
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
 #include "case/maxwell_keys.hpp"
+#include "case/network_keys.hpp"
 #include "case/opening_keys.hpp"
 #include "case/parameter_keys.hpp"
 #include "case/periodic_end.hpp"
@@ -436,6 +437,7 @@ std::vector<CaseKey<Case>> physics_keys() {
                                    &Case::structure, check_structure),
       pressure_section("inlet", "pressure at the inlet, in scenes with fluid", &Case::inlet),
       opening_key(),
+      network_key(),
       pressure_section("load", "pressure on the inner face of the wall, in scenes without fluid", &Case::load),
       support_section(),
       prestress_section(),

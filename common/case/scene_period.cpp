@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "case/network_data.hpp"
 #include "case/openings.hpp"
 
 namespace fsi {
@@ -10,6 +11,7 @@ std::vector<std::pair<std::string, double>> periods_of_openings(const Case& setu
   std::vector<std::pair<std::string, double>> periods;
   for (const auto& [key, table] : tables_over_time(setup))
     if (table->period > 0) periods.emplace_back(key, table->period);
+  for (auto& period : periods_of_network(setup)) periods.push_back(std::move(period));
   return periods;
 }
 

@@ -53,6 +53,10 @@ constexpr std::array units = {
     Unit{ColumnKind::flow_rate_of_depth, "m2/s", 1e3},
     Unit{ColumnKind::flow_rate_of_depth, "cm2/s", 0.1},
     Unit{ColumnKind::flow_rate_of_depth, "mm2/s", 1e-3},
+    Unit{ColumnKind::elastance, "kPa/mm3", 1},
+    Unit{ColumnKind::elastance, "kPa/ml", 1e-3},
+    Unit{ColumnKind::elastance, "mmHg/ml", 0.133322e-3},
+    Unit{ColumnKind::elastance, "Pa/m3", 1e-12},
 };
 constexpr std::array velocities = {"m/s", "cm/s", "mm/s", "mm/ms"};
 
@@ -103,7 +107,10 @@ bool looks_like_unit(const std::string& text) {
 }
 
 const char* word_of(ColumnKind kind) {
-  return kind == ColumnKind::time ? "time" : kind == ColumnKind::pressure ? "pressure" : "flow rate";
+  return kind == ColumnKind::time        ? "time"
+         : kind == ColumnKind::pressure  ? "pressure"
+         : kind == ColumnKind::elastance ? "elastance"
+                                         : "flow rate";
 }
 
 /// Of a plane scene the flow is that through 1 mm of thickness: mm^3/ms is mm^2/ms there.

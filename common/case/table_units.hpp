@@ -7,12 +7,12 @@
 namespace fsi {
 
 /// What a column of a CSV table may measure.
-enum class ColumnKind { time, pressure, flow_rate, flow_rate_of_depth };
+enum class ColumnKind { time, pressure, flow_rate, flow_rate_of_depth, elastance };
 
 /// A unit that the header of a column names.
 struct ColumnUnit {
   std::string name;   ///< as it stands in the header
-  double factor = 1;  ///< a value in it times this is one in ms, kPa, mm^3/ms or mm^2/ms
+  double factor = 1;  ///< a value in it times this is one in ms, kPa, mm^3/ms, mm^2/ms or kPa/mm^3
 };
 
 /// The unit in the header of a column: behind the last underscores or blanks ("flow_ml_per_s", "time ms"), in brackets

@@ -8,6 +8,7 @@
 #include "observers/field_observer.hpp"
 #include "observers/force_observer.hpp"
 #include "observers/interface_observer.hpp"
+#include "observers/network_observer.hpp"
 #include "observers/observables.hpp"
 #include "observers/opening_observer.hpp"
 #include "observers/periodicity_observer.hpp"
@@ -39,6 +40,7 @@ const std::vector<Kind<n>>& kinds() {
       {"", {surfaces_file}, make_force_observer<n>},
       {"", {centreline_file, wall_file, flow_file, points_file, lines_file, planes_file}, make_observables<n>},
       {"", {openings_file}, make_opening_observer<n>},
+      {"", {network_file}, make_network_observer<n>},
       {"statistics.", {}, make_statistics_observer<n>},
       {"periodicity.", {}, make_periodicity_observer<n>},
       {"errors.", {}, make_error_observer<n>},

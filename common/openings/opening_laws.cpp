@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "openings/law_parameters.hpp"
+#include "materials/law_parameters.hpp"
 #include "openings/resistance.hpp"
 #include "openings/windkessel.hpp"
 

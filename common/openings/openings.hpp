@@ -6,14 +6,15 @@
 
 #include "fluid/fluid_input.hpp"
 #include "fluid/open_boundary.hpp"
+#include "openings/joined_openings.hpp"
 #include "openings/opening_law.hpp"
 
 namespace fsi {
 
 /// What lies behind the surfaces through which fluid may pass, as far as it answers the flow, and all that openings keep
-/// from step to step. Solution::openings holds that: first the numbers of the laws, then pressure (kPa) and flow outward
-/// (mm^3/ms) of each opening that moves and whose flow is given; both in the order of the openings. This class alone
-/// knows where. Processes that share the fluid ask together and get the same numbers.
+/// from step to step. Solution::openings holds that: first the numbers of the laws, then those of the network, then
+/// pressure (kPa) and flow outward (mm^3/ms) of each opening that moves and whose flow is given; laws and such openings in
+/// the order of the openings. This class alone knows where. Processes that share the fluid ask together and get the same numbers.
 /// \tparam n  components of a vector
 template <int n>
 class Openings {
@@ -35,12 +36,15 @@ class Openings {
   struct Behind {
     std::shared_ptr<const OpeningLaw> law;  ///< null: no law
     bool flow_given = false;
+    bool joined = false;  ///< by the network
   };
 
   Openings() = default;
   /// \param surfaces  must outlive this and keep its place
   /// \param behind    of each
-  Openings(const std::vector<OpenBoundary<n>>& surfaces, const std::vector<Behind>& behind);
+  /// \param network   that joins those that are joined; null: none is
+  Openings(const std::vector<OpenBoundary<n>>& surfaces, const std::vector<Behind>& behind,
+           std::shared_ptr<const Network> network = nullptr);
 
   const std::vector<Answering>& answering() const { return answering_; }
   /// What answers at an opening; null: nothing. \param number  of the opening
@@ -50,6 +54,7 @@ class Openings {
     return nullptr;
   }
   const std::vector<Driven>& driven() const { return driven_; }
+  const JoinedOpenings<n>& joined() const { return joined_; }
 
   /// How many numbers they keep.
   std::size_t size() const { return size_; }
@@ -61,11 +66,12 @@ class Openings {
 
   /// The pressures from outside at a balance, kPa, of all openings in their order.
   /// \param applied    by tables; missing ones are zero
+  /// \param time       ms, of the balance
   /// \param reference  r of the numbers kept: dy/dt = in.fluid_factor (y - r)
-  std::vector<double> pressures(const std::vector<double>& applied, const FluidInput& in,
+  std::vector<double> pressures(const std::vector<double>& applied, const FluidInput& in, double time,
                                 const std::vector<double>& reference, const std::vector<double>& kept) const;
   /// Sets what they keep at a balance from the flow there; pressures that drive flows are there already.
-  void settle(const FluidInput& in, const std::vector<double>& reference, std::vector<double>& kept) const;
+  void settle(const FluidInput& in, double time, const std::vector<double>& reference, std::vector<double>& kept) const;
 
   /// The pressure that drives a flow, kPa. \tparam Kept  their numbers, const or not
   template <class Kept>
@@ -83,6 +89,7 @@ class Openings {
  private:
   std::size_t count_ = 0, size_ = 0;
   std::vector<Answering> answering_;
+  JoinedOpenings<n> joined_;
   std::vector<Driven> driven_;
 };
 

@@ -34,6 +34,7 @@ std::string text_of_opening(const OpeningData& opening, const char* volume) {
     return fmt::format("flow into the fluid of {}, {} profile",
                        course(opening.flow_rate->table, std::string(volume) + "/ms"),
                        inflow_profiles().name_of(opening.flow_rate->profile));
+  if (opening.joined) return "joined by the network";
   if (opening.law) return opening.law->make()->description(volume);
   return "free of traction";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/network_data.hpp"
 #include "fem/elements.hpp"
 #include "fluid/backflow.hpp"
 #include "fluid/fluid_problem.hpp"
@@ -97,9 +98,10 @@ void build_fluid(const Case& setup, int region, FluidParts<Element> parts, Scene
   std::vector<typename Openings<n>::Behind> behind;
   for (std::size_t i = 0; i < openings.size(); ++i) {
     if (!open[i].empty()) fluid->stabilise_backflow(i, backflow_of(openings[i], open[i]));
-    behind.push_back({openings[i].law ? openings[i].law->make() : nullptr, openings[i].flow_rate && open[i].moving()});
+    behind.push_back({openings[i].law ? openings[i].law->make() : nullptr, openings[i].flow_rate && open[i].moving(),
+                      openings[i].joined});
   }
-  scene.openings = Openings<n>(open, behind);
+  scene.openings = Openings<n>(open, behind, setup.network ? make_network(setup) : nullptr);
   for (Inflow& inflow : parts.inflows) {
     if (!inflow.instead.empty()) scene.notices.push_back(std::move(inflow.instead));
     if (!inflow.remark.empty()) scene.remarks.push_back(std::move(inflow.remark));

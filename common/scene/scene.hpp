@@ -167,8 +167,8 @@ class Scene {
   }
   /// From outside at a balance, kPa, of the fluid's open boundaries in their order; missing ones are zero.
   std::vector<double> opening_pressures(const Solution& at, const StepData& data) const {
-    return openings.pressures(data.opening_pressures, fluid_input(at, data.rates), data.rates.openings_reference,
-                              at.openings);
+    return openings.pressures(data.opening_pressures, fluid_input(at, data.rates), data.rates.time,
+                              data.rates.openings_reference, at.openings);
   }
   WallInput wall_input(const Solution& now, const StepRates& rates) const {
     WallInput in;
@@ -206,7 +206,7 @@ class Scene {
 
   /// Sets what openings keep at a balance from the flow there.
   void settle_openings(Solution& balance, const StepRates& rates) const {
-    if (fluid) openings.settle(fluid_input(balance, rates), rates.openings_reference, balance.openings);
+    if (fluid) openings.settle(fluid_input(balance, rates), rates.time, rates.openings_reference, balance.openings);
   }
   /// Sets what Maxwell branches of the wall keep at a balance from the displacement there.
   void settle_branches(Solution& balance, const StepRates& rates) const {

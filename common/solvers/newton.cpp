@@ -118,7 +118,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   const bool keep = options.mode != NewtonMode::full;
   int kept_iterations = 0;
   double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
-  bool renew = !keep || !problem.linearised();
+  bool renew = !keep || !problem.linearised() || problem.outdated();
   ErrorWatch watch;
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
@@ -157,7 +157,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     bool accurate = iteration.increment <= options.tolerance * reference;
     if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
       accurate = watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance;
-    const bool small = iteration.step == 1 && (accurate || problem.negligible(increment, rounding_increment) ||
+    const bool outdated = problem.outdated();
+    const bool small = iteration.step == 1 && !outdated && (accurate || problem.negligible(increment, rounding_increment) ||
                                                (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
@@ -169,7 +170,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     }
     if (renew) kept_iterations = 0;
     ++kept_iterations;
-    renew = !keep || (new_residual > rounding &&
+    renew = !keep || outdated || (new_residual > rounding &&
                       (new_residual > keep_contraction * residual || kept_iterations >= options.keep_iterations));
     ratio = new_residual / residual;
     residual = new_residual;

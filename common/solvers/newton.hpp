@@ -19,6 +19,9 @@ class NewtonProblem {
   /// Builds and factorises the Jacobian at the iterate.
   virtual void linearise() = 0;
   virtual bool linearised() const = 0;
+  /// Whether derivatives at the iterate are known to be others than those of the last Jacobian, by far: where something has
+  /// opened or closed. Increments then say nothing of the error.
+  virtual bool outdated() const { return false; }
   /// Increment = -J^-1 R with the last Jacobian, up to |R + J increment| <= tolerance |R|; returns its norm, NaN when
   /// the linear solver failed.
   virtual double solve(double tolerance) = 0;

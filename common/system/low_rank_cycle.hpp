@@ -8,19 +8,34 @@
 
 namespace fsi {
 
-/// The cycles of A for A + sum of slope w v^T, as LowRankLinearSolver solves with it: Y = A^-1 W is known, and what a cycle
+/// A pressure by the flows of all terms: by its own alone where there are no slopes by the others.
+inline double pressure_by_flows(double slope, const std::vector<double>& slopes, std::size_t own,
+                                const std::vector<double>& flows) {
+  if (slopes.empty()) return slope * flows[own];
+  double pressure = 0;
+  for (std::size_t j = 0; j < flows.size(); ++j) pressure += slopes[j] * flows[j];
+  return pressure;
+}
+
+/// The cycles of A for A + W S V^T, as LowRankLinearSolver solves with it: Y = A^-1 W is known, and what a cycle
 /// leaves of z = A^-1 x becomes z - Y (1 + S V^T Y)^-1 S V^T z.
 class LowRankCycle : public CycledMedium {
  public:
   /// A term in the unknowns of the system; all must outlive this.
   struct Term {
     double slope;
+    const std::vector<double>* slopes;                    ///< by all flows; empty: by its own alone
     const std::vector<double>*rows, *columns, *solution;  ///< w, v, Y
   };
 
   /// \param inverse  (1 + S V^T Y)^-1, row by row
   LowRankCycle(CycledMedium& medium, const std::vector<Term>& terms, std::vector<double> inverse)
-      : medium_(medium), terms_(terms), inverse_(std::move(inverse)), single_(terms.size()), flows_(terms.size()) {
+      : medium_(medium),
+        terms_(terms),
+        inverse_(std::move(inverse)),
+        single_(terms.size()),
+        flows_(terms.size()),
+        pressures_(terms.size()) {
     std::vector<double> right;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const auto shorten = [&](const std::vector<double>& of_system, std::vector<float>& x) {
@@ -37,15 +52,16 @@ class LowRankCycle : public CycledMedium {
   int place(int node) const override { return medium_.place(node); }
   void multiply(const std::vector<float>& x, std::vector<float>& y) const override {
     medium_.multiply(x, y);
-    for (std::size_t i = 0; i < terms_.size(); ++i)
-      add(terms_[i].slope * dot(single_[i].columns, x), single_[i].rows, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = dot(single_[i].columns, x);
+    for (std::size_t i = 0; i < terms_.size(); ++i) add(pressure_of(i), single_[i].rows, y);
   }
   void cycle(const std::vector<float>& x, std::vector<float>& y) override {
     medium_.cycle(x, y);
-    for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = terms_[i].slope * dot(single_[i].columns, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) flows_[i] = dot(single_[i].columns, y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) pressures_[i] = pressure_of(i);
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       double pressure = 0;
-      for (std::size_t j = 0; j < terms_.size(); ++j) pressure += inverse_[i * terms_.size() + j] * flows_[j];
+      for (std::size_t j = 0; j < terms_.size(); ++j) pressure += inverse_[i * terms_.size() + j] * pressures_[j];
       add(-pressure, single_[i].solution, y);
     }
   }
@@ -65,10 +81,14 @@ class LowRankCycle : public CycledMedium {
   }
   void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override {
     medium_.multiply_whole(x, y);
-    for (const Term& term : terms_) {
-      double flow = 0;
-      for (std::size_t k = 0; k < term.columns->size(); ++k) flow += (*term.columns)[k] * x[k];
-      for (std::size_t k = 0; k < y.size(); ++k) y[k] += term.slope * flow * (*term.rows)[k];
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const auto& columns = *terms_[i].columns;
+      flows_[i] = 0;
+      for (std::size_t k = 0; k < columns.size(); ++k) flows_[i] += columns[k] * x[k];
+    }
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const double pressure = pressure_of(i);
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += pressure * (*terms_[i].rows)[k];
     }
   }
 
@@ -77,6 +97,7 @@ class LowRankCycle : public CycledMedium {
     std::vector<float> rows, columns, solution;
   };
 
+  double pressure_of(std::size_t i) const { return pressure_by_flows(terms_[i].slope, *terms_[i].slopes, i, flows_); }
   static double dot(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += static_cast<double>(a[k]) * b[k];
@@ -90,7 +111,8 @@ class LowRankCycle : public CycledMedium {
   std::vector<Term> terms_;
   std::vector<double> inverse_;
   std::vector<Single> single_;
-  std::vector<double> flows_;
+  mutable std::vector<double> flows_;
+  std::vector<double> pressures_;
 };
 
 }  // namespace fsi

@@ -33,6 +33,7 @@ void LowRankLinearSolver<n>::update() {
     Term& term = of_system_[i];
     term.slope = terms_[i].slope;
     term.given = terms_[i].given;
+    term.slopes = terms_[i].slopes ? *terms_[i].slopes : std::vector<double>();
     std::vector<double> normals = *terms_[i].normals;
     if (blocks_.fluid_frames) blocks_.fluid_frames->template to_frames<MixedLayout<n>>(normals);
     term.rows.assign(size, 0.0);
@@ -65,7 +66,7 @@ LinearReport LowRankLinearSolver<n>::prepare() {
   for (std::size_t j = 0; j < m; ++j) {
     const std::vector<double> answers = flows(of_system_[j].solution);
     for (std::size_t i = 0; i < m; ++i)
-      matrix[i * m + j] = of_system_[i].given ? answers[i] : (i == j ? 1 : 0) + of_system_[i].slope * answers[i];
+      matrix[i * m + j] = of_system_[i].given ? answers[i] : (i == j ? 1 : 0) + answer(of_system_[i], i, answers);
     of_system_[j].answer = answers[j];
   }
   for (std::size_t i = 0; i < m; ++i)
@@ -81,9 +82,10 @@ LinearReport LowRankLinearSolver<n>::prepare() {
 template <int n>
 std::vector<double> LowRankLinearSolver<n>::correct(std::vector<double>& z, const std::vector<double>& gaps) const {
   const std::size_t m = of_system_.size();
-  std::vector<double> right = flows(z), pressures(m);
+  const std::vector<double> flow = flows(z);
+  std::vector<double> right(m), pressures(m);
   for (std::size_t i = 0; i < m; ++i)
-    right[i] = of_system_[i].given ? (right[i] - gaps[i]) / of_system_[i].answer : right[i] * of_system_[i].slope;
+    right[i] = of_system_[i].given ? (flow[i] - gaps[i]) / of_system_[i].answer : answer(of_system_[i], i, flow);
   for (std::size_t i = 0; i < m; ++i) {
     double sum = 0;
     for (std::size_t j = 0; j < m; ++j) sum += inverse_[i * m + j] * right[j];
@@ -99,7 +101,7 @@ double LowRankLinearSolver<n>::residual_norm(const std::vector<double>& b, std::
   product_.multiply(x, residual_);
   const std::vector<double> flow = flows(x);
   for (std::size_t i = 0; i < flow.size(); ++i)
-    axpy(of_system_[i].given ? pressures_[i] : of_system_[i].slope * flow[i], of_system_[i].rows, residual_);
+    axpy(of_system_[i].given ? pressures_[i] : answer(of_system_[i], i, flow), of_system_[i].rows, residual_);
   for (std::size_t i = 0; i < b.size(); ++i) residual_[i] = b[i] - residual_[i];
   return norm_of(residual_);
 }
@@ -165,7 +167,8 @@ CycledMedium* LowRankLinearSolver<n>::cycled() {
   if (!prepared_ || medium == nullptr) return nullptr;
   if (!cycle_) {
     std::vector<LowRankCycle::Term> terms;
-    for (const Term& term : of_system_) terms.push_back({term.slope, &term.rows, &term.columns, &term.solution});
+    for (const Term& term : of_system_)
+      terms.push_back({term.slope, &term.slopes, &term.rows, &term.columns, &term.solution});
     cycle_ = std::make_unique<LowRankCycle>(*medium, terms, inverse_);
   }
   return cycle_.get();

@@ -19,9 +19,12 @@ struct OpeningTerm {
   /// v^T x = gap. `slope` is not read.
   bool given = false;
   double gap = 0;  ///< mm^3/ms; may differ at each solve
+  /// Where a network joins openings: dp/dQ of this pressure by the flows of all terms, in their order, in place of `slope`.
+  /// Its term is then w times the sum of these slopes times v^T of each term. Null: there is no other.
+  const std::vector<double>* slopes = nullptr;
 };
 
-/// Solves with A + sum of slope w v^T by any solver for A, after Sherman, Morrison and Woodbury ([Golub2013]):
+/// Solves with A + W S V^T, S being the slopes of pressures by flows, by any solver for A, after Sherman, Morrison and Woodbury ([Golub2013]):
 ///   x = z - Y p,   (1 + S V^T Y) p = S V^T z,   A z = b,   A Y = W.
 /// Where a flow is given, its row is v^T Y p = v^T z - gap (block elimination).
 /// Y is found with the first solve after an update() and serves as long as what A's solver has prepared. So the matrix
@@ -54,6 +57,7 @@ class LowRankLinearSolver : public LinearSolver {
     bool given;
     double answer = 0;                            ///< v^T A^-1 w
     double size = 0;                              ///< |w|, where the flow is given
+    std::vector<double> slopes;                   ///< by all flows; empty: by its own alone
     std::vector<double> rows, columns, solution;  ///< w as equations, v as own unknowns; A^-1 w
   };
 
@@ -61,11 +65,15 @@ class LowRankLinearSolver : public LinearSolver {
   LinearReport prepare();
   /// z - Y p. \param gaps  of the terms whose flow is given \returns p
   std::vector<double> correct(std::vector<double>& z, const std::vector<double>& gaps) const;
-  /// |b - (A + sum) x - W p|, W p of the terms whose flow is given; leaves it in residual_.
+  /// |b - (A + W S V^T) x - W p|, the latter W p of the terms whose flow is given; leaves it in residual_.
   double residual_norm(const std::vector<double>& b, std::vector<double>& x);
   /// Of all terms W^T x, summed over processes.
   std::vector<double> flows(const std::vector<double>& x) const;
   double norm_of(const std::vector<double>& equations) const;
+  /// What a term's pressure answers to the flows of all terms.
+  static double answer(const Term& term, std::size_t place, const std::vector<double>& flows) {
+    return pressure_by_flows(term.slope, term.slopes, place, flows);
+  }
 
   JacobianBlocks<n> blocks_;
   std::unique_ptr<LinearSolver> solver_;

@@ -56,6 +56,8 @@ bool keep(const std::string& name, LinearisationPoint& point, Memory& memory) {
   if (point.opening_pressures.empty()) return true;
   if_any(".windkessels", ArrayKind::opening_values, rates.openings_reference);
   if_any(".opening_values", ArrayKind::opening_values, now.openings);
+  if (memory.recalls() ? memory.has(name + ".time") : !rates.openings_reference.empty())
+    memory.number(name + ".time", rates.time);  // on which what a network joins depends
   return true;
 }
 
@@ -112,9 +114,11 @@ void NewtonMarch<n>::advance_stage(State& state, StepData& data) {
   }
   if (solved.converged) return finish_stage(state, data);
   abandon();
+  const std::string valve = scene_.openings.joined().complaint();
   throw ConvergenceError(fmt::format("{}: Newton's method stopped after {} iterations: {}", name_of_step(state, data),
-                                     solved.count(), solved.failure),
-                         remedy(solved));
+                                     solved.count(), solved.failure) +
+                             (valve.empty() ? "" : "; " + valve),
+                         valve.empty() ? remedy(solved) : remedy(solved) + ", or " + JoinedOpenings<n>::remedy);
 }
 
 template <int n>

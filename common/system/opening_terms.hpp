@@ -26,6 +26,8 @@ class OpeningTerms {
 
   /// Whether there is an opening that moves, on whose pressure derivatives depend.
   bool move() const;
+  /// Whether slopes of pressures depend on more than the step: where a network joins openings.
+  bool vary() const { return !scene_.openings.joined().empty(); }
   /// What given flows lack, outward, at the last residual, mm^3/ms.
   std::vector<double> gaps() const;
 
@@ -49,7 +51,9 @@ class OpeningTerms {
                                double fluid_factor, std::vector<double>& terms) const;
 
  private:
-  /// The term of the i-th flow that is given: they are the last ones.
+  /// The slopes of openings that a network joins.
+  void linearise_network(const FluidInput& in, const StepRates& rates);
+  /// The term of the i-th flow that is given: they are the last ones, behind those of laws and of the network.
   std::size_t term_of(std::size_t given_flow) const { return terms_.size() - given_flows_.count() + given_flow; }
 
   /// Of an opening that moves, at the last linearisation.
@@ -59,7 +63,8 @@ class OpeningTerms {
 
   const Scene<n>& scene_;
   std::vector<OpeningTerm> terms_;
-  std::vector<Moving> moving_;  ///< in their order, empty for openings that stay
+  std::vector<Moving> moving_;               ///< in their order, empty for openings that stay
+  std::vector<std::vector<double>> slopes_;  ///< of openings that a network joins, by the flows of all terms
   GivenFlows<n> given_flows_;
   std::vector<double> increments_;                  ///< of the pressures where the flow is given
   const LowRankLinearSolver<n>* solver_ = nullptr;  ///< where there are terms

@@ -102,7 +102,7 @@ void System<n>::linearise() {
   if (!point_.branches) point_.rates.branches_reference.clear();
   point_.wall_pressure = data_->wall_pressure;
   point_.support_loads = data_->support_loads;
-  if (openings_move()) point_.opening_pressures = data_->opening_pressures;
+  if (openings_differ()) point_.opening_pressures = data_->opening_pressures;
   usable_ = true;
 }
 
@@ -113,7 +113,7 @@ void System<n>::linearise_at(const LinearisationPoint& point) {
   StepData data;
   data.rates = point.rates;
   data.wall_pressure = point.wall_pressure;
-  if (!openings_move()) data.rates.openings_reference.clear();  // then no derivative depends on them
+  if (!openings_differ()) data.rates.openings_reference.clear();  // then no derivative depends on them
   data.rates.openings_reference.resize(scene_.openings.size(), 0.0);
   state.now.openings.resize(scene_.openings.size(), 0.0);
   data.support_loads = point.support_loads;

@@ -65,6 +65,7 @@ class System : public NewtonProblem {
 
   void linearise() override;
   bool linearised() const override { return usable_ && solver_->ready(); }
+  bool outdated() const override { return numbering_.has_fluid() && scene_.openings.joined().outdated(); }
 
   /// Makes the Jacobian of an earlier step again, bit for bit (restart).
   void linearise_at(const LinearisationPoint& point);
@@ -130,8 +131,8 @@ class System : public NewtonProblem {
   /// Increment = -J^-1 b.
   double solve(double tolerance, const std::vector<double>& b);
 
-  /// Whether there is an opening that moves, on whose pressure derivatives depend.
-  bool openings_move() const { return !numbering_.fluid_rows.empty() && openings_.move(); }
+  /// Whether derivatives depend on the pressures at openings or on what these keep: where one moves, or a network joins some.
+  bool openings_differ() const { return !numbering_.fluid_rows.empty() && (openings_.move() || openings_.vary()); }
 
   /// Whether a Jacobian of these rates is another one than that at hand.
   bool rates_differ(const StepRates& rates) const;

@@ -131,7 +131,7 @@ def numbers(runs):
         k = measured(run)
         for what, unit, value, exact, tolerance in (
             ("phase speed", "mm/ms", OMEGA / k.real, OMEGA / EXACT.real, 0.02 if runs.quick else 0.003),
-            ("attenuation", "1/mm", -k.imag, -EXACT.imag, 0.06 if runs.quick else 0.01),
+            ("attenuation", "1/mm", -k.imag, -EXACT.imag, 0.03 if runs.quick else 0.005),
         ):
             found.append(Number(what, unit, run.program, float(value), float(exact), tolerance, "dispersion relation"))
     return found

@@ -1,6 +1,6 @@
 // A tube of 2 mm radius and 0.5 mm wall in the plane of radius and axis, to be turned about the axis: blood, finer towards
 // the wall, and the wall. Lengths in mm.
-DefineConstant[ across = 7, through = 2, along = 40, length = 40 ];
+DefineConstant[ across = 6, through = 2, along = 60, length = 40 ];
 Point(1) = {0, 0, 0};
 Point(2) = {2, 0, 0};
 Point(3) = {2.5, 0, 0};

@@ -131,6 +131,10 @@ class LinearStudy {
       throw InputError(setup.path.string(), "opening." + opening.surface->name(),
                        "--linear-systems studies matrices, and the pressure of a resistance or a windkessel is in none",
                        "give this opening a pressure");
+    for (const auto& opening : scene_->openings.joined().openings())
+      throw InputError(setup.path.string(), "opening." + opening.surface->name(),
+                       "--linear-systems studies matrices, and the pressures that a network gives are in none",
+                       "give this opening a pressure");
     for (const auto& opening : scene_->openings.driven())
       throw InputError(setup.path.string(), "opening." + opening.surface->name(),
                        "--linear-systems studies matrices, and the pressure that drives the flow which is given at an "

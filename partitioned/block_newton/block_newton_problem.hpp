@@ -48,6 +48,7 @@ class BlockNewtonProblem : public NewtonProblem {
   double evaluate() override;
   void linearise() override;
   bool linearised() const override { return fluid_.linearised() && wall_.linearised(); }
+  bool outdated() const override { return fluid_.outdated(); }
   double solve(double tolerance) override;
   double keep_contraction() const override { return wall_.keep_contraction(); }
   int linear_iterations() const override { return linear_iterations_; }

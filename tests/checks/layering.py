@@ -21,6 +21,7 @@ FLOORS = (
     ("common/fem",),
     ("common/sampling",),
     ("common/materials",),
+    ("common/network",),
     ("common/fluid", "common/wall", "common/mesh_motion"),
     ("common/openings", "common/time"),
     ("common/case",),

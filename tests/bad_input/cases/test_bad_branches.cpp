@@ -26,28 +26,26 @@ std::string complaint_about(const std::string& text) {
 }
 
 TEST(BadBranches, AreRefusedInOneLine) {
-  const std::string here = "case.toml:20: structure.layers.adventitia.maxwell";
+  const std::string here = "case.toml:21: structure.layers.adventitia.maxwell";
   const std::string form = "give [{ shear = 20.0, time = 5.0 }, ...]";
   const auto complaint = [](const std::string& branches) { return complaint_about(with_branches(branches)); };
-  EXPECT_EQ(complaint("3.0").rfind(here + ": 3.0 is no list of branches; " + form, 0), 0u) << complaint("3.0");
-  EXPECT_EQ(complaint("[]").rfind(here + ": an array has no branch; " + form + ", or leave it out", 0), 0u)
-      << complaint("[]");
-  EXPECT_EQ(complaint("[3.0]"), here + "[0]: 3.0 is no branch; give { shear = ..., time = ... }");
+  EXPECT_EQ(complaint("3.0"), here + ": 3 is no list of branches; " + form);
+  EXPECT_EQ(complaint("[]"), here + ": [] has no branch; " + form + ", or leave it out");
+  EXPECT_EQ(complaint("[3.0]"), here + "[0]: 3 is no branch; give { shear = ..., time = ... }");
   EXPECT_EQ(complaint("[{ shear = 1.0, tim = 2.0 }]"),
             here + "[0].tim: unknown key; did you mean structure.layers.adventitia.maxwell[0].time?");
   EXPECT_EQ(complaint("[{ shear = 1.0, time = 2.0 }, { shear = 1.0 }]"),
             here + "[1].time: missing; add it (time in ms in which the branch's stress relaxes)");
   EXPECT_EQ(complaint("[{ shear = -1.0, time = 2.0 }]"),
-            here + "[0].shear: -1.0 is not positive; give a number > 0 (shear modulus of the branch's spring in kPa)");
-  EXPECT_EQ(
-      complaint("[{ shear = 1.0, time = 0.0 }]"),
-      here + "[0].time: 0.0 is not positive; give a number > 0 (time in ms in which the branch's stress relaxes)");
+            here + "[0].shear: -1 is not positive; give a number > 0 (shear modulus of the branch's spring in kPa)");
+  EXPECT_EQ(complaint("[{ shear = 1.0, time = 0.0 }]"),
+            here + "[0].time: 0 is not positive; give a number > 0 (time in ms in which the branch's stress relaxes)");
   std::string many = "[{ shear = 1.0, time = 1.0 }";
   for (int i = 0; i < 16; ++i) many += ", { shear = 1.0, time = 1.0 }";
   EXPECT_EQ(complaint(many + "]"), here + ": 17 branches; give at most 16");
   EXPECT_EQ(
       complaint_about(with(static_case, "c10 = 3", "c10 = 3\nmaxwell = [{ shear = 1.0, time = 1.0 }]")),
-      "case.toml:9: structure.layers.wall.maxwell: relaxes in time, which a static case has none of; remove it: at "
+      "case.toml:10: structure.layers.wall.maxwell: relaxes in time, which a static case has none of; remove it: at "
       "rest its branches bear nothing; or replace [static] by [time]");
 }
 

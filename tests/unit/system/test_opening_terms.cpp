@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "case/network_data.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "linear_solvers/general_solvers.hpp"
 #include "monolithic/coupled_numbering.hpp"
@@ -25,16 +26,33 @@ constexpr double initial_pressure = 0.8;
 const OpeningLawData at_outlet = windkessel(0.3, 0.05, 2.0, 0.5, initial_pressure),
                      at_inlet{"resistance", {{"resistance", 1.5}, {"distal_pressure", 0.2}}};
 
-/// The fluid of a box at a random state, a Windkessel at the outlet and perhaps a resistance at the inlet.
+/// Both openings lead through a resistance and a valve to one compliance.
+std::shared_ptr<const NetworkData> joining_both() {
+  NetworkData data;
+  data.ground_pressure = 0.1;
+  data.elements = {{"r", "resistor", "inlet", "m", {{"resistance", 1.5}}},
+                   {"v", "valve", "outlet", "m", {{"resistance", 0.4}, {"quadratic", 2}, {"leak", 0.01}}},
+                   {"c", "capacitor", "m", "ground", {{"compliance", 0.05}, {"initial_pressure", 0.8}}},
+                   {"d", "resistor", "m", "ground", {{"resistance", 2}}}};
+  return std::make_shared<const NetworkData>(data);
+}
+
+/// The fluid of a box at a random state, a Windkessel at the outlet and perhaps a resistance at the inlet, or a network.
 struct OpenFluid {
   std::unique_ptr<Scene<3>> scene;
   State state;
   StepData data;
 
-  explicit OpenFluid(bool both = true) {
+  explicit OpenFluid(bool both = true, bool network = false) {
     Case setup = coupled_case("neo-hookean");
-    setup.openings["outlet"].law = at_outlet;
-    if (both) {
+    if (network) {
+      setup.inlet.reset();
+      for (const char* surface : {"inlet", "outlet"}) setup.openings[surface].joined = true;
+      setup.network = joining_both();
+    } else {
+      setup.openings["outlet"].law = at_outlet;
+    }
+    if (both && !network) {
       setup.inlet.reset();
       setup.openings["inlet"].law = at_inlet;
     }
@@ -72,8 +90,9 @@ TEST(OpeningTerms, PressAsTheirLawSays) {
 
 /// The residual's derivative along Newton's correction is the residual's opposite: by differences, which know nothing of
 /// how the correction was found.
-void expect_exact_corrections(const std::string& solver, bool coupled, double linear_tolerance, double tolerance) {
-  OpenFluid open;
+void expect_exact_corrections(const std::string& solver, bool coupled, double linear_tolerance, double tolerance,
+                              bool network = false) {
+  OpenFluid open(true, network);
   FastOptions iterative;
   iterative.direct_below = 0;
   const auto system = std::make_unique<System<3>>("tested", *open.scene,
@@ -107,6 +126,33 @@ TEST(OpeningTerms, AreInCorrectionsByFactorisation) {
 TEST(OpeningTerms, AreInCorrectionsByIteration) {
   expect_exact_corrections("fast", false, 1e-8, 1e-7);
   expect_exact_corrections("fast", true, 1e-8, 1e-7);
+}
+
+TEST(OpeningTerms, OfANetworkAreInCorrections) {
+  for (const bool coupled : {false, true}) {
+    expect_exact_corrections("direct", coupled, 1e-12, 1e-7, true);
+    expect_exact_corrections("fast", coupled, 1e-8, 1e-7, true);
+  }
+}
+
+/// The pressures of both openings are those of the network at both flows, and neither is there without the other's.
+TEST(OpeningTerms, OfANetworkJoinOpenings) {
+  OpenFluid open(true, true);
+  const auto& joined = open.scene->openings.joined();
+  ASSERT_EQ(joined.openings().size(), 2u);
+  const FluidInput in = open.scene->fluid_input(open.state, open.data.rates);
+  const auto& rates = open.data.rates;
+  const std::vector<double> slopes = joined.slopes(in, rates.time, rates.openings_reference);
+  EXPECT_GT(slopes[1], 0.1);
+  EXPECT_NEAR(slopes[1], slopes[2], 1e-12 * slopes[1]) << "passive elements answer symmetrically";
+  std::vector<double> flows;
+  for (const auto& opening : joined.openings()) flows.push_back(opening.surface->relative_outflow(in));
+  const NetworkState state =
+      joined.network().solve({1 / rates.fluid_factor, rates.time}, rates.openings_reference.data(), flows);
+  const std::vector<double> pressures = open.scene->opening_pressures(open.state.now, open.data);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(pressures[i], open.data.opening_pressures[i] + state.pressures[i], 1e-14);
+  EXPECT_FALSE(joined.outdated());
 }
 
 /// A resistance a thousand times that of the fluid lets nothing through: the correction takes the flow away.

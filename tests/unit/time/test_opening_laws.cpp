@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "openings/law_parameters.hpp"
+#include "materials/law_parameters.hpp"
 #include "openings/lumped_start.hpp"
 #include "openings/opening_laws.hpp"
 #include "openings/windkessel.hpp"

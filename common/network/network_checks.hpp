@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "network/network.hpp"
+
+namespace fsi {
+
+/// What is wrong with a network.
+struct NetworkFault {
+  std::string element;  ///< at fault; empty: the network as a whole
+  std::string key;      ///< of it, if it is one
+  std::string problem, remedy;
+};
+
+/// What keeps a network from having one solution whatever flows through its openings, or what has no effect in it.
+/// \param step  ms, that steps may have
+std::optional<NetworkFault> fault_of(const Network& network, double step);
+
+}  // namespace fsi

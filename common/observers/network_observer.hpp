@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+
+#include "observers/watched.hpp"
+
+namespace fsi {
+
+inline constexpr const char* network_file = "network.csv";
+
+/// What network.csv shows of a level, in cases with [network]; null in others.
+template <int n>
+std::unique_ptr<Observer> make_network_observer(const Watched<n>& watched);
+
+}  // namespace fsi
