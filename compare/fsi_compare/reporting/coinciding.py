@@ -1,13 +1,18 @@
 """Curves that lie on each other: found, and said, since the eye takes them for one."""
 
+import re
 from typing import Dict, List, Optional, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
 NEAR = 0.01  # of the height of the axes: less than a line is broad
 SHORT = 30  # characters, of a name that is said again
+MOST = 6  # groups that a caption names
+SAID = re.compile(r"lies? on ")
 SHARED = 0.9  # of the longer curve, that both must span
 
 
@@ -48,6 +53,33 @@ def note_coinciding(axes: Axes, lines: Sequence[Line2D], labels: Sequence[str]) 
     text = "\n".join(f"{names} lie on each other" for names in said)
     axes.text(0.98, 0.03, text, transform=axes.transAxes, ha="right", va="bottom", fontsize=6.5, color="#444444")
     return text
+
+
+def sentence_of_coinciding(figure: Figure) -> str:
+    """For a caption: which curves with a name in a legend lie on each other in all panels that have them; empty where none do, or
+    a legend or panel says it already."""
+    if any(SAID.search(text.get_text()) for axes in figure.axes for text in _texts(axes)):
+        return ""
+    said: Dict[str, None] = {}  # in their order, each once
+    for axes in figure.axes:
+        lines = [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
+        labels = [str(line.get_label()) for line in lines]
+        for group in coinciding([lines]):
+            said[" and ".join(labels[i] for i in group)] = None
+        apart = [label for i, label in enumerate(labels) if all(i not in group for group in coinciding([lines]))]
+        for names in list(said):
+            if any(label in names.split(" and ") for label in apart):
+                del said[names]  # in another panel they part
+    if not said:
+        return ""
+    groups = list(said)
+    more = f"; {len(groups) - MOST} more" if len(groups) > MOST else ""
+    return f"Lines that lie on each other: {'; '.join(groups[:MOST])}{more}."
+
+
+def _texts(axes: Axes) -> List[Text]:
+    legend = axes.get_legend()
+    return [*axes.texts, *(legend.get_texts() if legend else [])]
 
 
 def _near(one: Line2D, other: Line2D) -> bool:

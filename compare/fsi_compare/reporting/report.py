@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from ..base.files import replacing
 from .layout import Table
+from .coinciding import sentence_of_coinciding
 from .pictures import write_figure, write_picture
 from .player import Player
 from .scene import ReportScene
@@ -63,10 +64,17 @@ class Report:
         self._add("places", table=table, looks=looks)
 
     def figure(self, stem: str, draw: Callable[[], Figure], caption: str) -> None:
-        """`draw` makes the figure under the common style (see pictures.write_figure)."""
-        png, svg = write_figure(self.folder, stem, draw)
+        """`draw` makes the figure under the common style (see pictures.write_figure). The caption goes on with what lies on each
+        other in it."""
+        drawn: List[Figure] = []
+
+        def keep() -> Figure:
+            drawn.append(draw())
+            return drawn[-1]
+
+        png, svg = write_figure(self.folder, stem, keep)
         self.written += [png, svg]
-        self.image(png, caption)
+        self.image(png, " ".join(part for part in (caption, sentence_of_coinciding(drawn[-1])) if part))
 
     def player(self, player: Player) -> None:
         """What a reader with JavaScript can move through. It does not print: pictures of the same belong beside it, or word of

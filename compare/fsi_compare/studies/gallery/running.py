@@ -77,7 +77,7 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     for program, *others in scene.preparations(quick):
         placed = scene.placed(others, place)
         # -B: a script leaves no compiled file beside itself
-        command = [sys.executable, "-B", *placed] if program == "python3" else [mesh_maker, *placed, "-q"]
+        command = [sys.executable, "-B", *placed] if program == "python3" else [str(mesh_maker), *placed, "-q"]
         _made(scene, "PREPARE", execute(command))
     _made(scene, "MESH", execute([mesh_maker, *scene.placed(words, place), "-q", "-o", mesh]))
     return mesh
