@@ -13,7 +13,7 @@ from matplotlib.text import Text
 from synthetic import TIMES, Z, gaussian
 
 from fsi_compare.drawing.colours import round_ticks
-from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, note_coinciding
+from fsi_compare.reporting.coinciding import coinciding, labels_that_say_so, note_coinciding, sentence_of_coinciding
 from fsi_compare.reporting.log_axes import log_axes, plain_number
 from fsi_compare.reporting.point_names import name_points
 from fsi_compare.reporting.pictures import LINES, pressure_figure, time_text, write_pressure_waves
@@ -172,6 +172,22 @@ class SaysOneThing(unittest.TestCase):
         self.assertEqual(labels_that_say_so(["a", "b", "c"], [[far, first, near]]), ["a", "b", "c (lies on b)"])
         note_coinciding(axes, [first, near], ["a", "b"])
         self.assertEqual([text.get_text() for text in axes.texts], ["both lines lie on each other"])
+
+    def test_a_caption_says_it_where_no_legend_does(self):
+        def figure(apart):
+            drawn = Figure()
+            x = np.linspace(0, 1, 50)
+            for axes, off in zip(drawn.subplots(2, 1), (0, apart)):
+                for label, y in (("a", x), ("b", x + off), ("c", 1 - x), ("d", 1 - x)):
+                    axes.plot(x, y, label=label)
+                axes.axhline(0.5)
+            return drawn
+
+        self.assertEqual(sentence_of_coinciding(figure(0)), "Lines that lie on each other: a and b; c and d.")
+        self.assertEqual(sentence_of_coinciding(figure(0.2)), "Lines that lie on each other: c and d.")
+        said = figure(0)
+        note_coinciding(said.axes[0], said.axes[0].get_lines()[:2], ["a", "b"])
+        self.assertEqual(sentence_of_coinciding(said), "")
 
     def test_runs_that_agree_say_so(self):
         figure = pressure_figure([waves(0.6), waves(0.6), waves(0.8)], ["a", "b", "c"], PAPER, "title")
