@@ -179,12 +179,12 @@ MaxwellWork MaxwellLayers<Element>::work(const Layers& layers, const BranchPlace
               const auto spring = [&](const Sym3<Pack>& strain, const double* kept) {
                 return strain - strain_at<Element>(kept, places, pack, q, i);
               };
-              const Sym3<Pack> now = spring(e.now, step.branches), start = spring(e.start, step.branches_start),
-                               end = spring(e.end, step.branches_end);
-              const Pack taken = duration * Pack(2 * shear / time) * contract(now, now);
+              const Sym3<Pack> here = spring(e.now, step.branches), first = spring(e.start, step.branches_start),
+                               last = spring(e.end, step.branches_end);
+              const Pack taken = duration * Pack(2 * shear / time) * contract(here, here);
               dissipated += taken;
-              beyond += Pack(2 * shear) * contract(now, e.change) - taken -
-                        weight * Pack(shear) * contract(end - start, end + start);
+              beyond += Pack(2 * shear) * contract(here, e.change) - taken -
+                        weight * Pack(shear) * contract(last - first, last + first);
             }
             return std::array<Pack, 2>{dissipated, beyond};
           });

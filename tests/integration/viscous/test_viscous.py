@@ -95,6 +95,20 @@ class Viscous(ViscousTest):
         folders = [run(program, case, self.base / Path(program).name, *steps) for program in DRIVERS]
         self.assertAgree(*folders, 1e-7)
 
+    def test_a_prestressed_wall_begins_at_rest(self):
+        """What its branches keep is the strain from the unloaded shape: under the pressure of the mesh nothing moves."""
+        file = self.base / "prestressed.toml"
+        text = CASE.format(name="casson", constants=LAWS["casson"], wall=MAXWELL)
+        inlet = "[inlet]\npressure = [[0, 0], [0.5, 1.0]]\n"
+        self.assertIn(inlet, text)
+        ends = "".join(f'[[opening]]\nsurface = "{name}"\npressure = 0.3\n' for name in ("inlet", "outlet"))
+        file.write_text(text.replace(inlet, ends + "[prestress]\npressure = 0.3\n"))
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        for program in DRIVERS:
+            fields = arrays(run(program, file, self.base / "prestressed", *settings) / "checkpoint.h5")
+            self.assertGreater(np.abs(fields[BRANCHES]).max(), 0.01)
+            self.assertLess(np.abs(fields["arrays/level0.mesh"]).max(), 1e-9)
+
     def test_a_checkpoint_knows_both_viscosities(self):
         settings = (*scene(self.base, "p2p1", "axisymmetric"), "fluid.viscosity=4e-3")
         begun = run(MONOLITHIC, self.case(), self.base / "known", *settings, "time.end=0.25")
