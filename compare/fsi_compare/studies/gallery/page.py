@@ -9,8 +9,9 @@ from ...reporting.layout import Table
 from ...reporting.report import Report
 from ...results.run import RunResults
 from ...runs.work_units import NOTE, per_step
+from .mesh_chain import links, with_places
 from .running import Outcome
-from .scene import Number, SceneRun
+from .scene import Number, Scene, SceneRun
 from ...reporting.work_column import work_column
 
 TITLE = "fsi-duo: gallery"
@@ -36,8 +37,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     report.section(scene.title)
     report.text(*scene.paragraphs)
     place = f"gallery/{scene.name}"
-    words = [normpath(f"{place}/{word}") if word.endswith(".geo") else word for word in scene.mesh_words(quick)]
-    commands = [f"fsi-mesh {' '.join(words)} -o {scene.name}.msh"]
+    commands = _mesh_commands(scene, place, quick)
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [
         f"{program} {place}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
@@ -60,6 +60,17 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
         notes.append(NOTE)
     report.table(Table(f"{stem}_cost", "What it costs", COSTS, list(outcome.runs.items()), notes=notes))
     return numbers
+
+
+def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
+    """As a user would type them in the sources' folder."""
+    words = scene.mesh_words(quick)
+    named = [
+        normpath(f"{place}/{word}") if full != word else word
+        for word, full in zip(words, with_places(words, scene.folder))
+    ]
+    chain = links(named, Path(f"{scene.name}.msh"), place)
+    return [" ".join(map(str, link.command("fsi-mesh", ["python3"], False))) for link in chain]
 
 
 def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:

@@ -7,8 +7,9 @@ from typing import Any, Callable, Dict, List, Mapping, Sequence
 from ...base.errors import InputError, ProgramError
 from ...base.files import absolute, make_folder, remove_tree
 from ..starting.launch import launched
-from ..starting.processes import End, Job, execute, run_jobs
+from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
+from .mesh_chain import make_mesh, with_places
 from .scene import Scene, SceneRun, SceneRuns, read_scene_run
 
 
@@ -73,9 +74,8 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     words = scene.mesh_words(quick)
     if len(words) < 1:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
-    # A script's name is relative to the scene.
-    command = [str(scene.folder / word) if word.endswith(".geo") else word for word in words]
-    end = execute([mesh_maker, *command, "-q", "-o", mesh])
+    source = f"{scene.folder / 'scene.py'}: MESH"
+    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, source)
     if end.code:
         raise ProgramError(scene.folder / "scene.py", "MESH", end.message, "mend the scene's mesh")
     return mesh

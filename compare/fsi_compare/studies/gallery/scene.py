@@ -3,13 +3,13 @@ is made from.
 
 `scene.py` holds
   its docstring   the scene's page: a title, an empty line, paragraphs of Markdown
-  MESH            the words of the fsi-mesh command that makes its mesh, without -o
+  MESH            the words of the fsi-mesh command that makes its mesh, without -o; or several commands (mesh_chain.py)
   numbers(runs)   what is measured, beside what is known: a list of Number
   draw(runs)      a matplotlib Figure
 and may hold
   DRIVERS         the drivers that run it, both unless said otherwise: a static wall knows one
   QUICK           entries of the case that make a run of the scene's test, a second or two
-  QUICK_MESH      the words of the command that makes that run's mesh
+  QUICK_MESH      the same for that run's mesh
   STILL           words of RunResults.picture: which field, time, view its picture shows
   LONG            True: takes minutes, run when it is named or all are asked for by --long
 """
