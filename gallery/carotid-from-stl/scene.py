@@ -17,12 +17,9 @@ from matplotlib.figure import Figure
 from fsi_compare.studies.gallery.scene import Number
 
 OPENINGS = "--opening cca=0,0,-12 --opening ica=4.3,0.4,14 --opening eca=-5.2,0,14 --extension ica=1 --extension eca=1"
-PREPARE = f"""
-python3 surface.py carotid.stl --jitter 0.05
-lumen carotid.stl -o lumen.msh {OPENINGS} --edges-per-diameter 5
-"""
-MESH = "thicken lumen.msh --thickness-ratio 0.25 --layer media=60% --layer adventitia=40%"
-QUICK_PREPARE = PREPARE.replace("diameter 5", "diameter 3")
+WALL = "thicken --thickness-ratio 0.25 --layer media=60% --layer adventitia=40%"
+MESH = f"surface.py --jitter 0.05 | lumen {OPENINGS} --edges-per-diameter 5 | {WALL}"
+QUICK_MESH = MESH.replace("diameter 5", "diameter 3")
 QUICK = {"time.step": 20, "time.end": 100}
 
 BEAT = 800.0  # ms

@@ -1,4 +1,4 @@
-"""surface.py FILE.stl [--edge MM] [--jitter MM] [--closed] [--seed N]: the surface of a carotid-like bifurcation, as a
+"""surface.py -o FILE.stl [--edge MM] [--jitter MM] [--closed] [--seed N]: the surface of a carotid-like bifurcation, as a
 segmentation leaves it.
 
 The lumen is where a field is negative: the smooth minimum of the distances from tapered tubes, with a bulb at the root of the
@@ -149,13 +149,13 @@ def write_stl(path: Path, nodes: np.ndarray, triangles: Sequence[Sequence[int]],
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("file", type=Path)
+    parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--edge", type=float, default=0.6)
     parser.add_argument("--jitter", type=float, default=0.0)
     parser.add_argument("--closed", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    write_stl(options.file, *carotid(options.edge, options.jitter, options.closed, options.seed))
+    write_stl(options.output, *carotid(options.edge, options.jitter, options.closed, options.seed))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """Casson stenosis: blood with a yield stress where a vessel narrows
 
-The stenosis of the scene before, with slow blood whose shear stress tau follows Casson's law, sqrt(tau) = sqrt(tau_y) +
-sqrt(mu_p g), with a yield stress of 5 mPa, regularised below a shear rate of about 0.1/s. Where the vessel is straight it takes 1.48 times the pressure
-that the plastic viscosity mu_p alone would take; at the throat, where the shear rate is many times larger, far less.
+The vessel of the scene "Stenosis", with slow blood whose shear stress tau follows Casson's law, sqrt(tau) = sqrt(tau_y) +
+sqrt(mu_p g), with a yield stress of 5 mPa, regularised below a shear rate of about 0.1/s. Where the vessel is straight it takes 1.48 times the
+pressure that the plastic viscosity mu_p alone would take; at the throat, where the shear rate is many times larger, far less.
 
 In front of the stenosis flow and pressure gradient are those of Casson's pipe flow, which has a closed form; so has the shear
 stress at the wall. The force on the whole wall balances what the pressures at both ends press.

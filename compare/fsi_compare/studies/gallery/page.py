@@ -1,6 +1,5 @@
 """The gallery's page: what each scene is, what is known of it, what both drivers make of it and what that costs."""
 
-import shlex
 from os.path import normpath
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Sequence, Tuple
@@ -10,6 +9,7 @@ from ...reporting.layout import Table
 from ...reporting.report import Report
 from ...results.run import RunResults
 from ...runs.work_units import NOTE, per_step
+from .mesh_chain import links, with_places
 from .running import Outcome
 from .scene import Number, Scene, SceneRun
 from ...reporting.work_column import work_column
@@ -37,8 +37,7 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     report.section(scene.title)
     report.text(*scene.paragraphs)
     place = f"gallery/{scene.name}"
-    chain = [*scene.preparations(quick), ["fsi-mesh", *scene.mesh_words(quick), "-o", f"{scene.name}.msh"]]
-    commands = [shlex.join(_shown(scene, words)) for words in chain]
+    commands = _mesh_commands(scene, place, quick)
     settings = "".join(f" --set {name}={value}" for name, value in (scene.quick if quick else {}).items())
     commands += [
         f"{program} {place}/{scene.name}.toml --set mesh.file={scene.name}.msh{settings} "
@@ -63,12 +62,15 @@ def _scene(report: Report, outcome: Outcome, quick: bool, at_once: int) -> List[
     return numbers
 
 
-def _shown(scene: Scene, words: Sequence[str]) -> List[str]:
-    """Files of the scene as seen from the sources' top."""
-    place = Path("gallery") / scene.name
-    return [
-        word if word == placed else normpath(place / word) for word, placed in zip(words, scene.placed(words, Path()))
+def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
+    """As a user would type them in the sources' folder."""
+    words = scene.mesh_words(quick)
+    named = [
+        normpath(f"{place}/{word}") if full != word else word
+        for word, full in zip(words, with_places(words, scene.folder))
     ]
+    chain = links(named, Path(f"{scene.name}.msh"), place)
+    return [" ".join(map(str, link.command("fsi-mesh", ["python3"], False))) for link in chain]
 
 
 def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:

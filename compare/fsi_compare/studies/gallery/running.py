@@ -1,6 +1,5 @@
 """Makes a scene's mesh and its runs."""
 
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Sequence
@@ -8,8 +7,9 @@ from typing import Any, Callable, Dict, List, Mapping, Sequence
 from ...base.errors import InputError, ProgramError
 from ...base.files import absolute, make_folder, remove_tree
 from ..starting.launch import launched
-from ..starting.processes import End, Job, execute, run_jobs
+from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
+from .mesh_chain import make_mesh, with_places
 from .scene import Scene, SceneRun, SceneRuns, read_scene_run
 
 
@@ -74,18 +74,11 @@ def _make_mesh(scene: Scene, place: Path, mesh_maker: Path, quick: bool) -> Path
     words = scene.mesh_words(quick)
     if len(words) < 1:
         raise InputError(scene.folder / "scene.py", "MESH", "is empty", "give the words of an fsi-mesh command")
-    for program, *others in scene.preparations(quick):
-        placed = scene.placed(others, place)
-        # -B: a script leaves no compiled file beside itself
-        command = [sys.executable, "-B", *placed] if program == "python3" else [str(mesh_maker), *placed, "-q"]
-        _made(scene, "PREPARE", execute(command))
-    _made(scene, "MESH", execute([mesh_maker, *scene.placed(words, place), "-q", "-o", mesh]))
-    return mesh
-
-
-def _made(scene: Scene, key: str, end: End) -> None:
+    source = f"{scene.folder / 'scene.py'}: MESH"
+    end = make_mesh(with_places(words, scene.folder), mesh, mesh_maker, source)
     if end.code:
-        raise ProgramError(scene.folder / "scene.py", key, end.message, "mend the scene's mesh")
+        raise ProgramError(scene.folder / "scene.py", "MESH", end.message, "mend the scene's mesh")
+    return mesh
 
 
 def _command(scene: Scene, program: Program, mesh: Path, place: Path, quick: bool) -> List[Any]:

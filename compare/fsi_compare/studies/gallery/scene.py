@@ -3,21 +3,17 @@ is made from.
 
 `scene.py` holds
   its docstring   the scene's page: a title, an empty line, paragraphs of Markdown
-  MESH            the words of the fsi-mesh command that makes its mesh, without -o
+  MESH            the words of the fsi-mesh command that makes its mesh, without -o; or several commands (mesh_chain.py)
   numbers(runs)   what is measured, beside what is known: a list of Number
   draw(runs)      a matplotlib Figure
 and may hold
   DRIVERS         the drivers that run it, both unless said otherwise: a static wall knows one
   QUICK           entries of the case that make a run of the scene's test, a second or two
-  QUICK_MESH      the words of the command that makes that run's mesh
-  PREPARE         commands that make what MESH reads, one a line: the words of fsi-mesh with -o, or python3 SCRIPT.py ...;
-                  a file is the scene's where it has one of that name, else it lies where the mesh will
-  QUICK_PREPARE   those of QUICK_MESH
+  QUICK_MESH      the same for that run's mesh
   STILL           words of RunResults.picture: which field, time, view its picture shows
   LONG            True: takes minutes, run when it is named or all are asked for by --long
 """
 
-import re
 import shlex
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,7 +27,6 @@ from ...results.run import RunResults, open_run
 from ...results.table import Table
 from ...runs.run_folder import read_finished
 
-FILE = re.compile(r"^[^-=][^=]*[.](geo|py|csv|stl|ply|obj|vtp|vtu|msh)$")  # a word that names one
 BOTH = ("fsi-monolithic", "fsi-partitioned")
 READY = Path(__file__).resolve().parents[4] / "gallery"
 
@@ -103,8 +98,6 @@ class Scene:
     drivers: Tuple[str, ...]
     module: ModuleType = field(repr=False)
     quick_mesh: str = ""
-    prepare: str = ""
-    quick_prepare: str = ""
     long: bool = False
     quick: Mapping[str, Any] = field(default_factory=dict)
 
@@ -114,22 +107,6 @@ class Scene:
 
     def mesh_words(self, quick: bool) -> List[str]:
         return shlex.split((quick and self.quick_mesh) or self.mesh)
-
-    def preparations(self, quick: bool) -> List[List[str]]:
-        """The words of each command that comes before that of the mesh, with the program's name first."""
-        lines = ((quick and self.quick_prepare) or self.prepare).splitlines()
-        commands = [shlex.split(line) for line in lines if line.strip()]
-        return [words if words[0] == "python3" else ["fsi-mesh", *words] for words in commands]
-
-    def placed(self, words: Sequence[str], made: Path) -> List[str]:
-        """The words with the places of files: in the scene's folder, or among those `made`."""
-
-        def place(word: str) -> str:
-            if not FILE.search(word):
-                return word
-            return str(self.folder / word if is_file(self.folder / word) else made / word)
-
-        return [place(word) for word in words]
 
     def numbers(self, runs: SceneRuns) -> List[Number]:
         return list(self.module.numbers(runs))
@@ -169,8 +146,6 @@ def read_scene(folder: Path) -> Scene:
             drivers=tuple(getattr(module, "DRIVERS", BOTH)),
             module=module,
             quick_mesh=getattr(module, "QUICK_MESH", ""),
-            prepare=getattr(module, "PREPARE", ""),
-            quick_prepare=getattr(module, "QUICK_PREPARE", ""),
             long=bool(getattr(module, "LONG", False)),
             quick=dict(getattr(module, "QUICK", {})),
         )

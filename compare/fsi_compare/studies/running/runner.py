@@ -26,7 +26,8 @@ from ...base.files import (
     replacing,
 )
 from ..starting.launch import launched
-from ..starting.processes import End, Job, execute, run_jobs
+from ..gallery.mesh_chain import READ, make_mesh
+from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
 from ...runs.summary import FILE, read_summary
 from ...runs.work_units import about_machines
@@ -205,7 +206,8 @@ class Runner:
             )
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
-        end = execute([self.mesh_maker, mesh.command, *mesh.options, "-q", "-o", unfinished])
+        place = f"{self.study.path}: meshes.{mesh.name}"
+        end = make_mesh([mesh.command, *mesh.options], unfinished, self.mesh_maker, place)
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
@@ -314,7 +316,7 @@ def is_interrupted(code: int) -> bool:
 
 def recipe(mesh: StudyMesh) -> List[str]:
     """What decides a mesh: its options, and what is in the scripts and meshes that they name."""
-    named = [word for word in mesh.options if word.endswith((".geo", ".msh")) and is_file(Path(word))]
+    named = [word for word in (mesh.command, *mesh.options) if word.endswith(READ) and is_file(Path(word))]
     return [*mesh.options, *(hashlib.sha256(read_bytes(Path(n), AGAIN, AGAIN)).hexdigest() for n in named)]
 
 

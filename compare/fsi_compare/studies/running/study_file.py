@@ -11,6 +11,7 @@ from ...base.errors import InputError
 from ...base.files import absolute, exists, is_file, read_toml
 from ..catalogue.names import MESHES
 from ...base.suggestions import nearest
+from ..gallery.mesh_chain import with_places
 from ..gallery.scene import READY, Scene, read_scene, scene_names
 from ..starting.launch import usable_cores
 from .section import LARGEST_COUNT, LARGEST_NUMBER, Section
@@ -60,7 +61,7 @@ class StudyMesh:
     name: str
     label: str
     options: Tuple[str, ...]  # of fsi-mesh's command; empty: a level of the same name, made by the driver on demand
-    command: str = "artery"
+    command: str = "artery"  # others may follow among the options (gallery/mesh_chain.py)
 
 
 @dataclass(frozen=True)
@@ -130,19 +131,14 @@ class Study:
 
 
 def _mesh_of(scene: Optional[Scene], quick: bool) -> Optional[StudyMesh]:
-    """A scene's mesh, its script named by an absolute path; None where the case is no scene."""
-    if scene is None:
-        return None
-    if scene.preparations(quick):
-        raise InputError(
-            scene.folder / "scene.py",
-            "PREPARE",
-            "makes a mesh by several commands",
-            "name a scene whose mesh one makes",
-        )
-    command, *options = scene.mesh_words(quick)
-    places = tuple(scene.placed(options, scene.folder))
-    return StudyMesh(scene.name + ("-quick" if quick else ""), "", places, command)
+    """None where the case is no scene."""
+    return None if scene is None else mesh_of_scene(scene, quick)
+
+
+def mesh_of_scene(scene: Scene, quick: bool) -> StudyMesh:
+    """Its files named by their full paths."""
+    command, *options = with_places(scene.mesh_words(quick), scene.folder)
+    return StudyMesh(scene.name + ("-quick" if quick else ""), "", tuple(options), command)
 
 
 def report_of(study: Study, known: Sequence[str]) -> Section:

@@ -1,6 +1,7 @@
 """`fsi-compare tune`: Windkessels of a case for given pressures and flow splits."""
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional
 
@@ -8,8 +9,10 @@ from ...base.errors import InputError, ProgramError, printable, say_note, say_wa
 from ...base.files import absolute, folder, is_file, output_folder, read_toml, remove_tree, together
 from ...base.options import Commands, add_command, add_drivers, add_usual
 from ...results.run import open_run
+from ..gallery.mesh_chain import with_places
+from ..gallery.scene import read_scene as read_gallery_scene
 from ..running.runner import Runner, sweep_study
-from ..running.study_file import Method, Request, Study, StudyMesh
+from ..running.study_file import Method, Request, Study, StudyMesh, mesh_of_scene
 from ..running.study_run import REFUSED
 from ..starting.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program
@@ -204,7 +207,13 @@ def _mesh(scene: Scene, words: Optional[str], mesh_maker: Optional[Path], place:
         return None
     if mesh_maker is None:
         raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
-    return find_recipe(scene.path, scene.entries, words, mesh_maker).mesh(1.0, place, scene.path.stem)
+    folder = scene.path.parent
+    if words is not None:
+        command, *others = with_places(shlex.split(words), Path(".")) or [""]
+        return StudyMesh(scene.path.stem[:40], "", tuple(others), command)
+    if is_file(folder / "scene.py") and folder.name == scene.path.stem:
+        return mesh_of_scene(read_gallery_scene(folder), False)
+    return find_recipe(scene.path, scene.entries, None, mesh_maker).mesh(1.0, place, scene.path.stem)
 
 
 def _write(options: argparse.Namespace, scene: Scene, demand: Demand, outcome: Outcome, beats: Beats) -> int:

@@ -17,6 +17,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
 from ...base.files import is_file, replacing
+from ..gallery.mesh_chain import MARK
 from ..gallery.scene import Scene, read_scene
 from ..running.study_file import StudyMesh
 from ..starting.processes import answer
@@ -135,6 +136,9 @@ def recipe_of_scene(scene: Scene, mesh_maker: Path, quick: bool = False) -> Reci
 
 
 def _recipe(words: Sequence[str], folder: Path, source: str, mesh_maker: Path) -> Recipe:
+    if MARK in words:
+        remedy = "make its mesh, and name it by mesh.file in a copy of the case: its cells are halved then"
+        raise InputError(source, "", "a mesh of several commands makes no family of meshes", remedy)
     if not words or words[0] not in ("geo", "artery"):
         what = words[0] if words else ""
         problem = f"'{what}' makes no family of meshes"
