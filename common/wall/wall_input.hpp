@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
 #include "fem/element_packs.hpp"
 #include "fem/nodal_layout.hpp"
 #include "materials/material.hpp"
+#include "materials/varying_law.hpp"
 #include "wall/fibre_directions.hpp"
 
 namespace fsi {
@@ -26,6 +28,10 @@ struct WallInput {
   const double* support_loads = nullptr;       ///< kPa, in the order of the supports' loads; null: none
 };
 
+/// The constants at each quadrature point of a layer, [thread][pack][point].
+template <class Element>
+using ConstantsField = std::vector<std::vector<std::array<PointConstants, Element::points>>>;
+
 /// One layer of the wall: its elements and its material, with fibre directions where the material has fibres.
 template <class Element>
 struct WallLayer {
@@ -33,6 +39,11 @@ struct WallLayer {
   Material material;
   FibreField<Element> fibres;  ///< empty for materials without
   double viscosity = 0;        ///< eta, kPa ms, of wall/kelvin_voigt.hpp
+  /// Where constants vary: theirs, with the fibres; `material` and `viscosity` are then at the means of what varies.
+  ConstantsField<Element> constants{};
+  VaryingLaw law{};  ///< of such a layer
+
+  bool varies() const { return !constants.empty(); }
 };
 
 /// Blocks with rows (momentum, volume) and columns (d, p).
