@@ -80,15 +80,14 @@ void ViscousLayers<Element>::add(const std::vector<WallLayer<Element>>& layers, 
   for (const auto& layer : layers) {
     if (layer.viscosity == 0) continue;
     const KelvinVoigt form = form_of(layer);
-    for_each_thread(layer.packs, jacobian ? serial_jacobian_elements : serial_residual_elements,
-                    [&](int t, const auto& mine) {
-                      const auto constants = constants_of(layer, t);
-                      if (jacobian)
-                        viscous_packs<Element, true>(form, mine, constants, in, residual.data(),
-                                                     jacobian->values.data());
-                      else
-                        viscous_packs<Element, false>(form, mine, constants, in, residual.data(), nullptr);
-                    });
+    for_each_thread(
+        layer.packs, jacobian ? serial_jacobian_elements : serial_residual_elements, [&](int t, const auto& mine) {
+          const auto constants = constants_of(layer, t);
+          if (jacobian)
+            viscous_packs<Element, true>(form, mine, constants, in, residual.data(), jacobian->values.data());
+          else
+            viscous_packs<Element, false>(form, mine, constants, in, residual.data(), nullptr);
+        });
   }
 }
 
