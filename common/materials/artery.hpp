@@ -26,17 +26,18 @@ struct ArteryOf {
 
   static constexpr const char* name = "artery";
   static std::vector<ParameterOf<ArteryOf>> parameters() {
-    return {{&ArteryOf::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
-            {&ArteryOf::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
-            {&ArteryOf::k2, "k2", "fibre exponent", quantity::number(), positive},
-            {&ArteryOf::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
-            {&ArteryOf::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false},
-            {&ArteryOf::kappa,
-             "kappa",
-             "dispersion of the fibres about their directions, at most 1/3",
-             quantity::number(),
-             {0, 1.0 / 3, true, true},
-             false}};
+    return {
+        {&ArteryOf::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
+        {&ArteryOf::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
+        {&ArteryOf::k2, "k2", "fibre exponent", quantity::number(), positive},
+        {&ArteryOf::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
+        {&ArteryOf::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false},
+        {&ArteryOf::kappa,
+         "kappa",
+         "dispersion of the fibres about their directions, at most 1/3",
+         quantity::number(),
+         {0, 1.0 / 3, true, true},
+         false}};
   }
 
   Constant shear_modulus() const { return c10; }

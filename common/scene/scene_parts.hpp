@@ -23,6 +23,7 @@ struct WallParts {
   FacetsOf<Element> pressurised;                 ///< where the case's pressure acts on a wall without fluid
   FrameFields frame;                             ///< of fibres; empty: that of a cylinder
   SupportFacets<Element> supports;
+  std::vector<std::int64_t> whole_cells;  ///< of a part that is shared out: numbers of its cells in the whole
 };
 
 /// What a scene's fluid is made of.

@@ -64,8 +64,7 @@ struct Hyperelastic<VaryingLaw> {
       f.flux = response.flux - pressure * response.volume_gradient;
       f.scalar_source = -response.volume_measure;
     } else {
-      f.flux =
-          k.deformation.gradient * material.stress(k.strain, at) - pressure * k.deformation.cofactor_gradient;
+      f.flux = k.deformation.gradient * material.stress(k.strain, at) - pressure * k.deformation.cofactor_gradient;
       f.scalar_source = -k.deformation.volume_change;
     }
     f.scalar_source -= (Pack(1.0) / at.bulk_modulus) * pressure;

@@ -11,7 +11,7 @@ AssemblyResult UnloadedLoops<Element, M>::assemble(const Hyperelastic<M>& form, 
   return detail::assemble_layer<Element, false>(UnloadedShape<M>{form}, layer, in, residual, jacobian);
 }
 
-#define FSI_INSTANTIATE(Element)                    \
+#define FSI_INSTANTIATE(Element)                   \
   template struct LayerLoops<Element, VaryingLaw>; \
   template struct UnloadedLoops<Element, VaryingLaw>;
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)

@@ -20,10 +20,9 @@ namespace detail {
 /// What a form is told of the points of all packs: the constants where they vary, else the fibres; null where it needs
 /// none.
 template <class Element, class Form>
-using LayerPoints =
-    const std::vector<std::array<std::conditional_t<std::is_same_v<typename Form::FibreData, PointConstants>,
-                                                    PointConstants, Fibres>,
-                                 Element::points>>*;
+using LayerPoints = const std::vector<
+    std::array<std::conditional_t<std::is_same_v<typename Form::FibreData, PointConstants>, PointConstants, Fibres>,
+               Element::points>>*;
 
 template <class Element, class Form>
 LayerPoints<Element, Form> points_of(const WallLayer<Element>& layer, int thread) {

@@ -26,6 +26,7 @@ class WallProblem : public Wall<Element::components> {
 
   const Part& part() const { return part_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
+  const std::vector<int>& cells_of_layer(std::size_t layer) const { return layer_cells_.at(layer); }
   /// \param viscosity  eta of a layer, kPa ms; 0, as at first: elastic
   void set_viscosity(std::size_t layer, double viscosity) { layers_.at(layer).viscosity = viscosity; }
 
