@@ -13,6 +13,7 @@
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
 #include "base/threads.hpp"
+#include "mesh/flat_parts.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/surface/lumen_mesh.hpp"
 #include "mesh/surface/sound_surface.hpp"
@@ -20,6 +21,7 @@
 #include "meshes/converted.hpp"
 #include "meshes/mesh_report.hpp"
 #include "meshes/options.hpp"
+#include "run/program.hpp"
 
 namespace fsi {
 
@@ -35,12 +37,20 @@ struct LumenOptions {
 
 const std::map<std::string, double> units{{"mm", 1}, {"cm", 10}, {"m", 1000}};  // in mm
 
-/// Openings no vessel has in mm: a file in another unit, unless the unit is given.
+/// Openings no vessel has in mm: a file in another unit. Where the unit is given, that is a warning.
 void require_plausible(const LumenOptions& options, const std::vector<LumenOpening>& openings) {
   constexpr double narrowest = 0.1, widest = 100;  // mm: arterioles, twice an aneurysm of the aorta
-  if (!options.unit.empty() || openings.empty()) return;
+  if (openings.empty()) return;
   const double width = openings.front().diameter();
   if (width >= narrowest && width <= widest) return;
+  if (!options.unit.empty()) {
+    warn(mesh_program,
+         fmt::format(
+             "{}: --unit {}: the widest opening, at {}, measures {:.3g} mm, as no vessel's does: is {} the unit of the "
+             "file?",
+             options.surface, options.unit, place_of(openings.front().centre), width, options.unit));
+    return;
+  }
   std::string fitting;
   for (const auto& [unit, length] : units)
     if (width * length >= 1 && width * length <= widest) fitting += (fitting.empty() ? "" : " or ") + unit;
@@ -146,6 +156,16 @@ MeshCommand lumen_command(CLI::App& app) {
                    "In place of a length: edges along the local diameter, for surfaces that widen and narrow")
       ->excludes("--edge-length")
       ->check(CLI::Range(1.0, 100.0));
+  auto* bent =
+      command
+          ->add_option("--edges-per-curvature", options->request.edges_per_curvature,
+                       "Beside these: edges along the diameter of the circle of curvature, where that is shorter")
+          ->check(CLI::Range(1.0, 100.0));
+  command
+      ->add_option("--shortest-edge", options->request.shortest_edge,
+                   "That curvature asks for, mm; half the surface's mean unless given")
+      ->needs(bent)
+      ->check(CLI::PositiveNumber);
   command->add_option("--cut", options->cuts,
                       "NAME=LENGTH: cut this opening square to the centre line, mm behind its centre");
   command->add_option("--extension", options->extensions,

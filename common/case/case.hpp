@@ -19,6 +19,8 @@
 #include "materials/maxwell_branch.hpp"
 #include "materials/parameter.hpp"
 #include "mesh/artery/recommended_meshes.hpp"
+#include "mesh/fields/field_samples.hpp"
+#include "mesh/fields/region_shape.hpp"
 #include "mesh/simplex_mesh.hpp"
 #include "mesh_motion/mesh_motion_options.hpp"
 #include "solvers/krylov/krylov.hpp"
@@ -71,12 +73,46 @@ struct FluidData {
   std::optional<ViscosityData> viscosity_model{};  ///< empty: the viscosity is constant
 };
 
+/// A constant of a layer that a file gives from place to place.
+struct ConstantField {
+  std::filesystem::path file;
+  std::string field;                            ///< its name there
+  double within = 0;                            ///< mm, as PointField takes it
+  std::shared_ptr<const FieldSamples> samples;  ///< read and checked
+  std::string hash;                             ///< of them
+};
+
+/// Constants towards which those of a layer go over in a region.
+struct ConstantBlend {
+  std::size_t region;      ///< of StructureData::regions
+  ParameterValues values;  ///< by the constant's key, `viscosity` among them
+};
+
 /// [structure.layers.NAME]
 struct MaterialData {
   std::string material;                  ///< a name of materials()
   ParameterValues values;                ///< its parameters, for make_material()
   double viscosity = 0;                  ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic
   std::vector<MaxwellBranch> maxwell{};  ///< spring and dashpot in series beside the material; none: that alone
+  /// Constants that vary, by key; `values` and `viscosity` then hold what stands for them until the scene is built.
+  std::map<std::string, ConstantField> fields{};
+  std::vector<ConstantBlend> blends{};  ///< in their order, each on what those before it make
+  /// The layer that it is cut out of by a region, and that region; empty: a volume of the mesh.
+  std::string part_of{};
+  std::size_t region = 0;
+
+  bool varies() const { return !fields.empty() || !blends.empty(); }
+};
+
+/// [[structure.region]]: a part of the wall that has constants of its own (docs/theory.md, section 4.8).
+struct RegionData {
+  std::string name;
+  std::vector<std::string> layers;  ///< that it is in
+  RegionShape shape;
+  double transition = 0;  ///< mm, width in which constants go over; 0: whole elements
+  std::string hash;       ///< of what its file holds; empty: it has none
+  ParameterValues values;
+  std::string material;  ///< in place of the layers'; empty: theirs
 };
 
 /// [structure]
@@ -86,10 +122,11 @@ struct StructureData {
   std::optional<double> stabilisation;  ///< alpha of the wall's tau (docs/theory.md, section 4.2); empty: standard
   LayerPressure layer_pressure = LayerPressure::separate;
   FibreFrame fibre_frame = FibreFrame::cylinder;
-  Point gravity{0, 0, 0};         ///< mm/ms^2, acceleration of all its mass, a load that does not change
-  Point axis_origin{0, 0, 0};     ///< mm; a point on the axis of the fibres' cylindrical frame
-  Point axis_direction{0, 0, 1};  ///< need not be normalised
-  std::map<std::string, MaterialData> layers;
+  Point gravity{0, 0, 0};                      ///< mm/ms^2, acceleration of all its mass, a load that does not change
+  Point axis_origin{0, 0, 0};                  ///< mm; a point on the axis of the fibres' cylindrical frame
+  Point axis_direction{0, 0, 1};               ///< need not be normalised
+  std::map<std::string, MaterialData> layers;  ///< with the parts that regions cut out of them, NAME/REGION
+  std::vector<RegionData> regions{};           ///< in their order
 };
 
 /// [time]; absent in a static case

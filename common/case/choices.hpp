@@ -29,9 +29,9 @@ inline constexpr std::array<std::string_view, 12> coupling_scheme_list{
     "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj", "robin-robin", "robin-robin-parallel"};
 
 /// Fields of output.fields. Their table: observers/field_output.cpp.
-inline constexpr std::array<std::string_view, 8> output_field_list{
-    "displacement",  "velocity",         "pressure",         "wall_shear_stress",
-    "cauchy_stress", "principal_stress", "von_mises_stress", "fibre_stress"};
+inline constexpr std::array<std::string_view, 9> output_field_list{
+    "displacement",     "velocity",         "pressure",     "wall_shear_stress", "cauchy_stress",
+    "principal_stress", "von_mises_stress", "fibre_stress", "constants"};
 /// Those of its beginning that a case has unless it names others: the solution itself.
 inline constexpr std::size_t standard_fields = 3;
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -13,15 +14,17 @@ namespace {
 
 /// A list of sections, each with a name.
 struct NamedList {
-  const char *section, *list;  ///< section: "" where the list stands in none
-  const char *key, *about;     ///< of the name
+  const char *section, *list;   ///< section: "" where the list stands in none
+  const char *key, *about;      ///< of the name
+  const char* order = nullptr;  ///< entry that keeps each one's place in the list; null: none
 
   std::string path() const { return *section == '\0' ? list : std::string(section) + "." + list; }
 };
 constexpr const char* surface = "name of a surface group of the mesh";
-constexpr std::array<NamedList, 3> lists = {NamedList{"", "opening", "surface", surface},
-                                            NamedList{"", "support", "surface", surface},
-                                            NamedList{"network", "element", "name", "name of the element"}};
+constexpr std::array<NamedList, 4> lists = {
+    NamedList{"", "opening", "surface", surface}, NamedList{"", "support", "surface", surface},
+    NamedList{"network", "element", "name", "name of the element"},
+    NamedList{"structure", "region", "name", "name of the region, for messages and fields", "order"}};
 
 toml::table by_name(const NamedList& kind, toml::array& entries, const CaseSource& source) {
   toml::table named;
@@ -39,6 +42,8 @@ toml::table by_name(const NamedList& kind, toml::array& entries, const CaseSourc
                                                                   : "give another name");
     toml::table& table = *entries[i].as_table();
     table.erase(kind.key);
+    if (kind.order != nullptr && !table.contains(kind.order))
+      table.insert(kind.order, static_cast<std::int64_t>(i + 1));
     named.insert(name, std::move(table));
   }
   return named;

@@ -8,11 +8,12 @@
 #include "base/names.hpp"
 #include "case/case_keys.hpp"
 #include "case/key_values.hpp"
-#include "case/maxwell_keys.hpp"
+#include "case/layer_keys.hpp"
 #include "case/network_keys.hpp"
 #include "case/opening_keys.hpp"
 #include "case/parameter_keys.hpp"
 #include "case/periodic_end.hpp"
+#include "case/region_keys.hpp"
 #include "case/support_keys.hpp"
 #include "case/table_input.hpp"
 #include "case/viscosity_keys.hpp"
@@ -132,86 +133,6 @@ KeyValue<Data> parameter_value(const Row& p, std::map<std::string, double> Data:
 
 // [structure].
 
-/// The keys of a layer of this material: its name and its parameters.
-std::vector<CaseKey<MaterialData>> layer_keys(const MaterialKind& kind) {
-  std::vector<CaseKey<MaterialData>> keys = {
-      leaf("material", required, "its model: " + one_of(materials().names()), any_text(at(&MaterialData::material)))};
-  for (const auto& p : kind.parameters) keys.push_back(parameter_key(p, at(&MaterialData::values)));
-  keys.push_back(layer_viscosity_key());
-  keys.push_back(layer_branches_key());
-  return keys;
-}
-
-void read_layer(const CaseEntry& entry, MaterialData& layer) {
-  const auto names = materials().names();
-  const std::string about_material = "its model: " + one_of(names);
-  const auto children = entry.children();
-  if (!entry.has("material")) {
-    // A misspelt `material` explains better why there is none.
-    for (const auto& child : children)
-      if (edit_distance(child.key(), entry.key() + ".material") <= 2)
-        child.refuse("unknown key", "did you mean " + entry.key() + ".material?");
-    entry.refuse_missing("material", "add it (" + about_material + ")");
-  }
-  const auto name = entry.child("material", about_material);
-  require_name(name, names);
-  const MaterialKind& kind = materials().at(name.text());
-
-  // A parameter of another material is no misprint; say what this one takes.
-  for (const auto& child : children) {
-    const auto key = child.key().substr(entry.key().size() + 1);
-    if (key == "material" || key == "viscosity" || key == "maxwell" || kind.find(key) != nullptr) continue;
-    for (const auto& [other, other_kind] : materials().rows()) {
-      if (other_kind.find(key) == nullptr) continue;
-      std::vector<std::string> own;
-      for (const auto& parameter : kind.parameters) own.push_back(parameter.name);
-      child.refuse("is no parameter of " + name.text() + " but of " + other,
-                   "remove it (" + name.text() + " takes " + one_of(own) + ")");
-    }
-  }
-  read_keys(entry, layer_keys(kind), layer);
-  if (const auto wrong = problem_of(kind, layer.values)) entry.refuse(wrong->problem, wrong->remedy);
-}
-
-void read_layers(const CaseEntry& entry, StructureData& structure) {
-  const auto layers = entry.children();
-  if (layers.empty())
-    entry.refuse("has no layer", "add a section [structure.layers.NAME] per volume group of the wall");
-  for (const auto& layer : layers) {
-    const auto name = layer.key().substr(entry.key().size() + 1);
-    if (name == "fluid" || name.empty())
-      layer.refuse("\"" + name + "\" cannot be a layer", "use the name of a volume group of the wall");
-    read_layer(layer, structure.layers[name]);
-  }
-}
-
-void list_layers(const StructureData& structure, const std::string& path, std::vector<CaseValue>& values) {
-  for (const auto& [name, layer] : structure.layers)
-    list_keys(layer_keys(materials().at(layer.material)), layer, path + "." + name, values);
-}
-
-std::vector<KeyHelp> layers_help() {
-  std::vector<KeyHelp> help = {{"layers.NAME.material", one_of(materials().names()), required}};
-  for (const auto& [material, kind] : materials().rows())
-    for (const auto& parameter : kind.parameters)
-      help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
-  help.push_back({"layers.NAME.viscosity", layer_viscosity_key().about, optional});
-  help.push_back({"layers.NAME.maxwell", layer_branches_key().about, optional});
-  return help;
-}
-
-/// The structure's bulk modulus is that of layers whose material has none of its own.
-void check_structure(const CaseEntry& entry, const StructureData& structure) {
-  const bool needed = std::any_of(structure.layers.begin(), structure.layers.end(), [](const auto& layer) {
-    return needs_bulk_modulus(make_material(layer.second.material, layer.second.values));
-  });
-  const bool given = entry.has("bulk_modulus");
-  if (needed && !given) entry.refuse_missing("bulk_modulus", "add it (bulk modulus in kPa)");
-  if (given && !needed)
-    entry.child("bulk_modulus")
-        .refuse("belongs to no layer: each has a bulk modulus of its own by its elastic constants", "remove it");
-}
-
 std::vector<CaseKey<StructureData>> structure_keys() {
   return {
       leaf("density", required, "density in {unit}",
@@ -234,8 +155,8 @@ std::vector<CaseKey<StructureData>> structure_keys() {
            point(at(&StructureData::axis_origin), false)),
       leaf("axis_direction", optional, "direction of the artery's axis in 3d, default {}",
            point(at(&StructureData::axis_direction), true)),
-      {"layers", required, "a section [structure.layers.NAME] per volume group of the wall", read_layers, list_layers,
-       KeyRole::physics, layers_help()},
+      layers_key(),
+      regions_key(),
   };
 }
 

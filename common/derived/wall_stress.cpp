@@ -4,13 +4,15 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "derived/gradient_recovery.hpp"
 #include "derived/recovery_mirrors.hpp"
 #include "fem/elements.hpp"
 #include "parallel/whole_field.hpp"
-#include "wall/hyperelastic.hpp"
+#include "wall/varying_hyperelastic.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
@@ -18,9 +20,10 @@ namespace fsi {
 namespace {
 
 /// The first Piola-Kirchhoff stress P of the wall's weak form at a point of every lane, kPa.
-template <class Law>
+/// \param fibres  or constants, where they vary
+template <class Law, class Point>
 Mat3<Pack> piola_stress(const Law& law, double bulk_modulus, const Mat3<Pack>& grad_d, const Pack& pressure,
-                        const Fibres& fibres) {
+                        const Point& fibres) {
   const Vec3<Pack> none{{Pack(0.0), Pack(0.0), Pack(0.0)}};
   const Hyperelastic<Law> form{0.0, bulk_modulus, 0.0, law};
   const auto prepared = form.prepare(grad_d, none, Unstabilised{});
@@ -39,36 +42,41 @@ struct StressLayer {
   GradientRecovery gradients;
   bool has_fibres;
   std::vector<std::array<Vec3<double>, 2>> fibres;  ///< per entry of gradients.nodes(), unit length; or empty
+  std::optional<VaryingLaw> varying{};              ///< in place of `law`, with
+  std::vector<LawConstants<double>> constants{};    ///< those at the same nodes
 };
+
+/// Calls visit(thread, index of the pack, point, lane, node, weight) for the nodes a of all elements at their quadrature
+/// points, weight being N_a^2 of the point: in one order, whatever the threads.
+template <class Element, class Visit>
+void for_each_weight(const ElementPacks<Element>& all, Visit visit) {
+  std::map<int, std::pair<int, std::size_t>> packs;  // by number
+  for (int t = 0; t < all.thread_count(); ++t)
+    for (std::size_t i = 0; i < all.of_thread(t).size(); ++i)
+      packs.emplace(all.of_thread(t)[i].number, std::pair(t, i));
+  for (const auto& [number, where] : packs) {
+    const auto& pack = all.of_thread(where.first)[where.second];
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(pack.geometry, q);
+      for (int lane = 0; lane < pack.filled; ++lane)
+        for (int a = 0; a < Element::nodes; ++a)
+          visit(where.first, where.second, q, lane, pack.node[a][lane],
+                g.weight[lane] * g.vectors().value[a] * g.vectors().value[a]);
+    }
+  }
+}
 
 /// Fibre directions at nodes: the mean of those at the quadrature points around them, weighted by N_a^2.
 template <class Element>
 std::vector<std::array<Vec3<double>, 2>> nodal_fibres(const WallLayer<Element>& layer, const std::vector<int>& nodes,
                                                       int node_count) {
-  using Packs = ElementPacks<Element>;
-  struct Held {
-    const typename Packs::ElementPack* pack;
-    const std::array<Fibres, Element::points>* fibres;
-  };
-  std::map<int, Held> packs;  // by number: in one order, whatever the threads
-  for (int t = 0; t < layer.packs.thread_count(); ++t)
-    for (std::size_t i = 0; i < layer.packs.of_thread(t).size(); ++i) {
-      const auto& pack = layer.packs.of_thread(t)[i];
-      packs.emplace(pack.number, Held{&pack, &layer.fibres[t][i]});
-    }
   std::vector<std::array<Vec3<double>, 2>> sums(static_cast<std::size_t>(node_count));
   for (auto& sum : sums) sum = {};
-  for (const auto& [number, held] : packs)
-    for (int q = 0; q < Element::points; ++q) {
-      const auto g = Element::at(held.pack->geometry, q);
-      for (int lane = 0; lane < held.pack->filled; ++lane)
-        for (int a = 0; a < Element::nodes; ++a) {
-          const double weight = g.weight[lane] * g.vectors().value[a] * g.vectors().value[a];
-          for (int family = 0; family < 2; ++family)
-            for (int i = 0; i < 3; ++i)
-              sums[held.pack->node[a][lane]][family][i] += weight * (*held.fibres)[q].direction[family][i][lane];
-        }
-    }
+  for_each_weight(layer.packs, [&](int t, std::size_t i, int q, int lane, int node, double weight) {
+    const Fibres& fibres = layer.varies() ? layer.constants[t][i][q].fibres : layer.fibres[t][i][q];
+    for (int family = 0; family < 2; ++family)
+      for (int k = 0; k < 3; ++k) sums[node][family][k] += weight * fibres.direction[family][k][lane];
+  });
   std::vector<std::array<Vec3<double>, 2>> directions;
   for (const int node : nodes) {
     auto direction = sums[node];
@@ -76,6 +84,34 @@ std::vector<std::array<Vec3<double>, 2>> nodal_fibres(const WallLayer<Element>& 
     directions.push_back(direction);
   }
   return directions;
+}
+
+/// Constants that vary at nodes, means likewise.
+template <class Element>
+std::vector<LawConstants<double>> nodal_constants(const WallLayer<Element>& layer, const std::vector<int>& nodes,
+                                                  int node_count) {
+  using Member = Pack LawConstants<Pack>::*;
+  using Number = double LawConstants<double>::*;
+  constexpr std::pair<Member, Number> members[] = {
+      {&LawConstants<Pack>::c10, &LawConstants<double>::c10},
+      {&LawConstants<Pack>::c01, &LawConstants<double>::c01},
+      {&LawConstants<Pack>::k1, &LawConstants<double>::k1},
+      {&LawConstants<Pack>::k2, &LawConstants<double>::k2},
+      {&LawConstants<Pack>::kappa, &LawConstants<double>::kappa},
+      {&LawConstants<Pack>::bulk_modulus, &LawConstants<double>::bulk_modulus}};
+  std::vector<LawConstants<double>> sums(static_cast<std::size_t>(node_count));
+  std::vector<double> weights(static_cast<std::size_t>(node_count), 0.0);
+  for_each_weight(layer.packs, [&](int t, std::size_t i, int q, int lane, int node, double weight) {
+    for (const auto& [member, number] : members)
+      sums[node].*number += weight * (layer.constants[t][i][q].*member)[lane];
+    weights[node] += weight;
+  });
+  std::vector<LawConstants<double>> means;
+  for (const int node : nodes) {
+    means.push_back(sums[node]);
+    for (const auto& [member, number] : members) means.back().*number /= weights[node];
+  }
+  return means;
 }
 
 template <class Element>
@@ -127,6 +163,10 @@ class WallStressOf : public WallStress<Element::components> {
         if (stress.has_fibres) ++fibre_share_[node];
       }
       if (stress.has_fibres) stress.fibres = nodal_fibres(layer, stress.gradients.nodes(), node_count_);
+      if (layer.varies()) {
+        stress.varying = layer.law;
+        stress.constants = nodal_constants(layer, stress.gradients.nodes(), node_count_);
+      }
       layers_.push_back(std::move(stress));
     }
     for (auto* shares : {&share_, &fibre_share_})
@@ -146,7 +186,10 @@ class WallStressOf : public WallStress<Element::components> {
     std::vector<double> buffer;
     for (const auto& layer : layers_) {
       const auto& reached = layer.gradients.template reach<Mixed>(wall, buffer);
-      std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
+      if (layer.varying)
+        add(*layer.varying, layer, reached, all);
+      else
+        std::visit([&](const auto& law) { add(law, layer, reached, all); }, layer.law);
     }
     if (wall_.nodes().share) update_ghosts(all);
     return all;
@@ -177,6 +220,16 @@ class WallStressOf : public WallStress<Element::components> {
       if (has_fibres()) exchange.update(family);
   }
 
+  /// Of the nodes from the first on, so many.
+  static PointConstants constants_at(const StressLayer& layer, std::size_t first, std::size_t filled,
+                                     const Fibres& fibres) {
+    PointConstants at;
+    for (std::size_t lane = 0; lane < pack_width; ++lane)
+      at.set(static_cast<int>(lane), layer.constants[first + std::min(lane, filled - 1)]);
+    at.fibres = fibres;
+    return at;
+  }
+
   template <class Law>
   void add(const Law& law, const StressLayer& layer, const std::vector<double>& wall, WallStresses& all) const {
     const auto& nodes = layer.gradients.nodes();
@@ -196,7 +249,12 @@ class WallStressOf : public WallStress<Element::components> {
           for (int k = 0; k < 3; ++k)
             fibres.direction[family][k].set(l, layer.fibres.empty() ? 0.0 : layer.fibres[i][family][k]);
       }
-      const Mat3<Pack> piola = piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
+      const Mat3<Pack> piola = [&] {
+        if constexpr (std::is_same_v<Law, VaryingLaw>)
+          return piola_stress(law, layer.bulk_modulus, grad_d, pressure, constants_at(layer, first, filled, fibres));
+        else
+          return piola_stress(law, layer.bulk_modulus, grad_d, pressure, fibres);
+      }();
       const Deformation<Pack> f = deformation(grad_d);
       Mat3<Pack> cauchy = (Pack(1.0) / f.volume_ratio) * times_transposed(piola, f.gradient);
       if constexpr (Hyperelastic<Law>::is_compressible)

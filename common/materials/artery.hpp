@@ -14,31 +14,33 @@ namespace fsi {
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over J_i > 1 of (exp(k2 (J_i - 1)^2) - 1),  J_i = I_3^(-1/3) a_i . C a_i.
 /// The paper misprints energy and stress (docs/theory.md, section 12, item 3). The tangent jumps at J_i = 1.
 /// With dispersed fibres it is DispersedArtery for the element loops.
-struct Artery {
+template <class Constant>
+struct ArteryOf {
   using FibreData = Fibres;
-  double c10 = 0;          ///< kPa, initial shear modulus without fibres
-  double k1 = 0;           ///< kPa; at small strains a family has the modulus 4 k1 along its fibres
-  double k2 = 0;           ///< -
-  double fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
-  double alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
-  double kappa = 0;        ///< dispersion: 0 all fibres of a family parallel, 1/3 evenly in all directions
+  Constant c10 = 0;          ///< kPa, initial shear modulus without fibres
+  Constant k1 = 0;           ///< kPa; at small strains a family has the modulus 4 k1 along its fibres
+  Constant k2 = 0;           ///< -
+  Constant fibre_scale = 1;  ///< 0.5: the paper's printed fibre stress
+  Constant alpha = 0;        ///< degrees between fibres and circumference; enters by the fibres' directions alone
+  Constant kappa = 0;        ///< dispersion: 0 all fibres of a family parallel, 1/3 evenly in all directions
 
   static constexpr const char* name = "artery";
-  static std::vector<ParameterOf<Artery>> parameters() {
-    return {{&Artery::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
-            {&Artery::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
-            {&Artery::k2, "k2", "fibre exponent", quantity::number(), positive},
-            {&Artery::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
-            {&Artery::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false},
-            {&Artery::kappa,
-             "kappa",
-             "dispersion of the fibres about their directions, at most 1/3",
-             quantity::number(),
-             {0, 1.0 / 3, true, true},
-             false}};
+  static std::vector<ParameterOf<ArteryOf>> parameters() {
+    return {
+        {&ArteryOf::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
+        {&ArteryOf::k1, "k1", "fibre stiffness", quantity::stiffness(), not_negative},
+        {&ArteryOf::k2, "k2", "fibre exponent", quantity::number(), positive},
+        {&ArteryOf::alpha, "alpha", "angle between fibres and circumference", quantity::angle(), {0, 90, true, true}},
+        {&ArteryOf::fibre_scale, "fibre_scale", "factor on the fibre energy", quantity::number(), positive, false},
+        {&ArteryOf::kappa,
+         "kappa",
+         "dispersion of the fibres about their directions, at most 1/3",
+         quantity::number(),
+         {0, 1.0 / 3, true, true},
+         false}};
   }
 
-  double shear_modulus() const { return c10; }
+  Constant shear_modulus() const { return c10; }
   double fibre_angle() const { return alpha * (std::acos(-1.0) / 180); }
   std::optional<double> own_bulk_modulus() const { return std::nullopt; }
   /// Two families of stretched fibres, energy k1/2 E_i^2 each with E_i = (1 - 3 kappa) 2 eps cos^2(alpha) nearly.
@@ -82,5 +84,6 @@ struct Artery {
     return total;
   }
 };
+using Artery = ArteryOf<double>;
 
 }  // namespace fsi

@@ -23,14 +23,24 @@ struct CompressibleLaw {
   /// \param f  deformation(h)
   template <class T>
   Response<T> response(const Mat3<T>& h, const Deformation<T>& f) const {
-    if (kind == Kind::linear) return LinearElastic::response(mu, h);
-    if (kind == Kind::neo_hookean) return CompressibleNeoHookean::response(mu, h, f);
-    return SaintVenantKirchhoff::response(mu, h, f);
+    return response_of(kind, mu, h, f);
   }
 
   /// Psi', kPa
   template <class T>
   T energy(const Mat3<T>& h) const {
+    return energy_of(kind, mu, h);
+  }
+
+  /// The same with a constant that may differ from lane to lane.
+  template <class T, class Constant>
+  static Response<T> response_of(Kind kind, const Constant& mu, const Mat3<T>& h, const Deformation<T>& f) {
+    if (kind == Kind::linear) return LinearElastic::response(mu, h);
+    if (kind == Kind::neo_hookean) return CompressibleNeoHookean::response(mu, h, f);
+    return SaintVenantKirchhoff::response(mu, h, f);
+  }
+  template <class T, class Constant>
+  static T energy_of(Kind kind, const Constant& mu, const Mat3<T>& h) {
     if (kind == Kind::linear) return LinearElastic::energy(mu, h);
     if (kind == Kind::neo_hookean) return CompressibleNeoHookean::energy(mu, h);
     return SaintVenantKirchhoff::energy(mu, h);

@@ -37,8 +37,8 @@ struct CompressibleNeoHookean : ElasticConstants {
   std::optional<double> inflation_modulus() const { return shear_modulus(); }
 
   /// S' = mu (I - C^-1) - 2/3 mu ln J C^-1, p = -K ln J, P = F S' - p F^-T
-  template <class T>
-  static Response<T> response(double mu, const Mat3<T>& h, const Deformation<T>& f) {
+  template <class T, class Constant>
+  static Response<T> response(const Constant& mu, const Mat3<T>& h, const Deformation<T>& f) {
     const T logarithm = log1p(f.volume_change);
     const Sym3<T> inverse_change = inverse_strain_change(strain_change(h), f.volume_change * (f.volume_ratio + 1.0));
     const T third = Pack(2.0 / 3) * logarithm;
@@ -50,8 +50,8 @@ struct CompressibleNeoHookean : ElasticConstants {
 
   /// With A = C - I and x = I_3 - 1 = tr A + tr cof A + det A, all of second order in A:
   ///   Psi' = mu/2 (x - ln(1 + x) - tr cof A - det A) - mu/3 ln^2 J
-  template <class T>
-  static T energy(double mu, const Mat3<T>& h) {
+  template <class T, class Constant>
+  static T energy(const Constant& mu, const Mat3<T>& h) {
     const Deformation<T> f = deformation(h);
     const Sym3<T> change = strain_change(h), cof = cofactor(change);
     const T third = change(0, 0) * cof(0, 0) + change(0, 1) * cof(0, 1) + change(0, 2) * cof(0, 2);

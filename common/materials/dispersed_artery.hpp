@@ -8,11 +8,12 @@ namespace fsi {
 /// section 5.4). With E_i = kappa (J_1 - 3) + (1 - 3 kappa) (J_i - 1)
 ///   Psi = c10/2 (J_1 - 3) + k1/(2 k2) sum over E_i > 0 of (exp(k2 E_i^2) - 1).
 /// A type of its own: the loops over parallel fibres know nothing of it.
-struct DispersedArtery {
+template <class Constant>
+struct DispersedArteryOf {
   using FibreData = Fibres;
-  Artery constants;
+  ArteryOf<Constant> constants;
 
-  double shear_modulus() const { return constants.c10; }
+  Constant shear_modulus() const { return constants.c10; }
 
   template <class T>
   T energy(const Strain<T>& s, const Fibres& fibres) const {
@@ -57,5 +58,6 @@ struct DispersedArtery {
     return Pack(constants.kappa) * spread + Pack(1 - 3 * constants.kappa) * stretch;
   }
 };
+using DispersedArtery = DispersedArteryOf<double>;
 
 }  // namespace fsi

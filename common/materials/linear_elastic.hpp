@@ -23,8 +23,8 @@ struct LinearElastic : ElasticConstants {
 
   /// sigma' = 2 mu dev eps, p = -K tr eps, P = sigma' - p I. The configuration in which forces balance is the
   /// reference one, whose volume ratio is one.
-  template <class T>
-  static Response<T> response(double mu, const Mat3<T>& h) {
+  template <class T, class Constant>
+  static Response<T> response(const Constant& mu, const Mat3<T>& h) {
     const T t = trace(h), mean = Pack(2 * mu / 3) * t;
     Response<T> r{{}, t, {}, T(1.0)};
     for (int i = 0; i < 3; ++i)
@@ -36,8 +36,8 @@ struct LinearElastic : ElasticConstants {
     return r;
   }
 
-  template <class T>
-  static T energy(double mu, const Mat3<T>& h) {
+  template <class T, class Constant>
+  static T energy(const Constant& mu, const Mat3<T>& h) {
     const T t = trace(h);
     T squares = Pack(-1.0 / 3) * (t * t);
     for (int i = 0; i < 3; ++i)

@@ -10,17 +10,18 @@ namespace fsi {
 
 /// Psi = c10/2 (J_1 - 3) + c01/2 (J_2 - 3), J_1 = I_1 I_3^(-1/3), J_2 = I_2 I_3^(-2/3):
 /// docs/theory.md, section 5.3.
-struct MooneyRivlin {
+template <class Constant>
+struct MooneyRivlinOf {
   using FibreData = NoFibres;
-  double c10 = 0, c01 = 0;  ///< kPa; their sum is the initial shear modulus
+  Constant c10 = 0, c01 = 0;  ///< kPa; their sum is the initial shear modulus
 
   static constexpr const char* name = "mooney-rivlin";
-  static std::vector<ParameterOf<MooneyRivlin>> parameters() {
-    return {{&MooneyRivlin::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
-            {&MooneyRivlin::c01, "c01", "second isotropic stiffness", quantity::stiffness(), not_negative}};
+  static std::vector<ParameterOf<MooneyRivlinOf>> parameters() {
+    return {{&MooneyRivlinOf::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive},
+            {&MooneyRivlinOf::c01, "c01", "second isotropic stiffness", quantity::stiffness(), not_negative}};
   }
 
-  double shear_modulus() const { return c10 + c01; }
+  Constant shear_modulus() const { return c10 + c01; }
   std::optional<double> own_bulk_modulus() const { return std::nullopt; }
   double fibre_stiffness() const { return 0; }
   std::optional<double> inflation_modulus() const { return c10 + c01; }
@@ -42,5 +43,6 @@ struct MooneyRivlin {
     return Pack(c10) * first_invariant_stress(s) + (Pack(c01) * s.isochoric * s.isochoric) * second;
   }
 };
+using MooneyRivlin = MooneyRivlinOf<double>;
 
 }  // namespace fsi

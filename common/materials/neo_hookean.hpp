@@ -9,17 +9,18 @@
 namespace fsi {
 
 /// Psi = c10/2 (J_1 - 3), J_1 = I_1 I_3^(-1/3): docs/theory.md, section 5.2. c10 is the shear modulus.
-struct NeoHookean {
+template <class Constant>
+struct NeoHookeanOf {
   using FibreData = NoFibres;
-  double c10 = 0;      ///< kPa, initial shear modulus
-  double young = 0;    ///< or E, kPa, of which c10 = E/(2 (1 + nu)) and a bulk modulus of its own, E/(3 (1 - 2 nu)),
-  double poisson = 0;  ///< and nu
+  Constant c10 = 0;      ///< kPa, initial shear modulus
+  Constant young = 0;    ///< or E, kPa, of which c10 = E/(2 (1 + nu)) and a bulk modulus of its own, E/(3 (1 - 2 nu)),
+  Constant poisson = 0;  ///< and nu
 
   static constexpr const char* name = "neo-hookean";
-  static std::vector<ParameterOf<NeoHookean>> parameters() {
-    return {{&NeoHookean::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive, false},
-            ElasticConstants::young_of<NeoHookean>(),
-            ElasticConstants::poisson_of<NeoHookean>()};
+  static std::vector<ParameterOf<NeoHookeanOf>> parameters() {
+    return {{&NeoHookeanOf::c10, "c10", "isotropic stiffness", quantity::stiffness(), positive, false},
+            ElasticConstants::young_of<NeoHookeanOf>(),
+            ElasticConstants::poisson_of<NeoHookeanOf>()};
   }
   static ParameterSets parameter_sets() { return {{"c10"}, {"young", "poisson"}}; }
 
@@ -28,7 +29,7 @@ struct NeoHookean {
     if (young > 0) c10 = ElasticConstants{young, poisson}.shear_modulus();
   }
 
-  double shear_modulus() const { return c10; }
+  Constant shear_modulus() const { return c10; }
   std::optional<double> own_bulk_modulus() const {
     if (young > 0) return ElasticConstants{young, poisson}.compression_modulus();
     return std::nullopt;
@@ -47,5 +48,6 @@ struct NeoHookean {
     return Pack(c10) * first_invariant_stress(s);
   }
 };
+using NeoHookean = NeoHookeanOf<double>;
 
 }  // namespace fsi

@@ -20,8 +20,8 @@ struct SaintVenantKirchhoff : ElasticConstants {
   std::optional<double> inflation_modulus() const { return std::nullopt; }
 
   /// S' = 2 mu dev E, p = -K tr E, P = F S' - p F
-  template <class T>
-  static Response<T> response(double mu, const Mat3<T>& h, const Deformation<T>& f) {
+  template <class T, class Constant>
+  static Response<T> response(const Constant& mu, const Mat3<T>& h, const Deformation<T>& f) {
     const Sym3<T> change = strain_change(h);
     const T t = trace(change);
     Sym3<T> stress = Pack(mu) * change;
@@ -30,8 +30,8 @@ struct SaintVenantKirchhoff : ElasticConstants {
     return {f.gradient * stress, Pack(0.5) * t, f.gradient, f.volume_ratio};
   }
 
-  template <class T>
-  static T energy(double mu, const Mat3<T>& h) {
+  template <class T, class Constant>
+  static T energy(const Constant& mu, const Mat3<T>& h) {
     const Sym3<T> change = strain_change(h);
     const T t = trace(change);
     return Pack(mu / 4) * (contract(change, change) - Pack(1.0 / 3) * (t * t));

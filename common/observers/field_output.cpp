@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -49,11 +51,12 @@ std::vector<double> spread(const std::vector<int>& nodes, const std::vector<doub
 template <int n>
 class Level {
  public:
-  Level(const State& of, const std::array<int, n>& along, const DerivedQuantities<n>& derived, Profile& profile)
-      : state(of), axes(along), derived_(derived), profile_(profile) {}
+  Level(const State& of, const Scene<n>& scene, const DerivedQuantities<n>& derived)
+      : state(of), axes(scene.axes), constants(scene.wall_constants), derived_(derived), profile_(scene.profile) {}
 
   const State& state;
   const std::array<int, n>& axes;
+  const std::map<std::string, std::vector<double>>& constants;
 
   std::vector<double> shear() const {
     const auto phase = profile_.phase("wall shear stress");
@@ -101,6 +104,7 @@ class Level {
 /// What a grid has.
 struct GridFacts {
   bool fluid, moves, flows, fibres, statistics, errors, mean_errors;
+  const std::map<std::string, std::vector<double>>& constants;  ///< of the wall that vary
 };
 
 /// At vertices: linear between them.
@@ -138,8 +142,35 @@ constexpr bool in_wall_errors(const GridFacts& grid) {
   return !grid.fluid && grid.errors;
 }
 
+/// The constants of layers that fields show where they are not the same in the whole wall, and their units.
+constexpr std::array<std::pair<std::string_view, const char*>, 13> constants_of_walls{{{"c10", "kPa"},
+                                                                                       {"c01", "kPa"},
+                                                                                       {"k1", "kPa"},
+                                                                                       {"k2", "1"},
+                                                                                       {"alpha", "degrees"},
+                                                                                       {"fibre_scale", "1"},
+                                                                                       {"kappa", "1"},
+                                                                                       {"young", "kPa"},
+                                                                                       {"poisson", "1"},
+                                                                                       {"lame_lambda", "kPa"},
+                                                                                       {"lame_mu", "kPa"},
+                                                                                       {"bulk_modulus", "kPa"},
+                                                                                       {"viscosity", "kPa ms"}}};
+template <int n, std::size_t k>
+constexpr OutputField<n> constant_field() {
+  return {constants_of_walls[k].first,
+          "constants",
+          1,
+          constants_of_walls[k].second,
+          Place::cells,
+          [](const GridFacts& grid) {
+            return !grid.fluid && grid.constants.count(std::string(constants_of_walls[k].first)) > 0;
+          },
+          [](const Level<n>& level, bool) { return level.constants.at(std::string(constants_of_walls[k].first)); }};
+}
+
 template <int n>
-constexpr std::array<OutputField<n>, 18> output_fields{
+constexpr std::array<OutputField<n>, 18 + constants_of_walls.size()> output_fields{
     {{"displacement", "displacement", 3, "mm", Place::nodes, [](const GridFacts& grid) { return grid.moves; },
       [](const Level<n>& level, bool fluid) {
         return fluid ? vectors<VectorLayout<n>>(level.state.now.mesh, level.axes)
@@ -198,7 +229,20 @@ constexpr std::array<OutputField<n>, 18> output_fields{
       [](const Level<n>& level, bool fluid) { return level.errors(fluid, false).pressure; }},
      {"pressure_error_mean", "", 1, "kPa", Place::cells,
       [](const GridFacts& grid) { return grid.errors && grid.mean_errors; },
-      [](const Level<n>& level, bool fluid) { return level.errors(fluid, true).pressure; }}}};
+      [](const Level<n>& level, bool fluid) { return level.errors(fluid, true).pressure; }},
+     constant_field<n, 0>(),
+     constant_field<n, 1>(),
+     constant_field<n, 2>(),
+     constant_field<n, 3>(),
+     constant_field<n, 4>(),
+     constant_field<n, 5>(),
+     constant_field<n, 6>(),
+     constant_field<n, 7>(),
+     constant_field<n, 8>(),
+     constant_field<n, 9>(),
+     constant_field<n, 10>(),
+     constant_field<n, 11>(),
+     constant_field<n, 12>()}};
 
 /// Whether every name of output.fields asks for a field, and every field is asked for by one of these or by none.
 template <int n>
@@ -236,7 +280,7 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                             std::vector<FieldGrid> grids, std::vector<GridShare> shares, const TimeAxis& axis,
                             const std::filesystem::path& folder, const std::filesystem::path& restarted_from,
                             double until)
-    : axes_(scene.axes), derived_(derived), profile_(scene.profile) {
+    : scene_(scene), derived_(derived) {
   if (setup.output.every == 0 || (setup.output.fields.empty() && !derived.statistics && !derived.has_errors())) return;
   const auto& wanted = setup.output.fields;
   assert(shares.empty() || shares.size() == grids.size());
@@ -249,7 +293,8 @@ FieldOutput<n>::FieldOutput(const Case& setup, const Scene<n>& scene, const Deri
                           derived.stress && derived.stress->has_fibres(),
                           derived.statistics.has_value(),
                           derived.has_errors(),
-                          derived.means_errors()};
+                          derived.means_errors(),
+                          scene.wall_constants};
     for (const auto& field : output_fields<n>)
       if ((field.asked_by.empty() || std::find(wanted.begin(), wanted.end(), field.asked_by) != wanted.end()) &&
           field.exists(facts))
@@ -284,7 +329,7 @@ bool FieldOutput<n>::write(const State& state) {
   if (!writer_) return false;
   const auto entry = writer_->entry_at(state.time);
   if (!entry) return false;
-  const Level<n> level(state, axes_, derived_, profile_);
+  const Level<n> level(state, scene_, derived_);
   FieldValues values;
   for (std::size_t g = 0; g < grids_.size(); ++g)
     for (const auto& field : grids_[g].fields)
@@ -293,8 +338,10 @@ bool FieldOutput<n>::write(const State& state) {
         const bool fluid = grids_[g].name == "fluid";
         auto numbers = known.values(level, fluid);
         if (field.of_cells) {
-          if (const auto* order = (fluid ? derived_.fluid_errors : derived_.wall_errors).indicator->order())
-            numbers = order->to_stretches(numbers.data(), 1);
+          const auto* order = known.asked_by == "constants"
+                                  ? (scene_.wall_cell_order ? &*scene_.wall_cell_order : nullptr)
+                                  : (fluid ? derived_.fluid_errors : derived_.wall_errors).indicator->order();
+          if (order) numbers = order->to_stretches(numbers.data(), 1);
           values[{grids_[g].name, field.name}] = std::move(numbers);
           continue;
         }

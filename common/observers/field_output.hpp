@@ -50,9 +50,8 @@ class FieldOutput {
     std::optional<WholeOrder> order;
   };
 
-  std::array<int, n> axes_;
+  const Scene<n>& scene_;
   const DerivedQuantities<n>& derived_;
-  Profile& profile_;
   std::vector<FieldGrid> grids_;
   std::vector<Grid> made_;  ///< per grid
   std::unique_ptr<FieldsWriter> writer_;

@@ -97,13 +97,20 @@ std::string text_of_layer(const MaterialData& layer) {
   const MaterialKind& kind = materials().at(layer.material);
   std::string text = layer.material;
   for (const Parameter& parameter : kind.parameters) {
+    if (const auto field = layer.fields.find(parameter.name); field != layer.fields.end()) {
+      text += fmt::format(", {} from {}", parameter.name, field->second.file.string());
+      continue;
+    }
     const auto given = layer.values.find(parameter.name);
     if (given == layer.values.end() && (parameter.required || parameter.of_a_set)) continue;
     const double value = given == layer.values.end() ? parameter.standard : given->second;
     text += fmt::format(", {} = {:g}", parameter.name, value);
     if (const std::string unit = parameter.quantity->unit; !unit.empty()) text += " " + unit;
   }
-  if (layer.viscosity > 0) text += fmt::format(", viscosity = {:g} kPa ms", layer.viscosity);
+  if (const auto field = layer.fields.find("viscosity"); field != layer.fields.end())
+    text += fmt::format(", viscosity from {}", field->second.file.string());
+  else if (layer.viscosity > 0)
+    text += fmt::format(", viscosity = {:g} kPa ms", layer.viscosity);
   return text;
 }
 

@@ -35,6 +35,7 @@
 #include "scene/closed_surfaces.hpp"
 #include "scene/required_openings.hpp"
 #include "scene/support_needs.hpp"
+#include "scene/wall_regions.hpp"
 #include "wall/wall_problem.hpp"
 
 namespace fsi {
@@ -150,8 +151,13 @@ MeshOf<Element> load_mesh(const Case& setup, std::vector<std::string>& remarks, 
       (opening.surface == group::inlet ? needs.inlet : needs.outlet) = true;
   needs.geometry = triangle_geometry<Element>;
   if (setup.structure)
-    for (const auto& [name, data] : setup.structure->layers) needs.layers.push_back(name);
-  const auto mesh = read_or_make<Element>(setup, needs.layers, needs);
+    for (const auto& [name, data] : setup.structure->layers)
+      if (data.part_of.empty()) needs.layers.push_back(name);
+  auto mesh = read_or_make<Element>(setup, needs.layers, needs);
+  cut_out_regions(setup, mesh, remarks);
+  if (setup.structure)
+    for (const auto& [name, data] : setup.structure->layers)
+      if (!data.part_of.empty()) needs.layers.push_back(name);
   if (listed) needs.openings = required_openings(setup, surfaces_of(mesh), mesh_name(setup));
   need_supports(setup, mesh, mesh_name(setup), needs);
   check_scene_mesh(mesh, needs, mesh_source(setup));

@@ -13,6 +13,7 @@
 #include "mesh/group_names.hpp"
 #include "scene/rigid_motion.hpp"
 #include "scene/time_scheme.hpp"
+#include "scene/varying_materials.hpp"
 #include "scene/wave_speed.hpp"
 #include "wall/wall_problem.hpp"
 
@@ -74,9 +75,13 @@ void build_wall(const Case& setup, WallParts<Element> parts, Scene<Element::comp
   for (const auto& [name, layer] : s.layers) wall->set_viscosity(number++, layer.viscosity);
   std::vector<std::vector<MaxwellBranch>> branches;
   for (const auto& [name, layer] : s.layers) branches.push_back(layer.maxwell);
-  wall->set_branches(branches, parts.whole_cell);
+  wall->set_branches(branches, parts.whole_cells);
   scene.profile.count("structure elements", elements_of(wall->part(), regions));
   if (!with_fibres.empty()) scene.profile.count("elements with fibres", elements_of(wall->part(), with_fibres));
+  vary_materials(setup, *wall, scene);
+  if (const auto& part = wall->part(); !scene.wall_constants.empty() && part.share)
+    scene.wall_cell_order.emplace(part.processes(), std::move(parts.whole_cells), part.counted,
+                                  elements_of(part, regions));
   support_wall<Element>(setup, parts.supports, *wall);
   scene.wall_conditions = std::move(parts.held.conditions);
   scene.wall_frames = std::move(parts.held.frames);

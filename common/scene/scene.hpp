@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "mesh_motion/mesh_motion.hpp"
 #include "mesh_motion/nonlinear_mesh_motion.hpp"
 #include "openings/openings.hpp"
+#include "parallel/whole_order.hpp"
 #include "scene/dirichlet_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
 #include "time/time_integrator.hpp"
@@ -63,6 +65,9 @@ class Scene {
     std::vector<double> wall;           ///< (0, p) in the wall, mixed layout
   };
   std::optional<InitialLoad> initial_load;
+  /// Of the constants that are not the same in the whole wall, by name: their means in the wall's cells here.
+  std::map<std::string, std::vector<double>> wall_constants;
+  std::optional<WholeOrder> wall_cell_order;  ///< of those cells, where processes share them
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
   std::vector<std::string> remarks;  ///< what else a user may want to know of it, for the log
   int predictor = 1;                 ///< order of the extrapolated start of each step

@@ -23,12 +23,25 @@ std::vector<int> fluid_nodes_of(const std::vector<InterfaceNode>& interface) {
   return nodes;
 }
 
+/// Pressures of their own for the layers; what regions have cut out of a layer shares its.
+template <class Mesh, class Part>
+Part split_between_layers(const StructureData& structure, const Mesh& mesh, Part part) {
+  const std::vector<int> regions = part.cell_region;
+  for (const auto& [name, data] : structure.layers)
+    if (!data.part_of.empty())
+      std::replace(part.cell_region.begin(), part.cell_region.end(), mesh.region_index(name),
+                   mesh.region_index(data.part_of));
+  part = split_between_regions(part);
+  part.cell_region = regions;
+  return part;
+}
+
 template <class Element>
 WallParts<Element> find_wall(const Case& setup, const MeshOf<Element>& mesh, const std::vector<int>& regions) {
   const StructureData& structure = *setup.structure;
   WallParts<Element> wall;
   wall.part = submesh(mesh, regions);
-  if (structure.layer_pressure == LayerPressure::separate) wall.part = split_between_regions(wall.part);
+  if (structure.layer_pressure == LayerPressure::separate) wall.part = split_between_layers(structure, mesh, wall.part);
   wall.held = wall_conditions<Element>(setup, mesh, wall.part);
   for (const auto& [name, data] : structure.layers)
     wall.layers.push_back({mesh.region_index(name), make_material(data.material, data.values)});
@@ -110,7 +123,9 @@ void restrict_interface(const PartRestriction& here, const PartRestriction& wall
 
 template <class Element>
 void restrict_wall(const PartRestriction& here, const PartOf<Element>& whole, WallParts<Element>& wall) {
-  wall.part = here.part(whole, wall.whole_cell);
+  std::vector<int> cells;
+  wall.part = here.part(whole, cells);
+  wall.whole_cells.assign(cells.begin(), cells.end());
   wall.held = {restricted(wall.held.conditions, here), restricted(wall.held.frames, here)};
   wall.pressurised = here.facets(wall.pressurised);
   if (!wall.frame.empty()) wall.frame = restricted(wall.frame, here);

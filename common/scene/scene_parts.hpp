@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,12 +19,12 @@ namespace fsi {
 template <class Element>
 struct WallParts {
   PartOf<Element> part;
-  std::vector<int> whole_cell;  ///< per cell, its number in the whole wall; empty: the part is whole
   WallConditions<Element::components> held;
   std::vector<std::pair<int, Material>> layers;  ///< region and material
   FacetsOf<Element> pressurised;                 ///< where the case's pressure acts on a wall without fluid
   FrameFields frame;                             ///< of fibres; empty: that of a cylinder
   SupportFacets<Element> supports;
+  std::vector<std::int64_t> whole_cells;  ///< per cell, its number in the whole wall; empty: the part is whole
 };
 
 /// What a scene's fluid is made of.

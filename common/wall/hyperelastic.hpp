@@ -30,6 +30,7 @@ struct Hyperelastic {
   using FibreData = typename Material::FibreData;
   static constexpr bool has_fibres = std::is_same_v<FibreData, Fibres>;
   static constexpr bool is_compressible = std::is_same_v<Material, CompressibleLaw>;
+  static constexpr bool varies = false;  ///< see wall/varying_hyperelastic.hpp
 
   /// What the isochoric stress is computed from at a point: nothing more where there are no fibres, since it is a
   /// function of gradients alone.

@@ -5,6 +5,7 @@
 
 #include "fem/assembly_result.hpp"
 #include "wall/hyperelastic.hpp"
+#include "wall/varying_hyperelastic.hpp"
 #include "wall/wall_input.hpp"
 
 namespace fsi {
@@ -12,7 +13,8 @@ namespace fsi {
 /// Laws whose element loops are compiled in files of their own, side by side with the others: what a compiler makes of
 /// one law's loops, to the last bit, does not depend on how many laws there are.
 template <class M>
-inline constexpr bool compiled_apart = std::is_same_v<M, CompressibleLaw> || std::is_same_v<M, DispersedArtery>;
+inline constexpr bool compiled_apart =
+    std::is_same_v<M, CompressibleLaw> || std::is_same_v<M, DispersedArtery> || std::is_same_v<M, VaryingLaw>;
 
 /// Their loops over one layer, see assemble_wall(), wall_energy() and wall_work(). Defined in
 /// wall/layer_loops_of.hpp.

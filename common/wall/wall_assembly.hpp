@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -16,11 +17,25 @@ namespace fsi {
 
 namespace detail {
 
+/// What a form is told of the points of all packs: the constants where they vary, else the fibres; null where it needs
+/// none.
+template <class Element, class Form>
+using LayerPoints = const std::vector<
+    std::array<std::conditional_t<std::is_same_v<typename Form::FibreData, PointConstants>, PointConstants, Fibres>,
+               Element::points>>*;
+
+template <class Element, class Form>
+LayerPoints<Element, Form> points_of(const WallLayer<Element>& layer, int thread) {
+  if constexpr (std::is_same_v<typename Form::FibreData, PointConstants>)
+    return &layer.constants[thread];
+  else
+    return layer.fibres.empty() ? nullptr : &layer.fibres[thread];
+}
+
 /// A form's fibres at point q of a pack.
 template <class Element, class Form>
-typename Form::FibreData fibres_at(const std::vector<std::array<Fibres, Element::points>>* fibres, std::size_t pack,
-                                   int q) {
-  if constexpr (std::is_same_v<typename Form::FibreData, Fibres>) {
+typename Form::FibreData fibres_at(LayerPoints<Element, Form> fibres, std::size_t pack, int q) {
+  if constexpr (!std::is_same_v<typename Form::FibreData, NoFibres>) {
     assert(fibres);
     return (*fibres)[pack][q];
   } else {
@@ -61,8 +76,7 @@ struct WallPack {
 /// Residual and, by seeding one node after the other, derivatives.
 template <class Element, bool Derivatives, class Form>
 AssemblyResult layer_packs(const Form& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                           const std::vector<std::array<Fibres, Element::points>>* fibres, const WallInput& in,
-                           double* residual, double* blocks) {
+                           LayerPoints<Element, Form> fibres, const WallInput& in, double* residual, double* blocks) {
   constexpr int n = Element::components;
   using Mixed = MixedLayout<n>;
   constexpr int seeds = Derivatives ? n + 1 : 0;  // displacement, pressure
@@ -76,18 +90,19 @@ AssemblyResult layer_packs(const Form& form, const std::vector<typename ElementP
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
     fields.gather_from(in, pack);
+    const auto& here = in_pack(form, fibres, index);
     for (int b = 0; b < (Derivatives ? Element::nodes : 1); ++b) {
       integrate(
           rows, pack.geometry,
           [&](const auto& g) {
             const auto k =
-                form.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
+                here.prepare(seed_gradient<Element, seeds, 0>(gradient_of(d, g), g, b),
                              seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b), pack.geometry.size_squared);
             if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
             return k;
           },
           [&](const auto& k, const auto& g, int q) {
-            return form.integrand(
+            return here.integrand(
                 k, seed_value<Element, seeds, 0>(value_of(acceleration, g), g, b, in.acceleration_factor),
                 seed_value<Element, seeds, n>(value_of(p, g), g, b), fibres_at<Element, Form>(fibres, index, q));
           });
@@ -103,8 +118,8 @@ AssemblyResult layer_packs(const Form& form, const std::vector<typename ElementP
 template <class Element, class Form>
 AssemblyResult layer_packs_by_points(const Form& form,
                                      const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
-                                     const std::vector<std::array<Fibres, Element::points>>* fibres,
-                                     const WallInput& in, double* residual, double* blocks) {
+                                     LayerPoints<Element, Form> fibres, const WallInput& in, double* residual,
+                                     double* blocks) {
   constexpr int n = Element::components, p_seed = PointEntries<Element>::count, seeds = p_seed + 1, columns = n + 1;
   struct AtPoint {
     QuadraturePoint<Element> g;
@@ -153,7 +168,7 @@ AssemblyResult assemble_layer(const Form& form, const WallLayer<Element>& layer,
   std::vector<AssemblyResult> results(layer.packs.thread_count());
   const auto serial_below = jacobian ? serial_jacobian_elements : serial_residual_elements;
   for_each_thread(layer.packs, serial_below, [&](int t, const auto& mine) {
-    const auto* fibres = layer.fibres.empty() ? nullptr : &layer.fibres[t];
+    const auto fibres = points_of<Element, Form>(layer, t);
     double* rows = residual.data();
     if constexpr (WithResidualLoop)
       if (!jacobian) {
@@ -180,7 +195,16 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
                              WallMatrix<Element::components>* jacobian = nullptr) {
   if (jacobian) jacobian->set_zero();
   AssemblyResult all;
-  for (const auto& layer : layers)
+  for (const auto& layer : layers) {
+    if (layer.varies()) {
+      const Hyperelastic<VaryingLaw> form{in.acceleration_history ? wall.density : 0.0,
+                                          bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation,
+                                          layer.law, wall.wave_speed};
+      all.include(in.finds_unloaded_shape
+                      ? UnloadedLoops<Element, VaryingLaw>::assemble(form, layer, in, residual, jacobian)
+                      : LayerLoops<Element, VaryingLaw>::assemble(form, layer, in, residual, jacobian));
+      continue;
+    }
     std::visit(
         [&](const auto& law) {
           using M = std::decay_t<decltype(law)>;
@@ -195,6 +219,7 @@ AssemblyResult assemble_wall(const WallConstants& wall, const std::vector<WallLa
             all.include(detail::assemble_layer(form, layer, in, residual, jacobian));
         },
         element_law(layer.material));
+  }
   return all;
 }
 

@@ -12,16 +12,23 @@ namespace detail {
 inline constexpr double radau_point[] = {0.15505102572168219018, 0.64494897427831780982, 1.0};
 inline constexpr double radau_weight[] = {0.37640306270046727506, 0.51248582618842161383, 1.0 / 9.0};
 
-template <class Element>
-using LayerFibres = const std::vector<std::array<Fibres, Element::points>>*;
+/// 1 / (2 kappa) at a point
+template <class M>
+Pack half_compliance(const Hyperelastic<M>& form, const typename Hyperelastic<M>::FibreData& at) {
+  if constexpr (Hyperelastic<M>::varies)
+    return Pack(0.5) / at.bulk_modulus;
+  else
+    return Pack(0.5 / form.bulk_modulus);
+}
 
 template <class Element, class M>
 WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const double* wall,
                         const double* velocity, const double* balance, const double* prestress) {
   constexpr int n = Element::components;
-  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible,
+                 varies = Hyperelastic<M>::varies;
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
-    const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
+    const auto fibres = points_of<Element, Hyperelastic<M>>(layer, thread);
     NodalVector<Element> d{}, v{};
     NodalScalar<Element> p{};
     gather<MixedLayout<n>>(d, pack, wall);
@@ -30,13 +37,16 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
     if (velocity) gather<VectorLayout<n>>(v, pack, velocity);
     struct Prepared {
       Strain<Pack> strain;
-      Pack isotropic;  ///< Psi of materials without fibres
+      Pack isotropic;       ///< Psi of materials without fibres
+      Mat3<Pack> gradient;  ///< grad d where constants vary
     };
     return pack_integrals<Element, 3>(
         pack.geometry,
         [&](const auto& g) {
           Prepared k;
-          if constexpr (is_compressible) {
+          if constexpr (varies) {
+            k.gradient = gradient_of(d, g);
+          } else if constexpr (is_compressible) {
             k.isotropic = form.material.energy(gradient_of(d, g));
           } else {
             k.strain = strain_of(gradient_of(d, g));
@@ -47,13 +57,16 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
           const Vec3<Pack> v_here = value_of(v, g);
           const Pack pressure = value_of(p, g);
+          const auto fibre = fibres_at<Element, Hyperelastic<M>>(fibres, index, q);
           Pack isochoric = k.isotropic;
-          if constexpr (has_fibres)
-            isochoric = form.material.energy(k.strain, fibres_at<Element, Hyperelastic<M>>(fibres, index, q));
+          if constexpr (varies)
+            isochoric = form.material.energy(k.gradient, fibre);
+          else if constexpr (has_fibres)
+            isochoric = form.material.energy(k.strain, fibre);
           return std::array<Pack, 3>{
               Pack(0.5 * form.density) * dot(v_here, v_here),
               isochoric,
-              Pack(0.5 / form.bulk_modulus) * pressure * pressure,
+              half_compliance(form, fibre) * pressure * pressure,
           };
         });
   };
@@ -64,12 +77,13 @@ WallEnergy layer_energy(const Hyperelastic<M>& form, const WallLayer<Element>& l
 template <class Element, class M>
 WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer, const WallStep& step) {
   constexpr int n = Element::components;
-  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible;
+  constexpr bool has_fibres = Hyperelastic<M>::has_fibres, is_compressible = Hyperelastic<M>::is_compressible,
+                 varies = Hyperelastic<M>::varies;
   using Vector = VectorLayout<n>;
   using Mixed = MixedLayout<n>;
   const Pack duration(step.duration), weight(step.weight);
   const auto integrals = [&](const auto& pack, int thread, std::size_t index) {
-    const LayerFibres<Element> fibres = layer.fibres.empty() ? nullptr : &layer.fibres[thread];
+    const auto fibres = points_of<Element, Hyperelastic<M>>(layer, thread);
     WallPack<Element> at;
     NodalVector<Element> reference{}, d_before{}, d_start{}, d_end{}, v_start{}, v_end{}, moved;
     NodalScalar<Element> p_before{};
@@ -103,7 +117,9 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
     const auto stress = [&](const Prepared& k, [[maybe_unused]] const typename M::FibreData& fibre) {
       const auto flux_at = [&](const Mat3<Pack>& h) {
         const auto f = deformation(h);
-        if constexpr (is_compressible)
+        if constexpr (varies)
+          return form.material.response(h, f, fibre).flux;
+        else if constexpr (is_compressible)
           return form.material.response(h, f).flux;
         else
           return form.isochoric_flux(f, strain_of(h, f), fibre);
@@ -140,22 +156,24 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
               k.defect = k.defect - (f.volume_change - before.volume_change);
             if constexpr (Element::stabilised) {
               const auto grad_p = gradient_of(at.p, g);
+              const auto& here = in_pack(form, fibres, index);
               k.stabilisation =
-                  dot(form.stabilisation_flux(before, gradient_of(p_before, g), pack.geometry.size_squared) -
-                          form.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
+                  dot(here.stabilisation_flux(before, gradient_of(p_before, g), pack.geometry.size_squared) -
+                          here.stabilisation_flux(f, grad_p, pack.geometry.size_squared),
                       grad_p);
             }
           }
           return k;
         },
         [&](const Prepared& k, const auto& g, [[maybe_unused]] int q) {
+          const auto fibre = fibres_at<Element, Hyperelastic<M>>(fibres, index, q);
           Pack beyond = k.isotropic;
-          if constexpr (has_fibres) beyond = stress(k, fibres_at<Element, Hyperelastic<M>>(fibres, index, q));
+          if constexpr (has_fibres) beyond = stress(k, fibre);
           const Pack pressure = value_of(at.p, g);
           beyond = beyond - pressure * k.defect;
           if (step.wall_before) {
             const Pack dp = pressure - value_of(p_before, g);
-            beyond += Pack(0.5 / form.bulk_modulus) * dp * dp;
+            beyond += half_compliance(form, fibre) * dp * dp;
           }
           // Differences first: W a . v - omega (|v_1|^2 - |v_0|^2) / 2 free of cancellation
           const Vec3<Pack> v0 = value_of(v_start, g), v1 = value_of(v_end, g), change = weight * (v1 - v0);
@@ -172,7 +190,13 @@ WallWork layer_work(const Hyperelastic<M>& form, const WallLayer<Element>& layer
 /// Calls visit(form, layer) for each layer.
 template <class Element, class Visit>
 void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Element>>& layers, Visit visit) {
-  for (const auto& layer : layers)
+  for (const auto& layer : layers) {
+    if (layer.varies()) {
+      visit(Hyperelastic<VaryingLaw>{wall.density, bulk_modulus(layer.material, wall.bulk_modulus), wall.stabilisation,
+                                     layer.law, wall.wave_speed},
+            layer);
+      continue;
+    }
     std::visit(
         [&](const auto& law) {
           using M = std::decay_t<decltype(law)>;
@@ -181,6 +205,7 @@ void for_each_layer(const WallConstants& wall, const std::vector<WallLayer<Eleme
                 layer);
         },
         element_law(layer.material));
+  }
 }
 
 }  // namespace detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "fem/nodal_layout.hpp"
 #include "materials/material.hpp"
 #include "materials/maxwell_branch.hpp"
+#include "materials/varying_law.hpp"
 #include "wall/fibre_directions.hpp"
 
 namespace fsi {
@@ -30,14 +32,23 @@ struct WallInput {
   const double* branch_reference = nullptr;  ///< r of what Maxwell branches keep (BranchPlaces); null: none, or statics
 };
 
+/// The constants at each quadrature point of a layer, [thread][pack][point].
+template <class Element>
+using ConstantsField = std::vector<std::vector<std::array<PointConstants, Element::points>>>;
+
 /// One layer of the wall: its elements and its material, with fibre directions where the material has fibres.
 template <class Element>
 struct WallLayer {
   ElementPacks<Element> packs;
   Material material;
-  FibreField<Element> fibres;             ///< empty for materials without
-  double viscosity = 0;                   ///< eta, kPa ms, of wall/kelvin_voigt.hpp
+  FibreField<Element> fibres;  ///< empty for materials without
+  double viscosity = 0;        ///< eta, kPa ms, of wall/kelvin_voigt.hpp
+  /// Where constants vary: theirs, with the fibres; `material` and `viscosity` are then at the means of what varies.
+  ConstantsField<Element> constants{};
+  VaryingLaw law{};                       ///< of such a layer
   std::vector<MaxwellBranch> branches{};  ///< wall/maxwell_form.hpp
+
+  bool varies() const { return !constants.empty(); }
 };
 
 /// Where the strains that Maxwell branches keep stand in an array (Solution::branches): cell by cell of the layers with

@@ -1,6 +1,7 @@
 #include "wall/wall_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/elements.hpp"
 #include "fem/facet_load.hpp"
@@ -36,6 +37,17 @@ LayerData measured_layer(const Part& part, const std::vector<int>& cells, const 
   return data;
 }
 
+/// Directions cos(alpha) t +- sin(alpha) z at another angle, in one lane.
+void turn_fibres(Fibres& fibres, int lane, double from, double to) {
+  for (int i = 0; i < 3; ++i) {
+    const double first = fibres.direction[0][i][lane], second = fibres.direction[1][i][lane];
+    const double around = std::cos(to) * (first + second) / (2 * std::cos(from));
+    const double along = std::sin(to) * (first - second) / (2 * std::sin(from));
+    fibres.direction[0][i].set(lane, around + along);
+    fibres.direction[1][i].set(lane, around - along);
+  }
+}
+
 }  // namespace
 
 template <class Element>
@@ -62,6 +74,51 @@ WallProblem<Element>::WallProblem(Part part, const WallConstants& constants,
 }
 
 template <class Element>
+void WallProblem<Element>::vary(std::size_t number, bool dispersed, const LawAt& at) {
+  WallLayer<Element>& layer = layers_.at(number);
+  std::vector<int> index(part_.cells.size(), -1);
+  std::vector<std::array<LawHere, Element::points>> of_cell;
+  for (const int c : layer_cells_[number]) {
+    index[static_cast<std::size_t>(c)] = static_cast<int>(of_cell.size());
+    of_cell.emplace_back();
+    Vec3<Pack> x[Element::nodes];
+    for (int a = 0; a < Element::nodes; ++a)
+      for (int i = 0; i < 3; ++i) x[a][i] = Pack(part_.nodes[part_.cells[c][a]][i]);
+    const auto geometry = Element::geometry(x);
+    for (int q = 0; q < Element::points; ++q) {
+      const auto g = Element::at(geometry, q);
+      Point place{0, 0, 0};
+      for (int a = 0; a < Element::nodes; ++a)
+        for (int i = 0; i < 3; ++i) place[i] += g.vectors().value[a] * x[a][i][0];
+      of_cell.back()[q] = at(c, place, g.weight[0]);
+    }
+  }
+  const bool fibres = !layer.fibres.empty();
+  const double angle = fibre_angle(layer.material);
+  layer.law = varying_law(layer.material, dispersed);
+  layer.constants.assign(static_cast<std::size_t>(layer.packs.thread_count()), {});
+  for (int t = 0; t < layer.packs.thread_count(); ++t)
+    for (std::size_t p = 0; p < layer.packs.of_thread(t).size(); ++p) {
+      auto& points = layer.constants[t].emplace_back();
+      const auto& pack = layer.packs.of_thread(t)[p];
+      for (int q = 0; q < Element::points; ++q) {
+        if (fibres) points[q].fibres = layer.fibres[t][p][q];
+        for (int lane = 0; lane < pack_width; ++lane) {
+          const LawHere& here = of_cell[static_cast<std::size_t>(index[pack.cell[lane]])][q];
+          points[q].set(lane, here.constants);
+          if (fibres && here.fibre_angle != angle) turn_fibres(points[q].fibres, lane, angle, here.fibre_angle);
+        }
+      }
+    }
+}
+
+template <class Element>
+void WallProblem<Element>::set_mean(std::size_t layer, const Material& material, double viscosity) {
+  layers_.at(layer).material = layer_data_.at(layer).material = material;
+  layers_.at(layer).viscosity = viscosity;
+}
+
+template <class Element>
 AssemblyResult WallProblem<Element>::assemble(const WallInput& in, double pressure, const std::vector<double>& solution,
                                               std::vector<double>& residual, bool derivatives) {
   residual.assign(space_.mixed_size(), 0.0);
@@ -83,7 +140,7 @@ bool WallProblem<Element>::is_viscous() const {
 
 template <class Element>
 void WallProblem<Element>::set_branches(const std::vector<std::vector<MaxwellBranch>>& branches,
-                                        const std::vector<int>& whole_cell) {
+                                        const std::vector<std::int64_t>& whole_cell) {
   places_ = {};
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     layers_[i].branches = branches.at(i);

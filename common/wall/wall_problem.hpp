@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <utility>
+#include <cstdint>
 #include <vector>
 
 #include "wall/fibre_directions.hpp"
@@ -25,11 +27,22 @@ class WallProblem : public Wall<Element::components> {
 
   const Part& part() const { return part_; }
   const std::vector<WallLayer<Element>>& layers() const { return layers_; }
+  const std::vector<int>& cells_of_layer(std::size_t layer) const { return layer_cells_.at(layer); }
   /// \param viscosity  eta of a layer, kPa ms; 0, as at first: elastic
   void set_viscosity(std::size_t layer, double viscosity) { layers_.at(layer).viscosity = viscosity; }
   /// \param branches    of each layer; none, as at first
   /// \param whole_cell  per cell of the part its number in the whole wall; empty: the part is whole
-  void set_branches(const std::vector<std::vector<MaxwellBranch>>& branches, const std::vector<int>& whole_cell = {});
+  void set_branches(const std::vector<std::vector<MaxwellBranch>>& branches,
+                    const std::vector<std::int64_t>& whole_cell = {});
+
+  /// The law of a layer at a place: of a cell of the part, at a quadrature point x with this weight, mm and mm^3.
+  using LawAt = std::function<LawHere(int cell, const Point& x, double weight)>;
+  /// Lets the constants of a layer vary: `at` is called once for each quadrature point of its cells, on the mesh. To be
+  /// called before any prestress. With fibres at different angles the layer's material must have been made with one
+  /// between 0 and 90 degrees.
+  void vary(std::size_t layer, bool dispersed, const LawAt& at);
+  /// What stands for such a layer where one number must (LayerData): the material at its mean constants.
+  void set_mean(std::size_t layer, const Material& material, double viscosity);
 
   const PartNodes& nodes() const override { return part_; }
   const FunctionSpace<n>& space() const override { return space_; }

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/group_names.hpp"
 #include "mesh/lumen_volume.hpp"
+#include "mesh/surface/curvature.hpp"
 #include "mesh/surface/flow_extension.hpp"
 #include "mesh/surface/local_radius.hpp"
 #include "mesh/surface/remeshing.hpp"
@@ -100,12 +103,21 @@ void smooth(TriangleSurface& surface, const LumenRequest& request, std::vector<s
 
 /// \return what the edges are like, for the user
 std::string remesh(TriangleSurface& surface, const LumenRequest& request) {
-  if (request.edges_per_diameter > 0) {
-    auto edges = local_radius(surface, 10);
-    for (double& edge : edges) edge *= 2 / request.edges_per_diameter;
+  if (request.edges_per_diameter > 0 || request.edges_per_curvature > 0) {
+    std::vector<double> edges(surface.nodes.size(), request.edge > 0 ? request.edge : mean_edge(surface));
+    std::string said;
+    if (request.edges_per_diameter > 0) {
+      edges = local_radius(surface, 10);
+      for (double& edge : edges) edge *= 2 / request.edges_per_diameter;
+      said = fmt::format("{:.3g} edges per diameter, ", request.edges_per_diameter);
+    }
+    if (request.edges_per_curvature > 0) {
+      const double shortest = request.shortest_edge > 0 ? request.shortest_edge : 0.5 * mean_edge(surface);
+      shorten_by_curvature(surface, request.edges_per_curvature, shortest, edges);
+      said += fmt::format("{:.3g} per diameter of curvature, ", request.edges_per_curvature);
+    }
     const auto [least, most] = std::minmax_element(edges.begin(), edges.end());
-    std::string said =
-        fmt::format("{:.3g} edges per diameter, of {:.3g} to {:.3g} mm", request.edges_per_diameter, *least, *most);
+    said += fmt::format("of {:.3g} to {:.3g} mm", *least, *most);
     surface = remeshed(surface, std::move(edges), request.file);
     return said;
   }

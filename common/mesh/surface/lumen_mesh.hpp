@@ -17,7 +17,10 @@ struct LumenRequest {
   int smoothing = 20;                   ///< passes
   double edge = 0;                      ///< length of the surface's edges, mm; 0: as they are on average
   double edges_per_diameter = 0;        ///< in place of `edge`: a length that follows the local diameter
-  BoundaryLayers layers;                ///< inside the wall
+  double edges_per_curvature =
+      0;                     ///< edges along the diameter of the circle of curvature, where that is shorter; 0: none
+  double shortest_edge = 0;  ///< mm, that curvature asks for; 0: half the mean edge of the surface as it comes
+  BoundaryLayers layers;     ///< inside the wall
   double womersley =
       0;  ///< above 0: the layers are as thick as the Stokes layer, sqrt(2) R / it, in the widest opening
   std::vector<std::pair<std::string, double>> cuts;        ///< by opening, mm behind its centre

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <sstream>
+#include <utility>
 
 #include "base/error.hpp"
+#include "mesh/fields/point_table.hpp"
 #include "mesh/flat_parts.hpp"
 #include "mesh/point_math.hpp"
 #include "mesh/surface/local_radius.hpp"
@@ -19,16 +17,6 @@ namespace fsi {
 namespace {
 
 constexpr std::size_t most_near = 4;
-
-std::vector<std::string> columns_of(const std::string& line) {
-  std::vector<std::string> columns;
-  std::istringstream in(line);
-  for (std::string column; std::getline(in, column, ',');) {
-    const auto first = column.find_first_not_of(" \t\r\""), last = column.find_last_not_of(" \t\r\"");
-    columns.push_back(first == std::string::npos ? "" : column.substr(first, last - first + 1));
-  }
-  return columns;
-}
 
 /// Squared distances and numbers of the nearest places, nearest first.
 using Near = std::vector<std::pair<double, std::size_t>>;
@@ -71,38 +59,8 @@ std::vector<double> reach_of(const TriangleSurface& surface, const ThicknessTabl
 }  // namespace
 
 ThicknessTable thickness_table(const std::string& text, const std::string& column, const std::string& file) {
-  ThicknessTable table{file, {}, {}};
-  std::istringstream in(text);
-  std::string line;
-  std::getline(in, line);
-  const auto names = columns_of(line);
-  const std::array<std::string, 4> wanted{"x", "y", "z", column};
-  std::array<std::size_t, 4> at{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    at[k] = static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted[k]) - names.begin());
-    if (at[k] == names.size())
-      throw InputError(file, "column " + wanted[k], "is missing", "its first line must name x, y, z and " + column);
-  }
-  for (int number = 2; std::getline(in, line); ++number) {
-    const auto cells = columns_of(line);
-    if (cells.empty()) continue;
-    std::array<double, 4> values{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::string cell = at[k] < cells.size() ? cells[at[k]] : "";
-      char* end = nullptr;
-      values[k] = std::strtod(cell.c_str(), &end);
-      const bool is_hole = k == 3 && cell.empty();
-      if (is_hole) values[k] = std::numeric_limits<double>::quiet_NaN();
-      if ((end == cell.c_str() || *end != '\0' || (k < 3 && !std::isfinite(values[k]))) && !is_hole)
-        throw InputError(file, fmt::format("line {}, {}", number, wanted[k]), "'" + cell + "' is no number",
-                         "give it in mm");
-    }
-    table.places.push_back({values[0], values[1], values[2]});
-    table.values.push_back(values[3]);
-  }
-  if (table.places.size() < 2)
-    throw InputError(file, "", fmt::format("holds {} points", table.places.size()), "give two or more");
-  return table;
+  auto [places, values] = point_table(text, column, file, "give it in mm");
+  return {file, std::move(places), std::move(values)};
 }
 
 std::vector<double> thickness_at(const TriangleSurface& surface, const ThicknessTable& table, int passes) {

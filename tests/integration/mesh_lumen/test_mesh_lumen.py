@@ -140,6 +140,16 @@ class MeshLumen(FolderTest):
         process = attempt(MONOLITHIC, self.base / "case.toml", "-q", folder=self.base / "out")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
 
+    def test_edges_by_curvature(self):
+        """Where branches part the surface bends round: edges are shorter there, and no shorter than the bound."""
+        self.write(*carotid.carotid())
+        plain = self.done(self.lumen(*NAMES, "--edge-length", 1.2))
+        bent = self.lumen(*NAMES, "--edge-length", 1.2, "--edges-per-curvature", 6, "--shortest-edge", 0.6)
+        said = re.search(r"6 per diameter of curvature, of ([\d.]+) to ([\d.]+) mm", bent.stdout)
+        self.assertGreaterEqual(float(said.group(1)), 0.6)
+        self.assertLessEqual(float(said.group(2)), 1.2)
+        self.assertAlmostEqual(self.done(bent)[0] / plain[0], 1, delta=0.03)
+
     def test_cut_and_extension(self):
         """A tube whose end is slanted by 27 degrees, not along an axis: the cut is square to it, the extension round."""
         turn = np.linalg.qr(np.array(((1.0, 2, 3), (3, 1, 2), (2, 3, 1))))[0]
@@ -254,6 +264,9 @@ class MeshLumen(FolderTest):
         self.assertAlmostEqual(self.done(self.lumen(*named, "--closed", "2,0,6"))[0] / right[0], 1, delta=5e-3)
         self.write(nodes, triangles, 0.1)
         self.assertAlmostEqual(self.done(self.lumen(*named, "--unit", "cm"))[0] / right[0], 1, delta=1e-3)
+        process = self.lumen("--list-openings", "--unit", "m")
+        self.assertEqual(process.returncode, 0)
+        self.assertRegex(process.stderr, r"--unit m: the widest opening, at \(.*\), measures .* as no vessel's does")
         self.write(np.vstack((nodes, nodes + (9, 0, 0))), np.vstack((triangles, triangles[:40] + len(nodes))))
         self.assertAlmostEqual(self.done(self.lumen(*named, "--largest-shell"))[0] / right[0], 1, delta=1e-3)
         self.expect(self.lumen(*named), "surface: has 2 shells", "--largest-shell")

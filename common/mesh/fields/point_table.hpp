@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/simplex_mesh.hpp"
+
+namespace fsi {
+
+/// Values at points.
+struct PointTable {
+  std::vector<Point> places;   ///< mm
+  std::vector<double> values;  ///< per place; NaN: an empty cell
+};
+
+/// Of a text of comma-separated columns with a line of names: x, y, z in mm and `column`. Further columns are passed over.
+/// \param file    for messages
+/// \param remedy  for a value that is no number, "give it in mm"
+/// \throws InputError saying of `file`, with the line: a column that is missing, what is no number, and fewer than two points
+PointTable point_table(const std::string& text, const std::string& column, const std::string& file,
+                       const std::string& remedy);
+
+/// Points of a line as such a table has them in x, y and z, in its order. \throws InputError likewise
+std::vector<Point> polyline_of(const std::string& text, const std::string& file);
+
+}  // namespace fsi

@@ -1,0 +1,238 @@
+"""Walls whose constants a file or regions give from place to place: both drivers, restart, processes, wrong inputs."""
+
+import unittest
+
+import h5py
+import numpy as np
+from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, restart, run
+from scenes import FLUID, KINDS, WALL, scene
+
+CASE = """[mesh]
+file = "tube.msh"
+{fluid}
+{wall}
+[inlet]
+pressure = [[0, 0], [0.5, 1.0]]
+[time]
+step = 0.125
+end = 0.5
+[monolithic]
+newton_tolerance = 1e-11
+[partitioned]
+tolerance = 1e-10
+[output]
+every = 4
+fields = ["displacement", "velocity", "pressure", "von_mises_stress", "constants"]
+"""
+FROM_FILE = '{ file = "stiffness.csv", field = "c10", within = 1.0 }'
+PLAQUE = """[[structure.region]]
+name = "plaque"
+layers = ["media"]
+shape = "sphere"
+centre = [1.3, 0.0, 1.5]
+radius = 0.8
+c10 = 30.0
+viscosity = 2.0
+"""
+SOFT_EDGE = PLAQUE + "transition = 0.6\n"
+
+
+def points(value):
+    """A table of points all over the scenes' walls, three-dimensional and in a plane."""
+    rows = ["x,y,z,c10"]
+    for x in np.linspace(-0.2, 3.2, 14):
+        for y in np.linspace(0.0, 2.0, 9):
+            rows += [f"{x},{y},{z},{value(x, y, z)}" for z in np.linspace(0.0, 3.0, 11)]
+    return "\n".join(rows) + "\n"
+
+
+class VaryingTest(FolderTest):
+    def case(self, wall=WALL, name="case"):
+        file = self.base / f"{name}.toml"
+        file.write_text(CASE.format(fluid=FLUID, wall=wall))
+        return file
+
+    def field(self, value=lambda x, y, z: 3 + x + 0.5 * y + 2 * z):
+        (self.base / "stiffness.csv").write_text(points(value))
+        return WALL.replace("c10 = 3.0", f"c10 = {FROM_FILE}\nviscosity = 0.5")
+
+    def assertAgree(self, one, other, most):
+        """Displacements, velocities and pressures of the last level, relative to the largest of each field."""
+        fields = [arrays(folder / "checkpoint.h5") for folder in (one, other)]
+        for medium in ("mesh", "wall", "flow"):
+            values, others = (of[f"arrays/level0.{medium}"] for of in fields)
+            self.assertGreater(np.abs(values).max(), 1e-4)
+            self.assertLess(np.abs(values - others).max(), most * np.abs(values).max(), medium)
+
+
+class Varying(VaryingTest):
+    def test_drivers_agree(self):
+        for kind, wall in zip(KINDS, [self.field(), self.field() + SOFT_EDGE, WALL + PLAQUE] * 2):
+            settings = scene(self.base, *kind)
+            place = (
+                ("structure.region.plaque.centre=[1.5, 1.2, 0.0]",) if kind[1] == "plane" and "plaque" in wall else ()
+            )
+            with self.subTest(kind=kind, regions=wall.count("[[")):
+                folders = [
+                    run(program, self.case(wall), self.base / f"run{i}", *settings, *place)
+                    for i, program in enumerate(DRIVERS)
+                ]
+                self.assertAgree(*folders, 1e-8)
+
+    def test_a_field_that_is_constant_is_the_constant(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        wall = self.field(lambda x, y, z: 3.0).replace("viscosity = 0.5", "")
+        varying = run(MONOLITHIC, self.case(wall), self.base / "varying", *settings)
+        constant = run(MONOLITHIC, self.case(), self.base / "constant", *settings)
+        self.assertAgree(varying, constant, 1e-10)
+
+    def test_a_run_goes_on_with_the_same_bits_and_knows_its_field(self):
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        case = self.case(self.field() + SOFT_EDGE)
+        for program in DRIVERS:
+            whole = run(program, case, self.base / "whole", *settings)
+            begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
+            self.assertEqual(restart(program, case, begun, *settings), begun)
+            self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
+        for change, said in (
+            (lambda: self.field(lambda x, y, z: 4.0), "structure.layers.media.c10"),
+            (lambda: case.write_text(case.read_text().replace("radius = 0.8", "radius = 0.9")), "structure.region"),
+        ):
+            change()
+            refused = attempt(MONOLITHIC, case, "-q", "--restart", begun, folder=begun, settings=settings)
+            self.assertEqual(refused.returncode, 1, refused.stderr)
+            self.assertIn(said, refused.stderr)
+
+    def test_log_and_fields_show_the_constants(self):
+        folder = run(
+            MONOLITHIC, self.case(self.field() + PLAQUE), self.base / "shown", *scene(self.base, "p1", "axisymmetric")
+        )
+        log = (folder / "run.log").read_text()
+        self.assertRegex(log, r"structure\.region\.plaque: \d+ elements of media are media/plaque")
+        self.assertRegex(log, r"structure\.layers\.media\.c10 varies from [\d.]+ to [\d.]+ kPa, mean [\d.]+")
+        found = {}
+        with h5py.File(folder / "fields.h5") as file:
+            file.visititems(
+                lambda name, item: found.update({name: item[...]}) if name.split("/")[-1] == "c10" else None
+            )
+        self.assertEqual(len(found), 1, sorted(found))
+        values = next(iter(found.values()))
+        self.assertEqual(values.max(), 30)
+        self.assertAlmostEqual(values.min(), 0.3)
+        self.assertGreater(len(np.unique(values)), 5)
+
+    def test_a_prestressed_wall_is_in_balance(self):
+        """The shape of the mesh is that under the load, whatever the constants: nothing moves under it."""
+        wall = WALL + PLAQUE.replace("viscosity = 2.0\n", "") + "[prestress]\npressure = 0.5\n"
+        case = self.case(wall)
+        case.write_text(case.read_text().replace("[[0, 0], [0.5, 1.0]]", "0.5"))
+        for soft in ("0.0", "0.6"):
+            folder = run(
+                MONOLITHIC,
+                case,
+                self.base / "balance",
+                *scene(self.base, "p2p1", "axisymmetric"),
+                f"structure.region.plaque.transition={soft}",
+                "time.end=0.25",
+            )
+            moved = np.abs(arrays(folder / "checkpoint.h5")["arrays/level0.mesh"]).max()
+            self.assertLess(moved, 1e-7)
+
+
+class Shared(VaryingTest):
+    """Several processes."""
+
+    def test_processes_agree_with_one(self):
+        settings = scene(self.base, "p1", "3d")
+        case = self.case(self.field() + SOFT_EDGE)
+        for program, processes in zip(DRIVERS, (2, 3)):
+            alone = run(program, case, self.base / "alone", *settings)
+            together = run(program, case, self.base / "together", *settings, processes=processes)
+            self.assertAgree(alone, together, 1e-8)
+            fields = [arrays(folder / "fields.h5") for folder in (alone, together)]
+            names = [name for name in fields[0] if name.endswith("c10")]
+            self.assertTrue(names)
+            for name in names:
+                self.assertLess(np.abs(fields[0][name] - fields[1][name]).max(), 1e-12)
+
+    def test_a_hole_ends_all_with_one_line(self):
+        settings = scene(self.base, "p1", "3d")
+        refused = attempt(
+            MONOLITHIC,
+            self.case(self.field()),
+            "-q",
+            folder=self.base / "hole",
+            processes=2,
+            settings=(*settings, "structure.layers.media.c10.within=0.01"),
+        )
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn("has a hole at (", refused.stderr)
+        self.assertFalse((self.base / "hole").exists())
+
+
+class BadFields(VaryingTest):
+    def refused(self, wall, *settings):
+        answer = attempt(
+            MONOLITHIC,
+            self.case(wall),
+            "-q",
+            folder=self.base / "none",
+            settings=(*scene(self.base, "p1", "axisymmetric"), *settings),
+        )
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertFalse((self.base / "none").exists())
+        self.assertEqual(answer.stderr.count("\n"), 1, answer.stderr)
+        return answer.stderr
+
+    def test_files(self):
+        wall = self.field()
+        table = self.base / "stiffness.csv"
+        good = table.read_text()
+        for change, said in (
+            (("0.0,0.0,", "0.0,nan,", 1), "no number"),
+            ((",c10\n", ",c01\n", 1), "column c10"),
+            (("x,", "a,", 1), "column x"),
+            (("\n", "\n0,0,0,-1\n", 1), "c10 = -1 at (0, 0, 0) mm is not positive"),
+            (("\n", "\n0,0,0,nan\n", 1), "nan at (0, 0, 0) mm, no finite number"),
+            (("\n", "\n0,0,0,\n", 1), "nan at (0, 0, 0) mm, no finite number"),
+        ):
+            table.write_text(good.replace(*change))
+            with self.subTest(said=said):
+                self.assertIn(said, self.refused(wall))
+        table.write_text(good)
+        self.assertIn("has a hole at (", self.refused(wall.replace("within = 1.0", "within = 0.01")))
+        self.assertIn("no such file", self.refused(wall.replace("stiffness.csv", "other.csv")))
+        self.assertIn("the extension .txt", self.refused(wall.replace("stiffness.csv", "other.txt")))
+        self.assertIn("did you mean structure.layers.media.c10.field?", self.refused(wall.replace("field =", "fild =")))
+        self.assertIn("is not positive", self.refused(wall.replace("within = 1.0", "within = -1.0")))
+        (self.base / "torn.vtu").write_text("<VTKFile type='UnstructuredGrid'")
+        self.assertIn("is cut off", self.refused(wall.replace("stiffness.csv", "torn.vtu")))
+
+    def test_regions(self):
+        for change, said in (
+            (("radius = 0.8", "radius = 0.01"), "no element of media has its centre in it"),
+            (("radius = 0.8", "radius = 0.01\ntransition = 0.001"), "no element of media lies in it"),
+            (("radius = 0.8", ""), "radius: missing"),
+            (("radius = 0.8", "radius = -1"), "is not positive"),
+            (("radius = 0.8", "radius = 0.8\nlow = [0, 0, 0]"), "is no key of a sphere"),
+            (('"sphere"', '"ball"'), '"ball" is unknown'),
+            (('["media"]', '["intima"]'), '"intima" is no layer'),
+            (("c10 = 30.0", "c10 = -3.0"), "is not positive"),
+            (("c10 = 30.0", "k1 = 3.0"), "no constant of neo-hookean"),
+            (("c10 = 30.0\nviscosity = 2.0\n", ""), "has no constants"),
+            (('name = "plaque"\n', ""), "name: missing"),
+        ):
+            with self.subTest(said=said):
+                self.assertIn(said, self.refused(WALL + PLAQUE.replace(*change)))
+        self.assertIn("leave no element to media/plaque", self.refused(WALL + PLAQUE + PLAQUE.replace("plaque", "cap")))
+
+    def test_units(self):
+        """Pascals where kilopascals are meant are told, and the run goes on."""
+        wall = self.field(lambda x, y, z: 3e6)
+        said = attempt(MONOLITHIC, self.case(wall), "--check", settings=scene(self.base, "p1", "axisymmetric"))
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("looks like a value in", said.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

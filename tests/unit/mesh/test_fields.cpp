@@ -1,0 +1,160 @@
+// Fields of files at any place, and shapes of regions.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "mesh/fields/point_field.hpp"
+#include "mesh/fields/region_shape.hpp"
+#include "mesh/fields/vtk_file.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+double linear(const Point& x) {
+  return 2 + 3 * x[0] - x[1] + 0.5 * x[2];
+}
+
+FieldSamples cloud(double step) {
+  FieldSamples samples;
+  for (int i = 0; i <= 6; ++i)
+    for (int j = 0; j <= 6; ++j)
+      for (int k = 0; k <= 6; ++k) {
+        const double shake = 0.2 * std::sin(7.0 * i + 5.0 * j + 3.0 * k);
+        samples.places.push_back({step * (i + shake), step * (j - shake), step * (k + shake)});
+        samples.values.push_back(linear(samples.places.back()));
+      }
+  return samples;
+}
+
+TEST(PointField, OfPointsIsExactForLinearOnesAndHasHoles) {
+  const PointField field(cloud(0.1), 0);
+  for (const Point& x : {Point{0.31, 0.27, 0.33}, Point{0.2, 0.4, 0.35}, Point{0.45, 0.12, 0.5}})
+    EXPECT_NEAR(field.at(x).value(), linear(x), 1e-10);
+  EXPECT_GT(field.within(), 0.1);
+  EXPECT_LT(field.within(), 0.5);
+  EXPECT_FALSE(field.at({2, 2, 2}));
+  EXPECT_NEAR(field.distance_to({0.6, 0.6, 2.6}), 2, 0.1);
+  EXPECT_TRUE(PointField(cloud(0.1), 5).at({2, 2, 2}));
+}
+
+TEST(PointField, OfASurfaceDoesNotChangeAlongItsNormal) {
+  FieldSamples samples;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j) {
+      samples.places.push_back({0.1 * i, 0.1 * j, 0.7});
+      samples.values.push_back(1 + 2 * samples.places.back()[0]);
+    }
+  const PointField field(samples, 0.3);
+  EXPECT_NEAR(field.at({0.43, 0.52, 0.7}).value(), 1.86, 1e-9);
+  EXPECT_NEAR(field.at({0.43, 0.52, 0.85}).value(), 1.86, 1e-9);
+}
+
+TEST(PointField, StaysWithinTheValuesAroundAJump) {
+  FieldSamples samples = cloud(0.1);
+  for (std::size_t i = 0; i < samples.places.size(); ++i) samples.values[i] = samples.places[i][0] < 0.3 ? 10 : 1000;
+  const PointField field(samples, 0);
+  for (int i = 0; i < 60; ++i) {
+    const double value = field.at({0.01 * i, 0.3, 0.3}).value();
+    EXPECT_GE(value, 10);
+    EXPECT_LE(value, 1000);
+  }
+}
+
+TEST(PointField, OfCellsTakesTheCellThatHoldsThePlace) {
+  FieldSamples samples;
+  samples.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  samples.cells = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  samples.places = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}};
+  samples.values = {7, 9};
+  samples.place_of_cell = {0, 1};
+  const PointField of_cells(samples, 0.2);
+  EXPECT_EQ(of_cells.at({0.3, 0.3, 0.3}).value(), 7);
+  EXPECT_EQ(of_cells.at({0.4, 0.4, 0.4}).value(), 9);
+  EXPECT_FALSE(of_cells.at({-0.5, 0, 0}));
+  samples.places = samples.nodes;
+  samples.place_of_cell.clear();
+  samples.values.clear();
+  for (const Point& x : samples.nodes) samples.values.push_back(linear(x));
+  EXPECT_NEAR(PointField(samples, 0.2).at({0.3, 0.2, 0.1}).value(), linear({0.3, 0.2, 0.1}), 1e-14);
+}
+
+const std::string text_of_vtk =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+    "<UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
+    "1</DataArray></Points>\n"
+    "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4</DataArray>\n"
+    "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells>\n"
+    "<PointData><DataArray type=\"Float64\" Name=\"young\" format=\"binary\">"
+    // four numbers 1, 2, 3, 4 behind their size in bytes, 32
+    "IAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQAAAAAAAABBA</DataArray></PointData>\n"
+    "<CellData><DataArray type=\"Float32\" Name=\"part\" format=\"ascii\">5</DataArray></CellData>\n"
+    "</Piece></UnstructuredGrid></VTKFile>\n";
+
+TEST(VtkFile, IsReadAsTextAndInBase64) {
+  const VtkMesh mesh = read_vtk(text_of_vtk, "a.vtu");
+  ASSERT_EQ(mesh.nodes.size(), 4u);
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(mesh.kinds[0], 10);
+  ASSERT_EQ(mesh.arrays.size(), 2u);
+  EXPECT_EQ(mesh.arrays[0].values, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_TRUE(mesh.arrays[1].of_cells);
+}
+
+TEST(VtkFile, IsRefusedWhereItIsDamaged) {
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{100}, text_of_vtk.find("AAAA"), text_of_vtk.size() / 2}) {
+    const std::string torn = text_of_vtk.substr(0, length);
+    try {
+      const VtkMesh mesh = read_vtk(torn, "a.vtu");
+      EXPECT_TRUE(mesh.arrays.empty()) << length;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("a.vtu: ", 0), 0u) << error.what();
+    }
+  }
+  std::string other = text_of_vtk;
+  other.replace(other.find("0 1 2 3<"), 8, "0 1 2 9<");
+  EXPECT_THROW(read_vtk(other, "a.vtu"), InputError);
+}
+
+TEST(RegionDistance, OfEveryShape) {
+  RegionShape box;
+  box.low = {0, 0, 0};
+  box.high = {1, 2, 3};
+  EXPECT_NEAR(RegionDistance(box, 0)({0.5, 1, 1}), -0.5, 1e-15);
+  EXPECT_NEAR(RegionDistance(box, 0)({4, 6, 1}), 5, 1e-15);
+  RegionShape sphere;
+  sphere.kind = RegionShape::Kind::sphere;
+  sphere.centre = {1, 0, 0};
+  sphere.radius = 2;
+  EXPECT_NEAR(RegionDistance(sphere, 0)({1, 0, 5}), 3, 1e-15);
+  RegionShape line;
+  line.kind = RegionShape::Kind::line;
+  line.line = std::make_shared<const std::vector<Point>>(std::vector<Point>{{0, 0, 0}, {0, 0, 2}, {0, 0, 10}});
+  line.within = 1;
+  line.from = 3;
+  line.to = 6;
+  const RegionDistance near_line(line, 0);
+  EXPECT_NEAR(near_line({0.25, 0, 5}), -0.75, 1e-15);
+  EXPECT_NEAR(near_line({2, 0, 4}), 1, 1e-15);
+  EXPECT_NEAR(near_line({0, 0, 1}), 2, 1e-15);
+  EXPECT_NEAR(near_line({0, 0, 8}), 2, 1e-15);
+  RegionShape surface;
+  surface.kind = RegionShape::Kind::surface;
+  surface.within = 0.3;
+  surface.surface =
+      std::make_shared<const PaintedSurface>(PaintedSurface{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
+  const RegionDistance near_surface(surface, 0.5);
+  EXPECT_NEAR(near_surface({1, 1, 0.1}), -0.2, 1e-14);
+  EXPECT_NEAR(near_surface({1, 1, -0.7}), 0.4, 1e-14);
+  EXPECT_NEAR(near_surface({1, 1, 7}), 0.5, 1e-14) << "no farther than asked for";
+}
+
+}  // namespace
+
+}  // namespace fsi::test

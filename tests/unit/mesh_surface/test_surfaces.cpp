@@ -1,0 +1,188 @@
+// Surfaces of lumens: curvature, radius, smoothing, volume, rims, remeshing.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.hpp"
+#include "mesh/point_math.hpp"
+#include "mesh/surface/curvature.hpp"
+#include "mesh/surface/local_radius.hpp"
+#include "mesh/surface/remeshing.hpp"
+#include "mesh/surface/sound_surface.hpp"
+#include "mesh/surface/taubin_smoothing.hpp"
+#include "mesh/surface/triangle_surface.hpp"
+#include "mesh/surface/wall_thickness.hpp"
+
+namespace fsi::test {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A surface over a grid of (around, along), closed around; place(u, v) with u in radians, v from 0 to 1.
+template <class Place>
+TriangleSurface turned(int around, int along, Place place, bool closed_along = false) {
+  TriangleSurface surface;
+  const int rows = closed_along ? along : along + 1;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < around; ++i)
+      surface.nodes.push_back(place(2 * pi * (i + 0.5 * (j % 2)) / around, static_cast<double>(j) / along));
+  const auto node = [&](int i, int j) { return (j % rows) * around + i % around; };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const int shift = j % 2;  // rows are shifted by half an edge: triangles are nearly equilateral
+      const int a = node(i, j), b = node(i + 1, j), c = node(i + shift, j + 1), d = node(i + shift + around - 1, j + 1);
+      surface.triangles.push_back({a, b, c});
+      surface.triangles.push_back({a, c, d});
+    }
+  return surface;
+}
+
+TriangleSurface tube(double radius, double length, int around = 24, int along = 24) {
+  return turned(around, along, [=](double u, double v) {
+    return Point{radius * std::cos(u), radius * std::sin(u), length * v};
+  });
+}
+
+TriangleSurface torus(double large, double small) {
+  return turned(
+      48, 24,
+      [=](double u, double v) {
+        const double w = -2 * pi * v;
+        return Point{(large + small * std::cos(w)) * std::cos(u), -(large + small * std::cos(w)) * std::sin(u),
+                     small * std::sin(w)};
+      },
+      true);
+}
+
+TEST(Curvature, OfATubeIsThatOfItsSection) {
+  const auto surface = tube(2, 6);
+  const auto curvature = largest_curvature(surface, 0);
+  for (std::size_t i = 0; i < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 0.5, 0.02) << i;
+}
+
+TEST(Curvature, OfATorusIsThatOfItsTube) {
+  for (const double k : largest_curvature(torus(5, 1), 0)) EXPECT_NEAR(k, 1, 0.06);
+}
+
+// Halving the edges takes the error down by four.
+TEST(Curvature, ConvergesWithTheSquareOfTheEdges) {
+  double errors[2];
+  for (int level = 0; level < 2; ++level) {
+    const auto surface = tube(2, 6, 16 << level, 16 << level);
+    errors[level] = 0;
+    for (const double k : largest_curvature(surface, 0)) errors[level] = std::max(errors[level], std::abs(k - 0.5));
+  }
+  EXPECT_GT(errors[0] / errors[1], 3);
+}
+
+TEST(Curvature, ShortensEdgesWhereTheSurfaceBends) {
+  // A waist of radius 0.5 in a tube of radius 1, sharply bent along the axis.
+  const auto surface = turned(40, 60, [](double u, double v) {
+    const double z = 6 * v, r = 1 - 0.5 * std::exp(-std::pow((z - 3) / 0.5, 2));
+    return Point{r * std::cos(u), r * std::sin(u), z};
+  });
+  std::vector<double> edges(surface.nodes.size(), 0.4);
+  shorten_by_curvature(surface, 10, 0.05, edges);
+  double waist = 1, end = 1;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_GE(edges[i], 0.05);
+    EXPECT_LE(edges[i], 0.4);
+    if (std::abs(surface.nodes[i][2] - 3) < 0.1) waist = std::min(waist, edges[i]);
+    if (surface.nodes[i][2] > 5.5) end = std::min(end, edges[i]);
+  }
+  EXPECT_LT(waist, 0.1);
+  EXPECT_NEAR(end, 0.2, 0.02) << "2 R / 10, that of the tube";
+  std::vector<double> bounded(surface.nodes.size(), 0.4);
+  shorten_by_curvature(surface, 10, 0.3, bounded);
+  EXPECT_EQ(*std::min_element(bounded.begin(), bounded.end()), 0.3);
+}
+
+TEST(LocalRadius, OfATubeIsItsRadius) {
+  for (const double r : local_radius(tube(1.5, 9, 24, 40), 0)) EXPECT_NEAR(r, 1.5, 0.05);
+}
+
+TEST(TriangleSurface, KnowsItsRimsAndVolume) {
+  const auto open = tube(1, 5);
+  ASSERT_EQ(rims_of(open).size(), 2u);
+  EXPECT_EQ(rims_of(open)[0].size(), 24u);
+  const double area = 0.5 * 24 * std::sin(2 * pi / 24);  // of a section
+  EXPECT_NEAR(enclosed_volume(open), 5 * area, 0.01 * 5 * area);
+  const auto plane = plane_of(open.nodes, rims_of(open)[0]);
+  EXPECT_NEAR(plane.area, area, 1e-12);
+  EXPECT_LT(plane.off_plane, 1e-12);
+  EXPECT_EQ(rims_of(torus(5, 1)).size(), 0u);
+  EXPECT_NEAR(enclosed_volume(torus(5, 1)), 10 * pi * pi, 0.03 * 10 * pi * pi);
+}
+
+TEST(TaubinSmoothing, TakesRoughnessAndKeepsTheVolume) {
+  auto rough = torus(5, 1);
+  const auto smooth = rough;
+  for (std::size_t i = 0; i < rough.nodes.size(); ++i)
+    for (int d = 0; d < 3; ++d) rough.nodes[i][d] += 0.03 * std::sin(12.9898 * static_cast<double>(7 * i + d) + d);
+  const double before = enclosed_volume(rough);
+  const auto off = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < rough.nodes.size(); ++i) sum += distance(rough.nodes[i], smooth.nodes[i]);
+    return sum / static_cast<double>(rough.nodes.size());
+  };
+  const double roughness = off();
+  taubin_smooth(rough, 20);
+  EXPECT_LT(off(), 0.6 * roughness);
+  EXPECT_NEAR(enclosed_volume(rough) / before, 1, 0.01);
+}
+
+TEST(Remeshing, MakesEdgesOfTheLengthAskedFor) {
+  const auto made = remeshed(tube(1, 5), 0.4, "tube.stl");
+  EXPECT_NEAR(mean_edge(made), 0.4, 0.08);
+  EXPECT_NEAR(enclosed_volume(made) / enclosed_volume(tube(1, 5)), 1, 0.03);
+  EXPECT_EQ(rims_of(made).size(), 2u);
+}
+
+TEST(Remeshing, FollowsLengthsThatVary) {
+  const auto surface = tube(1, 8, 32, 60);
+  std::vector<double> edges;
+  for (const Point& x : surface.nodes) edges.push_back(0.15 + 0.04 * x[2]);
+  const auto made = remeshed(surface, edges, "tube.stl");
+  double fine = 0, coarse = 0;
+  int fines = 0, coarses = 0;
+  for (const auto& t : made.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Point &a = made.nodes[t[k]], &b = made.nodes[t[(k + 1) % 3]];
+      if (a[2] < 1) fine += distance(a, b), ++fines;
+      if (a[2] > 7) coarse += distance(a, b), ++coarses;
+    }
+  EXPECT_GT(coarse / coarses, 1.6 * fine / fines);
+}
+
+TEST(SoundSurface, TurnsTrianglesThatLookInwards) {
+  auto inverted = torus(5, 1);
+  for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
+  EXPECT_LT(enclosed_volume(inverted), 0);
+  const auto sound = sound_surface(std::move(inverted), false, "torus.stl");
+  EXPECT_GT(enclosed_volume(sound.surface), 0);
+  EXPECT_FALSE(sound.done.empty());
+}
+
+TEST(WallThickness, RefusesAHoleWithItsPlace) {
+  const auto surface = tube(1, 5);
+  ThicknessTable table{"t.csv", {}, {}};
+  for (const Point& x : surface.nodes)
+    if (x[2] < 2) {
+      table.places.push_back(x);
+      table.values.push_back(0.1);
+    }
+  try {
+    thickness_at(surface, table, 0);
+    FAIL() << "a hole";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has a hole at"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+
+}  // namespace fsi::test
