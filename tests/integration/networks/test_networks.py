@@ -103,7 +103,7 @@ class Networks(FolderTest):
         for table in tables:
             a, b = rows_of(one, table), rows_of(other, table)
             self.assertEqual(list(a), list(b))
-            sizes = np.nanmax([np.nanmax(np.abs(rows), axis=0) for rows in b.values()], axis=0)
+            sizes = np.max([np.abs(np.nan_to_num(rows)).max(axis=0) for rows in b.values()], axis=0)
             for name in a:
                 for column in range(1, a[name].shape[1]):
                     np.testing.assert_allclose(
@@ -140,7 +140,7 @@ class Networks(FolderTest):
         self.assert_alike(one, other, 1e-8)
         flow = rows_of(one, "network.csv")["aortic"][:, 1]
         self.assertGreater(flow.max(), 0.3)
-        self.assertLess(np.abs(flow[-10:]).max(), 0.05 * flow.max())  # closed again
+        self.assertLess(np.abs(flow[30:45]).max(), 1e-3 * flow.max())  # closed from 62 to 90 ms
 
     def test_what_leaves_the_network_is_in_the_tube(self):
         """Backward Euler: what the network gains in a step is the flow out of the tube at its end."""
@@ -199,7 +199,7 @@ class Networks(FolderTest):
         whole = self.march(MONOLITHIC, "joined", *settings, case=case)
         for name, more, how in (
             ("direct", ('monolithic.linear_solver="direct"',), {}),
-            ("iterative", ("monolithic.fast.direct_below=0",), {}),
+            ("iterative", ("monolithic.direct_below=0",), {}),
             ("petsc", ('monolithic.linear_solver="petsc"',), {}),
             ("two", (), {"processes": 2}),
             ("three", (), {"processes": 3}),
