@@ -13,7 +13,7 @@ namespace fsi {
 namespace {
 
 constexpr double far = 2;        // of a valve's conductance: a kept Jacobian bears less
-constexpr int many_changes = 4;  // of a valve in one stage: it opens or closes once in a step that goes well
+constexpr int many_changes = 2;  // of a valve in one stage: it opens or closes once in a step that goes well
 
 NetworkMoment balance_at(double factor, double time) {
   return {1 / factor, time};
