@@ -54,7 +54,8 @@ std::vector<double> Network::rates(const NetworkState& state) const {
 double Network::volume(const double* kept) const {
   double sum = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_[e].law->keeps() == NetworkElement::Keeps::volume) sum += kept[places_[e]];
+    if (elements_[e].law->keeps() == NetworkElement::Keeps::volume && elements_[e].to == ground)
+      sum += kept[places_[e]];
   return sum;
 }
 
@@ -115,10 +116,10 @@ double Network::lack_of_valves(const std::vector<NetworkElement::Equation>& equa
     if (!element.law->switches()) continue;
     const double resistance = element.law->resistance_of_residual();
     const double lack = resistance * std::abs(equations[e].value);
-    const double terms = std::abs(pressure(element.from, state)) + std::abs(pressure(element.to, state)) +
-                         resistance * std::abs(state.flows[e]);
+    const double pressures = std::abs(pressure(element.from, state)) + std::abs(pressure(element.to, state));
+    const double terms = std::abs(state.flows[e]) + std::abs(equations[e].by_drop) * pressures;
     sum += lack * lack;
-    rounded = rounded && lack <= rounding_of_valve * terms * std::max(1.0, std::abs(equations[e].by_drop) * resistance);
+    rounded = rounded && std::abs(equations[e].value) <= rounding_of_valve * terms;
     if (lack > largest) {
       largest = lack;
       worst = e;

@@ -51,7 +51,8 @@ class Network {
   std::vector<double> kept(const NetworkMoment& at, const double* reference, const NetworkState& state) const;
   /// dy/dt.
   std::vector<double> rates(const NetworkState& state) const;
-  /// Of all that is stored, mm^3. \param kept  y
+  /// Of all that is stored, mm^3: between a node and the ground. What lies between two nodes takes from one what it gives to
+  /// the other. \param kept  y
   double volume(const double* kept) const;
 
   /// Pressures and flows. \param reference  r, size() numbers; y itself where at.lag = 0

@@ -42,6 +42,10 @@ Fault ends(const Network& network) {
     if (element.from == element.to)
       return NetworkFault{element.name, "between", "has both ends at one node, where it has no effect",
                           "join it to another node"};
+  for (const auto& element : network.elements())
+    if (element.from == Network::ground && element.law->keeps() == NetworkElement::Keeps::volume)
+      return NetworkFault{element.name, "between", "begins at the ground, and what it stores is where it begins",
+                          "give \"ground\" as the second node"};
   for (std::size_t i = network.openings(); i < network.nodes().size(); ++i)
     if (const auto at = elements_at(network, static_cast<int>(i)); at.size() == 1)
       return NetworkFault{

@@ -10,8 +10,7 @@ namespace {
 struct OpeningRecord {
   double flow = 0;      ///< mm^3/ms, out of the fluid
   double pressure = 0;  ///< of the fluid, mean over the surface, kPa; written in Pa
-  double behind =
-      0;  ///< stored by a Windkessel, of the network's node, behind a resistance the distal one, else 0; kPa; written in Pa
+  double behind = 0;    ///< stored by a Windkessel; behind a resistance the distal pressure, else 0; kPa; written in Pa
 };
 
 const Columns<OpeningRecord>& opening_columns() {
@@ -36,12 +35,11 @@ class OpeningObserver : public Observer {
   }
   std::vector<TableRows> rows_at(const State& level) const override {
     std::vector<OpeningRecord> records;
-    const std::vector<double> of_network = network_pressures(level);
     for (const std::size_t i : openings_) {
       const auto& open = scene_.fluid->open_boundaries()[i];
       const auto* answering = scene_.openings.answering(i);
       const double behind =
-          answering ? answering->law->pressure_behind(level.now.openings.data() + answering->place) : of_network[i];
+          answering ? answering->law->pressure_behind(level.now.openings.data() + answering->place) : 0;
       const auto &mesh = level.now.mesh, &flow = level.now.fluid;
       records.push_back({open.outflow(mesh, flow), open.mean_pressure(mesh, flow), behind});
     }
@@ -49,17 +47,6 @@ class OpeningObserver : public Observer {
   }
 
  private:
-  /// Of all openings, kPa; 0 of those that no network joins.
-  std::vector<double> network_pressures(const State& level) const {
-    std::vector<double> pressures(scene_.fluid->open_boundaries().size(), 0.0);
-    const auto& joined = scene_.openings.joined();
-    if (joined.empty()) return pressures;
-    const NetworkState state = joined.at_level(level.time, level.now.openings, level.now.mesh, level.now.fluid);
-    for (std::size_t k = 0; k < joined.openings().size(); ++k)
-      pressures[joined.openings()[k].number] = state.pressures[k];
-    return pressures;
-  }
-
   const Scene<n>& scene_;
   std::vector<std::size_t> openings_;  ///< numbers of those that the mesh has
 };

@@ -13,7 +13,7 @@ namespace fsi {
 namespace {
 
 constexpr double far = 2;        // of a valve's conductance: a kept Jacobian bears less
-constexpr int many_changes = 4;  // of a valve in one stage: it opens or closes once in a step that goes well
+constexpr int many_changes = 2;  // of a valve in one stage: it opens or closes once in a step that goes well
 
 NetworkMoment balance_at(double factor, double time) {
   return {1 / factor, time};
@@ -45,7 +45,7 @@ template <int n>
 void JoinedOpenings<n>::start_rates(const std::vector<double>& kept, const std::vector<double>& mesh,
                                     const std::vector<double>& flow, std::vector<double>& rates) const {
   if (empty()) return;
-  const std::vector<double> own = network_->rates(at_level(0, kept, mesh, flow));
+  const std::vector<double> own = network_->rates(with_flows_of_level(0, kept, mesh, flow));
   std::copy(own.begin(), own.end(), rates.begin() + static_cast<std::ptrdiff_t>(place_));
 }
 
@@ -89,14 +89,24 @@ std::vector<double> JoinedOpenings<n>::slopes(const FluidInput& in, double time,
 }
 
 template <int n>
-NetworkState JoinedOpenings<n>::at_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
-                                         const std::vector<double>& flow) const {
+NetworkState JoinedOpenings<n>::with_flows_of_level(double time, const std::vector<double>& kept,
+                                                    const std::vector<double>& mesh,
+                                                    const std::vector<double>& flow) const {
   std::vector<double> flows, pressures;
   for (const Opening& opening : openings_) {
     flows.push_back(opening.surface->outflow(mesh, flow));
     pressures.push_back(opening.surface->mean_pressure(mesh, flow));
   }
   return network_->at_level(time, kept.data() + place_, flows, pressures);
+}
+
+template <int n>
+NetworkState JoinedOpenings<n>::at_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
+                                         const std::vector<double>& flow) const {
+  NetworkState state = with_flows_of_level(time, kept, mesh, flow);
+  for (std::size_t i = 0; i < openings_.size(); ++i)
+    state.pressures[i] = openings_[i].surface->mean_pressure(mesh, flow);
+  return state;
 }
 
 template <int n>

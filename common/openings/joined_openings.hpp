@@ -50,7 +50,8 @@ class JoinedOpenings {
   std::vector<double> slopes(const FluidInput& in, double time, const std::vector<double>& reference) const;
   /// Whether a valve that opened or closed since then has made the last slopes others, by far.
   bool outdated() const;
-  /// At a finished level. \param level  its values, whose kept ones are the network's among them
+  /// At a finished level. The pressures of nodes that are openings are the fluid's there: those of a network with the flows of
+  /// the level mean little behind a closed valve, which lets next to nothing through, where levels are extrapolated.
   NetworkState at_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
                         const std::vector<double>& flow) const;
 
@@ -61,6 +62,8 @@ class JoinedOpenings {
 
  private:
   std::vector<double> inflows(const FluidInput& in) const;
+  NetworkState with_flows_of_level(double time, const std::vector<double>& kept, const std::vector<double>& mesh,
+                                   const std::vector<double>& flow) const;
   NetworkState at_balance(const FluidInput& in, double time, const std::vector<double>& reference) const;
   void watch_valves(const FluidInput& in, double time, const std::vector<double>& reference,
                     const NetworkState& state) const;

@@ -11,6 +11,7 @@ namespace {
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
 constexpr double kept_forcing = 0.5;          // linear tolerance over the contraction that a kept Jacobian showed
 constexpr double smallest_forcing = 1e-6;     // more digits of one increment never pay
+constexpr int most_switches = 6;              // of whole steps that are taken across them
 constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
 
 const char* const failure_at_start = "the start holds an inverted element or a value that is not finite";
@@ -20,14 +21,18 @@ const char* const failure_at_limit = "the iteration limit was reached";
 /// closer to the solution by the natural measure: |J^-1 R|, J being a new Jacobian, has fallen by a fourth of the step at
 /// least ([Deuflhard2011], section 3.3). For where a thin wall bends, residuals grow with the square of a good increment,
 /// and a step on which they fall is none to speak of. The step length goes to the iteration, 0 when even the shortest would
-/// not do (the iterate is then where it was). \returns the residual
-double backtrack(NewtonProblem& problem, double bound, double increment, int max_halvings, NewtonIteration& iteration) {
+/// not do (the iterate is then where it was). A whole step across which something opens or closes is taken, if `may_switch`,
+/// though the residual grows: with the derivatives behind it the next one comes back, where a shorter one would creep up to
+/// the place where they jump. \returns the residual
+double backtrack(NewtonProblem& problem, double bound, double increment, int max_halvings, bool may_switch,
+                 NewtonIteration& iteration) {
   constexpr double looseness = 0.1;  // of distances
   double step = 1, residual = 0;
   problem.move(step);
   for (int halvings = 0;; ++halvings) {
     residual = problem.evaluate();
     bool good = residual <= bound;  // no, if it does not exist
+    if (halvings == 0 && may_switch && problem.outdated()) good = std::isfinite(residual);
     if (!good && iteration.linearised && std::isfinite(residual)) {
       good = problem.distance(looseness) <= (1 - 0.25 * step) * increment;
       iteration.linear_iterations += problem.linear_iterations();
@@ -116,7 +121,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   double reference = options.reference, rounding = 0;
   const double keep_contraction = options.keep_contraction > 0 ? options.keep_contraction : problem.keep_contraction();
   const bool keep = options.mode != NewtonMode::full;
-  int kept_iterations = 0;
+  int kept_iterations = 0, switches = 0;
   double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
   bool renew = !keep || !problem.linearised() || problem.outdated();
   ErrorWatch watch;
@@ -138,8 +143,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
       report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;
       return report;
     }
-    const double new_residual =
-        backtrack(problem, std::max(residual, rounding), increment, options.max_halvings, iteration);
+    const double new_residual = backtrack(problem, std::max(residual, rounding), increment, options.max_halvings,
+                                          switches < most_switches, iteration);
     if (iteration.step == 0) {
       if (renew) {
         report.failure = "no step along Newton's direction lowers the residual";
@@ -158,8 +163,10 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
       accurate = watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance;
     const bool outdated = problem.outdated();
-    const bool small = iteration.step == 1 && !outdated && (accurate || problem.negligible(increment, rounding_increment) ||
-                                               (options.stop_at_rounding && new_residual <= rounding));
+    if (outdated) ++switches;
+    const bool small = iteration.step == 1 && !outdated &&
+                       (accurate || problem.negligible(increment, rounding_increment) ||
+                        (options.stop_at_rounding && new_residual <= rounding));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
     if (small && solved) {
@@ -170,8 +177,9 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     }
     if (renew) kept_iterations = 0;
     ++kept_iterations;
-    renew = !keep || outdated || (new_residual > rounding &&
-                      (new_residual > keep_contraction * residual || kept_iterations >= options.keep_iterations));
+    renew = !keep || outdated ||
+            (new_residual > rounding &&
+             (new_residual > keep_contraction * residual || kept_iterations >= options.keep_iterations));
     ratio = new_residual / residual;
     residual = new_residual;
   }

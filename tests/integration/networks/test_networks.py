@@ -103,7 +103,7 @@ class Networks(FolderTest):
         for table in tables:
             a, b = rows_of(one, table), rows_of(other, table)
             self.assertEqual(list(a), list(b))
-            sizes = np.nanmax([np.nanmax(np.abs(rows), axis=0) for rows in b.values()], axis=0)
+            sizes = np.max([np.abs(np.nan_to_num(rows)).max(axis=0) for rows in b.values()], axis=0)
             for name in a:
                 for column in range(1, a[name].shape[1]):
                     np.testing.assert_allclose(
@@ -140,7 +140,7 @@ class Networks(FolderTest):
         self.assert_alike(one, other, 1e-8)
         flow = rows_of(one, "network.csv")["aortic"][:, 1]
         self.assertGreater(flow.max(), 0.3)
-        self.assertLess(np.abs(flow[-10:]).max(), 0.05 * flow.max())  # closed again
+        self.assertLess(np.abs(flow[30:45]).max(), 1e-3 * flow.max())  # closed from 62 to 90 ms
 
     def test_what_leaves_the_network_is_in_the_tube(self):
         """Backward Euler: what the network gains in a step is the flow out of the tube at its end."""
@@ -153,13 +153,16 @@ class Networks(FolderTest):
         self.assertGreater(np.abs(gained).max(), 1)  # the tube widens
         self.assertEqual(len(time), 60)
 
-    def test_a_loop_with_a_rigid_tube_keeps_its_volume(self):
-        text = CASE.read_text()
-        first, rest = text.split("[structure]")
+    def rigid(self):
+        """The same loop without the wall."""
+        first, rest = CASE.read_text().split("[structure]")
         case = self.base / "rigid.toml"
         case.write_text(first + rest[rest.index("[[opening]]") :])
+        return case
+
+    def test_a_loop_with_a_rigid_tube_keeps_its_volume(self):
         for program, scheme in ((MONOLITHIC, "midpoint"), (MONOLITHIC, "generalised-alpha"), (PARTITIONED, "bdf2")):
-            folder = self.march(program, f"rigid-{scheme}", f'time.scheme="{scheme}"', case=case)
+            folder = self.march(program, f"rigid-{scheme}", f'time.scheme="{scheme}"', case=self.rigid())
             _, volume = stored(folder)
             np.testing.assert_allclose(volume, 250.0, rtol=0, atol=1e-10 * 250)
             ventricle = rows_of(folder, "network.csv")["ventricle"][:, 4]
@@ -199,7 +202,7 @@ class Networks(FolderTest):
         whole = self.march(MONOLITHIC, "joined", *settings, case=case)
         for name, more, how in (
             ("direct", ('monolithic.linear_solver="direct"',), {}),
-            ("iterative", ("monolithic.fast.direct_below=0",), {}),
+            ("iterative", ("monolithic.direct_below=0",), {}),
             ("petsc", ('monolithic.linear_solver="petsc"',), {}),
             ("two", (), {"processes": 2}),
             ("three", (), {"processes": 3}),
@@ -209,10 +212,24 @@ class Networks(FolderTest):
         self.assert_alike(shared, whole, 1e-7)
 
     def test_a_valve_that_chatters_is_named(self):
-        settings = (*self.settings, "monolithic.max_iterations=3", "time.retries=0", "time.step=5", "time.end=200")
-        failed = attempt(MONOLITHIC, CASE, folder=self.base / "chatters", settings=settings)
+        """Long steps in a rigid tube with much flow, and few iterations for them."""
+        sizes = {
+            "ventricle": {"period": 300, "peak": 100, "relaxed": 150, "initial_volume": 2500},
+            "aortic": {"resistance": 0.02},
+            "proximal": {"resistance": 0.1},
+            "arteries": {"initial_pressure": 10},
+            "veins": {"initial_pressure": 1},
+            "mitral": {"resistance": 0.01},
+        }
+        of_network = [f"network.element.{name}.{key}={x}" for name, keys in sizes.items() for key, x in keys.items()]
+        settings = (*self.settings, *of_network, "time.step=10", "time.end=300", "time.retries=0")
+        settings += ("monolithic.newton_tolerance=1e-3",)
+        run(MONOLITHIC, self.rigid(), self.base / "settles", *settings)
+        failed = attempt(
+            MONOLITHIC, self.rigid(), folder=self.base / "chatters", settings=(*settings, "monolithic.max_iterations=5")
+        )
         self.assertEqual(failed.returncode, 2)
-        self.assertRegex(failed.stderr, r"network\.element\.\w+ opened and closed \d+ times in its iterations")
+        self.assertRegex(failed.stderr, r"network\.element\.aortic opened and closed \d+ times in its iterations")
         self.assertIn("a larger width or leak of that valve", failed.stderr)
 
     def test_check_says_what_the_network_is(self):
