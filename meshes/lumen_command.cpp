@@ -48,7 +48,7 @@ void require_plausible(const LumenOptions& options, const std::vector<LumenOpeni
          fmt::format(
              "{}: --unit {}: the widest opening, at {}, measures {:.3g} mm, as no vessel's does: is {} the unit of the "
              "file?",
-             options.surface, options.unit, place_of(openings.front().centre), width, options.unit));
+             options.surface, options.unit, fsi::place_of(openings.front().centre), width, options.unit));
     return;
   }
   std::string fitting;

@@ -44,15 +44,17 @@ bool is_dispersed(const Material& material) {
 
 /// A wall of one layer; of `variation` > 0 its constants and its viscosity change by up to that share across it.
 template <class Element>
-WallProblem<Element> wall_of(const Material& material, double variation, double viscosity) {
+std::unique_ptr<WallProblem<Element>> wall_of(const Material& material, double variation, double viscosity) {
   auto mesh = irregular_mesh<Element>(2, "media");
   curve<Element>(mesh, 0.05);
-  WallProblem<Element> wall(whole(mesh), {1.2, 50.0, 0.5}, {{0, material}}, {});
-  wall.set_viscosity(0, viscosity);
+  auto wall = std::make_unique<WallProblem<Element>>(whole(mesh), WallConstants{1.2, 50.0, 0.5},
+                                                     std::vector<std::pair<int, Material>>{{0, material}},
+                                                     CylinderAxis{{{-2, 0.5, 0}}, {{0, 0, 1}}});
+  wall->set_viscosity(0, viscosity);
   if (variation < 0) return wall;
   const LawConstants<double> mean = law_constants(material, 50.0);
   const double angle = fibre_angle(material);
-  wall.vary(0, is_dispersed(material), [=](int, const Point& x, double weight) {
+  wall->vary(0, is_dispersed(material), [=](int, const Point& x, double weight) {
     EXPECT_GT(weight, 0);
     const double s = 1 + variation * std::sin(3 * x[0] + 2 * x[1] + x[2]);
     LawHere here{mean, angle * s};
@@ -74,10 +76,19 @@ class Asked {
  public:
   static constexpr int n = Element::components;
   explicit Asked(const std::vector<Point>& nodes)
-      : solution(random_field(nodes, n + 1, 0.1, 0.02, 1)),
-        reference(random_field(nodes, n + 1, 0.1, 0.02, 2)),
+      : solution(random_field(nodes, n + 1, 0.04, 0.01, 1)),
+        reference(random_field(nodes, n + 1, 0.04, 0.01, 2)),
         history(random_field(nodes, n, 1.0, 0.1, 3)),
-        direction(random_field(nodes, n + 1, 0.3, 0.1, 4)) {}
+        direction(random_field(nodes, n + 1, 0.3, 0.1, 4)) {
+    // A stretch that keeps fibres taut: where one becomes slack the tangent jumps.
+    const double three[] = {0.75, 1.2, 1.2}, plane[] = {0.75, 1.3, 1}, body[] = {1.25, 1, 0.9};
+    const double* stretch = Element::dim == 3 ? three : Element::axisymmetric ? body : plane;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      for (int k = 0; k < n; ++k)
+        solution[(n + 1) * a + k] += (stretch[Element::axis[k]] - 1) * nodes[a][Element::axis[k]];
+      solution[(n + 1) * a + n] *= 20;  // kPa
+    }
+  }
 
   WallInput at(const std::vector<double>& here) const {
     WallInput in{here.data(), history.data(), 16.0};
@@ -102,7 +113,8 @@ TYPED_TEST(VaryingWallOf, JacobianIsTheDerivativeOfTheResidualOfEveryLaw) {
   using Element = TypeParam;
   for (std::size_t i = 0; i < std::size(laws); ++i) {
     SCOPED_TRACE(law_names[i]);
-    auto wall = wall_of<Element>(laws[i], 0.4, 2.5);
+    const auto made = wall_of<Element>(laws[i], 0.4, 2.5);
+    auto& wall = *made;
     const Asked<Element> ask(wall.nodes().nodes);
     const auto at_state = ask.residual(wall, ask.solution, true);
     const auto product = multiply(wall.jacobian(), ask.direction);
@@ -110,8 +122,8 @@ TYPED_TEST(VaryingWallOf, JacobianIsTheDerivativeOfTheResidualOfEveryLaw) {
     expect_second_order(central_differences(
         law_names[i], [&](double t) { return ask.residual(wall, moved(ask.solution, t, ask.direction), false); },
         product, 0.05, 16));
-    auto constant = wall_of<Element>(laws[i], -1, 2.5);
-    EXPECT_GT(norm(difference(at_state, ask.residual(constant, ask.solution, false))), 0.02 * norm(at_state))
+    const auto constant = wall_of<Element>(laws[i], -1, 2.5);
+    EXPECT_GT(norm(difference(at_state, ask.residual(*constant, ask.solution, false))), 0.02 * norm(at_state))
         << "a variation that can be seen";
   }
 }
@@ -120,7 +132,8 @@ TYPED_TEST(VaryingWallOf, FieldThatIsConstantIsTheConstant) {
   using Element = TypeParam;
   for (std::size_t i = 0; i < std::size(laws); ++i) {
     SCOPED_TRACE(law_names[i]);
-    auto constant = wall_of<Element>(laws[i], -1, 2.5), varying = wall_of<Element>(laws[i], 0, 2.5);
+    const auto made = wall_of<Element>(laws[i], -1, 2.5), made_varying = wall_of<Element>(laws[i], 0, 2.5);
+    auto &constant = *made, &varying = *made_varying;
     const Asked<Element> ask(constant.nodes().nodes);
     const auto expected = ask.residual(constant, ask.solution, true), found = ask.residual(varying, ask.solution, true);
     EXPECT_LT(norm(difference(found, expected)), 1e-13 * norm(expected));
@@ -229,15 +242,15 @@ double error_of_bar(int boxes) {
 
 TYPED_TEST(VaryingWallOf, BarOfLinearModulusStretchesAsItsLogarithmSays) {
   using Element = TypeParam;
+  // Irregular meshes, none a refinement of another: the order from the first to the last.
+  constexpr bool solid = Element::dim == 3;
+  const int first = solid && Element::order == 2 ? 2 : 4, last = solid ? 2 * first : 16;
   std::vector<double> errors;
-  for (int boxes = 2; boxes <= (Element::dim == 3 ? 4 : 8); boxes *= 2) errors.push_back(error_of_bar<Element>(boxes));
-  double order = 0;
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    order = std::log2(errors[i - 1] / errors[i]);
-    fmt::print("error {:.3g} mm, order {:.2f}\n", errors[i], order);
-  }
+  for (int boxes = first; boxes <= last; boxes *= 2) errors.push_back(error_of_bar<Element>(boxes));
+  const double order = std::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
+  fmt::print("error {:.3g} mm, order {:.2f}\n", errors.back(), order);
   EXPECT_GT(order, Element::order == 1 ? 1.7 : 2.6);
-  EXPECT_LT(errors.back(), (Element::order == 1 ? 1e-3 : 3e-4) * pull / low_modulus);
+  EXPECT_LT(errors.back(), (Element::order == 1 ? 1e-2 : 2e-3) * pull / slope * std::log(1 + slope / low_modulus));
 }
 
 // A hole in a field, and a field that makes no material, are told with the place.

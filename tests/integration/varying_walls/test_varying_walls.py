@@ -2,7 +2,6 @@
 
 import unittest
 
-import h5py
 import numpy as np
 from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, restart, run
 from scenes import FLUID, KINDS, WALL, scene
@@ -99,7 +98,7 @@ class Varying(VaryingTest):
             (lambda: case.write_text(case.read_text().replace("radius = 0.8", "radius = 0.9")), "structure.region"),
         ):
             change()
-            refused = attempt(MONOLITHIC, case, "-q", "--restart", begun, folder=begun, settings=settings)
+            refused = attempt(program, case, "-q", "--restart", begun, folder=begun, settings=settings)
             self.assertEqual(refused.returncode, 1, refused.stderr)
             self.assertIn(said, refused.stderr)
 
@@ -110,12 +109,8 @@ class Varying(VaryingTest):
         log = (folder / "run.log").read_text()
         self.assertRegex(log, r"structure\.region\.plaque: \d+ elements of media are media/plaque")
         self.assertRegex(log, r"structure\.layers\.media\.c10 varies from [\d.]+ to [\d.]+ kPa, mean [\d.]+")
-        found = {}
-        with h5py.File(folder / "fields.h5") as file:
-            file.visititems(
-                lambda name, item: found.update({name: item[...]}) if name.split("/")[-1] == "c10" else None
-            )
-        self.assertEqual(len(found), 1, sorted(found))
+        found = {name: values for name, values in arrays(folder / "fields.h5").items() if "c10" in name.split("/")}
+        self.assertGreater(len(found), 0)
         values = next(iter(found.values()))
         self.assertEqual(values.max(), 30)
         self.assertAlmostEqual(values.min(), 0.3)
@@ -125,18 +120,19 @@ class Varying(VaryingTest):
         """The shape of the mesh is that under the load, whatever the constants: nothing moves under it."""
         wall = WALL + PLAQUE.replace("viscosity = 2.0\n", "") + "[prestress]\npressure = 0.5\n"
         case = self.case(wall)
-        case.write_text(case.read_text().replace("[[0, 0], [0.5, 1.0]]", "0.5"))
-        for soft in ("0.0", "0.6"):
+        loaded = case.read_text().replace(FLUID, "").replace("[inlet]", "[load]").replace("[[0, 0], [0.5, 1.0]]", "0.5")
+        case.write_text(loaded.replace('"velocity", ', ""))
+        for transition in ("0.0", "0.6"):
             folder = run(
                 MONOLITHIC,
                 case,
                 self.base / "balance",
                 *scene(self.base, "p2p1", "axisymmetric"),
-                f"structure.region.plaque.transition={soft}",
+                f"structure.region.plaque.transition={transition}",
                 "time.end=0.25",
             )
-            moved = np.abs(arrays(folder / "checkpoint.h5")["arrays/level0.mesh"]).max()
-            self.assertLess(moved, 1e-7)
+            moved = np.abs(arrays(folder / "checkpoint.h5")["arrays/level0.wall"].reshape(-1, 3)[:, :2]).max()
+            self.assertLess(moved, 1e-9)
 
 
 class Shared(VaryingTest):
@@ -150,7 +146,7 @@ class Shared(VaryingTest):
             together = run(program, case, self.base / "together", *settings, processes=processes)
             self.assertAgree(alone, together, 1e-8)
             fields = [arrays(folder / "fields.h5") for folder in (alone, together)]
-            names = [name for name in fields[0] if name.endswith("c10")]
+            names = [name for name in fields[0] if "c10" in name.split("/")]
             self.assertTrue(names)
             for name in names:
                 self.assertLess(np.abs(fields[0][name] - fields[1][name]).max(), 1e-12)
@@ -203,7 +199,7 @@ class BadFields(VaryingTest):
         self.assertIn("has a hole at (", self.refused(wall.replace("within = 1.0", "within = 0.01")))
         self.assertIn("no such file", self.refused(wall.replace("stiffness.csv", "other.csv")))
         self.assertIn("the extension .txt", self.refused(wall.replace("stiffness.csv", "other.txt")))
-        self.assertIn("did you mean structure.layers.media.c10.field?", self.refused(wall.replace("field =", "fild =")))
+        self.assertIn("did you mean structure.layers.media.c10.field?", self.refused(wall.replace("field =", "feld =")))
         self.assertIn("is not positive", self.refused(wall.replace("within = 1.0", "within = -1.0")))
         (self.base / "torn.vtu").write_text("<VTKFile type='UnstructuredGrid'")
         self.assertIn("is cut off", self.refused(wall.replace("stiffness.csv", "torn.vtu")))

