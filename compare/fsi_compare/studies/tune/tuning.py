@@ -37,7 +37,7 @@ class Beat:
     foreseen: Optional[np.ndarray]  # by the model of the beat before; None: there was none
     repeats: Mapping[str, Repetition]
     vessel: Vessel
-    period_share: float  # distance from the periodic state over the largest pressure asked for
+    period_share: float  # distance from the periodic state over the largest pressure of the beat
     seconds: float
 
     def differences(self, targets: Sequence[Target]) -> np.ndarray:
@@ -158,7 +158,7 @@ def _beat(
     ends = given_ends(scene, curves, PHASES)
     got = shown_by_run(curves, demand.targets, outlets_of(ends), period)
     repeats = repetitions(curves, values, starts, period)
-    largest = max(target.value for target in demand.targets if target.is_pressure)
+    largest = max(float(np.abs(pressure).max()) for pressure in late.pressure.values())
     away = max(one.distance for one in repeats.values()) / largest
     vessel = fitted_vessel(late, scene.elastic)
     return Beat(number, values, starts, got, foreseen, repeats, vessel, away, ran.seconds)
