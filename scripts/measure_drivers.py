@@ -26,6 +26,7 @@ sys.path.insert(0, str(TOP / "compare"))
 
 from fsi_compare.base.errors import InputError  # noqa: E402
 from fsi_compare.studies.catalogue.names import MATERIALS  # noqa: E402
+from fsi_compare.studies.gallery.mesh_chain import make_mesh, with_places  # noqa: E402
 from fsi_compare.studies.gallery.scene import (
     BOTH,
     Scene,
@@ -98,7 +99,7 @@ def cases(wanted: Sequence[str]) -> List[Case]:
 
 
 def _words(scene: Scene) -> List[str]:
-    return [str(scene.folder / word) if word.endswith(".geo") else word for word in scene.mesh_words(False)]
+    return with_places(scene.mesh_words(False), scene.folder)
 
 
 # ---- runs ----
@@ -110,7 +111,9 @@ def measured(case: Case, programs: Path, work: Path) -> List[Row]:
     folder.mkdir(parents=True, exist_ok=True)
     mesh = folder / "mesh.msh"
     if not mesh.exists():
-        _call([programs / "fsi-mesh", *case.mesh, "-q", "-o", mesh])
+        end = make_mesh(case.mesh, mesh, programs / "fsi-mesh", case.name)
+        if end.code:
+            fail(f"{case.name}: {end.message}")
     seconds: Dict[str, List[float]] = {program: [] for program in BOTH}
     for _ in range(TIMINGS):
         for program, found in seconds.items():

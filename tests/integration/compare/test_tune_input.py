@@ -60,6 +60,7 @@ class TuneInput(FolderCase):
         self.refused(["--pressure", PRESSURE, "--pressure", "inlet=70/110mmHg"], "of 'inlet' is given twice")
         self.refused(["--pressure", PRESSURE, "--mean-pressure", "left=90mmHg"], "3 pressures are given")
         self.refused(["--split", "left=60%"], "--pressure: is missing")
+        self.refused(["--flow", "left=1ml/s", "--flow", "right=1ml/s"], "--pressure: is missing")
 
     def test_flows(self):
         for words, message in (

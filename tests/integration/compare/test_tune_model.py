@@ -2,15 +2,18 @@
 found again."""
 
 import unittest
+from pathlib import Path
 
 import numpy as np
 import synthetic  # noqa: F401: the package's folder onto the path
 
-from fsi_compare.studies.tune.beat import Repetition, shown_by_run
+from fsi_compare.studies.tune.beat import Repetition, cut_off, shown_by_run
 from fsi_compare.studies.tune.circuit import PHASES, GivenFlow, GivenPressure, Windkessel, mean_flows, periodic_state
 from fsi_compare.studies.tune.curves import Curves, mean, over_period
+from fsi_compare.studies.tune.scene import read_scene
 from fsi_compare.studies.tune.solving import Model, Rule, reachable_pulse, solved
 from fsi_compare.studies.tune.targets import DIASTOLIC, FLOW, MEAN, SPLIT, SYSTOLIC, Target
+from fsi_compare.studies.tune.tuning import BeatFailed, Demand, Ran, tune
 from fsi_compare.studies.tune.vessel import Vessel, fitted_vessel, not_negative
 
 PERIOD = 800.0  # ms
@@ -166,6 +169,79 @@ class Values(unittest.TestCase):
         self.rule = Rule(None)
         solution = self.found([Target("inlet", MEAN, 12.0)])
         self.assertEqual([law.proximal for law in solution.values.values()], [0.1, 0.1])
+
+
+CASE = {
+    "time": {"step": 4.0, "end": 800.0},
+    "structure": {},
+    "opening": [
+        {"surface": "inlet", "flow_rate": [[0, 1]], "period": PERIOD},
+        {"surface": "left", "windkessel": {"proximal": 0.1, "compliance": 60, "distal": 2, "initial_pressure": 9}},
+        {"surface": "right", "windkessel": {"proximal": 0.1, "compliance": 60, "distal": 2, "initial_pressure": 9}},
+    ],
+}
+TARGETS = [
+    Target("inlet", DIASTOLIC, 9.0),
+    Target("inlet", SYSTOLIC, 14.0),
+    Target("left", SPLIT, 0.7),
+    Target("right", SPLIT, 0.3),
+]
+
+
+class Tuning(unittest.TestCase):
+    """Beats that a vessel makes whose openings show half a kilopascal more than its model, as a run with losses of its own."""
+
+    def run_beat(self, number, settings):
+        self.asked.append(dict(settings))
+        if number == self.fails:
+            raise BeatFailed("it blew up")
+        ends = {"inlet": PULSE}
+        for name in ("left", "right"):
+            law = {key.rsplit(".", 1)[1]: value for key, value in settings.items() if f".{name}." in key}
+            ends[name] = Windkessel(*(law.get(k, d) for k, d in (("proximal", 0.1), ("compliance", 60), ("distal", 2))))
+        state = periodic_state(FORK, ends, PERIOD)
+        curves = curves_of_state(state)
+        return Ran(
+            Curves(curves.time, {n: p + 0.5 for n, p in curves.pressure.items()}, curves.flow, curves.stored), 1.0
+        )
+
+    def tune(self, fails=0, beats=3, tolerance=0.01):
+        self.asked, self.fails, self.told = [], fails, []
+        scene = read_scene(Path("case.toml"), CASE)
+        return tune(scene, Demand(TARGETS, Rule(0.08), tolerance, beats), self.run_beat, self.told.append)
+
+    def test_targets_are_met_in_the_second_or_third_beat(self):
+        outcome = self.tune()
+        self.assertTrue(outcome.reached, outcome.lines)
+        self.assertIn(len(outcome.beats), (2, 3))
+        np.testing.assert_allclose(outcome.beats[-1].got, [t.value for t in TARGETS], rtol=0.01)
+        self.assertEqual(self.asked[0], {})
+        self.assertEqual(len(self.told), len(outcome.beats))
+
+    def test_the_same_beats_are_asked_for_again(self):
+        self.tune()
+        before = self.asked
+        self.tune()
+        self.assertEqual(self.asked, before)
+
+    def test_one_beat_is_not_enough(self):
+        outcome = self.tune(beats=1)
+        self.assertFalse(outcome.reached)
+        self.assertIn("Not reached in 1 beat.", outcome.lines)
+
+    def test_a_beat_that_fails_is_said(self):
+        outcome = self.tune(fails=2)
+        self.assertFalse(outcome.reached)
+        self.assertEqual(len(outcome.beats), 1)
+        self.assertIn("Beat 2 did not come to its end: it blew up", outcome.lines)
+        self.assertIn("opening.left.windkessel.compliance = ", outcome.lines[-1])
+
+    def test_extremes_at_the_end_of_the_lead_are_doubtful(self):
+        time = np.arange(1, 101) * 8.0
+        falling = Curves(time, {"inlet": 20 - time / 100}, {"inlet": np.ones(100)}, {})
+        said = cut_off(falling, TARGETS[:2], PERIOD)
+        self.assertEqual(len(said), 1)
+        self.assertIn("systolic pressure at inlet", said[0])
 
 
 class Beats(unittest.TestCase):

@@ -38,6 +38,18 @@ def shown_by_run(curves: Curves, targets: Sequence[Target], outlets: Sequence[st
     return _shown(targets, late.pressure, means, flows)
 
 
+def cut_off(curves: Curves, targets: Sequence[Target], period: float) -> List[str]:
+    """Extremes that a beat has at the end of its lead, so that they may lie within it; in words."""
+    late = curves.after(LEAD * period).pressure
+    first = {SYSTOLIC: np.argmax, DIASTOLIC: np.argmin}
+    return [
+        f"The {target.kind} at {target.opening} is that at the end of the beat's first tenth, which is not looked at: let the "
+        "tables begin in diastole."
+        for target in targets
+        if target.kind in first and first[target.kind](late[target.opening]) == 0
+    ]
+
+
 def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], targets: Sequence[Target]) -> np.ndarray:
     flows = mean_flows(vessel, ends)
     outlets = outlets_of(ends)

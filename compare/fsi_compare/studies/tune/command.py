@@ -13,7 +13,6 @@ from ..gallery.mesh_chain import with_places
 from ..gallery.scene import read_scene as read_gallery_scene
 from ..running.runner import Runner, sweep_study
 from ..running.study_file import Method, Request, Study, StudyMesh, mesh_of_scene
-from ..running.study_run import REFUSED
 from ..starting.folder_lock import locked
 from ..starting.programs import find_mesh_maker, find_program
 from ..verify.found_case import write_case
@@ -23,7 +22,7 @@ from .scene import Scene, checked_targets, read_scene
 from .solving import Rule
 from .tables import show, write_results
 from .targets import read_targets
-from .tuning import Demand, Outcome, Ran, tune
+from .tuning import BeatFailed, Demand, Outcome, Ran, tune
 
 DRIVERS = ("monolithic", "partitioned")
 ONE_BEAT, TUNED = "one-beat.toml", "tuned.toml"
@@ -184,15 +183,17 @@ class Beats:
         return path
 
     def run(self, number: int, settings: Mapping[str, Any]) -> Ran:
-        """Raises InputError where the driver does not come to the beat's end."""
+        """Raises InputError where the first beat fails, BeatFailed where a later one does."""
         merged = {"time.end": self.scene.period, **settings}
         request = Request(
             "beats", self.scene.path.stem, self.method, {"beat": number}, self.case, self.mesh, merged, self.limit
         )
         done = self.runner.run([request])[0]
         if not done.done:
-            remedy = "mend the case first" if number == 1 or done.status == REFUSED else "see its run.log"
-            raise ProgramError(self.scene.path, f"beat {number}", done.message or done.status, remedy)
+            message = done.message or done.status
+            if number > 1:
+                raise BeatFailed(message)
+            raise ProgramError(self.scene.path, f"beat {number}", message, "mend the case first")
         return Ran(curves_of(open_run(done.folder).openings), done.seconds)
 
     def mesh_file(self) -> Optional[Path]:

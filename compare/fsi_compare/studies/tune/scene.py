@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Mapping, Sequence
 from ...base.errors import InputError
 from ...base.suggestions import nearest
 from .circuit import Windkessel
-from .targets import FLOW, MEAN, SPLIT, SPLITS_MISS, SYSTOLIC, Target
+from .targets import FLOW, MEAN, SPLIT, SPLITS_MISS, SYSTOLIC, Target, no_pressure
 
 WINDKESSEL = "windkessel"
 LAWS = ("pressure", "flow_rate", "resistance", WINDKESSEL)
@@ -109,6 +109,9 @@ def checked_targets(scene: Scene, targets: Sequence[Target]) -> List[Target]:
             raise InputError("", "--split" if target.kind == SPLIT else "--flow", problem, _windkessels(scene))
         if target.kind in (SYSTOLIC, MEAN):
             _require_above_distal(scene, target)
+    driven = any(scene.kind(name) == "pressure" for name in scene.openings) or "inlet" in scene.entries
+    if not driven and not any(target.is_pressure for target in targets):
+        raise no_pressure()  # flows that the case gives leave the level of the pressure open
     return _with_rest(scene, list(targets))
 
 

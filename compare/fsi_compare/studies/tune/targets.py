@@ -74,10 +74,14 @@ def read_targets(options: Mapping[str, Sequence[str]], table: "Path | None") -> 
                 raise word.refuse(f"the {target.kind} of '{target.opening}' is given twice", "leave one out")
             targets[target.opening, target.kind] = target
     found = list(targets.values())
-    if not any(target.is_pressure for target in found):
-        raise InputError("", "--pressure", "is missing", f"give one like {EXAMPLES['pressure']}")
+    if not any(target.is_pressure or target.kind == FLOW for target in found):
+        raise no_pressure()
     _require_one_kind(found)
     return found
+
+
+def no_pressure() -> InputError:
+    return InputError("", "--pressure", "is missing", f"give one like {EXAMPLES['pressure']}")
 
 
 def _words_of(path: Path) -> List[_Word]:
@@ -142,7 +146,7 @@ def _require_one_kind(targets: Sequence[Target]) -> None:
     if any(t.kind == SPLIT for t in targets) and any(t.kind == FLOW for t in targets):
         raise InputError("", "--split, --flow", "both are given", "give shares or flows, not both")
     pressures = sorted(t.kind for t in targets if t.is_pressure)
-    if pressures not in ([DIASTOLIC, SYSTOLIC], [MEAN]):
+    if pressures not in ([DIASTOLIC, SYSTOLIC], [MEAN], []):
         problem = f"{len(pressures)} pressures are given where one opening's are found"
         raise InputError(
             "", "--pressure", problem, "give the diastolic and systolic pressure of one opening, or a mean one"

@@ -6,7 +6,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
 import numpy as np
 
 from ...base.errors import InputError
-from .beat import Repetition, given_ends, outlets_of, repetitions, shown_by_run
+from .beat import Repetition, cut_off, given_ends, outlets_of, repetitions, shown_by_run
 from .circuit import PHASES, GivenFlow, Windkessel
 from .curves import LEAD, Curves
 from .scene import WINDKESSEL, Scene
@@ -37,7 +37,7 @@ class Beat:
     foreseen: Optional[np.ndarray]  # by the model of the beat before; None: there was none
     repeats: Mapping[str, Repetition]
     vessel: Vessel
-    period_share: float  # distance from the periodic state over the largest pressure asked for
+    period_share: float  # distance from the periodic state over the largest pressure of the beat
     seconds: float
 
     def differences(self, targets: Sequence[Target]) -> np.ndarray:
@@ -65,6 +65,10 @@ class Ran:
     seconds: float
 
 
+class BeatFailed(Exception):
+    """A beat behind the first did not come to its end; why."""
+
+
 RunBeat = Callable[[int, Mapping[str, Any]], Ran]  # number and entries over the case's
 
 
@@ -77,12 +81,18 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
     foreseen: Optional[np.ndarray] = None
     limits: List[str] = []
     for number in range(1, demand.beats + 1):
-        ran = run_beat(number, settings)
+        try:
+            ran = run_beat(number, settings)
+        except BeatFailed as failure:
+            said = [f"{key} = {value:g}" for key, value in settings.items() if isinstance(value, float)]
+            outcome.lines += [f"Beat {number} did not come to its end: {failure}", f"It had {', '.join(said)}."]
+            return outcome
         beat = _beat(scene, demand, number, ran, values, starts, foreseen)
         outcome.beats.append(beat)
         tell(_words(beat, demand))
         if beat.holds(demand):
             outcome.reached = True
+            outcome.lines += cut_off(ran.curves, demand.targets, scene.period)
             outcome.lines.append(f"Beat {number} shows all that is asked for within {100 * demand.tolerance:g} %.")
             return outcome
         model = Model(beat.vessel, given_ends(scene, ran.curves, PHASES), case, scene.period)
@@ -102,7 +112,8 @@ def tune(scene: Scene, demand: Demand, run_beat: RunBeat, tell: Callable[[str], 
         stored = model.state(values).stored
         starts = {n: float(f"{float(stored[n][0]) + offset[n]:.{DIGITS}g}") for n in values}
         settings = settings_of(scene, values, starts)
-    outcome.lines += [*_missed(outcome.beats[-1], demand), *limits]
+    cut = cut_off(ran.curves, demand.targets, scene.period)
+    outcome.lines += [*_missed(outcome.beats[-1], demand), *cut, *limits]
     return outcome
 
 
@@ -147,7 +158,7 @@ def _beat(
     ends = given_ends(scene, curves, PHASES)
     got = shown_by_run(curves, demand.targets, outlets_of(ends), period)
     repeats = repetitions(curves, values, starts, period)
-    largest = max(target.value for target in demand.targets if target.is_pressure)
+    largest = max(float(np.abs(pressure).max()) for pressure in late.pressure.values())
     away = max(one.distance for one in repeats.values()) / largest
     vessel = fitted_vessel(late, scene.elastic)
     return Beat(number, values, starts, got, foreseen, repeats, vessel, away, ran.seconds)
@@ -203,7 +214,7 @@ def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional[
 
 
 def _missed(beat: Beat, demand: Demand) -> List[str]:
-    lines = [f"Not reached in {demand.beats} beats."]
+    lines = [f"Not reached in {demand.beats} beat{'s' if demand.beats > 1 else ''}."]
     if beat.period_share > demand.tolerance:
         far = 100 * beat.period_share
         lines.append(
