@@ -1,11 +1,12 @@
 """Casson stenosis: blood with a yield stress where a vessel narrows
 
-The vessel of the scene "Stenosis", with slow blood whose shear stress tau follows Casson's law, sqrt(tau) = sqrt(tau_y) +
-sqrt(mu_p g), with a yield stress of 5 mPa, regularised below a shear rate of about 0.1/s. Where the vessel is straight it takes 1.48 times the
-pressure that the plastic viscosity mu_p alone would take; at the throat, where the shear rate is many times larger, far less.
+The vessel of the scene "Stenosis", with slow blood whose shear stress tau follows Casson's law,
+sqrt(tau) = sqrt(tau_y) + sqrt(mu_p g), with a yield stress of 5 mPa, regularised below a shear rate of about 0.1/s.
+Where the vessel is straight it takes 1.48 times the pressure that the plastic viscosity mu_p alone would take; at the
+throat, where the shear rate is many times larger, far less.
 
-In front of the stenosis flow and pressure gradient are those of Casson's pipe flow, which has a closed form; so has the shear
-stress at the wall. The force on the whole wall balances what the pressures at both ends press.
+In front of the stenosis flow and pressure gradient are those of Casson's pipe flow, which has a closed form; so has
+the shear stress at the wall. The force on the whole wall balances what the pressures at both ends press.
 """
 
 import numpy as np
@@ -23,8 +24,9 @@ YIELD, PLASTIC = 5e-6, 3.5e-3  # kPa, kPa ms
 
 
 def flow_of(stress):
-    """Through a pipe whose wall bears this shear stress in kPa, x = yield stress / shear stress (the integral of r^2 g / 2
-    over the radius, as Buckingham's for Bingham's law): Q = pi R^3 tau / (4 mu) (1 - 16/7 x^(1/2) + 4/3 x - x^4/21)."""
+    """Through a pipe whose wall bears this shear stress in kPa, x = yield stress / shear stress (the integral of r^2
+    g / 2 over the radius, as Buckingham's for Bingham's law):
+    Q = pi R^3 tau / (4 mu) (1 - 16/7 x^(1/2) + 4/3 x - x^4/21)."""
     x = YIELD / stress
     return np.pi * RADIUS**3 * stress / (4 * PLASTIC) * (1 - 16 / 7 * np.sqrt(x) + 4 / 3 * x - x**4 / 21)
 

@@ -1,14 +1,15 @@
 """Thin-dome aneurysm: a wall whose thickness varies
 
-A vessel of 1.5 mm radius bears a spherical aneurysm of 3.5 mm radius on its side. The wall is grown on its lumen by a table of
-thicknesses: 0.35 mm on the vessel and at the neck, falling like the cosine of the angle from the top to 0.15 mm there. The mesh
-is the vessel as it is imaged, under 12 kPa; then a pulse of flow passes, and a Windkessel stands for the vessels that follow.
+A vessel of 1.5 mm radius bears a spherical aneurysm of 3.5 mm radius on its side. The wall is grown on its lumen by a
+table of thicknesses: 0.35 mm on the vessel and at the neck, falling like the cosine of the angle from the top to 0.15
+mm there. The mesh is the vessel as it is imaged, under 12 kPa; then a pulse of flow passes, and a Windkessel stands
+for the vessels that follow.
 
-Whatever the material and wherever it is thin, a sphere under a pressure p carries p R / 2 along each line of its wall (Laplace's
-law), so the stress in the wall is this over its thickness there, and that across it minus half of p on average. It is read
-at the top, and on the side, where the wall is nearly twice as thick. Cells of 0.7, 0.5 and 0.35 mm differ from it by 2.9, 0.5
-and 0.3 % at the top, and by 4.4, 2.2 and 0.7 % on the side, where it begins to turn into the neck. The rise of the top in the pulse
-is the other driver's.
+Whatever the material and wherever it is thin, a sphere under a pressure p carries p R / 2 along each line of its wall
+(Laplace's law), so the stress in the wall is this over its thickness there, and that across it minus half of p on
+average. It is read at the top, and on the side, where the wall is nearly twice as thick. Cells of 0.7, 0.5 and 0.35
+mm differ from it by 2.9, 0.5 and 0.3 % at the top, and by 4.4, 2.2 and 0.7 % on the side, where it begins to turn
+into the neck. The rise of the top in the pulse is the other driver's.
 """
 
 import numpy as np
@@ -41,7 +42,8 @@ def laplace(thickness):
 
 
 def around(run, low, high):
-    """Mean stress in kPa between two angles, over inner, middle and outer nodes alike, and Laplace's with the thickness there."""
+    """Mean stress in kPa between two angles, over inner, middle and outer nodes alike, and Laplace's with the
+    thickness there."""
     angle, distance, stress = dome(run)
     there = (angle >= low) & (angle < high) & (distance > RADIUS - 0.1) & (distance < RADIUS + 0.6)
     outer = distance[there] > np.quantile(distance[there], 2 / 3)  # nodes lie at three depths

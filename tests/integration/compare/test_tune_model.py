@@ -189,7 +189,8 @@ TARGETS = [
 
 
 class Tuning(unittest.TestCase):
-    """Beats that a vessel makes whose openings show half a kilopascal more than its model, as a run with losses of its own."""
+    """Beats that a vessel makes whose openings show half a kilopascal more than its model, as a run with losses of
+    its own."""
 
     def run_beat(self, number, settings):
         self.asked.append(dict(settings))

@@ -43,8 +43,8 @@ def cut_off(curves: Curves, targets: Sequence[Target], period: float) -> List[st
     late = curves.after(LEAD * period).pressure
     first = {SYSTOLIC: np.argmax, DIASTOLIC: np.argmin}
     return [
-        f"The {target.kind} at {target.opening} is that at the end of the beat's first tenth, which is not looked at: let the "
-        "tables begin in diastole."
+        f"The {target.kind} at {target.opening} is that at the end of the beat's first tenth, which is not looked at: "
+        "let the tables begin in diastole."
         for target in targets
         if target.kind in first and first[target.kind](late[target.opening]) == 0
     ]
@@ -58,7 +58,8 @@ def shown_by_model(state: State, vessel: Vessel, ends: Mapping[str, End], target
 
 
 def outlets_of(ends: Mapping[str, End]) -> List[str]:
-    """What flow leaves by that nobody gives: laws, and openings free of traction where something else drives the flow."""
+    """What flow leaves by that nobody gives: laws, and openings free of traction where something else drives the
+    flow."""
     laws = [name for name, end in ends.items() if isinstance(end, Windkessel)]
     if not any(isinstance(end, GivenFlow) for end in ends.values()):
         return laws
@@ -110,7 +111,8 @@ class Repetition:
 def repetitions(
     curves: Curves, values: Mapping[str, Windkessel], starts: Mapping[str, float], period: float
 ) -> Dict[str, Repetition]:
-    """Of all Windkessels. `starts`: their pressures in kPa at the start, where these are known; else the first level's."""
+    """Of all Windkessels. `starts`: their pressures in kPa at the start, where these are known; else the first
+    level's."""
     found = {}
     for name, law in values.items():
         stored = curves.stored.get(name, np.zeros(1))

@@ -1,7 +1,8 @@
 """The periodic state of a vessel without dimensions between what its openings are given.
 
-All is linear, so that each harmonic stands for itself. With the admittances Y_i = 1 / (R_i + j w L_i + Z_i) of openings with a
-law, where that of a Windkessel is Z = R_p + R_d / (1 + j w R_d C) ([Westerhof2009]), the sum of all flows out of the point gives
+All is linear, so that each harmonic stands for itself. With the admittances Y_i = 1 / (R_i + j w L_i + Z_i) of
+openings with a law, where that of a Windkessel is Z = R_p + R_d / (1 + j w R_d C) ([Westerhof2009]), the sum of all
+flows out of the point gives
 
     P = (sum of Y_i e_i - sum of the given Q_i) / (sum of Y_i + j w C),        Q_i = Y_i (P - e_i),
 

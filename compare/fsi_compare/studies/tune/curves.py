@@ -43,7 +43,8 @@ def curves_of(openings: Mapping[str, Opening]) -> Curves:
 
 
 def over_period(time: np.ndarray, values: np.ndarray, period: float, count: int) -> np.ndarray:
-    """At `count` equal phases from 0 on, linear in between. What a beat begins with is taken to be what it ends with."""
+    """At `count` equal phases from 0 on, linear in between. What a beat begins with is taken to be what it ends
+    with."""
     phases = np.arange(count) * period / count
     return np.interp(phases, time, values, period=period)
 

@@ -1,9 +1,9 @@
 """Values of the Windkessels with which the periodic state of the model has what is asked for.
 
-Unknowns are the logarithms of each outlet's resistance, or of one factor of all where no flow is asked for, and of the
-compliance of all outlets together, where a diastolic and a systolic pressure are. Two rules give the rest: the proximal
-resistance is a share of an outlet's, or stays as the case has it; the compliance is shared out like the mean flow. Least
-squares of the relative differences by Levenberg's and Marquardt's method ([More1978]).
+Unknowns are the logarithms of each outlet's resistance, or of one factor of all where no flow is asked for, and of
+the compliance of all outlets together, where a diastolic and a systolic pressure are. Two rules give the rest: the
+proximal resistance is a share of an outlet's, or stays as the case has it; the compliance is shared out like the mean
+flow. Least squares of the relative differences by Levenberg's and Marquardt's method ([More1978]).
 """
 
 from dataclasses import dataclass
@@ -96,7 +96,8 @@ class Solution:
 
 
 def solved(model: Model, targets: Sequence[Target], rule: Rule, correction: np.ndarray) -> Solution:
-    """`correction`: what a run shows beyond the model, (targets,). The nearest there is where the targets cannot be met."""
+    """`correction`: what a run shows beyond the model, (targets,). The nearest there is where the targets cannot be
+    met."""
     unknowns = Unknowns(model, targets, rule)
     asked = np.array([target.value for target in targets])
 

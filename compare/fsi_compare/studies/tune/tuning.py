@@ -177,7 +177,8 @@ def _no_flow(model: Model) -> str:
     entering = -sum(float(e.flow.mean()) for e in model.ends.values() if isinstance(e, GivenFlow))
     if entering > 0:
         return ""
-    return f"Nothing can be found: the mean flow into the vessel is {entering:.3g} mm^3/ms. Give a table with a positive mean."
+    said = f"the mean flow into the vessel is {entering:.3g} mm^3/ms"
+    return f"Nothing can be found: {said}. Give a table with a positive mean."
 
 
 def _limits(model: Model, demand: Demand, foreseen: np.ndarray, pulse: Optional["tuple[float, float]"]) -> List[str]:
@@ -218,7 +219,8 @@ def _missed(beat: Beat, demand: Demand) -> List[str]:
     if beat.period_share > demand.tolerance:
         far = 100 * beat.period_share
         lines.append(
-            f"Beat {beat.number} begins {far:.2g} % from its periodic state: try a wall with prestress, or more --beats."
+            f"Beat {beat.number} begins {far:.2g} % from its periodic state: "
+            "try a wall with prestress, or more --beats."
         )
     for target, got, far in zip(demand.targets, beat.got, beat.differences(demand.targets)):
         if abs(far) > demand.tolerance:

@@ -1,12 +1,13 @@
 """The vessel without dimensions, from the curves at its openings.
 
-Its openings meet in one point of pressure P. From there to opening i lead a resistance and an inertance, in the point is a
-compliance (Q_i is the flow outwards):
+Its openings meet in one point of pressure P. From there to opening i lead a resistance and an inertance, in the point
+is a compliance (Q_i is the flow outwards):
 
     p_i = P - R_i Q_i - L_i dQ_i/dt,        C dP/dt = - sum Q_i.
 
-P is in no table. The differences of pressures between the openings know nothing of it, so they give R_i and L_i first, by
-non-negative least squares; P is then the mean of p_i + R_i Q_i + L_i dQ_i/dt, and C the slope of the stored volume over it.
+P is in no table. The differences of pressures between the openings know nothing of it, so they give R_i and L_i
+first, by non-negative least squares; P is then the mean of p_i + R_i Q_i + L_i dQ_i/dt, and C the slope of the stored
+volume over it.
 """
 
 from dataclasses import dataclass
@@ -57,9 +58,9 @@ def fitted_vessel(curves: Curves, elastic: bool) -> Vessel:
 
 
 def not_negative(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """x >= 0 with the least |A x - b|, by descent along one unknown after the other ([Lawson1995] states the problem), columns
-    scaled to one length. Of unknowns that only their sum is known of each gets a part, for the descent begins with equal ones.
-    """
+    """x >= 0 with the least |A x - b|, by descent along one unknown after the other ([Lawson1995] states the
+    problem), columns scaled to one length. Of unknowns that only their sum is known of each gets a part, for the
+    descent begins with the shortest of all solutions."""
     length = np.linalg.norm(matrix, axis=0)
     used = length > 1e-12 * max(float(length.max(initial=0.0)), 1e-300)
     scaled = matrix[:, used] / length[used]
