@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <utility>
-#include <cstdint>
 #include <vector>
 
 #include "wall/fibre_directions.hpp"

@@ -105,9 +105,10 @@ def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]
     found = run.summary.get("interface")
     if not isinstance(found, dict):
         return None, None
+    entries: Dict[str, Any] = found
 
     def number(name: str) -> float:
-        value = found.get(name)
+        value = entries.get(name)
         return float(value) if isinstance(value, (int, float)) else 0.0
 
     gap = max(number("largest_slip_mm"), number("largest_separation_mm"))

@@ -37,7 +37,7 @@ class WatchTest(FolderTest):
         """Gap over displacement, lasting imbalance over traction."""
         found = summary(folder)["interface"]
         self.assertGreater(found["largest_displacement_mm"], 1e-4)
-        self.assertGreater(found["largest_traction_kPa"], 0.1)
+        self.assertGreater(found["largest_traction_kPa"], 1e-2)
         gap = max(found["largest_slip_mm"], found["largest_separation_mm"])
         return (
             gap / found["largest_displacement_mm"],
@@ -66,8 +66,8 @@ class Watch(WatchTest):
                 self.assertEqual(summary(folder)["interface"]["weighed_steps"], 2)  # of 12 steps
 
     def test_a_run_stopped_early_is_seen_and_said(self):
-        """Aitken's relaxation to 1e-1: each step passes its test."""
-        settings = (*scene(self.base, "p1", "axisymmetric"), "partitioned.scheme=aitken", "partitioned.tolerance=0.1")
+        """Aitken's relaxation to 0.3: each step passes its test."""
+        settings = (*scene(self.base, "p1", "axisymmetric"), "partitioned.scheme=aitken", "partitioned.tolerance=0.3")
         process = attempt(PARTITIONED, self.case, folder=self.base / "early", settings=settings)
         self.assertEqual(process.returncode, 0, process.stderr)
         gap, imbalance = self.left(self.base / "early")
