@@ -18,7 +18,7 @@ namespace fsi::test {
 namespace {
 
 /// A rigid pipe with two openings and these elements; what follows begins in line 13.
-std::string case_with(const std::string& text) {
+std::string pipe_with(const std::string& text) {
   return "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1.0\nviscosity = 1.0\n[time]\nstep = 1.0\nend = 20.0\n"
          "[[opening]]\nsurface = \"inlet\"\n[[opening]]\nsurface = \"outlet\"\n" +
          text;
@@ -36,7 +36,7 @@ const std::string to_ground = element("a", "resistor", "\"inlet\", \"ground\"", 
 class Networks : public FolderTest {
  protected:
   Case read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    return parse_case(case_with(text), folder_ / "case.toml", overrides);
+    return parse_case(pipe_with(text), folder_ / "case.toml", overrides);
   }
   std::string complaint(const std::string& text) const {
     const std::string said = message_of<InputError>([&] { read(text); });

@@ -224,7 +224,6 @@ class Networks(FolderTest):
         of_network = [f"network.element.{name}.{key}={x}" for name, keys in sizes.items() for key, x in keys.items()]
         settings = (*self.settings, *of_network, "time.step=10", "time.end=300", "time.retries=0")
         settings += ("monolithic.newton_tolerance=1e-3",)
-        run(MONOLITHIC, self.rigid(), self.base / "settles", *settings)
         failed = attempt(
             MONOLITHIC, self.rigid(), folder=self.base / "chatters", settings=(*settings, "monolithic.max_iterations=5")
         )

@@ -168,7 +168,7 @@ TEST(NetworkMarch, ABeatWithValvesIsThatOfItsDifferentialEquation) {
     }
     return flow(0.5 * (low + high));
   };
-  const Numbers<3> exact = by_small_steps(Numbers<3>{2500, 1000, 3000}, 12000, 300, [&](double t, const Numbers<3>& y) {
+  const Numbers<3> exact = by_small_steps(Numbers<3>{2500, 1000, 3000}, 6000, 300, [&](double t, const Numbers<3>& y) {
     const double ventricle = chamber.elastance(t) * y[0], arteries = y[1] / 100, veins = y[2] / 3000;
     const double out = ejected(ventricle, arteries), in = -mitral.equation({}, 0, veins - ventricle, 0).value;
     const double through = (arteries - veins) / 2;
@@ -176,14 +176,14 @@ TEST(NetworkMarch, ABeatWithValvesIsThatOfItsDifferentialEquation) {
   });
   for (const auto& [scheme, order] : schemes_with_orders()) {
     std::vector<double> errors;
-    for (const int steps : {300, 4800}) {
+    for (const int steps : {300, 2400}) {
       const auto end = march(loop, *scheme, steps, 300, none);
       double error = 0;
       for (std::size_t i = 0; i < 3; ++i) error = std::max(error, std::abs(end[i] - exact[i]));
       errors.push_back(error);
     }
     EXPECT_LT(errors[0], 0.2) << "of 6500 mm^3";
-    EXPECT_LT(errors[1], 0.1 * errors[0]) << "a sixteenth of the step, and first order at least where valves switch";
+    EXPECT_LT(errors[1], 0.15 * errors[0]) << "an eighth of the step, and first order at least where valves switch";
   }
 }
 
