@@ -161,7 +161,11 @@ void agree(const Communicator& processes, const std::string& problem) {
   const auto lengths = processes.gather(static_cast<std::int64_t>(problem.size()));
   const auto letters = processes.gather(std::vector<int>(problem.begin(), problem.end()));
   for (const std::int64_t length : lengths)
-    if (length > 0) throw InputError("", "", std::string(letters.begin(), letters.begin() + length), "");
+    if (length > 0) {
+      const std::string said(letters.begin(), letters.begin() + length);  // FILE: what is wrong with it
+      const auto mark = said.find(": ");
+      throw InputError(said.substr(0, mark), "", said.substr(mark + 2), "");
+    }
 }
 
 std::string unit_of(const MaterialData& data, const std::string& key) {

@@ -266,7 +266,7 @@ class MeshLumen(FolderTest):
         self.assertAlmostEqual(self.done(self.lumen(*named, "--unit", "cm"))[0] / right[0], 1, delta=1e-3)
         process = self.lumen("--list-openings", "--unit", "m")
         self.assertEqual(process.returncode, 0)
-        self.assertRegex(process.stderr, r"--unit m: the widest opening, at \(.*\), measures .* as no vessel's does")
+        self.assertRegex(process.stderr, r"--unit m: the widest opening, at \(.*\) mm, measures .* as no vessel's does")
         self.write(np.vstack((nodes, nodes + (9, 0, 0))), np.vstack((triangles, triangles[:40] + len(nodes))))
         self.assertAlmostEqual(self.done(self.lumen(*named, "--largest-shell"))[0] / right[0], 1, delta=1e-3)
         self.expect(self.lumen(*named), "surface: has 2 shells", "--largest-shell")

@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, restart, run
 from scenes import FLUID, KINDS, WALL, scene
+from vtp_files import write_vtp
 
 CASE = """[mesh]
 file = "tube.msh"
@@ -85,6 +86,53 @@ class Varying(VaryingTest):
         constant = run(MONOLITHIC, self.case(), self.base / "constant", *settings)
         self.assertAgree(varying, constant, 1e-10)
 
+    def test_a_field_of_vtk_is_that_of_the_table(self):
+        """Points with a field, in each of the encodings that programs write."""
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        wall = self.field()
+        table = run(MONOLITHIC, self.case(wall), self.base / "table", *settings)
+        rows = np.loadtxt(self.base / "stiffness.csv", delimiter=",", skiprows=1)
+        for form in ("ascii", "binary", "zlib", "raw"):
+            write_vtp(self.base / "stiffness.vtp", rows[:, :3], np.zeros((0, 3), dtype=int), form, c10=rows[:, 3])
+            case = self.case(wall.replace("stiffness.csv", "stiffness.vtp"))
+            folder = run(MONOLITHIC, case, self.base / "vtk", *settings)
+            self.assertEqual(differing_arrays(table / "checkpoint.h5", folder / "checkpoint.h5"), [], form)
+
+    def test_a_region_is_a_volume_of_the_mesh(self):
+        """One that takes the whole of a layer, with a material of its own, is that layer with the material."""
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        cover = """[[structure.region]]
+name = "all"
+layers = ["media"]
+shape = "box"
+low = [-9.0, -9.0, -9.0]
+high = [9.0, 9.0, {high}]
+material = "mooney-rivlin"
+c10 = 2.0
+c01 = 0.5
+"""
+        other = WALL.replace('material = "neo-hookean"\nc10 = 3.0', 'material = "mooney-rivlin"\nc10 = 2.0\nc01 = 0.5')
+        self.assertNotEqual(other, WALL)
+        half = WALL + cover.format(high=1.5)
+        mixed = run(MONOLITHIC, self.case(half), self.base / "mixed", *settings)
+        ends = other + cover.format(high=1.5).replace(
+            '"mooney-rivlin"\nc10 = 2.0\nc01 = 0.5', '"neo-hookean"\nc10 = 3.0'
+        )
+        turned = run(
+            MONOLITHIC,
+            self.case(
+                ends.replace("low = [-9.0, -9.0, -9.0]", "low = [-9.0, -9.0, 1.5]").replace(
+                    "high = [9.0, 9.0, 1.5]", "high = [9.0, 9.0, 9.0]"
+                )
+            ),
+            self.base / "turned",
+            *settings,
+        )
+        self.assertAgree(mixed, turned, 1e-9)
+        plain = run(MONOLITHIC, self.case(), self.base / "plain", *settings)
+        with self.assertRaises(AssertionError):
+            self.assertAgree(mixed, plain, 1e-3)
+
     def test_a_run_goes_on_with_the_same_bits_and_knows_its_field(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
         case = self.case(self.field() + SOFT_EDGE)
@@ -93,11 +141,13 @@ class Varying(VaryingTest):
             begun = run(program, case, self.base / "begun", *settings, "time.end=0.25")
             self.assertEqual(restart(program, case, begun, *settings), begun)
             self.assertEqual(differing_arrays(whole / "checkpoint.h5", begun / "checkpoint.h5"), [])
-        for change, said in (
-            (lambda: self.field(lambda x, y, z: 4.0), "structure.layers.media.c10"),
-            (lambda: case.write_text(case.read_text().replace("radius = 0.8", "radius = 0.9")), "structure.region"),
+        good = case.read_text()
+        for field, text, said in (
+            (4.0, good, "structure.layers.media.c10"),
+            (None, good.replace("radius = 0.8", "radius = 0.9"), "structure.region.plaque.radius"),
         ):
-            change()
+            self.field(*([] if field is None else [lambda x, y, z: field]))
+            case.write_text(text)
             refused = attempt(program, case, "-q", "--restart", begun, folder=begun, settings=settings)
             self.assertEqual(refused.returncode, 1, refused.stderr)
             self.assertIn(said, refused.stderr)
