@@ -17,7 +17,7 @@ const CaseSource source{"case.toml", {}, {}};
 std::string refusal(const std::string& text) {
   auto document = toml::parse(text);
   try {
-    name_lists_by_surface(document, source);
+    name_lists(document, source);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -28,7 +28,7 @@ TEST(NamedLists, BecomeSectionsInTheOrderOfTheFileWithTheirLines) {
   auto document = toml::parse(
       "[[opening]]\nsurface = \"right\"\npressure = 1\n"
       "[[opening]]\nsurface = \"left\"\npressure = 2\n[[support]]\nsurface = \"right\"\nspring = 3\n");
-  name_lists_by_surface(document, source);
+  name_lists(document, source);
   const CaseEntry whole(document, "", "", source);
   const auto openings = whole.child("opening").children();
   ASSERT_EQ(openings.size(), 2u);
@@ -46,7 +46,7 @@ TEST(NamedLists, BecomeSectionsInTheOrderOfTheFileWithTheirLines) {
 
 TEST(NamedLists, AreOverriddenByName) {
   auto document = toml::parse("[[opening]]\nsurface = \"out\"\nresistance = 1\n");
-  name_lists_by_surface(document, source);
+  name_lists(document, source);
   CaseSource overridden = source;
   apply_overrides({"opening.out.resistance=5"}, document, overridden);
   EXPECT_EQ(document["opening"]["out"]["resistance"].value<int>(), 5);
