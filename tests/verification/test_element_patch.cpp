@@ -100,7 +100,7 @@ TYPED_TEST(EveryElement, WallIsInEquilibriumInHomogeneousStretch) {
     EXPECT_GT(outside, 0.1);
     EXPECT_LT(largest(only(residual, n + 1, n, 1)), 1e-13) << "volume";
 
-    const WallEnergy energy = wall.energy(state, {}, state);
+    const WallEnergy energy = wall.energy(state, {}, state, {});
     const double volume = wall.layer_data()[0].volume;
     const double per_volume = std::visit(
         [&](const auto& law) {

@@ -140,8 +140,8 @@ TYPED_TEST(VaryingWallOf, FieldThatIsConstantIsTheConstant) {
     const auto product = multiply(constant.jacobian(), ask.direction);
     EXPECT_LT(norm(difference(multiply(varying.jacobian(), ask.direction), product)), 1e-13 * norm(product));
 
-    const auto one = constant.energy(ask.solution, ask.history, ask.reference);
-    const auto two = varying.energy(ask.solution, ask.history, ask.reference);
+    const auto one = constant.energy(ask.solution, ask.history, ask.reference, {});
+    const auto two = varying.energy(ask.solution, ask.history, ask.reference, {});
     EXPECT_NEAR(two.isochoric, one.isochoric, 1e-12 * std::abs(one.isochoric));
     EXPECT_NEAR(two.volumetric, one.volumetric, 1e-12 * std::abs(one.volumetric));
     WallStep step;
