@@ -72,8 +72,8 @@ class Watch(WatchTest):
         self.assertEqual(process.returncode, 0, process.stderr)
         gap, imbalance = self.left(self.base / "early")
         self.assertGreater(max(gap, imbalance), 0.01)
-        said = [line for line in process.stderr.splitlines() if "where they meet" in line]
-        self.assertTrue(said, process.stderr)
+        said = [line for line in process.stdout.splitlines() if "where they meet" in line]
+        self.assertTrue(said, process.stdout)
         self.assertIn("partitioned.tolerance", said[0])
 
     def test_a_restart_goes_on_with_the_same_numbers(self):
