@@ -99,21 +99,23 @@ std::vector<KeyHelp> layers_help() {
       help.push_back({"layers.NAME." + parameter.name, material + ": " + about(parameter), parameter.required});
   help.push_back({"layers.NAME.viscosity", layer_viscosity_key().about, optional});
   help.push_back({"layers.NAME.maxwell", layer_branches_key().about, optional});
+  help.push_back(
+      {"layers.NAME.CONSTANT.file",
+       "of any constant that varies, { file = \"FILE\", field = \"NAME\" } in place of a number: a .vtu, .vtp, or .csv "
+       "with columns x, y, z",
+       optional});
+  help.push_back({"layers.NAME.CONSTANT.field", "name of the array or column", optional});
+  help.push_back({"layers.NAME.CONSTANT.within",
+                  "how far the wall may be from the file's points in mm, default three times their distance",
+                  optional});
   return help;
 }
 
 }  // namespace
 
 CaseKey<StructureData> layers_key() {
-  return {"layers",
-          required,
-          "a section [structure.layers.NAME] per volume group of the wall; any constant may vary from place to place: "
-          "{ file = \"FILE.vtu\", field = \"NAME\" } in place of a number, or a .vtp or .csv; within = DISTANCE in mm "
-          "that the "
-          "wall may be off the file's points, default three times their distance",
-          read_layers,
-          list_layers,
-          KeyRole::physics,
+  return {"layers",     required,    "a section [structure.layers.NAME] per volume group of the wall",
+          read_layers,  list_layers, KeyRole::physics,
           layers_help()};
 }
 
