@@ -66,6 +66,25 @@ class VaryingTest(FolderTest):
 
 
 class Varying(VaryingTest):
+    def test_with_maxwell_branches(self):
+        """Branches belong to the layer, also in what a region cuts out of it."""
+        branches = "viscosity = 0.5\nmaxwell = [{ shear = 2.0, time = 0.2 }]"
+        constant = WALL.replace("c10 = 3.0", f"c10 = 3.0\n{branches}")
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        same = self.field(lambda x, y, z: 3.0).replace("viscosity = 0.5", branches)
+        runs = [run(MONOLITHIC, self.case(w), self.base / n, *settings) for w, n in ((constant, "one"), (same, "two"))]
+        self.assertAgree(*runs, 1e-11)
+        wall = self.field().replace("viscosity = 0.5", branches) + PLAQUE.replace("viscosity = 2.0\n", "")
+        both = [run(program, self.case(wall), self.base / f"by{i}", *settings) for i, program in enumerate(DRIVERS)]
+        self.assertAgree(*both, 1e-8)
+        begun = run(MONOLITHIC, self.case(wall), self.base / "begun", *settings, "time.end=0.25")
+        restart(MONOLITHIC, self.case(wall), begun, *settings)
+        self.assertEqual(differing_arrays(both[0] / "checkpoint.h5", begun / "checkpoint.h5"), [])
+        own = PLAQUE + 'material = "neo-hookean"\nmaxwell = [{ shear = 1.0, time = 1.0 }]\n'
+        refused = attempt(MONOLITHIC, self.case(WALL + own), "-q", folder=self.base / "no", settings=settings)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn("structure.region.plaque.maxwell", refused.stderr)
+
     def test_drivers_agree(self):
         for kind, wall in zip(KINDS, [self.field(), self.field() + SOFT_EDGE, WALL + PLAQUE] * 2):
             settings = scene(self.base, *kind)
