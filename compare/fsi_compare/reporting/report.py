@@ -74,7 +74,7 @@ class Report:
 
         png, svg = write_figure(self.folder, stem, keep)
         self.written += [png, svg]
-        self.image(png, " ".join(part for part in (caption, sentence_of_coinciding(drawn[-1])) if part))
+        self.image(png, " ".join(part for part in (caption, *map(sentence_of_coinciding, drawn)) if part))
 
     def player(self, player: Player) -> None:
         """What a reader with JavaScript can move through. It does not print: pictures of the same belong beside it, or word of

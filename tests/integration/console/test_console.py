@@ -29,7 +29,7 @@ class Console(FolderTest):
     def setUpClass(cls):
         super().setUpClass()
         mesh = make_small_mesh(cls.base / "small.msh")
-        cls.settings = (f"mesh.file={mesh}", f"time.end={0.125 * STEPS}", "partitioned.tolerance=1e-1")
+        cls.settings = (f"mesh.file={mesh}", f"time.end={0.125 * STEPS}", "partitioned.tolerance=1e-3")
 
     def name(self, program):
         return os.path.basename(program)
