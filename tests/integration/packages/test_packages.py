@@ -80,7 +80,7 @@ class Packages(unittest.TestCase):
 
     def test_libraries_depend_on_the_headers_they_include(self):
         depends = self.field(self.development, "Depends")
-        for package in ("libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libtomlplusplus-dev"):
+        for package in ("libeigen3-dev", "libfmt-dev", "nlohmann-json3-dev", "libtomlplusplus-dev", "zlib1g-dev"):
             self.assertIn(package, depends)
         for package in ("libhdf5-openmpi-dev", "libopenmpi-dev", "petsc-dev") if MPI else ("libhdf5-dev",):
             self.assertIn(package, depends)
