@@ -9,11 +9,7 @@ namespace fsi {
 
 template <int n>
 void InterfaceWatch<n>::begin(const State& level) {
-  const std::size_t size = scene_.interface.size() * n;
-  if (slip_.size() != size) slip_.assign(size, 0.0);
-  if (unbalanced_.size() != size) unbalanced_.assign(size, 0.0);
-  if (start_.size() == size) return;  // recalled
-  start_.clear();
+  if (!start_.empty()) return;  // recalled
   for (const InterfaceNode& node : scene_.interface)
     for (int k = 0; k < n; ++k) start_.push_back(level.before[0].wall[Mixed::vector(node.wall, k)]);
 }
@@ -35,7 +31,7 @@ void InterfaceWatch<n>::follow(const State& level, const std::vector<Balance>& b
     const InterfaceNode& node = scene_.interface[i / n];
     const double d = level.before[0].wall[Mixed::vector(node.wall, static_cast<int>(i % n))];
     gap[i] = level.before[0].mesh[Vector::vector(node.fluid, static_cast<int>(i % n))] - d;
-    moved[i] = d - start_[i];
+    moved[i] = start_.empty() ? 0 : d - start_[i];
   }
   separation_ = std::max(separation_, largest(gap));
   motion_ = std::max(motion_, largest(moved));

@@ -36,7 +36,8 @@ class InterfaceWatch {
   using Mixed = MixedLayout<n>;
 
   /// \param scene  coupled, in time; must outlive this
-  explicit InterfaceWatch(const Scene<n>& scene) : scene_(scene) {}
+  explicit InterfaceWatch(const Scene<n>& scene)
+      : scene_(scene), slip_(scene.interface.size() * n, 0.0), unbalanced_(slip_) {}
 
   /// The run begins, or goes on, from a level.
   void begin(const State& level);
