@@ -64,7 +64,7 @@ ConstantField read_field(const CaseEntry& entry, const Parameter& parameter) {
     const double value = samples.values[i];
     const Point& x = samples.places[i];
     const auto at = [&] { return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) mm", value, x[0], x[1], x[2]); };
-    const std::string key = entry.key();
+    const std::string& key = entry.key();
     if (!(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])))
       throw InputError(field.file.string(), key, fmt::format("point {} has no finite coordinates", i + 1),
                        "write the file anew");

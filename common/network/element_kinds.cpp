@@ -23,9 +23,9 @@ struct HasCourse<E, std::void_t<decltype(&E::course)>> : std::true_type {};
 
 template <class E>
 std::shared_ptr<const NetworkElement> make_element(const ParameterValues& values,
-                                                   [[maybe_unused]] std::function<double(double)> course) {
+                                                   [[maybe_unused]] const std::function<double(double)>& course) {
   E element = with_parameters<E>(values);
-  if constexpr (HasCourse<E>::value) element.course = std::move(course);
+  if constexpr (HasCourse<E>::value) element.course = course;
   return std::make_shared<const E>(std::move(element));
 }
 

@@ -41,7 +41,7 @@ void RegionDistance::sort_triangles() {
     for (int i = from[0]; i <= to[0]; ++i)
       for (int j = from[1]; j <= to[1]; ++j)
         for (int k = from[2]; k <= to[2]; ++k)
-          triangles_[static_cast<std::size_t>((i * boxes_[1] + j) * boxes_[2] + k)].push_back(static_cast<int>(t));
+          triangles_[(static_cast<std::size_t>(i) * boxes_[1] + j) * boxes_[2] + k].push_back(static_cast<int>(t));
   }
 }
 
@@ -54,7 +54,7 @@ double RegionDistance::to_surface(const Point& x) const {
   }
   const auto& [nodes, triangles] = *shape_.surface;
   double nearest = reach_;
-  for (const int t : triangles_[static_cast<std::size_t>((box[0] * boxes_[1] + box[1]) * boxes_[2] + box[2])]) {
+  for (const int t : triangles_[(static_cast<std::size_t>(box[0]) * boxes_[1] + box[1]) * boxes_[2] + box[2]]) {
     const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
     const double away = distance_to_triangle(x, nodes[a], nodes[b], nodes[c]);
     if (away < nearest) nearest = away;  // of a triangle without area there may be no number

@@ -235,8 +235,8 @@ void add(const Piece& piece, VtkMesh& mesh) {
     auto& cell = mesh.cells.emplace_back();
     for (; begin < static_cast<std::size_t>(end); ++begin) {
       const double node = piece.connectivity[begin];
-      if (!(node >= 0 && node < static_cast<double>(piece.points.size() / 3)))
-        throw Damaged("has cells that are none of its points");
+      const std::size_t points = piece.points.size() / 3;
+      if (!(node >= 0 && node < static_cast<double>(points))) throw Damaged("has cells that are none of its points");
       cell.push_back(static_cast<int>(first + node));
     }
     mesh.kinds.push_back(c < piece.types.size() ? static_cast<int>(piece.types[c]) : 7);
