@@ -18,7 +18,8 @@ struct NetworkElementKind {
   std::vector<Parameter> parameters;
   ElementCourse course;
   /// \param course  of an element with a table: its value at a time in ms
-  std::shared_ptr<const NetworkElement> (*make)(const ParameterValues& values, std::function<double(double)> course);
+  std::shared_ptr<const NetworkElement> (*make)(const ParameterValues& values,
+                                                const std::function<double(double)>& course);
 };
 
 /// All elements by name: the table of all there are. A new one is a file beside these and a row here; case files,
