@@ -90,6 +90,8 @@ struct ConstantBlend {
 
 /// [structure.layers.NAME]
 struct MaterialData {
+  static constexpr const char* viscosity_key = "viscosity";  ///< among the names of constants
+
   std::string material;                  ///< a name of materials()
   ParameterValues values;                ///< its parameters, for make_material()
   double viscosity = 0;                  ///< eta of a layer that resists the rate of its strain, kPa ms; 0: elastic

@@ -19,7 +19,6 @@ namespace fsi {
 
 namespace {
 
-constexpr const char* viscosity_name = "viscosity";
 constexpr const char* about_file = "path of a .vtu, .vtp or .csv";
 
 double middle_of(std::vector<double> values) {
@@ -93,12 +92,13 @@ double stand_in(const ConstantField& field, const Parameter& parameter) {
 
 const Parameter& layer_viscosity_parameter() {
   static const Quantity unit{"kPa ms", {}};
-  static const Parameter parameter{viscosity_name, "eta of the layer", &unit, not_negative, false, 0, false};
+  static const Parameter parameter{
+      MaterialData::viscosity_key, "eta of the layer", &unit, not_negative, false, 0, false};
   return parameter;
 }
 
 const Parameter* constant_of_layer(const MaterialData& layer, const std::string& name) {
-  return name == viscosity_name ? &layer_viscosity_parameter() : materials().at(layer.material).find(name);
+  return name == MaterialData::viscosity_key ? &layer_viscosity_parameter() : materials().at(layer.material).find(name);
 }
 
 CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& parameter) {
@@ -106,7 +106,7 @@ CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& param
     if (!entry.is_section()) return read(entry, layer);
     ConstantField field = read_field(entry, parameter);
     const double standing = stand_in(field, parameter);
-    (parameter.name == viscosity_name ? layer.viscosity : layer.values[parameter.name]) = standing;
+    (parameter.name == MaterialData::viscosity_key ? layer.viscosity : layer.values[parameter.name]) = standing;
     layer.fields[parameter.name] = std::move(field);
   };
   key.list = [list = key.list, name = parameter.name](const MaterialData& layer, const std::string& path,

@@ -50,7 +50,7 @@ void read_layer(const CaseEntry& entry, MaterialData& layer, const std::vector<s
   // A parameter of another material is no misprint; say what this one takes.
   for (const auto& child : children) {
     const auto key = child.key().substr(entry.key().size() + 1);
-    if (key == "material" || key == "viscosity" || key == "maxwell" || kind.find(key) != nullptr ||
+    if (key == "material" || key == MaterialData::viscosity_key || key == "maxwell" || kind.find(key) != nullptr ||
         contains(others, key))
       continue;
     for (const auto& [other, other_kind] : materials().rows()) {

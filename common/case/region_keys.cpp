@@ -146,7 +146,7 @@ void read_file(const CaseEntry& entry, RegionInput& input) {
 MaterialData replaced_layer(const MaterialData& layer, const RegionData& region) {
   MaterialData part = layer;
   for (const auto& [name, value] : region.values) {
-    (name == "viscosity" ? part.viscosity : part.values[name]) = value;
+    (name == MaterialData::viscosity_key ? part.viscosity : part.values[name]) = value;
     part.fields.erase(name);
     for (auto& blend : part.blends) blend.values.erase(name);
   }
@@ -168,7 +168,7 @@ void read_constants(const CaseEntry& entry, const std::vector<std::string>& know
       if (parameter == nullptr) {
         std::vector<std::string> names = known;
         for (const auto& p : materials().at(data.material).parameters) names.push_back(p.name);
-        names.push_back("viscosity");
+        names.push_back(MaterialData::viscosity_key);
         child.refuse(
             fmt::format("is no key of a region and no constant of {}, the material of {}", data.material, layer),
             name_remedy(key, names));
@@ -240,7 +240,7 @@ void read_region(const CaseEntry& entry, StructureData& structure, RegionInput& 
   read_layer(entry, material, known);
   region.material = material.material;
   region.values = material.values;
-  if (material.viscosity > 0) region.values["viscosity"] = material.viscosity;
+  if (material.viscosity > 0) region.values[MaterialData::viscosity_key] = material.viscosity;
   if (material.varies()) entry.refuse("has constants that vary", "give numbers");
   if (!material.maxwell.empty())
     entry.child("maxwell").refuse("stands in a region",

@@ -122,7 +122,7 @@ void check_viscosity(const CaseEntry& fluid, FluidData& data) {
 }
 
 CaseKey<MaterialData> layer_viscosity_key() {
-  auto key = leaf("viscosity", optional,
+  auto key = leaf(MaterialData::viscosity_key, optional,
                   "of any material: eta in {unit} of a stress eta dE/dt beside the elastic one, default {}",
                   number(at(&MaterialData::viscosity), not_negative, wall_viscosity()));
   key.list = [list = key.list](const MaterialData& layer, const std::string& path, std::vector<CaseValue>& values) {

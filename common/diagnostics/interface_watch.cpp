@@ -55,20 +55,22 @@ void InterfaceWatch<n>::weigh(const Balance& balance) {
   }
   leave_free(of_fluid);
   leave_free(lack);
-  for (std::size_t i = 0; i < lack.size(); ++i) unbalanced_[i] += lack[i];
+  const double duration = balance.data.rates.step;
+  for (std::size_t i = 0; i < lack.size(); ++i) unbalanced_[i] += duration * lack[i];
   weighed_ += 1;
-  largest_traction_ = std::max(largest_traction_, std::sqrt(mean_square(lack, true)));
-  traction_ = std::max(traction_, std::sqrt(mean_square(of_fluid, true)));
+  weighed_time_ += duration;
+  largest_traction_ = std::max(largest_traction_, root_mean_traction(lack));
+  traction_ = std::max(traction_, root_mean_traction(of_fluid));
 }
 
 template <int n>
 InterfaceAgreement InterfaceWatch<n>::so_far() const {
   InterfaceAgreement found;
-  found.slip = std::sqrt(mean_square(slip_, false));
+  found.slip = root_mean_square(slip_);
   found.largest_slip = largest(slip_);
   found.largest_separation = separation_;
   found.motion = motion_;
-  found.lasting_traction = weighed_ > 0 ? std::sqrt(mean_square(unbalanced_, true)) / weighed_ : 0;
+  found.lasting_traction = weighed_time_ > 0 ? root_mean_traction(unbalanced_) / weighed_time_ : 0;
   found.largest_traction = largest_traction_;
   found.traction = traction_;
   found.weighed_steps = static_cast<int>(weighed_);
@@ -77,30 +79,43 @@ InterfaceAgreement InterfaceWatch<n>::so_far() const {
 
 template <int n>
 void InterfaceWatch<n>::keep(Memory& memory) {
-  if (!memory.wants({"slip", "start", "unbalanced", "weighed", "separation", "motion", "largest_traction", "traction"}))
+  if (!memory.wants({"slip", "start", "unbalanced", "weighed", "weighed_time", "separation", "motion",
+                     "largest_traction", "traction"}))
     return;
   memory.array("slip", ArrayKind::interface, slip_);
   memory.array("start", ArrayKind::interface, start_);
   memory.array("unbalanced", ArrayKind::interface, unbalanced_);
   memory.number("weighed", weighed_, count_range);
-  for (auto [name, value] : {std::pair("separation", &separation_), std::pair("motion", &motion_),
-                             std::pair("largest_traction", &largest_traction_), std::pair("traction", &traction_)})
+  for (auto [name, value] :
+       {std::pair("weighed_time", &weighed_time_), std::pair("separation", &separation_), std::pair("motion", &motion_),
+        std::pair("largest_traction", &largest_traction_), std::pair("traction", &traction_)})
     memory.number(name, *value, {0});
 }
 
 template <int n>
-double InterfaceWatch<n>::mean_square(const std::vector<double>& vectors, bool forces) const {
+double InterfaceWatch<n>::root_mean_square(const std::vector<double>& vectors) const {
+  return root_mean(vectors, [](double area) { return area; });
+}
+
+template <int n>
+double InterfaceWatch<n>::root_mean_traction(const std::vector<double>& forces) const {
+  return root_mean(forces, [](double area) { return 1 / area; });
+}
+
+template <int n>
+template <class Weight>
+double InterfaceWatch<n>::root_mean(const std::vector<double>& vectors, Weight weight) const {
   std::vector<double> sums(2, 0.0);
   for (std::size_t i = 0; i < scene_.owned_interface(); ++i) {
     const double area = scene_.interface_areas[i];
     if (!(area > 0)) continue;
     double square = 0;
     for (int k = 0; k < n; ++k) square += vectors[i * n + k] * vectors[i * n + k];
-    sums[0] += forces ? square / area : square * area;
+    sums[0] += square * weight(area);
     sums[1] += area;
   }
   scene_.processes().sum(sums);
-  return sums[1] > 0 ? sums[0] / sums[1] : 0;
+  return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
 }
 
 template <int n>

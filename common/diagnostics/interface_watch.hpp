@@ -16,10 +16,11 @@ struct InterfaceAgreement {
   double largest_slip = 0;        ///< mm, of a node, at the end
   double largest_separation = 0;  ///< mm, of a node, of d_m - d_s at any level so far
   double motion = 0;              ///< mm, the largest displacement of a node from where the run began, so far
-  double lasting_traction = 0;    ///< kPa, root mean square of the time mean of what fluid and wall leave unbalanced
-  double largest_traction = 0;    ///< kPa, root mean square of that in the worst of the steps looked at
-  double traction = 0;            ///< kPa, root mean square of the fluid's own, largest of these steps
-  int weighed_steps = 0;          ///< steps whose tractions were looked at
+  /// kPa, root mean square of what fluid and wall leave unbalanced in the mean of the steps looked at, by their lengths
+  double lasting_traction = 0;
+  double largest_traction = 0;  ///< kPa, root mean square of that in the worst of the steps looked at
+  double traction = 0;          ///< kPa, root mean square of the fluid's own, largest of these steps
+  int weighed_steps = 0;        ///< steps whose tractions were looked at
 
   /// Shares of what moves and what bears; 0 where nothing does.
   double gap_share() const { return motion > 0 ? std::max(largest_slip, largest_separation) / motion : 0; }
@@ -51,8 +52,12 @@ class InterfaceWatch {
   void keep(Memory& memory);
 
  private:
-  /// Square of the root mean square of vectors over the interface; of forces the mean traction's.
-  double mean_square(const std::vector<double>& vectors, bool forces) const;
+  double root_mean_square(const std::vector<double>& vectors) const;
+  /// Of nodal forces, kPa: sqrt(sum of |force|^2 / area over the whole area).
+  double root_mean_traction(const std::vector<double>& forces) const;
+  /// sqrt(sum of |vector|^2 weight(area) over the whole area), nodes without area left out.
+  template <class Weight>
+  double root_mean(const std::vector<double>& vectors, Weight weight) const;
   double largest(const std::vector<double>& vectors) const;
   /// Leaves the components of nodal forces that no condition of the wall holds.
   void leave_free(std::vector<double>& forces) const;
@@ -60,8 +65,8 @@ class InterfaceWatch {
   const Scene<n>& scene_;
   std::vector<double> start_;       ///< mm, vectors per interface node: d_s where the run began
   std::vector<double> slip_;        ///< mm, likewise: integral of u - v
-  std::vector<double> unbalanced_;  ///< mN, likewise: sum over the steps weighed
-  double weighed_ = 0, separation_ = 0, motion_ = 0, largest_traction_ = 0, traction_ = 0;
+  std::vector<double> unbalanced_;  ///< mN ms, likewise: sum over the steps weighed, times their lengths
+  double weighed_ = 0, weighed_time_ = 0, separation_ = 0, motion_ = 0, largest_traction_ = 0, traction_ = 0;
   std::vector<double> fluid_rows_, wall_rows_;
 };
 

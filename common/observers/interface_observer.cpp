@@ -43,10 +43,10 @@ class InterfaceObserver : public Observer {
                       "largest displacement; {}",
                       std::max(found.largest_slip, found.largest_separation), 100 * found.gap_share(), remedy));
     if (found.traction_share() > tolerable_share)
-      voice_.warn(
-          fmt::format("where they meet, fluid and wall leave {:.3g} kPa unbalanced in the mean over time, {:.2g} % of "
-                      "the fluid's traction; {}",
-                      found.lasting_traction, 100 * found.traction_share(), remedy));
+      voice_.warn(fmt::format(
+          "where they meet, fluid and wall leave {:.3g} kPa unbalanced in the mean of its steps, {:.2g} % of "
+          "the fluid's traction; {}",
+          found.lasting_traction, 100 * found.traction_share(), remedy));
   }
   void keep(Memory& memory) override { watch_.keep(memory); }
   const char* phase() const override { return "interface watch"; }

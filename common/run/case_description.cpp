@@ -107,7 +107,7 @@ std::string text_of_layer(const MaterialData& layer) {
     text += fmt::format(", {} = {:g}", parameter.name, value);
     if (const std::string unit = parameter.quantity->unit; !unit.empty()) text += " " + unit;
   }
-  if (const auto field = layer.fields.find("viscosity"); field != layer.fields.end())
+  if (const auto field = layer.fields.find(MaterialData::viscosity_key); field != layer.fields.end())
     text += fmt::format(", viscosity from {}", field->second.file.string());
   else if (layer.viscosity > 0)
     text += fmt::format(", viscosity = {:g} kPa ms", layer.viscosity);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "case/constant_fields.hpp"
 #include "fem/elements.hpp"
 #include "materials/material.hpp"
 #include "mesh/fields/point_field.hpp"
@@ -19,7 +20,7 @@ namespace fsi {
 
 namespace {
 
-constexpr const char* viscosity_name = "viscosity";
+constexpr const char* viscosity_name = MaterialData::viscosity_key;
 
 std::string place_of(const Point& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) mm", x[0], x[1], x[2]);
@@ -169,8 +170,8 @@ void agree(const Communicator& processes, const std::string& problem) {
 }
 
 std::string unit_of(const MaterialData& data, const std::string& key) {
-  const Parameter* parameter = materials().at(data.material).find(key);
-  return key == viscosity_name ? "kPa ms" : parameter == nullptr ? "" : parameter->quantity->unit;
+  const Parameter* parameter = constant_of_layer(data, key);
+  return parameter == nullptr ? "" : parameter->quantity->unit;
 }
 
 /// Brings what processes have counted together, and tells the scene of it.

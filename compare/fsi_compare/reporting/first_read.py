@@ -101,7 +101,8 @@ def _ringing(run: RunResults) -> Optional[float]:
 
 def interface_shares(run: RunResults) -> Tuple[Optional[float], Optional[float]]:
     """How far fluid and wall have come apart where they meet, over the interface's largest displacement, and what they leave
-    unbalanced in the mean over time, over the fluid's traction. None: the run did not watch it, or nothing moved."""
+    unbalanced in the mean of the steps looked at, over the fluid's traction. None: the run did not watch it, or nothing moved.
+    """
     found = run.summary.get("interface")
     if not isinstance(found, dict):
         return None, None
@@ -173,7 +174,7 @@ def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     notes = [
         "`left over`: what the energy balance does not explain, the solver's error. `ringing`: the largest part of an opening's mean "
         "pressure that changes its sign from step to step, over the largest range of one. `interface`: how far fluid and wall have "
-        "come apart over the run, over the interface's largest displacement, and the mean over time of what they leave unbalanced, "
+        "come apart over the run, over the interface's largest displacement, and the mean of what they leave unbalanced in the steps looked at, "
         "over the largest traction."
     ]
     notes += [f"{label}: {said}." for run, label in zip(runs, labels) if (said := periodic_end(run))]
