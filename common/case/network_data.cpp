@@ -30,7 +30,7 @@ std::shared_ptr<const Network> make_network(const Case& setup) {
     if (element.course) course = [table = *element.course](double time) { return table.at(time); };
     const int from = number(element.from), to = number(element.to);
     const NetworkElementKind& kind = network_element_kinds().at(element.kind);
-    elements.push_back({element.name, kind.make(element.values, std::move(course)), from, to});
+    elements.push_back({element.name, kind.make(element.values, course), from, to});
   }
   return std::make_shared<const Network>(std::move(nodes), openings, std::move(elements), data.ground_pressure);
 }
