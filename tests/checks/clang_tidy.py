@@ -3,8 +3,8 @@ and the headers they include. BUILD holds compile_commands.json, made for COMPIL
 
 Most of the time goes to headers, which are searched anew for each source. So sources are put behind each other into one
 text, whose headers are searched once. Where they do not compile as one text, because two of them give one name to different
-things, the sources of each folder are one text; where those do not, they are looked at one by one. So does the analyser
-always: in a longer text it finds less.
+things, those that the compiler stumbles over make a text of their own. The analyser looks at each source by itself: in a
+longer text it finds less.
 """
 
 from __future__ import annotations
@@ -90,11 +90,8 @@ def text_of(sources: list[Path]) -> tuple[str, list[tuple[Path, int]]]:
     return "\n".join(lines) + "\n", places
 
 
-def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path], analyser: bool) -> str:
-    """What clang-tidy's analyser, or all else of it, writes of the sources as one text; empty: nothing is wrong."""
-    without = re.findall(r"-clang-analyzer-\w[\w.]*", (root / ".clang-tidy").read_text())
-    alone = ["-*", "clang-diagnostic-shadow", "clang-analyzer-*", *without]
-    checks = ",".join(alone) if analyser else "-clang-analyzer-*"
+def written(clang_tidy: str, root: Path, flags: list[str], sources: list[Path], checks: str) -> str:
+    """What clang-tidy writes of the sources as one text, with the files and lines that they have by themselves."""
     with tempfile.TemporaryDirectory() as folder:
         text, places = text_of(sources)
         file = Path(folder) / "text.cpp"
@@ -111,26 +108,38 @@ def findings(clang_tidy: str, root: Path, flags: list[str], sources: list[Path],
         for parent in dict.fromkeys(source.parent for source in sources):
             command += ["-iquote", str(parent)]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        written = done.stdout if done.stdout.strip() or done.returncode == 0 else done.stderr
-        if done.returncode != 0 and not written.strip():
-            written = f"clang-tidy ended with exit code {done.returncode}"
+        said = done.stdout if done.stdout.strip() or done.returncode == 0 else done.stderr
+        if done.returncode != 0 and not said.strip():
+            said = f"clang-tidy ended with exit code {done.returncode}"
 
         def original(match: re.Match[str]) -> str:
             source, number = places[min(int(match[1]), len(places)) - 1]
             return f"{source.relative_to(root)}:{number}:"
 
-        return re.sub(re.escape(str(file)) + r":(\d+):", original, written).strip()
+        return re.sub(re.escape(str(file)) + r":(\d+):", original, said).strip()
+
+
+def analysed(clang_tidy: str, root: Path, flags: list[str], source: Path) -> str:
+    """What the analyser finds in a source; empty: nothing is wrong."""
+    without = re.findall(r"-clang-analyzer-\w[\w.]*", (root / ".clang-tidy").read_text())
+    checks = ["-*", "clang-diagnostic-shadow", "clang-analyzer-*", *without]
+    return written(clang_tidy, root, flags, [source], ",".join(checks))
+
+
+def stumbling(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> list[Path]:
+    """The sources in which the compiler finds errors when all are one text. The one check is the cheapest there is."""
+    said = written(clang_tidy, root, flags, sources, "-*,readability-misleading-indentation")
+    files = set(re.findall(r"^(\S+?):\d+:\d+: error: .*\[clang-diagnostic-error\]$", said, re.MULTILINE))
+    return [source for source in sources if str(source.relative_to(root)) in files]
 
 
 def check_text(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> str:
-    """What all but the analyser finds in the sources: in all together or, where that does not compile, in smaller texts."""
-    written = findings(clang_tidy, root, flags, sources, False)
-    if len(sources) == 1 or "[clang-diagnostic-error]" not in written:
-        return written
-    parents = dict.fromkeys(source.parent for source in sources)
-    parts = [[source for source in sources if source.parent == parent] for parent in parents]
-    if len(parts) == 1:
-        parts = [[source] for source in sources]
+    """What all but the analyser finds in the sources, as one text or as few as compile; empty: nothing is wrong."""
+    apart = stumbling(clang_tidy, root, flags, sources) if len(sources) > 1 else []
+    if not apart:
+        return written(clang_tidy, root, flags, sources, "-clang-analyzer-*")
+    together = [source for source in sources if source not in apart]
+    parts = [together, apart] if together else [[source] for source in sources]
     each = [check_text(clang_tidy, root, flags, part) for part in parts]
     return "\n".join(found for found in each if found)
 
@@ -138,11 +147,7 @@ def check_text(clang_tidy: str, root: Path, flags: list[str], sources: list[Path
 def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], texts: list[list[Path]]) -> list[Callable[[], str]]:
     """What is to be done, each job for one core: the long ones first. Each gives its findings."""
     long = [partial(check_text, clang_tidy, root, flags[str(sources[0])], sources) for sources in texts]
-    short = [
-        partial(findings, clang_tidy, root, flags[str(source)], [source], True)
-        for sources in texts
-        for source in sources
-    ]
+    short = [partial(analysed, clang_tidy, root, flags[str(source)], source) for sources in texts for source in sources]
     return [*long, *short]
 
 

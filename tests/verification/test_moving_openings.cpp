@@ -413,16 +413,17 @@ TEST(MovingOpenings, TheDomainGainsWhatIsGiven) {
         setup.geometry = Geometry::axisymmetric;
         setup.time->scheme = scheme;
         double time = 0, gained = 0, swept = 0, left_over = 0, work = 0;
-        march<P1AxisymmetricTriangle>(setup, mesh, steps, [&](const State& state, const EnergyRecord& record) {
-          time = state.time;
-          gained = moved_volume(fluid, state.now.mesh) - before;
-          if (stores) gained += compliance * state.now.openings[0];
-          for (std::size_t a = 0; a < fluid.nodes.size(); ++a)
-            if (fluid.nodes[a][2] == 1)
-              swept = std::max(swept, std::abs(state.now.mesh[VectorLayout<2>::vector(static_cast<int>(a), 1)]));
-          left_over = std::max(left_over, std::abs(record.remainder));
-          work += std::abs(record.inlet_work);
-        });
+        march<P1AxisymmetricTriangle>(
+            setup, mesh, steps, [&, stores = stores](const State& state, const EnergyRecord& record) {
+              time = state.time;
+              gained = moved_volume(fluid, state.now.mesh) - before;
+              if (stores) gained += compliance * state.now.openings[0];
+              for (std::size_t a = 0; a < fluid.nodes.size(); ++a)
+                if (fluid.nodes[a][2] == 1)
+                  swept = std::max(swept, std::abs(state.now.mesh[VectorLayout<2>::vector(static_cast<int>(a), 1)]));
+              left_over = std::max(left_over, std::abs(record.remainder));
+              work += std::abs(record.inlet_work);
+            });
         const double given = 0.5 * (0.5 + (stores ? 0 : 0.3)) * time * time, error = std::abs(gained / given - 1);
         fmt::print("{}{}, {} steps: gained {:.6e} of {:.6e} mm^3, ends swept {:.1e} mm\n", scheme,
                    stores ? ", Windkessel" : "", steps, gained, given, swept);
