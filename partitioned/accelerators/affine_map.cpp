@@ -12,6 +12,7 @@ namespace {
 
 constexpr double little = 0.5;      // of what was not explained, that a guess of it should leave at most
 constexpr double rounding = 1e-10;  // of pairs, relative
+constexpr double hardly = 1e-3;  // of a residual that a pass leaves, what was not explained before: pairs are to blame
 
 using Matrix = Eigen::Map<const Eigen::MatrixXd>;
 
@@ -54,10 +55,25 @@ std::vector<double> AffineMap::correction(const std::vector<double>& r) {
   add(v_, along, unexplained_);
   step_ = unexplained_;
   if (before_.rank() > 0) axpy(1, before_.times(unexplained_), step_);
-  length_ = space_.norm(r);
-  std::vector<double> dx = step_;
-  add(w_, along, dx);
-  return dx;
+  corrected_ = r;
+  correction_ = step_;
+  add(w_, along, correction_);
+  return correction_;
+}
+
+void AffineMap::mend_pairs(const std::vector<double>& r) {
+  std::vector<double> change = r;
+  axpy(-1, corrected_, change);
+  std::vector<double> along = products(change);
+  const double square = dot(along, along);
+  if (square == 0) return;
+  scale(-1, along);
+  std::vector<double> lacking = correction_;
+  add(w_, along, lacking);
+  for (std::size_t j = 0; j < pairs_; ++j) {
+    const double part = -along[j] / square;
+    for (std::size_t i = 0; i < size_; ++i) w_[j * size_ + i] += part * lacking[i];
+  }
 }
 
 void AffineMap::learn(const std::vector<double>& r, double accuracy) {
@@ -67,14 +83,17 @@ void AffineMap::learn(const std::vector<double>& r, double accuracy) {
   // Where the guess of what was not explained has helped little, any pair is welcome, and L is no guide.
   const bool misled = space_.norm(r) > little * space_.norm(unexplained_);
   if (misled) before_.clear();
-  const double least = std::max(misled ? rounding : filter_, accuracy) * length_;
+  const double least = std::max(misled ? rounding : filter_, accuracy) * space_.norm(corrected_);
   if (!(space_.norm(v) > least)) return;
   std::vector<double> along = products(v);
   scale(-1, along);
   add(v_, along, v);
   add(w_, along, w);
   const double left = space_.norm(v);
-  if (!(left > least)) return;
+  if (!(left > least)) {
+    if (space_.norm(unexplained_) < hardly * space_.norm(r)) mend_pairs(r);
+    return;
+  }
   scale(1 / left, v);
   scale(1 / left, w);
   if (pairs_ < most_) {

@@ -15,6 +15,9 @@ namespace fsi {
 /// as S stays, so that what they span of a residual takes no further pass. The rest, u, is taken as a fixed-point
 /// iteration would, but for a map L of low rank that knows S as it was before:
 ///   x <- x - W V^T r + (1 + L) u,   u = r - V V^T r.
+/// A pair made of a small residual holds its rounding, and would leave a part of every residual that comes. Where the pairs
+/// had all of a residual and yet leave something, they change by what is the least, of rank one, that explains it:
+///   W <- W + (dx - W V^T dr) (V^T dr)^T / |V^T dr|^2        (the second method of [Broyden1965]).
 /// When S becomes another, pairs no longer hold and become part of L, which from then on maps v_j to -(w_j + v_j):
 ///   L <- L - (W + V + L V) V^T      (the multi-vector method, iqn_imvj.hpp).
 class AffineMap {
@@ -45,16 +48,17 @@ class AffineMap {
   std::vector<double> products(const std::vector<double>& r) const;
   void add(const Columns& columns, const std::vector<double>& weights, std::vector<double>& to) const;
   std::vector<double> column(const Columns& columns, std::size_t j) const;
+  /// Such that they explain what the last correction has led to, r.
+  void mend_pairs(const std::vector<double>& r);
 
   std::size_t most_;
   double filter_;
   InterfaceSpace space_;
   std::size_t size_ = 0, pairs_ = 0, next_ = 0;  ///< of a vector; at hand; the place of the next
   Columns w_, v_;
-  LowRankMap before_;                ///< L
-  std::vector<double> unexplained_;  ///< u of the last correction,
-  std::vector<double> step_;         ///< (1 + L) u,
-  double length_ = 0;                ///< and |r|
+  LowRankMap before_;                           ///< L
+  std::vector<double> corrected_, correction_;  ///< of the last correction r and the change of x,
+  std::vector<double> unexplained_, step_;      ///< u and (1 + L) u
 };
 
 }  // namespace fsi
