@@ -34,7 +34,7 @@ mkdir -p "$output" || fail "$output cannot be made: give another folder with -o"
 # configure LEVEL [OPTION...]: programs without the folders of this machine and without symbols, as cpack leaves its own.
 configure() {
   cmake -S . -B "$build/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DFSI_ARCH="x86-64-$1" -DFSI_PYTHON=/usr/bin/python3 \
-    -DFSI_TESTS=OFF -DFSI_BENCHMARKS=OFF "${@:2}"
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DFSI_TESTS=OFF -DFSI_BENCHMARKS=OFF "${@:2}"
 }
 for level in v3 v4; do
   echo "== x86-64-$level"
