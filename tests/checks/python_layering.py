@@ -27,6 +27,7 @@ FLOORS = (
     (
         "studies.accuracy",
         "studies.calibration",
+        "studies.references",
         "studies.coupling",
         "studies.paper",
         "studies.scaling",

@@ -16,6 +16,7 @@ MODULES = {
     "coupling": "coupling.study",
     "scaling": "scaling.study",
     "calibration": "calibration.study",
+    "references": "references.study",
     "scenes": "scenes",
     "runs": "plain_runs",
 }

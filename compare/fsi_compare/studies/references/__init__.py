@@ -1,0 +1,1 @@
+"""Kind `references`: known numbers by both drivers, with error bars."""

@@ -1,0 +1,95 @@
+"""Kind `references`: known numbers get bars from a family of runs, and what they are off by is counted in these."""
+
+import math
+import unittest
+import unittest.mock
+
+from fake_family import install
+from folder_case import FolderCase
+
+STUDY = """\
+title = "Known"
+kind = "references"
+time_limit = 60
+[cases]
+ring-in-time = { scene = "ring-in-time", set = { "time.step" = 0.5, "time.end" = 4.0 } }
+[methods.monolithic]
+program = "fsi-monolithic"
+[runs.own]
+[report.scenes]
+ring-in-time = { levels = 3 }
+"""
+
+
+def numbers(scene, runs):
+    """The fake's last displacement: beside its limit, beside twice that, and beside one that others know no
+    better than that; and its pressure, which is of second order in space."""
+    from fsi_compare.studies.gallery.scene import Number
+
+    found = []
+    for run in runs:
+        table = run.table("points.csv")
+        x, exact = float(table["displacement_x_mm"][-1]), math.sin(1.0)
+        found += [
+            Number("exact", "mm", run.program, x, exact, 0.1, "formula"),
+            Number("wrong", "mm", run.program, x, 2 * exact, 0.6, "formula"),
+            Number("vague", "mm", run.program, x, 2 * exact, 0.6, "published", spread=0.6),
+            Number("pressure", "Pa", run.program, float(table["pressure_Pa"][-1]), 100.0, 0.1, "formula"),
+        ]
+    return found
+
+
+class References(FolderCase):
+    def setUp(self):
+        super().setUp()
+        self.programs = install(self.base / "bin")
+        self.study = self.base / "known.toml"
+        for target, new in (
+            ("fsi_compare.reporting.report.Report.figure", unittest.mock.Mock()),
+            ("fsi_compare.studies.gallery.scene.Scene.numbers", numbers),
+        ):
+            patch = unittest.mock.patch(target, new)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def call_study(self, text):
+        self.study.write_text(text)
+        programs = [f"--{n}={self.programs / ('fsi-' + n)}" for n in ("monolithic", "partitioned")]
+        return self.call("study", self.study, "-o", self.out, *programs)
+
+    def test_what_a_number_is_off_by_is_counted_in_its_bar(self):
+        code, _, err = self.call_study(STUDY)
+        self.assertEqual(code, 0, err)
+        rows = {row["number"]: row for row in self.csv("references.csv")}
+        self.assertEqual(set(rows), {"exact", "wrong", "vague", "pressure"})
+        self.assertAlmostEqual(float(rows["exact"]["order_mesh"]), 3, delta=0.1)
+        self.assertAlmostEqual(float(rows["exact"]["order_step"]), 2, delta=0.1)
+        self.assertAlmostEqual(float(rows["pressure"]["order_mesh"]), 2, delta=0.1)
+        self.assertTrue(0.25 < float(rows["exact"]["in_bars"]) <= 1, rows["exact"])
+        self.assertGreater(float(rows["wrong"]["in_bars"]), 1)
+        text = (self.out / "report.md").read_text()
+        self.assertIn("4 have a bar", text)
+        self.assertIn("3 of these differ from what is known by no more", text)
+        self.assertIn("Furthest off: ring-in-time, wrong", text)
+
+    def test_a_finer_family_narrows_the_bar(self):
+        bars = []
+        for finer in ("false", "true"):
+            code, _, err = self.call_study(STUDY.replace("levels = 3", f"levels = 3, finer = {finer}"))
+            self.assertEqual(code, 0, err)
+            bars.append(float(next(row for row in self.csv("references.csv") if row["number"] == "exact")["bar"]))
+        self.assertLess(bars[1], bars[0])
+
+    def test_mistakes_are_named(self):
+        for old, new, said in (
+            ("levels = 3", 'finer = "yes"', "neither true nor false"),
+            ("ring-in-time = { levels", "other = { levels", "report.scenes.other: is no case"),
+            ("levels = 3", "meshes = 3", "meshes"),
+        ):
+            code, _, err = self.call_study(STUDY.replace(old, new))
+            self.assertEqual(code, 1)
+            self.assertIn(said, err)
+
+
+if __name__ == "__main__":
+    unittest.main()
