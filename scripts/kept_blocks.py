@@ -163,6 +163,57 @@ def both_drivers(rows: List[Row]) -> str:
     return "\n".join(lines)
 
 
+def references_verdict(rows: List[Row]) -> str:
+    """How many of the known numbers the bars hold."""
+    barred = [row for row in rows if row["bar"]]
+    held = [row for row in barred if _beyond(row) <= 1]
+    far = max(barred, key=_beyond)
+    lines = [
+        f"{len(barred)} of {len(rows)} numbers, each by each driver, have a bar. {len(held)} of these differ from the known value by no "
+        "more than their bar and what published values differ by among each other."
+    ]
+    if _beyond(far) > 1:
+        lines.append(
+            f"Furthest off is {far['number']} of `{far['scene']}` ({far['driver']}): {_digits(far['off'], 2)} {far['unit']}, "
+            f"{_digits(far['in_bars'], 2)} bars."
+        )
+    return "\n".join(lines)
+
+
+def references_table(rows: List[Row]) -> str:
+    """A line for each number, its drivers side by side."""
+    numbers: Dict[Tuple[str, str], Dict[str, Row]] = {}
+    for row in rows:
+        numbers.setdefault((row["scene"], row["number"]), {})[row["driver"]] = row
+    heads = ["scene", "number", "unit", "known", "from", "order in mesh, step"]
+    for driver in DRIVERS:
+        heads += [driver, "bar", "off in bars", "s"]
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    for (scene, number), of in numbers.items():
+        first = next(iter(of.values()))
+        orders = ", ".join(_digits(first[name], 2) if first[name] else "-" for name in ("order_mesh", "order_step"))
+        spread = f", they differ by {_digits(first['spread'], 2)} %" if first["spread"] else ""
+        cells = [f"`{scene}`", number, first["unit"], _digits(first["known"], 6), first["source"] + spread, orders]
+        for driver in DRIVERS:
+            row = of.get(driver)
+            if row is None:
+                cells += ["", "", "", ""]
+                continue
+            bar = [_digits(row["bar"], 2), _digits(row["in_bars"], 2)] if row["bar"] else ["none", ""]
+            cells += [_digits(row["value"], 6), *bar, _two_digits(row["seconds"])]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def _beyond(row: Row) -> float:
+    """What a number is off by over its bar and the spread of published values."""
+    return float(row["off"]) / (float(row["bar"]) + float(row["spread"] or 0) / 100 * abs(float(row["known"])))
+
+
+def _digits(number: str, digits: int) -> str:
+    return f"{float(number):.{digits}g}"
+
+
 def _a_step(row: Row, column: str) -> str:
     return f"{float(row[column]) / float(row['steps']):.1f}"
 
@@ -188,5 +239,14 @@ def _listed(names: List[str]) -> str:
 
 
 BLOCKS: Dict[str, Callable[[List[Row]], str]] = {
-    block.__name__: block for block in (drivers_verdict, drivers_table, drivers_why, artery_settings, both_drivers)
+    block.__name__: block
+    for block in (
+        drivers_verdict,
+        drivers_table,
+        drivers_why,
+        artery_settings,
+        both_drivers,
+        references_verdict,
+        references_table,
+    )
 }

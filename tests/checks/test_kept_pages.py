@@ -9,7 +9,15 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "scripts"))
 
-from kept_blocks import BlockError, drivers_table, drivers_verdict, drivers_why, pairs  # noqa: E402
+from kept_blocks import (  # noqa: E402
+    BlockError,
+    drivers_table,
+    drivers_verdict,
+    drivers_why,
+    pairs,
+    references_table,
+    references_verdict,
+)
 from kept_pages import PageError, like, loose_numbers, renewed, stale  # noqa: E402
 from kept_tables import read_table  # noqa: E402
 
@@ -177,6 +185,51 @@ class Drivers(unittest.TestCase):
     def test_a_driver_that_is_missing(self):
         with self.assertRaises(BlockError):
             drivers_table(DRIVERS[:1])
+
+
+class ReferencesPage(unittest.TestCase):
+    """Known numbers and how far both drivers are from them."""
+
+    def rows(self, **changed):
+        rows = []
+        for driver, value in (("monolithic", 1.001), ("partitioned", 1.004)):
+            row = {
+                "scene": "tube",
+                "number": "radius",
+                "unit": "mm",
+                "driver": driver,
+                "value": str(value),
+                "bar": "0.002",
+                "order_mesh": "2.97",
+                "order_step": "",
+                "known": "1.0",
+                "off": str(round(value - 1, 6)),
+                "in_bars": str((value - 1) / 0.002),
+                "spread": "",
+                "source": "formula",
+                "seconds": "3.14",
+            }
+            rows.append({**row, **changed})
+        return rows
+
+    def test_a_value_beyond_its_bar_is_named(self):
+        text = references_verdict(self.rows())
+        self.assertIn("2 of 2 numbers", text)
+        self.assertIn("1 of these differ", text)
+        self.assertIn("Furthest off is radius of `tube` (partitioned): 0.004 mm, 2 bars", text)
+
+    def test_what_published_values_differ_by_is_allowed(self):
+        text = references_verdict(self.rows(spread="0.5"))
+        self.assertIn("2 of these differ", text)
+        self.assertNotIn("Furthest", text)
+
+    def test_both_drivers_stand_in_one_line(self):
+        lines = references_table(self.rows()).splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertIn("| 1 | formula | 3, - | 1.001 | 0.002 | 0.5 | 3.1 | 1.004 | 0.002 | 2 | 3.1 |", lines[2])
+
+    def test_a_number_without_a_bar_says_so(self):
+        self.assertIn("| none |", references_table(self.rows(bar="")))
 
 
 if __name__ == "__main__":
