@@ -51,6 +51,10 @@ struct LoadingScene {
 /// \throws InputError
 template <int n>
 LoadedScene<n> load_scene(const Case& setup, const LoadingScene& loading = {});
+template <>
+LoadedScene<2> load_scene(const Case& setup, const LoadingScene& loading);
+template <>
+LoadedScene<3> load_scene(const Case& setup, const LoadingScene& loading);
 
 /// Components of the vectors of a case.
 inline int components_of(const Case& setup) {
