@@ -170,9 +170,11 @@ void read_constants(const CaseEntry& entry, const std::vector<std::string>& know
       const MaterialData& data = structure.layers.at(layer);
       const Parameter* parameter = constant_of_layer(data, key);
       if (parameter == nullptr) {
-        std::vector<std::string> names = known;
+        std::vector<std::string> names;
         for (const auto& p : materials().at(data.material).parameters) names.push_back(p.name);
         names.push_back(MaterialData::viscosity_key);
+        for (const auto& name : keys_of_shape(region.shape.kind)) names.push_back(name);
+        for (const char* name : {"layers", "material", "transition", "order"}) names.emplace_back(name);
         child.refuse(
             fmt::format("is no key of a region and no constant of {}, the material of {}", data.material, layer),
             name_remedy(key, names));

@@ -359,7 +359,7 @@ class BadFields(VaryingTest):
             (('"sphere"', '"ball"'), '"ball" is unknown'),
             (('["media"]', '["intima"]'), '"intima" is no layer'),
             (("c10 = 30.0", "c10 = -3.0"), "is not positive"),
-            (("c10 = 30.0", "k1 = 3.0"), "no constant of neo-hookean, the material of media; give layers, shape"),
+            (("c10 = 30.0", "k1 = 3.0"), "no constant of neo-hookean, the material of media; did you mean c10?"),
             (("c10 = 30.0\nviscosity = 2.0\n", ""), "has no constants"),
             (('name = "plaque"\n', ""), "name: missing"),
         ):
