@@ -110,7 +110,7 @@ TEST_F(Networks, AreRefusedWithOneMessage) {
       {to_ground + element("c", "resistor", "\"outlett\", \"ground\"", "resistance = 1"),
        "case.toml:26: network.element.c.between: nothing else is joined to the node \"outlett\", which is no "
        "[[opening]]: no fluid can "
-       "pass it; join it to one of inlet, outlet, outlett, ground, or give \"outlett\" an [[opening]]"},
+       "pass it; join it to one of inlet, outlet, ground, or give \"outlett\" an [[opening]]"},
       {element("a", "resistor", "\"x\", \"ground\"", "resistance = 1") +
            element("b", "resistor", "\"x\", \"ground\"", "resistance = 1"),
        "case.toml:13: network: joins no opening: none of its nodes has the name of one; there are the openings inlet "
