@@ -80,12 +80,14 @@ struct ConstantField {
   double within = 0;                            ///< mm, as PointField takes it
   std::shared_ptr<const FieldSamples> samples;  ///< read and checked
   std::string hash;                             ///< of them
+  std::string key{};                            ///< of the case, for messages; empty: that of the layer's constant
 };
 
 /// Constants towards which those of a layer go over in a region.
 struct ConstantBlend {
-  std::size_t region;      ///< of StructureData::regions
-  ParameterValues values;  ///< by the constant's key, `viscosity` among them
+  std::size_t region;                             ///< of StructureData::regions
+  ParameterValues values;                         ///< by the constant's key, `viscosity` among them
+  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold what stands for them
 };
 
 /// [structure.layers.NAME]
@@ -114,7 +116,8 @@ struct RegionData {
   double transition = 0;  ///< mm, width in which constants go over; 0: whole elements
   std::string hash;       ///< of what its file holds; empty: it has none
   ParameterValues values;
-  std::string material;  ///< in place of the layers'; empty: theirs
+  std::map<std::string, ConstantField> fields{};  ///< of those that vary there; `values` then hold what stands for them
+  std::string material;                           ///< in place of the layers'; empty: theirs
 };
 
 /// [structure]

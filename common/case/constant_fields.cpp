@@ -39,13 +39,16 @@ std::string hash_of(const FieldSamples& samples) {
   return hash.hex();
 }
 
-ConstantField read_field(const CaseEntry& entry, const Parameter& parameter) {
+}  // namespace
+
+ConstantField read_constant_field(const CaseEntry& entry, const Parameter& parameter) {
   refuse_unknown_keys(entry, {"file", "field", "within"});
   if (!entry.has("file")) entry.refuse_missing("file", fmt::format("add it ({})", about_file));
   if (!entry.has("field"))
     entry.refuse_missing("field", "add it (name of the array, or of the column of a .csv, that holds the constant)");
   const CaseEntry file = entry.child("file", about_file);
   ConstantField field;
+  field.key = entry.key();
   field.file = file_of_entry(file, about_file);
   field.field = entry.child("field", "name of an array or column").line();
   if (entry.has("within")) {
@@ -80,7 +83,7 @@ ConstantField read_field(const CaseEntry& entry, const Parameter& parameter) {
   return field;
 }
 
-/// Until the scene is built: the mean; of angles one that is neither end of their range, since fibres are turned from it.
+/// The mean; of angles one that is neither end of their range, since fibres are turned from it.
 double stand_in(const ConstantField& field, const Parameter& parameter) {
   if (parameter.name == "alpha") return 45;
   double sum = 0;
@@ -88,7 +91,10 @@ double stand_in(const ConstantField& field, const Parameter& parameter) {
   return sum / static_cast<double>(field.samples->values.size());
 }
 
-}  // namespace
+std::string text_of(const ConstantField& field) {
+  return fmt::format("field \"{}\" of {} points, hash {}, within {}", field.field, field.samples->values.size(),
+                     field.hash, field.within > 0 ? fmt::format("{}", field.within) : "chosen");
+}
 
 const Parameter& layer_viscosity_parameter() {
   static const Quantity unit{"kPa ms", {}};
@@ -104,7 +110,7 @@ const Parameter* constant_of_layer(const MaterialData& layer, const std::string&
 CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& parameter) {
   key.read = [read = key.read, parameter](const CaseEntry& entry, MaterialData& layer) {
     if (!entry.is_section()) return read(entry, layer);
-    ConstantField field = read_field(entry, parameter);
+    ConstantField field = read_constant_field(entry, parameter);
     const double standing = stand_in(field, parameter);
     (parameter.name == MaterialData::viscosity_key ? layer.viscosity : layer.values[parameter.name]) = standing;
     layer.fields[parameter.name] = std::move(field);
@@ -113,12 +119,7 @@ CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& param
                                                       std::vector<CaseValue>& values) {
     const auto found = layer.fields.find(name);
     if (found == layer.fields.end()) return list(layer, path, values);
-    const ConstantField& field = found->second;
-    values.push_back(
-        {path,
-         fmt::format("field \"{}\" of {} points, hash {}, within {}", field.field, field.samples->values.size(),
-                     field.hash, field.within > 0 ? fmt::format("{}", field.within) : "chosen"),
-         KeyRole::physics});
+    values.push_back({path, text_of(found->second), KeyRole::physics});
   };
   return key;
 }

@@ -9,6 +9,15 @@ namespace fsi {
 /// samples are read and checked here; until the scene is built the mean of them stands for the constant.
 CaseKey<MaterialData> may_vary(CaseKey<MaterialData> key, const Parameter& parameter);
 
+/// The file of a constant, { file = "NAME.vtu", field = "NAME" }, read and checked.
+ConstantField read_constant_field(const CaseEntry& entry, const Parameter& parameter);
+
+/// What stands for a constant that varies until the scene is built.
+double stand_in(const ConstantField& field, const Parameter& parameter);
+
+/// What decides of a field, for the case's hash.
+std::string text_of(const ConstantField& field);
+
 /// `viscosity` as a parameter of any layer.
 const Parameter& layer_viscosity_parameter();
 

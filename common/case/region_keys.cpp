@@ -148,7 +148,11 @@ MaterialData replaced_layer(const MaterialData& layer, const RegionData& region)
   for (const auto& [name, value] : region.values) {
     (name == MaterialData::viscosity_key ? part.viscosity : part.values[name]) = value;
     part.fields.erase(name);
-    for (auto& blend : part.blends) blend.values.erase(name);
+    if (const auto field = region.fields.find(name); field != region.fields.end()) part.fields.insert(*field);
+    for (auto& blend : part.blends) {
+      blend.values.erase(name);
+      blend.fields.erase(name);
+    }
   }
   part.blends.erase(
       std::remove_if(part.blends.begin(), part.blends.end(), [](const auto& b) { return b.values.empty(); }),
@@ -166,12 +170,20 @@ void read_constants(const CaseEntry& entry, const std::vector<std::string>& know
       const MaterialData& data = structure.layers.at(layer);
       const Parameter* parameter = constant_of_layer(data, key);
       if (parameter == nullptr) {
-        std::vector<std::string> names = known;
+        std::vector<std::string> names;
         for (const auto& p : materials().at(data.material).parameters) names.push_back(p.name);
         names.push_back(MaterialData::viscosity_key);
+        for (const auto& name : keys_of_shape(region.shape.kind)) names.push_back(name);
+        for (const char* name : {"layers", "material", "transition", "order"}) names.emplace_back(name);
         child.refuse(
             fmt::format("is no key of a region and no constant of {}, the material of {}", data.material, layer),
             name_remedy(key, names));
+      }
+      if (child.is_section()) {
+        ConstantField field = read_constant_field(child, *parameter);
+        region.values[key] = stand_in(field, *parameter);
+        region.fields[key] = std::move(field);
+        continue;
       }
       const double value = child.number(*parameter->quantity);
       if (!parameter->bounds.contains(value))
@@ -197,10 +209,7 @@ void apply(const CaseEntry& entry, const RegionData& region, const MaterialData*
       check_whole(entry, name, replaced_layer(layer, region));
       for (auto& [other, data] : structure.layers)
         if (other == name || data.part_of == name) {
-          ParameterValues values;
-          for (const auto& [key, value] : region.values)
-            if (data.material == layer.material) values[key] = value;
-          if (!values.empty()) data.blends.push_back({number, std::move(values)});
+          if (data.material == layer.material) data.blends.push_back({number, region.values, region.fields});
         }
       continue;
     }
@@ -241,7 +250,7 @@ void read_region(const CaseEntry& entry, StructureData& structure, RegionInput& 
   region.material = material.material;
   region.values = material.values;
   if (material.viscosity > 0) region.values[MaterialData::viscosity_key] = material.viscosity;
-  if (material.varies()) entry.refuse("has constants that vary", "give numbers");
+  region.fields = material.fields;
   if (!material.maxwell.empty())
     entry.child("maxwell").refuse("stands in a region",
                                   "make its branches those of a layer: give it a volume of the mesh");
@@ -258,6 +267,11 @@ CaseKey<StructureData> regions_key() {
       "with a material";
   for (const auto& child : region_keys())
     key.below.push_back({"region.NAME." + child.name, child.about, child.required});
+  key.below.push_back(
+      {"region.NAME.CONSTANT",
+       "a constant of the layers that is another there: a number, or { file = \"FILE\", field = \"NAME\" } "
+       "as in a layer",
+       optional});
   key.read = [](const CaseEntry& entry, StructureData& structure) {
     std::vector<std::pair<int, CaseEntry>> ordered;
     for (const auto& child : entry.children()) {
@@ -286,7 +300,9 @@ CaseKey<StructureData> regions_key() {
           child.list(input, here + child.name, values);
       if (!region.material.empty()) values.push_back({here + "material", region.material, KeyRole::physics});
       for (const auto& [name, value] : region.values)
-        values.push_back({here + name, fmt::format("{}", value), KeyRole::physics});
+        values.push_back({here + name,
+                          region.fields.count(name) > 0 ? text_of(region.fields.at(name)) : fmt::format("{}", value),
+                          KeyRole::physics});
     }
   };
   return key;

@@ -47,13 +47,15 @@ Fault ends(const Network& network) {
       return NetworkFault{element.name, "between", "begins at the ground, and what it stores is where it begins",
                           "give \"ground\" as the second node"};
   for (std::size_t i = network.openings(); i < network.nodes().size(); ++i)
-    if (const auto at = elements_at(network, static_cast<int>(i)); at.size() == 1)
+    if (const auto at = elements_at(network, static_cast<int>(i)); at.size() == 1) {
+      known.erase(std::remove(known.begin(), known.end(), network.nodes()[i]), known.end());
       return NetworkFault{
           at.front()->name, "between",
           fmt::format("nothing else is joined to the node \"{}\", which is no [[opening]]: no fluid can pass it",
                       network.nodes()[i]),
           fmt::format("join it to one of {}, or give \"{}\" an [[opening]]", fmt::join(known, ", "),
                       network.nodes()[i])};
+    }
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "base/printable.hpp"
 #include "base/standard_streams.hpp"
@@ -18,6 +19,19 @@
 namespace fsi {
 
 namespace {
+
+nlohmann::json described(const std::vector<VaryingConstant>& constants) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& c : constants)
+    list.push_back({{"layer", c.layer},
+                    {"constant", c.constant},
+                    {"unit", c.unit},
+                    {"smallest", c.smallest},
+                    {"largest", c.largest},
+                    {"mean", c.mean},
+                    {"sources", c.sources}});
+  return list;
+}
 
 /// The time scheme, and steps at the end that are shorter.
 template <int n>
@@ -66,6 +80,7 @@ void announce(RunParts<n>& parts, const RunCheckpoints<n>& checkpoints, Console&
     log.info(fmt::format("{} = {}: {}", choice.key, choice.value, choice.reason));
     summary["choices"][choice.key] = {{"value", choice.value}, {"reason", choice.reason}};
   }
+  if (!parts.scene.varying_constants.empty()) summary["varying_constants"] = described(parts.scene.varying_constants);
   for (const auto& warning : parts.setup.warnings) log.warning(warning);
   parts.loading.write_to(log);
   for (const auto& notice : parts.scene.notices) {

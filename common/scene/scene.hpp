@@ -19,6 +19,7 @@
 #include "parallel/whole_order.hpp"
 #include "scene/dirichlet_conditions.hpp"
 #include "scene/prescribed_inflow.hpp"
+#include "scene/varying_constant.hpp"
 #include "time/time_integrator.hpp"
 #include "wall/wall.hpp"
 
@@ -67,7 +68,8 @@ class Scene {
   std::optional<InitialLoad> initial_load;
   /// Of the constants that are not the same in the whole wall, by name: their means in the wall's cells here.
   std::map<std::string, std::vector<double>> wall_constants;
-  std::optional<WholeOrder> wall_cell_order;  ///< of those cells, where processes share them
+  std::optional<WholeOrder> wall_cell_order;       ///< of those cells, where processes share them
+  std::vector<VaryingConstant> varying_constants;  ///< those that vary within a layer
   std::vector<std::string> notices;  ///< what was taken in place of what the case asks for, sentences for the user
   std::vector<std::string> remarks;  ///< what else a user may want to know of it, for the log
   int predictor = 1;                 ///< order of the extrapolated start of each step

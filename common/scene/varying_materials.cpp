@@ -66,7 +66,9 @@ class LayerConstants {
       ranges_[key];
     }
     for (const auto& blend : data.blends) {
-      blends_.push_back({&blend, RegionWeight(setup.structure->regions[blend.region]), 0});
+      std::map<std::string, PointField> fields;
+      for (const auto& [key, field] : blend.fields) fields.emplace(key, PointField(*field.samples, field.within));
+      blends_.push_back({&blend, RegionWeight(setup.structure->regions[blend.region]), std::move(fields), 0});
       for (const auto& [key, value] : blend.values) ranges_[key];
     }
   }
@@ -90,11 +92,18 @@ class LayerConstants {
              std::set<std::size_t>& in) {
     ParameterValues& values = values_;
     for (const auto& [key, range] : ranges_) values[key] = base_.at(key);
-    for (const auto& [key, field] : fields_) values[key] = from_file(key, field, x);
+    for (const auto& [key, field] : fields_) values[key] = from_file(key, data_.fields.at(key), field, x);
     for (std::size_t b = 0; b < blends_.size(); ++b) {
-      const double w = blends_[b].region(x);
-      if (w > 0) in.insert(b);
-      for (const auto& [key, value] : blends_[b].blend->values) values[key] += w * (value - values[key]);
+      const Blend& blend = blends_[b];
+      const double w = blend.region(x);
+      if (!(w > 0)) continue;
+      in.insert(b);
+      for (const auto& [key, number] : blend.data->values) {
+        const auto field = blend.fields.find(key);
+        const double value =
+            field == blend.fields.end() ? number : from_file(key, blend.data->fields.at(key), field->second, x);
+        values[key] += w * (value - values[key]);
+      }
     }
     for (auto& [key, range] : ranges_) {
       mean[key] += weight * values.at(key);
@@ -125,14 +134,15 @@ class LayerConstants {
 
  private:
   struct Blend {
-    const ConstantBlend* blend;
+    const ConstantBlend* data;
     RegionWeight region;
+    std::map<std::string, PointField> fields;  ///< of the constants that vary in the region
     std::int64_t elements;
   };
 
-  double from_file(const std::string& key, const PointField& field, const Point& x) const {
+  double from_file(const std::string& key, const ConstantField& data, const PointField& field, const Point& x) const {
     if (const auto value = field.at(x)) return *value;
-    throw InputError(data_.fields.at(key).file.string(), "structure.layers." + name_ + "." + key,
+    throw InputError(data.file.string(), data.key.empty() ? "structure.layers." + name_ + "." + key : data.key,
                      fmt::format("has a hole at {}: the nearest value is {:.3g} mm away, {:.3g} mm are allowed",
                                  place_of(x), field.distance_to(x), field.within()),
                      "give values there, too, or a larger within = ... beside file");
@@ -174,24 +184,46 @@ std::string unit_of(const MaterialData& data, const std::string& key) {
   return parameter == nullptr ? "" : parameter->quantity->unit;
 }
 
+/// The file and the regions that say what a constant is.
+std::vector<std::string> sources_of(const StructureData& structure, const MaterialData& data, const std::string& key) {
+  std::vector<std::string> names;
+  if (const auto field = data.fields.find(key); field != data.fields.end())
+    names.push_back(field->second.file.filename().string());
+  for (const auto& blend : data.blends)
+    if (blend.values.count(key) > 0) {
+      names.push_back("region " + structure.regions[blend.region].name);
+      if (const auto field = blend.fields.find(key); field != blend.fields.end())
+        names.push_back(field->second.file.filename().string());
+    }
+  return names;
+}
+
 /// Brings what processes have counted together, and tells the scene of it.
+template <int n>
 void report(const Case& setup, const std::string& name, const MaterialData& data, LayerConstants& constants,
-            const Communicator& processes, std::vector<std::string>& remarks) {
+            const Communicator& processes, Scene<n>& scene) {
   constants.volume = processes.sum(constants.volume);
   for (auto& [key, range] : constants.ranges()) {
     range.integral = processes.sum(range.integral);
     range.smallest = processes.smallest(range.smallest);
     range.largest = processes.largest(range.largest);
-    remarks.push_back(fmt::format("structure.layers.{}.{} varies from {:.4g} to {:.4g} {}, mean {:.4g}", name, key,
-                                  range.smallest, range.largest, unit_of(data, key),
-                                  range.integral / constants.volume));
+    const VaryingConstant said{name,
+                               key,
+                               unit_of(data, key),
+                               range.smallest,
+                               range.largest,
+                               range.integral / constants.volume,
+                               sources_of(*setup.structure, data, key)};
+    scene.remarks.push_back(fmt::format("structure.layers.{}.{} varies from {:.4g} to {:.4g} {}, mean {:.4g}", name,
+                                        key, said.smallest, said.largest, said.unit, said.mean));
+    scene.varying_constants.push_back(said);
   }
   const auto counts = constants.elements_of_blends();
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string& region = setup.structure->regions[data.blends[i].region].name;
     const std::int64_t count = processes.sum(counts[i]);
     if (count > 0)
-      remarks.push_back(fmt::format("structure.region.{}: reaches {} elements of {}", region, count, name));
+      scene.remarks.push_back(fmt::format("structure.region.{}: reaches {} elements of {}", region, count, name));
     else if (data.part_of.empty())
       throw InputError(setup.path.string(), "structure.region." + region,
                        fmt::format("no element of {} lies in it", name),
@@ -251,7 +283,7 @@ void vary_materials(const Case& setup, WallProblem<Element>& wall, Scene<Element
       problem = error.what();
     }
     agree(part.processes(), problem);
-    report(setup, name, data, constants, part.processes(), scene.remarks);
+    report(setup, name, data, constants, part.processes(), scene);
     const auto [material, viscosity] = constants.mean();
     wall.set_mean(layer, material, viscosity);
   }

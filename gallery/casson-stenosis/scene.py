@@ -6,7 +6,8 @@ Where the vessel is straight it takes 1.48 times the pressure that the plastic v
 throat, where the shear rate is many times larger, far less.
 
 In front of the stenosis flow and pressure gradient are those of Casson's pipe flow, which has a closed form; so has
-the shear stress at the wall. The force on the whole wall balances what the pressures at both ends press.
+the shear stress at the wall. The force on the whole wall balances what the pressures at both ends press. The picture has
+the profile of the velocity there beside the exact one, and the shear stress along the wall.
 """
 
 import numpy as np
@@ -55,6 +56,27 @@ def shear_at_wall(run):
     return fluid.points[order, 2], 1000 * size
 
 
+def exact_velocity(r):
+    """Axial, in mm/ms, at the radius r in mm of the straight vessel, tau = tau_w r / R. Where tau exceeds the yield stress,
+    mu du/dr = -(sqrt(tau) - sqrt(tau_y))^2; so with s = max(r, R tau_y / tau_w)
+    u = 1/mu (tau_w (R^2 - s^2) / (2 R) - 4/3 sqrt(tau_y tau_w / R) (R^(3/2) - s^(3/2)) + tau_y (R - s))."""
+    wall = exact_stress()
+    s = np.maximum(r, RADIUS * YIELD / wall)
+    return (
+        wall * (RADIUS**2 - s**2) / (2 * RADIUS)
+        - 4 / 3 * np.sqrt(YIELD * wall / RADIUS) * (RADIUS**1.5 - s**1.5)
+        + YIELD * (RADIUS - s)
+    ) / PLASTIC
+
+
+def velocity_across(run, z=9.0, near=0.2):
+    """Radii in mm and axial velocity in mm/ms at the nodes about a cross-section."""
+    fluid = run.results.fields["fluid"]
+    there = np.abs(fluid.points[:, 2] - z) < near
+    velocity = np.asarray(fluid.at(fluid.times[-1], "velocity"))
+    return np.hypot(fluid.points[there, 0], fluid.points[there, 1]), velocity[there, 2]
+
+
 def drop(run):
     """Of the pressure between the two planes in Pa."""
     planes = run.table("planes.csv").groups("plane")
@@ -94,12 +116,26 @@ def numbers(runs):
 
 def draw(runs):
     figure = Figure(figsize=(6.4, 3.2), layout="constrained")
-    axes = figure.add_subplot()
+    across, axes = figure.subplots(1, 2, width_ratios=(2, 3))
+    r = np.linspace(0, RADIUS, 101)
+    across.plot(*velocity_across(runs.first), ".", color="black", label=runs.first.program)
+    across.plot(r, exact_velocity(r), "-", color="tab:orange", label="Casson, exact")
+    across.plot(
+        r,
+        2 * FLOW / (np.pi * RADIUS**2) * (1 - (r / RADIUS) ** 2),
+        "--",
+        color="tab:gray",
+        label="without yield stress",
+    )
+    across.set_xlabel("r, 9 mm behind the inlet [mm]")
+    across.set_ylabel("axial velocity [mm/ms]")
+    across.set_ylim(bottom=0)
+    across.legend(fontsize="small")
     z, shear = shear_at_wall(runs.first)
     axes.plot(z, shear, "-", color="black", label=runs.first.program)
-    axes.axhline(1000 * exact_stress(), color="black", linestyle=":", label="Casson, straight vessel")
-    axes.axhline(1000 * poiseuille(), color="tab:gray", linestyle="--", label="without yield stress, straight vessel")
+    axes.axhline(1000 * exact_stress(), color="tab:orange", label="Casson, straight vessel")
+    axes.axhline(1000 * poiseuille(), color="tab:gray", linestyle="--", label="without yield stress")
     axes.set_xlabel("z [mm]")
     axes.set_ylabel("shear stress at the wall [Pa]")
-    axes.legend()
+    axes.legend(fontsize="small")
     return figure

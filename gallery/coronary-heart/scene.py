@@ -7,6 +7,12 @@ back to the ventricle, whose pressure squeezes them, so that the artery's flow i
 
 The loop is closed, and its volume stays what it is. Once a beat is like the one before, the mean flow through the artery is the mean
 difference of pressure between its outlet and the veins over the resistances between the two.
+
+`fsi-compare verify` with the first two beats (`end = 1600.0`) gives, by the monolithic driver: flow at the outlet at
+the end 0.7293 ± 0.0001 mm^3/ms, which converges as its elements do; L2 norms over time of the flow there, 1.137 ±
+0.003 mm^3/ms, and of its mean pressure, 12.751 ± 0.015 kPa, and the largest radial displacement of the inner wall,
+0.0841 ± 0.0005 mm, whose bars are widened. The largest and smallest flow at the outlet are not in the range where an
+error can be given; `verify` asks for steps shorter than 4 ms.
 """
 
 import numpy as np

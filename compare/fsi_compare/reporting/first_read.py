@@ -181,6 +181,66 @@ def trust_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
     return Table("trust", "Whether it can be trusted", TRUST, list(zip(labels, runs)), notes=notes)
 
 
+class Varying(NamedTuple):
+    """A constant of a layer that fields or regions let vary."""
+
+    run: str
+    layer: str
+    constant: str
+    unit: str
+    smallest: Optional[float]
+    mean: Optional[float]
+    largest: Optional[float]
+    sources: str
+
+
+CONSTANTS: Sequence[Column[Varying]] = (
+    Column("run", "run", lambda v: v.run, left=True),
+    Column("layer", "layer", lambda v: v.layer, left=True),
+    Column("constant", "constant", lambda v: v.constant, left=True),
+    Column("smallest", "smallest", lambda v: v.smallest, ".4g", group="over the layer"),
+    Column("mean", "mean", lambda v: v.mean, ".4g", group="over the layer"),
+    Column("largest", "largest", lambda v: v.largest, ".4g", group="over the layer"),
+    Column("unit", "unit", lambda v: v.unit, left=True),
+    Column("from", "sources", lambda v: v.sources, left=True),
+)
+
+
+def constants_table(runs: Sequence[RunResults], labels: Sequence[str]) -> Table:
+    """Empty where no constant of the wall varies within a layer."""
+    records = []
+    for run, label in zip(runs, labels):
+        found = run.summary.get("varying_constants")
+        for entry in found if isinstance(found, list) else ():
+            if not isinstance(entry, dict):
+                continue
+            sources = entry.get("sources")
+            names = sources if isinstance(sources, list) else []
+            records.append(
+                Varying(
+                    label,
+                    _word(entry, "layer"),
+                    _word(entry, "constant"),
+                    _word(entry, "unit"),
+                    _number(entry, "smallest"),
+                    _number(entry, "mean"),
+                    _number(entry, "largest"),
+                    ", ".join(printable(str(name)) for name in names),
+                )
+            )
+    note = "Over the layer's quadrature points; the mean is that over its volume."
+    return Table("constants", "Constants of the wall that vary", CONSTANTS, records, notes=[note])
+
+
+def _word(entry: Dict[str, Any], name: str) -> str:
+    return printable(str(entry.get(name, "")))
+
+
+def _number(entry: Dict[str, Any], name: str) -> Optional[float]:
+    value = entry.get(name)
+    return float(value) if isinstance(value, (int, float)) else None
+
+
 class OfOpening(NamedTuple):
     run: str
     opening: Opening

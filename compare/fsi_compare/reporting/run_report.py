@@ -13,9 +13,9 @@ from ..runs.differences import Difference
 from ..runs.labels import folder_labels, read_labels
 from ..runs.samples import CENTRE_LINE
 from ..runs.work_units import NOTE, about_machines, per_step
-from .column import Column
+from .column import Column, Facts
 from .error_bars import add_error_bars, find_bars
-from .first_read import case_lines, cost_table, cycles_table, openings_table, trust_table
+from .first_read import case_lines, constants_table, cost_table, cycles_table, openings_table, trust_table
 from .layout import Table, say_written
 from .matplotlib_loader import load_matplotlib
 from .pressure import MOST_TIMES, read_times
@@ -103,7 +103,7 @@ def add_first_read(page: "Report", runs: Sequence[RunResults], labels: Sequence[
     page.list(case_lines(runs, labels))
     page.table(runs_table(runs, labels))
     page.table(trust_table(runs, labels))
-    for table in (openings_table(runs, labels), cycles_table(runs, labels)):
+    for table in (openings_table(runs, labels), cycles_table(runs, labels), constants_table(runs, labels)):
         if table.rows:
             page.table(table)
     page.table(cost_table(runs, labels))
@@ -171,11 +171,14 @@ def end_of(run: RunResults) -> Optional[float]:
 def add_differences(page: "Report", lines: Table, samples: Table) -> None:
     """Along the lines that `fsi-compare pressure` compares, where runs have them, and of all samples. One of them may be
     empty; where both are, the first says so."""
+    samples.facts = Facts(samples.columns, samples.records)  # the CSV has all
+    samples.records = [(label, found) for label, found in samples.records if found.largest != 0 or found.size != 0]
     if lines.rows or not samples.rows:
         page.table(lines)
     samples.title += " in flows, openings, points, lines and planes"
     samples.notes.append(
-        "Of all times that both runs have, in the unit of the column. `of`: the largest value of the first run."
+        "Of all times that both runs have, in the unit of the column. `of`: the largest value of the first run. What is zero in both is in "
+        "the CSV only."
     )
     if len(samples.rows) > MOST_ROWS:
         page.folded(samples.title, [samples])

@@ -115,6 +115,7 @@ class ReportScene:
             "runs": [self._run(run) for run in self.runs],
             "quantities": self._quantities(),
             "first": self.runs[0].scene.first,
+            "start": self.runs[0].scene.peak(self.runs[0].scene.first),
             "views": self._views(),
             "plane": self._plane(),
             "box": self._box(),

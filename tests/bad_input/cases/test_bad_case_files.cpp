@@ -212,6 +212,9 @@ const std::vector<BadCase>& bad_cases() {
       {"C01Negative", coupled_case, "c01 = 0.2", "c01 = -0.2",
        "case.toml:20: structure.layers.adventitia.c01: -0.2 is negative; give a number >= 0 (second isotropic "
        "stiffness in kPa)"},
+      {"LayerViscosityNegative", coupled_case, "c01 = 0.2", "c01 = 0.2\nviscosity = -1",
+       "case.toml:21: structure.layers.adventitia.viscosity: -1 is negative; give a number >= 0 (of any material: eta "
+       "in kPa ms of a stress eta dE/dt beside the elastic one, default 0)"},
       {"K1Negative", coupled_case, "k1 = 2.3632", "k1 = -2.3632",
        "case.toml:14: structure.layers.media.k1: -2.3632 is negative; give a number >= 0 (fibre stiffness in kPa)"},
       {"K2Zero", coupled_case, "k2 = 0.8393", "k2 = 0",

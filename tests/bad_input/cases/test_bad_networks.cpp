@@ -110,7 +110,7 @@ TEST_F(Networks, AreRefusedWithOneMessage) {
       {to_ground + element("c", "resistor", "\"outlett\", \"ground\"", "resistance = 1"),
        "case.toml:26: network.element.c.between: nothing else is joined to the node \"outlett\", which is no "
        "[[opening]]: no fluid can "
-       "pass it; join it to one of inlet, outlet, outlett, ground, or give \"outlett\" an [[opening]]"},
+       "pass it; join it to one of inlet, outlet, ground, or give \"outlett\" an [[opening]]"},
       {element("a", "resistor", "\"x\", \"ground\"", "resistance = 1") +
            element("b", "resistor", "\"x\", \"ground\"", "resistance = 1"),
        "case.toml:13: network: joins no opening: none of its nodes has the name of one; there are the openings inlet "
@@ -129,6 +129,14 @@ TEST_F(Networks, AreRefusedWithOneMessage) {
        "case.toml:17: network.element.a.pressure: jumps, also where a period ends with another value than it begins "
        "with; let it "
        "change within a time that a few steps resolve"},
+      {element("a", "elastance", "\"inlet\", \"ground\"", "elastance = { file = \"e.csv\" }\nperiod = 8\n" + volume),
+       "e.csv: no such file; give a CSV file with a header and two columns, time in ms and elastance in kPa/mm^3"},
+      {element("a", "pressure", "\"inlet\", \"ground\"", "pressure = 1") +
+           element("b", "pressure", "\"inlet\", \"ground\"", "pressure = 2") +
+           element("c", "resistor", "\"outlet\", \"ground\"", "resistance = 1"),
+       "case.toml:21: network.element.b.between: closes a loop of elements that each give a difference of pressure "
+       "(sources, capacitors, elastances): it is over-determined; put a resistor into the loop, or replace these "
+       "elements by one"},
       {element("a", "elastance", "\"inlet\", \"ground\"", "elastance = [[0, 1], [1, 0]]\n" + volume),
        "case.toml:17: network.element.a.elastance: is 0 at 1 ms, which is not positive; give elastances > 0"},
       {element("a", "chamber", "\"inlet\", \"ground\"",

@@ -26,7 +26,7 @@ from fsi_compare.drawing.camera import Camera
 from fsi_compare.drawing.colours import scale_of, scale_of_difference
 from fsi_compare.drawing.raster import BACKGROUND, Mesh, rendered
 from fsi_compare.drawing.sweep import OPEN, swept
-from fsi_compare.reporting.first_read import periodic_end
+from fsi_compare.reporting.first_read import constants_table, periodic_end
 from fsi_compare.reporting.scene_packing import NONE, packed_counts, packed_numbers
 from fsi_compare.reporting.scene_thinning import clustered
 from fsi_compare.results.boundary import boundary_of, normals_of
@@ -254,6 +254,21 @@ class PeriodicEnd(FolderCase):
         )
         self.assertEqual(self.said("short", period_ms=12, asked=0.01, changes=[]), "no two periods were compared")
         self.assertEqual(periodic_end(open_run(write_run(self.base / "other", lambda t, z: z + t))), "")
+
+
+class VaryingConstants(FolderCase):
+    def test_ranges_and_sources_of_constants_that_vary(self):
+        ends = {"smallest": 0.3, "largest": 30.0, "mean": 4.25}
+        entry = {"layer": "media", "constant": "c10", "unit": "kPa", **ends, "sources": ["c.csv", "region plaque"]}
+        entries = [entry, {"layer": "media", "mean": "NaN"}, 3]
+        runs = [
+            open_run(write_run(self.base / name, lambda t, z: z + t, **summary))
+            for name, summary in (("of", {"varying_constants": entries}), ("no", {}), ("bad", {"varying_constants": 1}))
+        ]
+        table = constants_table(runs, ["of", "no", "bad"])
+        self.assertEqual(table.rows[0], ["of", "media", "c10", "0.3", "4.25", "30", "kPa", "c.csv, region plaque"])
+        self.assertEqual(table.rows[1:], [["of", "media", "", "-", "-", "-", "", ""]])
+        self.assertEqual(constants_table(runs[1:], ["no", "bad"]).rows, [])
 
 
 class Command(FolderCase):

@@ -16,11 +16,13 @@ from browser import PROGRAM, Browser
 from folder_case import FolderCase
 from matplotlib.image import imread
 from synthetic import write_run
-from synthetic_fields import TIMES, channel, write_fields, write_turned
+from synthetic_fields import TIMES, channel, channel_fields, write_fields, write_turned
 from test_report import outside_references
 
 from fsi_compare import open_run
 from fsi_compare.reporting import vessel_library
+from fsi_compare.reporting.scene import ReportScene
+from fsi_compare.reporting.vessel import vessel_of
 from fsi_compare.reporting.vessel_library import PROGRAM as THREE
 from fsi_compare.start import main
 
@@ -29,7 +31,7 @@ VESSEL = "document.querySelector('.vessel').vessel"
 READY = "new Promise(done => (function look() { document.querySelector('.vessel').dataset.ready ? done(true) : setTimeout(look, 20); })())"
 AS_OPENED = (
     "(v => { v.play(false); Object.assign(v.state, { quantity: v.data.first, show: 'all', factor: 1, unit: '', cut: false, "
-    "time: v.times.length - 1, swept: false, on: {} }); v.fieldList.value = v.data.first; v.runList.value = 'all'; "
+    "time: v.nearest(v.data.start), swept: false, on: {} }); v.fieldList.value = v.data.first; v.runList.value = 'all'; "
     "v.viewList.value = 0; v.ownUnit(); v.look(v.data.views[0]); v.pick(null); return v.rebuild(); })(%s)" % VESSEL
 )
 DRAWN = (
@@ -105,6 +107,20 @@ class Made(FolderCase):
         apart = {row["quantity"]: row for row in self.csv("field_differences.csv")}
         self.assertAlmostEqual(float(apart["pressure"]["largest_difference"]), 0.25 * 2)
         self.assertEqual(float(apart["displacement"]["largest_difference"]), 0)
+        samples = {(row["sample"], row["column"]): row for row in self.csv("sample_differences.csv")}
+        self.assertEqual(float(samples["out", "windkessel_pressure_Pa"]["largest_value"]), 0)
+        self.assertNotIn("windkessel_pressure_Pa", without_library(page), "zero in both runs")
+        self.assertIn("mean_pressure_Pa", without_library(page))
+
+    def test_opens_when_its_field_is_largest(self):
+        one, _ = write_channels(self.base)
+        fields = {
+            medium: {name: (unit, lambda x, t, of=of: of(x, t * (5 - t))) for name, (unit, of) in there.items()}
+            for medium, there in channel_fields().items()
+        }
+        write_fields(one, fields=fields, times=np.arange(6.0))
+        scene = ReportScene(["one"], vessel_of([open_run(one)], ["one"]).scenes)
+        self.assertIn(scene.values()["content"]["start"], (2.0, 3.0))
 
     def test_another_mesh(self):
         one, two = write_channels(self.base)

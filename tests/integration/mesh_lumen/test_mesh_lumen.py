@@ -240,6 +240,8 @@ class MeshLumen(FolderTest):
         (self.base / "lumen.stl").write_bytes((self.base / "lumen.stl").read_bytes()[:5000])
         self.expect(self.lumen(*named), "lumen.stl", "cannot be read as .stl")
         self.expect(self.lumen(*named, name="none.stl"), "no such file")
+        (self.base / "empty.stl").touch()
+        self.expect(self.lumen(*named, name="empty.stl"), "empty.stl: holds no triangles")
         (self.base / "lumen.vtp").write_text("<VTKFile")
         self.expect(self.lumen(*named, name="lumen.vtp"), "lumen.vtp: is no XML")
 

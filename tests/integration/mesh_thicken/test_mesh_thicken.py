@@ -266,6 +266,7 @@ class MeshThicken(FolderTest):
             (self.table(hole), ("wall.csv: thickness: has a hole at (", "the nearest point is")),
             (self.table(line[:10], "short.csv"), ("short.csv: thickness: has a hole at (", "mm are allowed")),
             (self.table(unknown, "unknown.csv"), ("has a hole at (", "the value there is nan")),
+            (self.table([(*row[:3], -0.1) for row in around], "minus.csv"), ("the value there is -0.1", "above 0")),
             (
                 self.table([(0, 0, 0, "thick"), (0, 0, 1, 1)], "text.csv"),
                 ("text.csv: line 2, thickness: 'thick' is no number",),

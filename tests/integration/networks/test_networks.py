@@ -208,8 +208,9 @@ class Networks(FolderTest):
             ("three", (), {"processes": 3}),
         ):
             self.assert_alike(self.march(MONOLITHIC, name, *settings, *more, case=case, **how), whole, 1e-7)
-        shared = self.march(PARTITIONED, "shared", *settings, case=case, processes=2)
-        self.assert_alike(shared, whole, 1e-7)
+        for processes in (2, 3):
+            shared = self.march(PARTITIONED, f"shared{processes}", *settings, case=case, processes=processes)
+            self.assert_alike(shared, whole, 1e-7)
 
     def test_a_valve_that_chatters_is_named(self):
         """Long steps in a rigid tube with much flow, and few iterations for them."""

@@ -149,5 +149,26 @@ class PeriodicEnd(FolderTest):
                 self.assertFalse((self.base / "refused").exists())
 
 
+class Shared(FolderTest):
+    """Several processes."""
+
+    def test_several_processes_see_the_same_changes(self):
+        settings = (f"mesh.file={make_mesh(self.base / 'small.msh', *SECTION)}",)
+        for program, processes in zip(DRIVERS, (3, 2)):
+            alone = run(program, CASE, self.base / "alone", *settings)
+            together = run(program, CASE, self.base / "together", *settings, processes=processes)
+            self.assert_same_changes(alone, together)
+        begun = run(MONOLITHIC, CASE, self.base / "begun", *settings, "time.end=31", processes=2)
+        restart(MONOLITHIC, CASE, begun, *settings)
+        self.assert_same_changes(run(MONOLITHIC, CASE, self.base / "whole", *settings), begun)
+
+    def assert_same_changes(self, one, other):
+        a, b = (summary(folder)["periodicity"]["changes"] for folder in (one, other))
+        self.assertEqual([c["end_ms"] for c in a], [c["end_ms"] for c in b])
+        for mine, others in zip(a, b):
+            for key in ("pressure", "flow", "displacement"):
+                self.assertAlmostEqual(mine[key], others[key], delta=1e-8)
+
+
 if __name__ == "__main__":
     unittest.main()

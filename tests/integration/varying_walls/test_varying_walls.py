@@ -3,7 +3,7 @@
 import unittest
 
 import numpy as np
-from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, restart, run
+from programs import DRIVERS, MONOLITHIC, FolderTest, arrays, attempt, differing_arrays, restart, run, summary
 from scenes import FLUID, KINDS, WALL, scene
 from vtp_files import write_vtp
 
@@ -35,6 +35,13 @@ c10 = 30.0
 viscosity = 2.0
 """
 SOFT_EDGE = PLAQUE + "transition = 0.6\n"
+BOX = """[[structure.region]]
+name = "{name}"
+layers = ["media"]
+shape = "box"
+low = [-9.0, -9.0, -9.0]
+high = [9.0, 9.0, {high}]
+"""
 
 
 def points(value):
@@ -152,6 +159,43 @@ c01 = 0.5
         with self.assertRaises(AssertionError):
             self.assertAgree(mixed, plain, 1e-3)
 
+    def test_a_region_has_a_field(self):
+        """Of whole elements, with a transition, and with a file that has values in the region only."""
+        settings = scene(self.base, "p2p1", "axisymmetric")
+        wall = self.field()
+        field = f"c10 = {FROM_FILE}\n"
+        low = BOX.format(name="low", high=1.5)
+        high = BOX.format(name="high", high=9.0).replace("-9.0, -9.0, -9.0", "-9.0, -9.0, 1.5")
+        number = WALL.replace("c10 = 3.0", "c10 = 20.0\nviscosity = 0.5")
+        below = run(MONOLITHIC, self.case(number + low + field), self.base / "below", *settings)
+        above = run(MONOLITHIC, self.case(wall + high + "c10 = 20.0\n"), self.base / "above", *settings)
+        self.assertAgree(below, above, 1e-9)
+        own = low + field + 'material = "neo-hookean"\nviscosity = 0.5\n'
+        self.assertAgree(below, run(MONOLITHIC, self.case(number + own), self.base / "own", *settings), 1e-9)
+        whole = run(MONOLITHIC, self.case(wall), self.base / "whole", *settings)
+        both = number + BOX.format(name="all", high=9.0) + field + "transition = 0.2\n"
+        self.assertAgree(whole, run(MONOLITHIC, self.case(both), self.base / "both", *settings), 1e-11)
+        rows = (self.base / "stiffness.csv").read_text().splitlines()
+        (self.base / "stiffness.csv").write_text(
+            "\n".join(r for r in rows if r[0] == "x" or float(r.split(",")[2]) < 1.9)
+        )
+        near = number + low + field.replace("within = 1.0", "within = 0.35") + "transition = 0.2\n"
+        runs = [run(program, self.case(near), self.base / f"near{i}", *settings) for i, program in enumerate(DRIVERS)]
+        self.assertAgree(*runs, 1e-8)
+        entry = summary(runs[0])["varying_constants"][0]
+        self.assertEqual(entry["sources"], ["region low", "stiffness.csv"])
+        self.assertEqual(entry["largest"], 20)
+        far = near.replace("high = [9.0, 9.0, 1.5]", "high = [9.0, 9.0, 2.9]")
+        refused = attempt(MONOLITHIC, self.case(far), "-q", folder=self.base / "far", settings=settings)
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertRegex(refused.stderr, r"stiffness\.csv: structure\.region\.low\.c10: has a hole at \(")
+        self.field(lambda x, y, z: 4.0)
+        again = attempt(
+            MONOLITHIC, self.case(near), "-q", "--restart", runs[0], folder=self.base / "near0", settings=settings
+        )
+        self.assertEqual(again.returncode, 1, again.stderr)
+        self.assertIn("structure.region.low.c10", again.stderr)
+
     def test_a_run_goes_on_with_the_same_bits_and_knows_its_field(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
         case = self.case(self.field() + SOFT_EDGE)
@@ -178,6 +222,12 @@ c01 = 0.5
         log = (folder / "run.log").read_text()
         self.assertRegex(log, r"structure\.region\.plaque: \d+ elements of media are media/plaque")
         self.assertRegex(log, r"structure\.layers\.media\.c10 varies from [\d.]+ to [\d.]+ kPa, mean [\d.]+")
+        varying = {entry["constant"]: entry for entry in summary(folder)["varying_constants"]}
+        self.assertEqual(list(varying), ["c10"], "the viscosity is a number")
+        said = varying["c10"]
+        self.assertEqual((said["layer"], said["unit"], said["sources"]), ("media", "kPa", ["stiffness.csv"]))
+        # 3 + x + y / 2 + 2 z of points with x in [-0.2, 3.2], y in [0, 2] and z in [0, 3] mm.
+        self.assertTrue(2.8 < said["smallest"] < said["mean"] < said["largest"] < 13.2, said)
         found = {name: values for name, values in arrays(folder / "fields.h5").items() if "c10" in name.split("/")}
         self.assertGreater(len(found), 0)
         values = next(iter(found.values()))
@@ -206,6 +256,28 @@ c01 = 0.5
 
 class Shared(VaryingTest):
     """Several processes."""
+
+    def test_three_processes_with_quadratic_cells(self):
+        """All at once: a field, one in a region with a transition, whole elements, Maxwell branches; and on with one."""
+        settings = scene(self.base, "p2p1", "3d")
+        media = self.field().replace("viscosity = 0.5", "maxwell = [{ shear = 2.0, time = 0.2 }]")
+        soft = BOX.format(name="low", high=1.0) + f"c10 = {FROM_FILE}\ntransition = 0.4\n".replace(
+            "c10", "viscosity", 1
+        )
+        case = self.case(media + soft + PLAQUE)
+        for program in DRIVERS:
+            alone = run(program, case, self.base / "alone", *settings)
+            together = run(program, case, self.base / "together", *settings, processes=3)
+            self.assertAgree(alone, together, 1e-8)
+            kept, others = (arrays(folder / "checkpoint.h5")["arrays/level0.branches"] for folder in (alone, together))
+            self.assertLess(np.abs(kept - others).max(), 1e-8 * np.abs(kept).max())
+            begun = run(program, case, self.base / "begun", *settings, "time.end=0.25", processes=3)
+            restart(program, case, begun, *settings)
+            self.assertAgree(alone, begun, 1e-8)
+            ranges = [summary(folder)["varying_constants"] for folder in (alone, together)]
+            for one, other in zip(*ranges):
+                for name in ("smallest", "mean", "largest"):
+                    self.assertAlmostEqual(one[name], other[name], delta=1e-12 * one["largest"])
 
     def test_processes_agree_with_one(self):
         settings = scene(self.base, "p1", "3d")
@@ -270,6 +342,10 @@ class BadFields(VaryingTest):
         self.assertIn("the extension .txt", self.refused(wall.replace("stiffness.csv", "other.txt")))
         self.assertIn("did you mean structure.layers.media.c10.field?", self.refused(wall.replace("field =", "feld =")))
         self.assertIn("is not positive", self.refused(wall.replace("within = 1.0", "within = -1.0")))
+        write_vtp(self.base / "other.vtp", np.eye(3), np.array([[0, 1, 2]]), "ascii", hardness=np.ones(3))
+        self.assertIn(
+            '"c10" is none of its fields; give hardness', self.refused(wall.replace("stiffness.csv", "other.vtp"))
+        )
         (self.base / "torn.vtu").write_text("<VTKFile type='UnstructuredGrid'")
         self.assertIn("is cut off", self.refused(wall.replace("stiffness.csv", "torn.vtu")))
 
@@ -283,12 +359,15 @@ class BadFields(VaryingTest):
             (('"sphere"', '"ball"'), '"ball" is unknown'),
             (('["media"]', '["intima"]'), '"intima" is no layer'),
             (("c10 = 30.0", "c10 = -3.0"), "is not positive"),
-            (("c10 = 30.0", "k1 = 3.0"), "no constant of neo-hookean"),
+            (("c10 = 30.0", "k1 = 3.0"), "no constant of neo-hookean, the material of media; did you mean c10?"),
             (("c10 = 30.0\nviscosity = 2.0\n", ""), "has no constants"),
             (('name = "plaque"\n', ""), "name: missing"),
         ):
             with self.subTest(said=said):
                 self.assertIn(said, self.refused(WALL + PLAQUE.replace(*change)))
+        painted = 'shape = "surface"\nfile = "paint.stl"\nwithin = 0.3\n'
+        sphere = 'shape = "sphere"\ncentre = [1.3, 0.0, 1.5]\nradius = 0.8\n'
+        self.assertIn("paint.stl: no such file", self.refused(WALL + PLAQUE.replace(sphere, painted)))
         self.assertIn("leave no element to media/plaque", self.refused(WALL + PLAQUE + PLAQUE.replace("plaque", "cap")))
 
     def test_units(self):

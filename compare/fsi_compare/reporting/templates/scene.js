@@ -34,7 +34,7 @@
       return a - b;
     });
     this.textures = {};
-    this.state.time = this.times.length - 1;
+    this.state.time = this.nearest(data.start);
     this.controls();
     this.view = new vesselView.View(this.canvas, data.box, smooth);
     var self = this;
@@ -46,6 +46,12 @@
     this.rebuild();
     new ResizeObserver(function () { self.arrange(); }).observe(this.canvas);
   }
+
+  // The number of the time that is nearest to one in ms.
+  Scene.prototype.nearest = function (time) {
+    var times = this.times;
+    return times.reduce(function (best, t, i) { return Math.abs(t - time) < Math.abs(times[best] - time) ? i : best; }, 0);
+  };
 
   Scene.prototype.quantity = function () {
     var key = this.state.quantity;
@@ -351,9 +357,7 @@
     this.state.quantity = this.fieldList.value = place.quantity;
     this.state.show = this.runList.value = String(place.run);
     this.state.on = {};
-    var nearest = 0;
-    this.times.forEach(function (t, i) { if (Math.abs(t - place.time) < Math.abs(self.times[nearest] - place.time)) nearest = i; });
-    this.state.time = nearest;
+    this.state.time = this.nearest(place.time);
     this.state.cut = place.part.indexOf(" cut") > 0;
     this.ownUnit();
     return this.rebuild().then(function () {
