@@ -102,6 +102,8 @@ void CouplingStepper<n>::solve_step(State& state) {
       report_.outer_iterations = prediction_->solve_step(state).outer_iterations;
       corrected_->correct_by(prediction_->stepper().loose_problem()->changes());
       problem_->cost = prediction_->stepper().loose_problem()->cost;
+      report_.history.push_back(
+          fmt::format("prediction    newton {} + {}", problem_->cost.fluid_newton, problem_->cost.wall_newton));
     }
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "partitioned/coupling_stepper.hpp"
+#include "partitioned/own_jacobians.hpp"
 #include "restart/state_checkpoint.hpp"
 
 namespace fsi {
@@ -15,7 +16,7 @@ class PredictionMarch {
  public:
   /// \param setup  of the run, but for the coefficient of the scheme
   PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup)
-      : scene_(scene), stepper_(scene, loads, setup, coupling_scheme("robin-robin")) {}
+      : scene_(scene), jacobians_(scene), stepper_(scene, loads, setup, coupling_scheme("robin-robin")) {}
 
   /// Solves the step that follows, which becomes the latest with finish_step() only.
   /// \param corrected  where the march begins, if it has not yet \throws ConvergenceError
@@ -24,6 +25,7 @@ class PredictionMarch {
     next_ = *state_;
     next_.step = corrected.step;
     next_.time = corrected.time;
+    const typename OwnJacobians<n>::Use use(jacobians_);
     stepper_.solve_step(next_);
     return stepper_.report();
   }
@@ -43,11 +45,13 @@ class PredictionMarch {
     if (!state_) return;
     fsi::keep(*state_, own);
     state_->now = state_->before[0];
+    const typename OwnJacobians<n>::Use use(jacobians_);
     stepper_.keep(own);
   }
 
  private:
   Scene<n>& scene_;
+  OwnJacobians<n> jacobians_;
   CouplingStepper<n> stepper_;
   std::optional<State> state_;  ///< at the end of the last step; empty before the first
   State next_;                  ///< of the step in progress
