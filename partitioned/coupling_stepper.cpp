@@ -14,7 +14,9 @@
 #include "partitioned/interface/dirichlet_neumann.hpp"
 #include "partitioned/interface/robin_neumann.hpp"
 #include "partitioned/interface/robin_robin.hpp"
+#include "partitioned/interface/robin_robin_corrected.hpp"
 #include "partitioned/interface/robin_robin_parallel.hpp"
+#include "partitioned/prediction_march.hpp"
 #include "partitioned/scheme_checks.hpp"
 #include "system/level_check.hpp"
 #include "system/step_change.hpp"
@@ -23,33 +25,49 @@ namespace fsi {
 
 template <int n>
 CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup)
+    : CouplingStepper(scene, loads, setup, coupling_scheme(chosen_scheme(setup).name)) {
+  check_scheme(scheme_, setup, first_order(), scene);
+}
+
+template <int n>
+CouplingStepper<n>::CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup,
+                                    const CouplingScheme& scheme)
     : scene_(scene),
       loads_(loads),
       options_(setup.partitioned),
       agreement_(options_),
       predictor_(setup.time ? setup.time->predictor : std::nullopt),
       choices_{{"partitioned.scheme", chosen_scheme(setup).name, chosen_scheme(setup).reason}},
-      scheme_(coupling_scheme(choices_.front().value)),
+      scheme_(scheme),
       space_(scene.processes(), scene.owned_interface() * n),
       fluid_volumes_(owned_volumes<n>(scene.fluid->space(), scene.fluid->nodes())),
       wall_volumes_(owned_volumes<n>(scene.wall->space(), scene.wall->nodes())),
       accelerator_(scheme_.make_accelerator(options_, space_)),
       march_(scheme_, options_.velocity_gap),
       loose_march_(scheme_) {
-  check_scheme(scheme_, setup, first_order(), scene);
-  make_problem(scene);
+  make_problem(scene, loads, setup);
 }
 
 template <int n>
-void CouplingStepper<n>::make_problem(Scene<n>& scene) {
+void CouplingStepper<n>::make_problem(Scene<n>& scene, const Loads& loads, const Case& setup) {
   if (scheme_.loose != Loose::no) {
     std::unique_ptr<RobinRobin<n>> loose;
-    if (scheme_.loose == Loose::at_once)
+    if (scheme_.loose == Loose::at_once) {
       loose = std::make_unique<RobinRobinParallel<n>>(scene, options_);
-    else
+    } else if (scheme_.loose == Loose::corrected) {
+      auto corrected = std::make_unique<RobinRobinCorrected<n>>(scene, options_);
+      corrected_ = corrected.get();
+      Case of_prediction = setup;
+      of_prediction.partitioned.robin_coefficient =
+          RobinRobinCorrected<n>::factor_of_prediction * corrected->coefficient().value;
+      prediction_ = std::make_unique<PredictionMarch<n>>(scene, loads, of_prediction);
+      loose = std::move(corrected);
+    } else {
       loose = std::make_unique<RobinRobin<n>>(scene, options_);
+    }
     const RobinCoefficient& alpha = loose->coefficient();
     choices_.push_back({"partitioned.robin_coefficient", fmt::format("{:.4g} kPa/(mm/ms)", alpha.value), alpha.reason});
+    loose_ = loose.get();
     problem_ = std::move(loose);
   } else if (scheme_.robin) {
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
@@ -60,6 +78,13 @@ void CouplingStepper<n>::make_problem(Scene<n>& scene) {
 
 template <int n>
 StepReport CouplingStepper<n>::advance(State& state) {
+  solve_step(state);
+  if (!report_.rejected) finish_step(state);
+  return report_;
+}
+
+template <int n>
+void CouplingStepper<n>::solve_step(State& state) {
   report_ = {};
   report_.outer_iterations = 0;
   coupling_ = {};
@@ -72,14 +97,23 @@ StepReport CouplingStepper<n>::advance(State& state) {
   };
   const int stages = scene_.integrator->stages(state);
   try {
+    problem_->iterate(!one_pass());
+    if (prediction_) {
+      report_.outer_iterations = prediction_->solve_step(state).outer_iterations;
+      corrected_->correct_by(prediction_->stepper().loose_problem()->changes());
+      problem_->cost = prediction_->stepper().loose_problem()->cost;
+      report_.history.push_back(
+          fmt::format("prediction    newton {} + {}", problem_->cost.fluid_newton, problem_->cost.wall_newton));
+    }
     for (int stage = 0; stage < stages; ++stage) {
       StepData data = loads_.next(state, *scene_.integrator, stage);
+      ends_at_jump_ = data.ends_at_jump;
       advance_stage(state, data);
       scene_.settle_openings(state.now, data.rates);
       scene_.settle_branches(state.now, data.rates);
       if (rejects(state, data)) {
         take_back();
-        return report_;
+        return;
       }
       if (keep_balances_) report_.balances.push_back({state.now, data});
       if (data.rates.last_stage)
@@ -91,9 +125,14 @@ StepReport CouplingStepper<n>::advance(State& state) {
     take_back();
     throw;
   }
+}
+
+template <int n>
+void CouplingStepper<n>::finish_step(const State& state) {
   problem_->finish_step();
+  if (prediction_) prediction_->finish_step();
   march_.finish(state.step);
-  return report_;
+  after_jump_ = ends_at_jump_;
 }
 
 template <int n>
@@ -101,7 +140,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
   std::vector<double> x = start_stage(state, data);
   GoodPass good;
   PassAccuracy accuracy{agreement_.first_tolerance(coupling_), starts_far_};
-  if (scheme_.one_pass) accuracy = {agreement_.final_tolerance(coupling_), false};
+  if (one_pass()) accuracy = {agreement_.final_tolerance(coupling_), false};
   bool first = true;
   for (passes_ = 1; passes_ <= options_.max_iterations; ++passes_) {
     ++report_.outer_iterations;
@@ -114,11 +153,10 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
     }
     log_pass();
     if (std::exchange(first, false)) starts_far_ = coupling_.displacement_residual > far;
-    if (scheme_.loose != Loose::no)
-      loose_march_.add(coupling_.displacement_gap, problem_->movement());
-    else if (scheme_.one_pass)
+    if (scheme_.one_pass && scheme_.loose == Loose::no)
       march_.check(state.step + 1, data.time, coupling_, problem_->movement());
-    if (scheme_.one_pass || agreement_.met_by(coupling_)) {
+    if (one_pass() || agreement_.met_by(coupling_)) {
+      if (scheme_.loose != Loose::no) loose_march_.add(coupling_.displacement_gap, problem_->movement());
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
       accept(x, pass);
       return;
@@ -147,7 +185,7 @@ template <int n>
 Pass CouplingStepper<n>::measured_pass(const std::vector<double>& x, const PassAccuracy& accuracy) {
   Pass pass = problem_->pass(x, accuracy);
   measure(pass);
-  if (scheme_.one_pass || !agreement_.met_by(coupling_)) return pass;
+  if (one_pass() || !agreement_.met_by(coupling_)) return pass;
   if (!accuracy.linearised_wall && !agreement_.needs_tighter(accuracy.tolerance, coupling_)) return pass;
   pass = problem_->refine({agreement_.final_tolerance(coupling_), false});
   measure(pass);
@@ -171,9 +209,13 @@ void CouplingStepper<n>::keep(Memory& memory) {
   memory.number_if_there("starts_far", starts_far);
   starts_far_ = starts_far != 0;
   memory.number_if_there("interface_period", period_);
-  if (scheme_.loose != Loose::no)
+  if (scheme_.loose != Loose::no) {
     loose_march_.keep(memory);
-  else if (scheme_.one_pass || memory.recalls())
+    double jumped = after_jump_ ? 1 : 0;
+    memory.number_if_there("after_jump", jumped);
+    after_jump_ = jumped != 0;
+    if (prediction_) prediction_->keep(memory);
+  } else if (scheme_.one_pass || memory.recalls())
     march_.keep(memory);
 }
 
@@ -253,7 +295,7 @@ void CouplingStepper<n>::retreat(const PassFailure& failure, State& state, StepD
   const bool extrapolated = !good.found && order_ > 0 && state.step > 0;
   ++coupling_.failed_passes;
   report_.history.push_back(fmt::format("coupling {:3d}  no answer from {}", passes_, failure.what()));
-  const bool more = !scheme_.one_pass && coupling_.failed_passes <= most_retreats;
+  const bool more = !one_pass() && coupling_.failed_passes <= most_retreats;
   const bool stiffened = more && !good.found && !extrapolated && problem_->stiffen();
   if (!more || (!good.found && !extrapolated && !stiffened)) {
     for (const auto& line : failure.history()) report_.history.push_back(line);
@@ -300,7 +342,7 @@ double CouplingStepper<n>::estimated_error(const State& state, const StepData& d
 
 template <int n>
 void CouplingStepper<n>::accept(const std::vector<double>& x, const Pass& pass) {
-  {
+  if (scheme_.loose == Loose::no || !one_pass()) {
     const Stopwatch watch(coupling_.algebra_seconds);
     accelerator_->accept(x, pass.residual);
   }

@@ -20,6 +20,12 @@ namespace fsi {
 
 template <int n>
 class InterfaceProblem;
+template <int n>
+class PredictionMarch;
+template <int n>
+class RobinRobin;
+template <int n>
+class RobinRobinCorrected;
 struct Pass;
 struct PassAccuracy;
 class PassFailure;
@@ -30,6 +36,8 @@ template <int n>
 class CouplingStepper : public Stepper {
  public:
   CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup);
+  /// With another scheme than the case's, which must outlive this and is not checked.
+  CouplingStepper(Scene<n>& scene, const Loads& loads, const Case& setup, const CouplingScheme& scheme);
 
   ~CouplingStepper() override;
 
@@ -37,6 +45,13 @@ class CouplingStepper : public Stepper {
   std::vector<StepperChoice> choices() const override { return choices_; }
 
   StepReport advance(State& state) override;
+  /// advance() in two: the step is solved, unless the judge rejects it (report().rejected),
+  void solve_step(State& state);
+  /// and is the one that the next begins with.
+  void finish_step(const State& state);
+  /// Of a scheme of Robin-Robin, else null.
+  const RobinRobin<n>* loose_problem() const { return loose_; }
+
   /// Without iterations a march fails because it is unstable, which smaller steps do not mend.
   bool can_retry() const override { return !scheme_.one_pass || scheme_.loose != Loose::no; }
   std::string unchecked() const override {
@@ -70,7 +85,7 @@ class CouplingStepper : public Stepper {
     double gap = 0;  ///< |r(x)|, mm
   };
 
-  void make_problem(Scene<n>& scene);
+  void make_problem(Scene<n>& scene, const Loads& loads, const Case& setup);
 
   /// Solves a step, or one stage of it; leaves its solution in state.now.
   void advance_stage(State& state, StepData& data);
@@ -103,6 +118,10 @@ class CouplingStepper : public Stepper {
 
   void accept(const std::vector<double>& x, const Pass& pass);
 
+  /// Whether the step is one pass. Robin-Robin schemes iterate where the load has jumped: else what one pass lacks of the
+  /// jump swings between fluid and wall for long, the faster the shorter the steps (docs/theory.md, section 10.5).
+  bool one_pass() const { return scheme_.one_pass && !(scheme_.loose != Loose::no && after_jump_); }
+
   Scene<n>& scene_;
   State spare_;  ///< storage
   const Loads& loads_;
@@ -115,10 +134,15 @@ class CouplingStepper : public Stepper {
   std::vector<double> fluid_volumes_, wall_volumes_;  ///< of the nodes, mm^3
   std::unique_ptr<Accelerator> accelerator_;
   std::unique_ptr<InterfaceProblem<n>> problem_;
+  RobinRobin<n>* loose_ = nullptr;                  ///< the problem, of a Robin-Robin scheme
+  RobinRobinCorrected<n>* corrected_ = nullptr;     ///< the problem, of that scheme
+  std::unique_ptr<PredictionMarch<n>> prediction_;  ///< its prediction
   CouplingReport coupling_;
   DivergenceMonitor monitor_;  ///< of the step's passes
   OnePassMarch march_;         ///< of the steps, with one pass each
   LooseMarch loose_march_;     ///< of the steps of Robin-Robin schemes
+  bool after_jump_ = true;     ///< the load has jumped before the step, or nothing was before it
+  bool ends_at_jump_ = false;  ///< of the step in progress
   int passes_ = 0;             ///< of the stage in progress
   int order_ = 0;              ///< of the extrapolated start
   double period_ = 0;          ///< ms, of the interface's kinematics that the accelerator knows; 0: none yet

@@ -17,7 +17,8 @@ namespace {
 /// One pass a step needs an extrapolation, and a time scheme that forgives what it leaves.
 template <int n>
 void require_for_one_pass(const CouplingScheme& scheme, const Case& setup, int order, const Scene<n>& scene) {
-  if (order == 0 && scheme.loose != Loose::in_turn)
+  const bool fluid_follows = scheme.loose == Loose::in_turn || scheme.loose == Loose::corrected;
+  if (order == 0 && !fluid_follows)
     throw InputError(
         setup.path.string(), "time.predictor",
         fmt::format("0 with partitioned.scheme = \"{}\": the fluid would see a wall that never moves", scheme.name),
@@ -62,6 +63,13 @@ void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>
                     "step alone, and the pressure rings",
                     time_scheme, scheme.name),
         "use \"euler\", or another coupling scheme: \"robin-robin\"");
+  if (scheme.loose == Loose::corrected && time_scheme == "generalised-alpha")
+    throw InputError(
+        file, "time.scheme",
+        fmt::format("\"{}\" with partitioned.scheme = \"{}\": what a jump of the load leaves is damped too little, and "
+                    "the correction drives it on: the pressure rings",
+                    time_scheme, scheme.name),
+        "use \"bdf2\" or \"euler\", or another coupling scheme: \"robin-robin\"");
   if (!setup.partitioned.robin_coefficient && wetted_sides_of(scene).stands_in_the_fluid())
     scene.notices.push_back(
         fmt::format("{}: partitioned.scheme: \"{}\" takes its coefficient from a wall that is a tube around the fluid, "

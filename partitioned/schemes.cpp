@@ -66,7 +66,7 @@ Made robin_imvj(const Options& o, const Space& space) {
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
 constexpr auto loose_advice = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
-constexpr std::array<CouplingScheme, 12> coupling_schemes{{
+constexpr std::array<CouplingScheme, 13> coupling_schemes{{
     {"aitken", false, false, Loose::no, aitken,
      "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
     {"block-newton", true, false, Loose::no, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
@@ -82,8 +82,9 @@ constexpr std::array<CouplingScheme, 12> coupling_schemes{{
      "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step"},
     {"robin-neumann-iqn", true, false, Loose::no, robin_iqn, other},
     {"robin-neumann-imvj", true, false, Loose::no, robin_imvj, other},
-    {"robin-robin", false, true, Loose::in_turn, constant, loose_advice},
-    {"robin-robin-parallel", false, true, Loose::at_once, constant, loose_advice},
+    {"robin-robin", false, true, Loose::in_turn, robin_iqn, loose_advice},
+    {"robin-robin-corrected", false, true, Loose::corrected, robin_iqn, loose_advice},
+    {"robin-robin-parallel", false, true, Loose::at_once, robin_iqn, loose_advice},
 }};
 static_assert(names_match(coupling_scheme_list, coupling_schemes), "case/choices.hpp owns these names");
 

@@ -13,8 +13,9 @@ namespace fsi {
 /// Loosely coupled Robin-Robin schemes.
 enum class Loose {
   no,
-  in_turn,  ///< the wall, then the fluid
-  at_once   ///< both from data of the last step
+  in_turn,    ///< the wall, then the fluid
+  corrected,  ///< twice so: the second time with data that the first has predicted
+  at_once     ///< both from data of the last step
 };
 
 /// A coupling scheme: how one pass goes through the sub-problems, and how passes are accelerated.

@@ -24,9 +24,19 @@ inline constexpr std::array<std::string_view, 16> coupled_solver_list{
     "ssor_exact", "ilu_exact", "amg",   "amg_gmres", "amg_fgmres", "amli",           "amli_gmres",  "amli_fgmres"};
 
 /// partitioned.scheme. Their table: partitioned/schemes.cpp.
-inline constexpr std::array<std::string_view, 12> coupling_scheme_list{
-    "aitken",        "block-newton",  "constant",          "explicit",           "iqn-ils",     "iqn-imvj",
-    "newton-krylov", "robin-neumann", "robin-neumann-iqn", "robin-neumann-imvj", "robin-robin", "robin-robin-parallel"};
+inline constexpr std::array<std::string_view, 13> coupling_scheme_list{"aitken",
+                                                                       "block-newton",
+                                                                       "constant",
+                                                                       "explicit",
+                                                                       "iqn-ils",
+                                                                       "iqn-imvj",
+                                                                       "newton-krylov",
+                                                                       "robin-neumann",
+                                                                       "robin-neumann-iqn",
+                                                                       "robin-neumann-imvj",
+                                                                       "robin-robin",
+                                                                       "robin-robin-corrected",
+                                                                       "robin-robin-parallel"};
 
 /// Fields of output.fields. Their table: observers/field_output.cpp.
 inline constexpr std::array<std::string_view, 9> output_field_list{

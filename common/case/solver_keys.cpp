@@ -132,11 +132,10 @@ std::vector<CaseKey<PartitionedData>> partitioned_keys() {
            "steps in a row, default {}",
            number(at(&P::velocity_gap), positive)),
       leaf("robin_coefficient", optional,
-           "of robin-robin and robin-robin-parallel, traction per velocity of the interface, {unit}; default from wall "
-           "and "
-           "fluid: sqrt(K (density of the wall times its thickness + density of the fluid times half the radius)), K "
-           "being "
-           "the hoop stiffness",
+           "of the schemes that begin with robin-robin, traction per velocity of the interface, {unit}; default from "
+           "wall "
+           "and fluid: sqrt(K (density of the wall times its thickness + density of the fluid times half the radius)), "
+           "K being the hoop stiffness",
            number(at(&P::robin_coefficient), positive, quantity::bedding_damping())),
       leaf("relaxation", optional, "constant factor or the scheme's first; without it the scheme chooses",
            number(at(&P::relaxation), {0, 2, false, false})),

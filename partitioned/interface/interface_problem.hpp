@@ -61,6 +61,8 @@ class InterfaceProblem {
     scene_.impose_interface(state, data.rates);
     start(state, data);
   }
+  /// Of schemes that do not iterate: whether the next step is iterated all the same, x being what its passes are a function of.
+  virtual void iterate(bool /*on*/) {}
   /// x of the first guess, extrapolated by `order`.
   virtual std::vector<double> first_guess(int order) const = 0;
   /// r(x), the sub-problems solved as `accuracy` says; leaves their fields in the state. \throws PassFailure

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/vector_operations.hpp"
 #include "partitioned/interface/interface_problem.hpp"
 #include "partitioned/interface/robin_coefficient.hpp"
 
@@ -16,14 +17,20 @@ namespace fsi {
 ///   F^(n+1) - lambda^n + c (u^(n+1) - w^(n+1)) = 0.
 /// The fluid's domain follows the wall. alpha does not depend on the step: the gap c (u - w) = lambda^n - lambda^(n+1) is of
 /// first order then, and telescopes, so that the displacements do not drift apart. x is not used; r = period (w - u).
+/// Where a step is iterated, x is the datum v of the wall's condition, given as a displacement; a pass and its next datum are
+///   W + c (w - v) = 0,   L = c (w - v),   F - L + c (u - w) = 0,   v~ = u - F/c,   r = period (v~ - v) = 2 period (u - w).
 template <int n>
 class RobinRobin : public InterfaceProblem<n> {
   using Base = InterfaceProblem<n>;
 
  public:
-  RobinRobin(Scene<n>& scene, const PartitionedData& options)
+  using Base::cost;
+
+  /// \param factor  alpha over the coefficient of the case, or of the scene
+  RobinRobin(Scene<n>& scene, const PartitionedData& options, double factor = 1)
       : Base(scene, options, &wall_side_),
         coefficient_(robin_coefficient(options, scene, Base::membrane_)),
+        alpha_(factor * coefficient_.value),
         fluid_("fluid", scene, number_fluid(scene, /*free_interface=*/true), Base::solver_factory(options),
                SystemNorm::entries, &fluid_side_) {
     wall_side_.medium = InterfaceImpedance::Medium::wall;
@@ -32,7 +39,7 @@ class RobinRobin : public InterfaceProblem<n> {
       wall_side_.nodes.push_back(node.wall);
     }
     fluid_side_.impedance = Base::membrane_.node_areas;
-    scale(coefficient_.value, fluid_side_.impedance);
+    scale(alpha_, fluid_side_.impedance);
     wall_side_.impedance = fluid_side_.impedance;
     for (auto* numbers : {&fluid_side_.velocity, &wall_side_.displacement, &traction_, &next_traction_, &load_})
       numbers->assign(Base::interface_size(), 0.0);
@@ -43,30 +50,52 @@ class RobinRobin : public InterfaceProblem<n> {
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     fluid_.work_on(state, data);
+    if (data.rates.stage == 0) changes_.clear();
     if (known_) return;
     known_ = true;
     if (state.step > 0 || scene_.initial_load) find_data(state, data);
   }
 
-  std::vector<double> first_guess(int) const override { return Base::wall_displacement(state_->now); }
+  void iterate(bool on) override { iterates_ = on; }
 
-  Pass pass(const std::vector<double>&, const PassAccuracy& accuracy) override {
-    answer_of_wall(last_velocity(), traction_, accuracy);
-    const std::vector<double> d = Base::wall_displacement(state_->now);
-    Base::move_mesh(d);
-    answer_of_fluid(velocity_of_wall(d), traction_, accuracy);
-    return finished_pass(d);
+  std::vector<double> first_guess(int) const override {
+    std::vector<double> x = Base::wall_displacement(state_->now);
+    if (!iterates_) return x;
+    const std::vector<double> w = velocity_of_wall(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (const double c = wall_side_.impedance[i / n]; c > 0)
+        x[i] = data_->rates.interface.displacement(w[i] - traction_[i] / c, reference(i));
+    return x;
   }
-  Pass refine(const PassAccuracy& accuracy) override { return pass({}, accuracy); }
+
+  Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
+    datum_ = x;
+    return refine(accuracy);
+  }
+  Pass refine(const PassAccuracy& accuracy) override {
+    return iterates_ ? iterated_pass(accuracy) : single_pass(datum_, accuracy);
+  }
 
   /// The mesh is there already.
   void follow_wall() override {}
 
-  void accept() override { next_traction_ = last_rows(); }
+  void accept() override {
+    next_traction_ = last_rows();
+    changes_.push_back({velocity_of_fluid(state_->now), next_traction_});
+    axpy(-1, last_velocity(), changes_.back().velocity);
+    axpy(-1, traction_, changes_.back().traction);
+  }
   void finish_step() override { traction_ = next_traction_; }
 
+  /// What both media have data of, u and lambda: n numbers per node of the interface, mm/ms and kPa mm^2.
+  struct Data {
+    std::vector<double> velocity, traction;
+  };
+  /// By how much the accepted stages of the step differ from the last step.
+  const std::vector<Data>& changes() const { return changes_; }
+
   /// The gap stands for a change of the traction by alpha times its velocity within a step.
-  double pressure_per_gap() const override { return coefficient_.value * data_->rates.interface.rate(); }
+  double pressure_per_gap() const override { return alpha_ * data_->rates.interface.rate(); }
   /// Over the larger of the tractions of fluid and wall: in a step the wall may bear nothing yet.
   double pressure_residual(const std::vector<double>& residual) const override {
     return traction_size_ > 0 ? Base::gap_pressure(residual) / traction_size_ : 0.0;
@@ -82,7 +111,21 @@ class RobinRobin : public InterfaceProblem<n> {
   }
 
  protected:
-  using Base::cost, Base::scene_, Base::state_, Base::data_;
+  using Base::scene_, Base::state_, Base::data_;
+
+  /// That of a step without iteration.
+  virtual Pass single_pass(const std::vector<double>& /*x*/, const PassAccuracy& accuracy) {
+    return pass_with(last_velocity(), traction_, accuracy);
+  }
+
+  /// The wall and then the fluid, with these for u^n and lambda^n.
+  Pass pass_with(const std::vector<double>& u, const std::vector<double>& lambda, const PassAccuracy& accuracy) {
+    answer_of_wall(u, lambda, accuracy);
+    const std::vector<double> d = Base::wall_displacement(state_->now);
+    Base::move_mesh(d);
+    answer_of_fluid(velocity_of_wall(d), lambda, accuracy);
+    return finished_pass(d);
+  }
 
   /// u^n: the fluid's velocity on the interface in the last solution of the equations, n numbers per node, mm/ms.
   std::vector<double> last_velocity() const { return velocity_of_fluid(state_->last_balance()); }
@@ -129,6 +172,7 @@ class RobinRobin : public InterfaceProblem<n> {
   }
 
   const std::vector<double>& load() const { return load_; }
+  bool iterates() const { return iterates_; }
 
   /// F of the fluid's last solution on the interface, rows of ghosts included.
   std::vector<double> last_rows() {
@@ -154,6 +198,17 @@ class RobinRobin : public InterfaceProblem<n> {
   std::vector<double> traction_;  ///< lambda^n, kPa mm^2
 
  private:
+  Pass iterated_pass(const PassAccuracy& accuracy) {
+    const std::vector<double> none(datum_.size(), 0.0);
+    answer_of_wall(velocity_of_wall(datum_), none, accuracy);
+    const std::vector<double> d = Base::wall_displacement(state_->now);
+    Base::move_mesh(d);
+    answer_of_fluid(velocity_of_wall(d), load_, accuracy);
+    Pass pass = finished_pass(d);
+    scale(-2, pass.residual);
+    return pass;
+  }
+
   double reference(std::size_t i) const {
     return data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))];
   }
@@ -171,12 +226,16 @@ class RobinRobin : public InterfaceProblem<n> {
 
   InterfaceImpedance wall_side_, fluid_side_;
   RobinCoefficient coefficient_;
+  double alpha_;  ///< kPa/(mm/ms)
   System<n> fluid_;
   std::vector<double> next_traction_;            ///< of the step in progress
   std::vector<double> load_;                     ///< of the wall in its last solution, kPa mm^2
   std::vector<double> whole_rows_;               ///< the fluid's, ghosts too
   double traction_size_ = 0, traction_gap_ = 0;  ///< kPa, of the last pass
   bool known_ = false;                           ///< lambda^n
+  bool iterates_ = false;                        ///< in the step in progress
+  std::vector<Data> changes_;                    ///< in the stages of the step in progress
+  std::vector<double> datum_;                    ///< x of the last pass
 };
 
 }  // namespace fsi

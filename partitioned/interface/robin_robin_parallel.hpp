@@ -20,13 +20,9 @@ class RobinRobinParallel : public RobinRobin<n> {
     for (auto* numbers : {&wall_load_, &wall_velocity_, &next_velocity_}) numbers->assign(Base::interface_size(), 0.0);
   }
 
-  Pass pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
-    Base::move_mesh(x);
-    Base::answer_of_fluid(wall_velocity_, wall_load_, accuracy);
-    Base::answer_of_wall(Base::last_velocity(), Base::traction_, accuracy);
-    const std::vector<double> d = Base::wall_displacement(Base::state_->now);
-    next_velocity_ = Base::velocity_of_wall(d);
-    return Base::finished_pass(d);
+  void accept() override {
+    Base::accept();
+    next_velocity_ = Base::velocity_of_wall(Base::wall_displacement(Base::state_->now));
   }
   void follow_wall() override { Base::move_mesh_to_wall(); }
 
@@ -44,6 +40,13 @@ class RobinRobinParallel : public RobinRobin<n> {
   }
 
  protected:
+  Pass single_pass(const std::vector<double>& x, const PassAccuracy& accuracy) override {
+    Base::move_mesh(x);
+    Base::answer_of_fluid(wall_velocity_, wall_load_, accuracy);
+    Base::answer_of_wall(Base::last_velocity(), Base::traction_, accuracy);
+    return Base::finished_pass(Base::wall_displacement(Base::state_->now));
+  }
+
   void find_data(State& state, StepData& data) override {
     Base::find_data(state, data);
     wall_load_ = Base::traction_;

@@ -31,6 +31,17 @@ struct CouplingCost {
   int fluid_newton = 0, wall_newton = 0;  ///< Newton iterations
   int fluid_linear = 0, wall_linear = 0;  ///< Krylov iterations; 0 with direct solvers
   double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0;
+
+  CouplingCost& operator+=(const CouplingCost& other) {
+    fluid_newton += other.fluid_newton;
+    wall_newton += other.wall_newton;
+    fluid_linear += other.fluid_linear;
+    wall_linear += other.wall_linear;
+    fluid_seconds += other.fluid_seconds;
+    wall_seconds += other.wall_seconds;
+    mesh_seconds += other.mesh_seconds;
+    return *this;
+  }
 };
 
 /// Seconds of the enclosing block, added to a sum.

@@ -284,12 +284,15 @@ class Failures(FolderTest):
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertEqual(process.stderr.count("does not iterate"), 1, process.stderr)
         self.assertIn("block-newton", process.stderr)
-        self.assertEqual(table(folder, "iterations.csv")[:, 2].tolist(), [1] * 4)
+        passes = table(folder, "iterations.csv")[:, 2]
+        self.assertTrue((passes[:2] > 1).all(), "iterated behind jumps of the load: the start, the pulse's end")
+        self.assertEqual(passes[2:].tolist(), [1] * 2)
         self.assertIn("partitioned.robin_coefficient", (folder / "run.log").read_text())
 
     def test_robin_robin_refuses_what_it_does_not_serve(self):
         for settings, key in (
             (scheme("robin-robin", "time.scheme=midpoint"), "time.scheme"),
+            (scheme("robin-robin-corrected", "time.scheme=tr-bdf2"), "time.scheme"),
             (scheme("robin-robin-parallel", "time.scheme=bdf2"), "time.scheme"),
             (scheme("robin-robin-parallel", "time.predictor=0"), "time.predictor"),
             (scheme("robin-robin", "partitioned.robin_coefficient=0"), "partitioned.robin_coefficient"),

@@ -17,6 +17,7 @@ SCHEMES = (
     "robin-neumann-iqn",
     "robin-neumann-imvj",
     "robin-robin",
+    "robin-robin-corrected",
     "robin-robin-parallel",
 )
 SOLVERS = ("fast", "direct")

@@ -49,6 +49,7 @@ class Schemes(Shared):
     def test_one_pass_a_step(self):
         self.check("explicit", 2, "time.scheme=euler", "structure.density=12000", "time.end=0.5")
         self.check("robin-robin", 3, "time.scheme=euler", "time.end=0.5")
+        self.check("robin-robin-corrected", 3, "time.scheme=bdf2", "time.end=0.5")
         self.check("robin-robin-parallel", 2, "time.scheme=euler", "time.end=0.5")
 
     def test_with_factors_not_a_pass_more(self):
@@ -68,7 +69,11 @@ class MeshMotions(Shared):
 
 class Restart(Shared):
     def test_differences_of_passes_go_to_another_number_of_processes(self):
-        for name, before, after in (("iqn-ils", 3, 2), ("robin-neumann-imvj", 2, None)):
+        for name, before, after in (
+            ("iqn-ils", 3, 2),
+            ("robin-neumann-imvj", 2, None),
+            ("robin-robin-corrected", 2, 3),
+        ):
             with self.subTest(scheme=name):
                 more = (f"partitioned.scheme={name}",)
                 alone = self.march(f"whole-{name}", None, *more, "time.end=0.375")

@@ -295,9 +295,8 @@ TEST(CouplingStepper, ExplicitClaimsNothingBeforeItsCheckCanSpeak) {
   }
 }
 
-/// Distance of the wall's displacement of a loosely coupled march from the monolithic one at one time, relative.
-double loose_error(const std::string& scheme, double step) {
-  Case setup = short_pulse(scheme, 1e-6, "euler", step);
+/// Distance of the wall's displacement of a loosely coupled march from the monolithic one at 1 ms, relative.
+double loose_error(Case setup) {
   setup.time->end = 1;
   const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
              other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
@@ -310,11 +309,10 @@ double loose_error(const std::string& scheme, double step) {
   for (int n = 0; n < setup.time->steps(); ++n) {
     whole.advance(a);
     const StepReport report = parts.advance(b);
-    EXPECT_EQ(report.outer_iterations, 1);
     EXPECT_GT(report.coupling->displacement_gap, 0) << "reported as it is";
     EXPECT_GT(report.coupling->gap_pressure, 0);
   }
-  const auto displacements = [](std::vector<double> wall) {  // pressures ring after the pulse
+  const auto displacements = [](std::vector<double> wall) {
     for (std::size_t i = 2; i < wall.size(); i += 3) wall[i] = 0;
     return wall;
   };
@@ -322,61 +320,152 @@ double loose_error(const std::string& scheme, double step) {
   return norm(difference(expected, displacements(b.now.wall))) / norm(expected);
 }
 
-// What one solve of either medium leaves falls with the step. Soon after the pulse and in these steps the order is 0.55 to
-// 0.66, not yet the one that theory has; half an order is demanded on both pairs of levels (docs/coupling.md has others).
-TEST(RobinRobin, ErrorFallsWithTheStep) {
-  for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
-    const double coarse = loose_error(scheme, 1. / 32), middle = loose_error(scheme, 1. / 64),
-                 fine = loose_error(scheme, 1. / 128);
-    std::cout << scheme << ": errors " << coarse << ", " << middle << ", " << fine << '\n';
-    EXPECT_GT(std::log2(middle / fine), 0.5) << scheme;
-    EXPECT_GT(std::log2(coarse / middle), 0.5) << scheme;
-    EXPECT_LT(fine, 0.2) << scheme;
+/// 0.5 kPa sin^2, up and down within 1 ms: a polyline of 256 pieces.
+PressureTable smooth_pulse() {
+  PressureTable table;
+  for (int i = 0; i <= 256; ++i) {
+    const double sine = std::sin(i / 256. * std::acos(-1.));
+    table.points.emplace_back(i / 256., 0.5 * sine * sine);
+  }
+  return table;
+}
+
+// In smooth motion one solve of either medium leaves an error of nearly first order, as theory has it (0.84 and 0.91 here),
+// and with the correction's data one of second order (2.07 and 1.90; with bdf2 1.88 and 1.92).
+TEST(RobinRobin, SplittingErrorHasItsOrder) {
+  struct Expected {
+    const char *scheme, *time_scheme;
+    double order;
+  };
+  double plain = 0;
+  for (const Expected& expected :
+       {Expected{"robin-robin", "euler", 0.8}, Expected{"robin-robin-parallel", "euler", 0.8},
+        Expected{"robin-robin-corrected", "euler", 1.8}, Expected{"robin-robin-corrected", "bdf2", 1.8}}) {
+    const std::string scheme = expected.scheme;
+    const auto error = [&](double step) {
+      Case setup = short_pulse(scheme, 1e-7, expected.time_scheme, step);
+      setup.inlet = smooth_pulse();
+      return loose_error(setup);
+    };
+    const double coarse = error(1. / 32), middle = error(1. / 64), fine = error(1. / 128);
+    const std::string said = scheme + ", " + expected.time_scheme;
+    std::cout << said << ": errors " << coarse << ", " << middle << ", " << fine << '\n';
+    EXPECT_GT(std::log2(coarse / middle), expected.order) << said;
+    EXPECT_GT(std::log2(middle / fine), expected.order) << said;
+    if (scheme == "robin-robin") plain = fine;
+    if (scheme == "robin-robin-corrected") {
+      EXPECT_LT(fine, 0.1 * plain) << said;
+    }
   }
 }
 
-// The conditions of a step, from the fields that it leaves.
-TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
-  Case setup = partitioned_case("robin-robin", 1e-9);
-  setup.time->scheme = "euler";
-  setup.partitioned.robin_coefficient = 0.7;
-  const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2));
-  const Loads loads(setup);
-  CouplingStepper<3> stepper(*scene, loads, setup);
-  stepper.keep_balances(true);
-  State state = scene->at_rest();
-  std::vector<double> traction(scene->interface.size() * 3, 0.0), last_velocity = traction;  // lambda^n, u^n
-  for (int step = 0; step < 3; ++step) {
-    const StepReport report = stepper.advance(state);
-    const Balance& balance = report.balances.front();
-    const StepRates& rates = balance.data.rates;
-    std::vector<double> rows;
-    scene->assemble_fluid(balance.at, balance.data, rows);
-    double of_fluid = 0, of_wall = 0, size = 0;
-    for (std::size_t i = 0; i < scene->interface.size(); ++i) {
-      const auto& node = scene->interface[i];
-      if (node.clamped) continue;
-      const double c = 0.7 * scene->interface_areas[i];
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t f = MixedLayout<3>::vector(node.fluid, k), w = MixedLayout<3>::vector(node.wall, k);
-        const double u = balance.at.fluid[f], lambda = traction[3 * i + k];
-        const double v = rates.interface.velocity(balance.at.wall[w], rates.wall_reference[w]);
-        of_fluid = std::max(of_fluid, std::abs(rows[f] - lambda + c * (u - v)));
-        of_wall =
-            std::max(of_wall, std::abs(balance.data.interface_load[w] - lambda - c * (v - last_velocity[3 * i + k])));
-        size = std::max(size, std::abs(rows[f]));
-        traction[3 * i + k] = rows[f];
-        last_velocity[3 * i + k] = u;
-      }
+// What one pass lacks of a jump of the load would swing between fluid and wall for long.
+TEST(RobinRobin, StepsBehindJumpsAreIterated) {
+  for (const std::string scheme : {"robin-robin", "robin-robin-corrected", "robin-robin-parallel"}) {
+    const Case setup = short_pulse(scheme, 1e-8, "euler");
+    const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery()),
+               other = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+    const Loads loads(setup);
+    NewtonOptions newton;
+    newton.tolerance = 1e-11;
+    NewtonStepper<2> whole(*scene, loads, newton, number_scene(*scene));
+    CouplingStepper<2> parts(*other, loads, setup);
+    State a = scene->at_rest(), b = other->at_rest();
+    for (int step = 1; step <= 4; ++step) {  // the pulse ends with the first
+      whole.advance(a);
+      const StepReport report = parts.advance(b);
+      const int single = scheme == "robin-robin-corrected" ? 2 : 1;
+      EXPECT_EQ(report.outer_iterations > single, step <= 2) << scheme << ", step " << step;
+      const double apart = norm(difference(a.now.wall, b.now.wall)) / norm(a.now.wall);
+      if (step <= 2)
+        EXPECT_LT(apart, 1e-6) << scheme << ", step " << step;
+      else
+        EXPECT_GT(apart, 1e-4) << scheme << ", step " << step;
     }
-    EXPECT_LT(of_fluid, 1e-7 * size) << step;
-    EXPECT_LT(of_wall, 1e-7 * size) << step;
+  }
+}
+
+/// The fluid's rows F and its velocities u on the interface in a balance.
+struct InterfaceData {
+  std::vector<double> rows, velocity;
+};
+InterfaceData interface_data(const Scene<3>& scene, const Balance& balance) {
+  std::vector<double> rows;
+  scene.assemble_fluid(balance.at, balance.data, rows);
+  InterfaceData data;
+  for (const auto& node : scene.interface)
+    for (int k = 0; k < 3; ++k) {
+      data.rows.push_back(rows[MixedLayout<3>::vector(node.fluid, k)]);
+      data.velocity.push_back(balance.at.fluid[MixedLayout<3>::vector(node.fluid, k)]);
+    }
+  return data;
+}
+
+// The conditions of a step, from the fields that it leaves. The march that predicts for robin-robin-corrected is one of
+// robin-robin by itself.
+TEST(RobinRobin, BothMediaHaveTheirRobinConditions) {
+  for (const std::string scheme : {"robin-robin", "robin-robin-corrected"}) {
+    Case setup = partitioned_case(scheme, 1e-9);
+    setup.time->scheme = "euler";
+    setup.partitioned.robin_coefficient = 0.7;
+    Case plain = setup;
+    plain.partitioned.scheme = "robin-robin";
+    const bool corrected = scheme == "robin-robin-corrected";
+    if (corrected) plain.partitioned.robin_coefficient = 0.7 / std::sqrt(2);
+    const double alpha = corrected ? 0.7 * std::sqrt(2) : 0.7;
+    const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(2)),
+               other = build_scene<P1Tetrahedron>(plain, fluid_and_wall_box(2));
+    const Loads loads(setup);
+    CouplingStepper<3> stepper(*scene, loads, setup), predicting(*other, loads, plain);
+    stepper.keep_balances(true);
+    predicting.keep_balances(true);
+    State state = scene->at_rest(), predicted = other->at_rest();
+    const std::vector<double> zero(scene->interface.size() * 3, 0.0);
+    InterfaceData last{zero, zero}, last_predicted = last;  // lambda^n, u^n
+    for (int step = 0; step < 3; ++step) {
+      const StepReport report = stepper.advance(state);
+      const bool iterated = step == 0;  // behind the jump of the load at the start
+      if (iterated)
+        EXPECT_GT(report.outer_iterations, 2);
+      else
+        EXPECT_EQ(report.outer_iterations, corrected ? 2 : 1) << "one pass of each march";
+      const Balance& balance = report.balances.front();
+      const StepRates& rates = balance.data.rates;
+      const InterfaceData now = interface_data(*scene, balance),
+                          now_predicted = interface_data(*other, predicting.advance(predicted).balances.front());
+      double of_fluid = 0, of_wall = 0, size = 0, change = 0;
+      for (std::size_t i = 0; i < scene->interface.size(); ++i) {
+        const auto& node = scene->interface[i];
+        if (node.clamped) continue;
+        const double c = alpha * scene->interface_areas[i];
+        for (int k = 0; k < 3; ++k) {
+          const std::size_t j = 3 * i + k, w = MixedLayout<3>::vector(node.wall, k);
+          const double dl = corrected ? now_predicted.rows[j] - last_predicted.rows[j] : 0,
+                       du = corrected ? now_predicted.velocity[j] - last_predicted.velocity[j] : 0;
+          const double lambda = last.rows[j] + dl, u = last.velocity[j] + du;
+          const double v = rates.interface.velocity(balance.at.wall[w], rates.wall_reference[w]);
+          const double load = balance.data.interface_load[w];
+          of_fluid = std::max(of_fluid, std::abs(iterated ? c * (now.velocity[j] - v)
+                                                          : now.rows[j] - lambda + c * (now.velocity[j] - v)));
+          of_wall = std::max(of_wall, std::abs(iterated ? now.rows[j] - load : load - lambda - c * (v - u)));
+          size = std::max(size, std::abs(now.rows[j]));
+          change = std::max(change, std::abs(dl));
+        }
+      }
+      EXPECT_LT(of_fluid, 1e-7 * size) << scheme << ", " << step;
+      EXPECT_LT(of_wall, 1e-7 * size) << scheme << ", " << step;
+      if (corrected) {
+        EXPECT_GT(change, 1e-3 * size) << "else nothing was corrected";
+      }
+      last = now;
+      last_predicted = now_predicted;
+    }
   }
 }
 
 // Without an iteration nothing says that fluid and wall agree: the run does where they do not, and its restart alike.
 TEST(RobinRobin, SaysWhatItLeavesAndRestartsWithTheSameBits) {
-  for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
+  for (const std::string scheme : {"robin-robin", "robin-robin-corrected", "robin-robin-parallel"}) {
     const Case setup = short_pulse(scheme, 1e-6, "euler");
     const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
     const Loads loads(setup);
@@ -396,14 +485,52 @@ TEST(RobinRobin, SaysWhatItLeavesAndRestartsWithTheSameBits) {
   }
 }
 
+// Solvers that iterate use the scene's matrices: with those of the other march they would need more iterations of Newton's
+// method, and after a restart others.
+TEST(RobinRobin, MarchesThatIterateHaveTheirOwnJacobians) {
+  for (const std::string time_scheme : {"euler", "bdf2"}) {
+    const auto case_of = [&](const std::string& scheme) {
+      Case setup = partitioned_case(scheme, 1e-6);
+      setup.time->scheme = time_scheme;
+      setup.partitioned.fast.direct_below = 0;
+      return setup;
+    };
+    const Case setup = case_of("robin-robin-corrected"), plain = case_of("robin-robin");
+    const auto scene = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3)),
+               again = build_scene<P1Tetrahedron>(setup, fluid_and_wall_box(3)),
+               other = build_scene<P1Tetrahedron>(plain, fluid_and_wall_box(3));
+    const Loads loads(setup);
+    CouplingStepper<3> stepper(*scene, loads, setup), single(*other, loads, plain), restarted(*again, loads, setup);
+    State state = scene->at_rest(), alone = other->at_rest();
+    int twice = 0, once = 0;
+    for (int step = 1; step <= 6; ++step) {
+      const int steps = stepper.advance(state).newton_iterations, of_single = single.advance(alone).newton_iterations;
+      if (step == 1) continue;  // iterated
+      twice += steps;
+      once += of_single;
+    }
+    EXPECT_LE(twice, 2.3 * once) << time_scheme;
+    WrittenMemory memory = memory_of(stepper);
+    restarted.keep(memory.turn());
+    State copy = state;
+    for (int step = 0; step < 2; ++step)
+      EXPECT_EQ(stepper.advance(state).newton_iterations, restarted.advance(copy).newton_iterations);
+    EXPECT_EQ(copy.now.wall, state.now.wall) << time_scheme;
+    EXPECT_EQ(copy.now.fluid, state.now.fluid) << time_scheme;
+  }
+}
+
 TEST(RobinRobin, TimeSchemesThatRingAreRefused) {
   for (const std::string time_scheme : every_time_scheme)
-    for (const std::string scheme : {"robin-robin", "robin-robin-parallel"}) {
+    for (const std::string scheme : {"robin-robin", "robin-robin-corrected", "robin-robin-parallel"}) {
       const Case setup = short_pulse(scheme, 1e-6, time_scheme);
       const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
       const Loads loads(setup);
       const bool damps = time_scheme == "euler" || time_scheme == "bdf2" || time_scheme == "generalised-alpha";
-      if (scheme == "robin-robin" ? damps : time_scheme == "euler")
+      const bool served = scheme == "robin-robin-parallel"    ? time_scheme == "euler"
+                          : scheme == "robin-robin-corrected" ? time_scheme == "euler" || time_scheme == "bdf2"
+                                                              : damps;
+      if (served)
         EXPECT_NO_THROW(CouplingStepper<2>(*scene, loads, setup)) << scheme << ", " << time_scheme;
       else
         EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError) << scheme << ", " << time_scheme;

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "partitioned/coupling_stepper.hpp"
+#include "partitioned/own_jacobians.hpp"
+#include "restart/state_checkpoint.hpp"
+
+namespace fsi {
+
+/// The march of robin-robin beside that of robin-robin-corrected, from the same state and with the same steps. It knows
+/// nothing of the correction, so that what it leaves in a step varies smoothly with time.
+template <int n>
+class PredictionMarch {
+ public:
+  /// \param setup  of the run, but for the coefficient of the scheme
+  PredictionMarch(Scene<n>& scene, const Loads& loads, const Case& setup)
+      : scene_(scene), jacobians_(scene), stepper_(scene, loads, setup, coupling_scheme("robin-robin")) {}
+
+  /// Solves the step that follows, which becomes the latest with finish_step() only.
+  /// \param corrected  where the march begins, if it has not yet \throws ConvergenceError
+  const StepReport& solve_step(const State& corrected) {
+    if (!state_) state_ = corrected;
+    next_ = *state_;
+    next_.step = corrected.step;
+    next_.time = corrected.time;
+    const typename OwnJacobians<n>::Use use(jacobians_);
+    stepper_.solve_step(next_);
+    return stepper_.report();
+  }
+  void finish_step() {
+    stepper_.finish_step(next_);
+    std::swap(*state_, next_);
+  }
+  const CouplingStepper<n>& stepper() const { return stepper_; }
+
+  /// Where another scheme has written the checkpoint the march begins with the next step.
+  void keep(Memory& memory) {
+    PrefixedMemory own("predicted_", memory);
+    if (memory.recalls()) {
+      if (!own.has("wall_velocity")) return;
+      state_ = scene_.at_rest();
+    }
+    if (!state_) return;
+    fsi::keep(*state_, own);
+    state_->now = state_->before[0];
+    const typename OwnJacobians<n>::Use use(jacobians_);
+    stepper_.keep(own);
+  }
+
+ private:
+  Scene<n>& scene_;
+  OwnJacobians<n> jacobians_;
+  CouplingStepper<n> stepper_;
+  std::optional<State> state_;  ///< at the end of the last step; empty before the first
+  State next_;                  ///< of the step in progress
+};
+
+}  // namespace fsi
