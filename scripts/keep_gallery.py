@@ -13,21 +13,23 @@ from keep_study import TOP, fail, with_pictures
 
 
 COST = re.compile(
-    r"(\| driver \| unknowns \| steps \| seconds \|.*\n(?:\|.*\n){2,}?)\n[^|\n]*seconds of the whole program[^\n]*\n",
+    r"(\| driver \| unknowns \| steps \|(?: work units per step \|)? seconds \|.*\n(?:\|.*\n){2,}?)"
+    r"\n[^|\n]*seconds of the whole program[^\n]*\n(?:\nWork units: [^\n]*\n)?",
     re.I,
 )
-SECONDS = 3  # the column
+MEASURED = ("work units per step", "seconds")  # columns
 ELSEWHERE = "Seconds and memory of both drivers: [which.md](which.md).\n"
 
 
 def without_seconds(text: str) -> str:
-    """The page without seconds where both drivers run a scene."""
+    """The page without seconds and work units where both drivers run a scene."""
 
     def table(match: "re.Match[str]") -> str:
         rows = [line.strip("| ").split(" | ") for line in match.group(1).splitlines()]
         if len(rows) < 4:  # names, rule, one driver
             return match.group(0)
-        lines = [" | ".join(row[:SECONDS] + row[SECONDS + 1 :]) for row in rows]
+        kept = [i for i, name in enumerate(rows[0]) if name not in MEASURED]
+        lines = [" | ".join(row[i] for i in kept) for row in rows]
         return "".join(f"| {line} |\n" for line in lines) + "\n" + ELSEWHERE
 
     return COST.sub(table, text)
