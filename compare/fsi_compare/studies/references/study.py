@@ -129,8 +129,8 @@ def _report(context: Context, found: Sequence[Record], missing: Sequence[str]) -
         report.figure(
             "references",
             lambda: picture(found),
-            "Difference from the known value (dot) and bar (line from the left), relative to the known value, larger of the "
-            "drivers. A dot beyond the end of its line is off by more than its bar.",
+            "Difference from the known value (mark) and bar (line), larger of the drivers. A square lies beyond its line: it is off "
+            "by more than its bar.",
         )
     table = Table("references", "Known numbers", RECORDS, found)
     report.table(table)
@@ -177,6 +177,7 @@ def picture(found: Sequence[Record]) -> Figure:
         axes.plot(max(least, 100 * one.relative(one.off)), y, "o" if inside else "s", color="black", mfc=face, ms=4)
     axes.set_xscale("log")
     axes.set_yticks(range(len(rows)), [f"{one.scene}: {one.number.what}" for one in rows], fontsize=7)
-    axes.set_xlabel("difference from the known value (dot; square: beyond the bar), bar (line)")
+    axes.set_ylim(-1, len(rows))
+    axes.set_xlabel("relative to the known value")
     plain_log_axis(axes.xaxis, "%")
     return figure
