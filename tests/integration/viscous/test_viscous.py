@@ -165,6 +165,13 @@ class Shared(ViscousTest):
                 kept, others = (arrays(folder / "checkpoint.h5")[BRANCHES] for folder in (alone, together))
                 self.assertLess(np.abs(kept - others).max(), 1e-8 * np.abs(kept).max())
 
+    def test_other_laws_on_three_processes(self):
+        settings = scene(self.base, "p1", "3d")
+        for program, law in zip(DRIVERS, ("casson", "power-law")):
+            alone = run(program, self.case(law), self.base / "alone", *settings)
+            together = run(program, self.case(law), self.base / "together", *settings, processes=3)
+            self.assertAgree(alone, together, 1e-8)
+
     def test_a_run_of_three_processes_goes_on_with_one(self):
         settings = scene(self.base, "p2p1", "axisymmetric")
         case = self.case(walls=MAXWELL)
