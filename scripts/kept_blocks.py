@@ -195,10 +195,10 @@ def references_table(rows: List[Row]) -> str:
         spread = f", they differ by {_digits(first['spread'], 2)} %" if first["spread"] else ""
         cells = [f"`{scene}`", number, first["unit"], _digits(first["known"], 6), first["source"] + spread, orders]
         for driver in DRIVERS:
-            row = of.get(driver)
-            if row is None:
+            if driver not in of:
                 cells += ["", "", "", ""]
                 continue
+            row = of[driver]
             bar = [_digits(row["bar"], 2), _digits(row["in_bars"], 2)] if row["bar"] else ["none", ""]
             cells += [_digits(row["value"], 6), *bar, _two_digits(row["seconds"])]
         lines.append("| " + " | ".join(cells) + " |")
