@@ -16,6 +16,7 @@
 #include "partitioned/interface/robin_robin.hpp"
 #include "partitioned/interface/robin_robin_corrected.hpp"
 #include "partitioned/interface/robin_robin_parallel.hpp"
+#include "partitioned/interface/semi_implicit.hpp"
 #include "partitioned/prediction_march.hpp"
 #include "partitioned/scheme_checks.hpp"
 #include "system/level_check.hpp"
@@ -69,6 +70,8 @@ void CouplingStepper<n>::make_problem(Scene<n>& scene, const Loads& loads, const
     choices_.push_back({"partitioned.robin_coefficient", fmt::format("{:.4g} kPa/(mm/ms)", alpha.value), alpha.reason});
     loose_ = loose.get();
     problem_ = std::move(loose);
+  } else if (scheme_.extrapolates_domain) {
+    problem_ = std::make_unique<SemiImplicit<n>>(scene, options_);
   } else if (scheme_.robin) {
     problem_ = std::make_unique<RobinNeumann<n>>(scene, options_);
   } else {
@@ -89,7 +92,8 @@ void CouplingStepper<n>::solve_step(State& state) {
   report_.outer_iterations = 0;
   coupling_ = {};
   problem_->cost = {};
-  const auto take_back = [this, started_far = starts_far_, march = march_, loose = loose_march_] {
+  const auto take_back = [this, started_far = starts_far_, march = march_, loose = loose_march_, gap = domain_gap_] {
+    domain_gap_ = gap;
     accelerator_->abandon();
     starts_far_ = started_far;
     march_ = march;
@@ -157,6 +161,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       march_.check(state.step + 1, data.time, coupling_, problem_->movement());
     if (one_pass() || agreement_.met_by(coupling_)) {
       if (scheme_.loose != Loose::no) loose_march_.add(coupling_.displacement_gap, problem_->movement());
+      if (scheme_.extrapolates_domain) domain_gap_ = std::max(domain_gap_, coupling_.domain_gap);
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
       accept(x, pass);
       return;
@@ -209,6 +214,7 @@ void CouplingStepper<n>::keep(Memory& memory) {
   memory.number_if_there("starts_far", starts_far);
   starts_far_ = starts_far != 0;
   memory.number_if_there("interface_period", period_);
+  if (scheme_.extrapolates_domain) memory.number_if_there("domain_gap", domain_gap_);
   if (scheme_.loose != Loose::no) {
     loose_march_.keep(memory);
     double jumped = after_jump_ ? 1 : 0;
@@ -217,6 +223,18 @@ void CouplingStepper<n>::keep(Memory& memory) {
     if (prediction_) prediction_->keep(memory);
   } else if (scheme_.one_pass || memory.recalls())
     march_.keep(memory);
+}
+
+template <int n>
+std::string CouplingStepper<n>::unchecked_domain() const {
+  const double part = domain_gap_ / problem_->radius();
+  if (!(part > small_domain_gap)) return {};
+  return fmt::format(
+      "the {} coupling extrapolates the fluid's domain, which has missed the wall by {:.2g} of the vessel's radius "
+      "(root "
+      "mean square over the interface, more than {:g}); take a smaller time.step, or compare with partitioned.scheme = "
+      "\"block-newton\"",
+      scheme_.name, part, small_domain_gap);
 }
 
 template <int n>
@@ -252,6 +270,7 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
   coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
   coupling_.traction_gap = problem_->traction_gap();
+  coupling_.domain_gap = problem_->domain_gap();
 }
 
 template <int n>

@@ -56,6 +56,7 @@ class CouplingStepper : public Stepper {
   bool can_retry() const override { return !scheme_.one_pass || scheme_.loose != Loose::no; }
   std::string unchecked() const override {
     if (scheme_.loose != Loose::no) return loose_march_.unchecked();
+    if (scheme_.extrapolates_domain) return unchecked_domain();
     return scheme_.one_pass ? march_.unchecked() : std::string();
   }
 
@@ -118,6 +119,10 @@ class CouplingStepper : public Stepper {
 
   void accept(const std::vector<double>& x, const Pass& pass);
 
+  /// Part of the vessel's radius up to which the fluid's domain may miss the wall (docs/coupling.md).
+  static constexpr double small_domain_gap = 0.01;
+  std::string unchecked_domain() const;
+
   /// Whether the step is one pass. Robin-Robin schemes iterate where the load has jumped: else what one pass lacks of the
   /// jump swings between fluid and wall for long, the faster the shorter the steps (docs/theory.md, section 10.5).
   bool one_pass() const { return scheme_.one_pass && !(scheme_.loose != Loose::no && after_jump_); }
@@ -142,6 +147,7 @@ class CouplingStepper : public Stepper {
   OnePassMarch march_;         ///< of the steps, with one pass each
   LooseMarch loose_march_;     ///< of the steps of Robin-Robin schemes
   bool after_jump_ = true;     ///< the load has jumped before the step, or nothing was before it
+  double domain_gap_ = 0;      ///< mm, largest of the steps
   bool ends_at_jump_ = false;  ///< of the step in progress
   int passes_ = 0;             ///< of the stage in progress
   int order_ = 0;              ///< of the extrapolated start

@@ -77,12 +77,22 @@ void require_for_loose(const CouplingScheme& scheme, const Case& setup, Scene<n>
                     file, scheme.name));
 }
 
+/// An extrapolated domain is one in time.
+void require_time(const CouplingScheme& scheme, const Case& setup) {
+  if (setup.time) return;
+  throw InputError(
+      setup.path.string(), "partitioned.scheme",
+      fmt::format("\"{}\" extrapolates the fluid's domain in time, and a static case has none", scheme.name),
+      "use \"block-newton\"");
+}
+
 }  // namespace
 
 template <int n>
 void check_scheme(const CouplingScheme& scheme, const Case& setup, int order, Scene<n>& scene) {
   if (scheme.loose != Loose::no) require_for_loose(scheme, setup, scene);
   if (scheme.one_pass) require_for_one_pass(scheme, setup, order, scene);
+  if (scheme.extrapolates_domain) require_time(scheme, setup);
   const bool given_velocity = !scheme.robin && scheme.loose == Loose::no;
   if (given_velocity && scene.coupled() && scene.has_flow_only())
     throw InputError(setup.path.string(), "partitioned.scheme",

@@ -66,25 +66,26 @@ Made robin_imvj(const Options& o, const Space& space) {
 
 constexpr auto other = "a larger partitioned.max_iterations, a smaller time.step, or the monolithic driver";
 constexpr auto loose_advice = "a smaller time.step, or a scheme that iterates: partitioned.scheme = \"block-newton\"";
-constexpr std::array<CouplingScheme, 13> coupling_schemes{{
-    {"aitken", false, false, Loose::no, aitken,
+constexpr std::array<CouplingScheme, 14> coupling_schemes{{
+    {"aitken", false, false, false, Loose::no, aitken,
      "partitioned.scheme = \"iqn-ils\", or a larger partitioned.max_iterations"},
-    {"block-newton", true, false, Loose::no, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
-    {"constant", false, false, Loose::no, constant,
+    {"block-newton", true, false, false, Loose::no, robin_iqn, "a smaller time.step or load, or the monolithic driver"},
+    {"constant", false, false, false, Loose::no, constant,
      "partitioned.scheme = \"iqn-ils\", or a smaller partitioned.relaxation"},
-    {"explicit", false, true, Loose::no, constant,
+    {"explicit", false, false, true, Loose::no, constant,
      "a scheme that iterates: partitioned.scheme = \"iqn-ils\"; one pass a step is unstable where the fluid's added "
      "mass exceeds the wall's"},
-    {"iqn-ils", false, false, Loose::no, iqn_ils, other},
-    {"iqn-imvj", false, false, Loose::no, iqn_imvj, other},
-    {"newton-krylov", false, false, Loose::no, newton_krylov, other},
-    {"robin-neumann", true, false, Loose::no, robin,
+    {"iqn-ils", false, false, false, Loose::no, iqn_ils, other},
+    {"iqn-imvj", false, false, false, Loose::no, iqn_imvj, other},
+    {"newton-krylov", false, false, false, Loose::no, newton_krylov, other},
+    {"robin-neumann", true, false, false, Loose::no, robin,
      "partitioned.scheme = \"robin-neumann-iqn\", or a smaller time.step"},
-    {"robin-neumann-iqn", true, false, Loose::no, robin_iqn, other},
-    {"robin-neumann-imvj", true, false, Loose::no, robin_imvj, other},
-    {"robin-robin", false, true, Loose::in_turn, robin_iqn, loose_advice},
-    {"robin-robin-corrected", false, true, Loose::corrected, robin_iqn, loose_advice},
-    {"robin-robin-parallel", false, true, Loose::at_once, robin_iqn, loose_advice},
+    {"robin-neumann-iqn", true, false, false, Loose::no, robin_iqn, other},
+    {"robin-neumann-imvj", true, false, false, Loose::no, robin_imvj, other},
+    {"robin-robin", false, false, true, Loose::in_turn, robin_iqn, loose_advice},
+    {"robin-robin-corrected", false, false, true, Loose::corrected, robin_iqn, loose_advice},
+    {"robin-robin-parallel", false, false, true, Loose::at_once, robin_iqn, loose_advice},
+    {"semi-implicit", true, true, false, Loose::no, robin_iqn, other},
 }};
 static_assert(names_match(coupling_scheme_list, coupling_schemes), "case/choices.hpp owns these names");
 

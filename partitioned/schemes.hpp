@@ -20,10 +20,11 @@ enum class Loose {
 
 /// A coupling scheme: how one pass goes through the sub-problems, and how passes are accelerated.
 struct CouplingScheme {
-  std::string_view name;  ///< partitioned.scheme, one of coupling_scheme_names()
-  bool robin;             ///< Robin-Neumann, else Dirichlet-Neumann
-  bool one_pass;          ///< a step is one pass, converged or not
-  Loose loose;            ///< how, where both media have Robin conditions
+  std::string_view name;     ///< partitioned.scheme, one of coupling_scheme_names()
+  bool robin;                ///< Robin-Neumann, else Dirichlet-Neumann
+  bool extrapolates_domain;  ///< the fluid's, once a step
+  bool one_pass;             ///< a step is one pass, converged or not
+  Loose loose;               ///< how, where both media have Robin conditions
   std::unique_ptr<Accelerator> (*make_accelerator)(const PartitionedData& options, const InterfaceSpace& space);
   const char* advice;  ///< what helps when it does not converge
 };

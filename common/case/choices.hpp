@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, 16> coupled_solver_list{
     "ssor_exact", "ilu_exact", "amg",   "amg_gmres", "amg_fgmres", "amli",           "amli_gmres",  "amli_fgmres"};
 
 /// partitioned.scheme. Their table: partitioned/schemes.cpp.
-inline constexpr std::array<std::string_view, 13> coupling_scheme_list{"aitken",
+inline constexpr std::array<std::string_view, 14> coupling_scheme_list{"aitken",
                                                                        "block-newton",
                                                                        "constant",
                                                                        "explicit",
@@ -36,7 +36,8 @@ inline constexpr std::array<std::string_view, 13> coupling_scheme_list{"aitken",
                                                                        "robin-neumann-imvj",
                                                                        "robin-robin",
                                                                        "robin-robin-corrected",
-                                                                       "robin-robin-parallel"};
+                                                                       "robin-robin-parallel",
+                                                                       "semi-implicit"};
 
 /// Fields of output.fields. Their table: observers/field_output.cpp.
 inline constexpr std::array<std::string_view, 9> output_field_list{

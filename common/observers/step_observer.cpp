@@ -43,7 +43,8 @@ const Columns<CouplingRecord>& coupling_columns() {
       {"coupling_s", [](const R& r) { return r.report.algebra_seconds; }},
       {"pressure_residual", [](const R& r) { return r.report.pressure_residual; }},
       {"gap_kPa", [](const R& r) { return r.report.gap_pressure; }},
-      {"traction_gap_kPa", [](const R& r) { return r.report.traction_gap; }}};
+      {"traction_gap_kPa", [](const R& r) { return r.report.traction_gap; }},
+      {"domain_gap_mm", [](const R& r) { return r.report.domain_gap; }}};
   return columns;
 }
 

@@ -23,6 +23,7 @@ struct CouplingReport {
   double pressure_residual = 0;      ///< the pressure that the gap is worth, relative to that between fluid and wall
   double gap_pressure = 0;           ///< the same in kPa, root mean square over the interface
   double traction_gap = 0;           ///< kPa, alike: between the fluid's traction and what the wall was loaded with
+  double domain_gap = 0;             ///< mm, alike: between the wall and the boundary of the fluid's domain
   int fluid_newton_iterations = 0, wall_newton_iterations = 0;
   int fluid_linear_iterations = 0, wall_linear_iterations = 0;
   double fluid_seconds = 0, wall_seconds = 0, mesh_seconds = 0, algebra_seconds = 0;

@@ -100,6 +100,18 @@ class InterfaceProblem {
   /// interface. None where the wall bears the fluid's own rows.
   virtual double traction_gap() const { return 0; }
 
+  /// Whether the fluid's domain goes with the interface in each pass.
+  virtual bool domain_follows() const { return true; }
+  /// Between the wall's answer and the boundary of the fluid's domain, mm, root mean square over the interface.
+  double domain_gap() const {
+    std::vector<double> gap = wall_displacement(state_->now);
+    for (std::size_t i = 0; i < scene_.interface.size(); ++i)
+      for (int k = 0; k < n; ++k) gap[i * n + k] -= state_->now.mesh[mesh_entry(scene_.interface[i], k)];
+    return mean_gap_pressure(scene_, membrane_, wall_.numbering(), 1.0, gap);
+  }
+  /// mm, of the vessel.
+  double radius() const { return membrane_.radius; }
+
   /// |d~ - d^{n-1}| of the last pass, mm.
   double movement() const {
     const std::vector<double> now = wall_displacement(state_->now), last = wall_displacement(state_->before[0]);
@@ -116,8 +128,8 @@ class InterfaceProblem {
     Solution moved{state_->now.mesh, state_->now.fluid, {}, state_->now.openings};
     for (const auto& node : scene_.interface)
       for (int k = 0; k < n; ++k) {
-        const double gap = state_->now.wall[wall_entry(node, k)] - state_->now.mesh[mesh_entry(node, k)];
-        moved.mesh[mesh_entry(node, k)] += gap;
+        const double gap = state_->now.wall[wall_entry(node, k)] - displacement_of_fluid(node, k);
+        if (domain_follows()) moved.mesh[mesh_entry(node, k)] += gap;
         moved.fluid[fluid_entry(node, k)] += data_->rates.interface.velocity_change(gap);
       }
     std::vector<double> rows;
@@ -148,6 +160,13 @@ class InterfaceProblem {
   static std::size_t fluid_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.fluid, k); }
   static std::size_t wall_entry(const InterfaceNode& node, int k) { return MixedLayout<n>::vector(node.wall, k); }
   std::size_t interface_size() const { return scene_.interface.size() * n; }
+
+  /// That of the fluid's domain, or, where this does not follow, what the fluid's velocity gives the interface.
+  double displacement_of_fluid(const InterfaceNode& node, int k) const {
+    if (domain_follows()) return state_->now.mesh[mesh_entry(node, k)];
+    return data_->rates.interface.displacement(state_->now.fluid[fluid_entry(node, k)],
+                                               data_->rates.wall_reference[wall_entry(node, k)]);
+  }
 
   double root_mean_traction(const std::vector<double>& forces) const {
     return fsi::root_mean_traction(scene_, membrane_, wall_.numbering(), forces);

@@ -27,14 +27,19 @@ class RobinNeumann : public InterfaceProblem<n> {
 
  public:
   RobinNeumann(Scene<n>& scene, const PartitionedData& options)
+      : RobinNeumann(scene, options, number_fluid_and_domain(scene)) {}
+
+ protected:
+  /// \param fluid  unknowns of the fluid, its velocity free on the interface
+  RobinNeumann(Scene<n>& scene, const PartitionedData& options, Numbering fluid)
       : Base(scene, options),
-        fluid_("fluid", scene, number_fluid_and_domain(scene), Base::solver_factory(options), SystemNorm::entries,
-               &robin_) {
+        fluid_("fluid", scene, std::move(fluid), Base::solver_factory(options), SystemNorm::entries, &robin_) {
     for (const auto& node : scene.interface) robin_.nodes.push_back(node.fluid);
     robin_.velocity.assign(Base::interface_size(), 0.0);
     for (auto& load : loads_) load.assign(Base::interface_size(), 0.0);
   }
 
+ public:
   void start(State& state, StepData& data) override {
     Base::start(state, data);
     if (data.rates.stage == 0) stage_loads_.clear();  // of a step that failed
@@ -68,7 +73,7 @@ class RobinNeumann : public InterfaceProblem<n> {
     for (std::size_t i = 0; i < x.size(); ++i)
       robin_.velocity[i] = data_->rates.interface.velocity(
           x[i], data_->rates.wall_reference[Base::wall_entry(scene_.interface[i / n], static_cast<int>(i % n))]);
-    follow_fluid(*state_);
+    if (this->domain_follows()) follow_fluid(*state_);
     return refine(accuracy);
   }
 
@@ -82,8 +87,7 @@ class RobinNeumann : public InterfaceProblem<n> {
     pass.displacement = Base::wall_displacement(state_->now);
     pass.residual = pass.displacement;
     for (std::size_t i = 0; i < scene_.interface.size(); ++i)
-      for (int k = 0; k < n; ++k)
-        pass.residual[i * n + k] -= state_->now.mesh[Base::mesh_entry(scene_.interface[i], k)];
+      for (int k = 0; k < n; ++k) pass.residual[i * n + k] -= Base::displacement_of_fluid(scene_.interface[i], k);
     return pass;
   }
 

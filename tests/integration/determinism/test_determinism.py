@@ -19,6 +19,7 @@ SCHEMES = (
     "robin-robin",
     "robin-robin-corrected",
     "robin-robin-parallel",
+    "semi-implicit",
 )
 SOLVERS = ("fast", "direct")
 THREADS = (1, 2, 4)

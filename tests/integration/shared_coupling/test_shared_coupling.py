@@ -73,6 +73,7 @@ class Restart(Shared):
             ("iqn-ils", 3, 2),
             ("robin-neumann-imvj", 2, None),
             ("robin-robin-corrected", 2, 3),
+            ("semi-implicit", 3, 2),
         ):
             with self.subTest(scheme=name):
                 more = (f"partitioned.scheme={name}",)

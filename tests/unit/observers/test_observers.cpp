@@ -109,16 +109,17 @@ TEST_F(Watchers, WriteTheColumnsThatScriptsRelyOn) {
   coupling.pressure_residual = 3e-6;
   coupling.gap_pressure = 0.25;
   coupling.traction_gap = 0.125;
+  coupling.domain_gap = 0.0625;
   all.after_step({{3, 0.375, 8, 44, 7, 0.75, 0.002}, report, state_}, results);
   EXPECT_EQ(contents_of(results.path() / "iterations.csv"),
             "step,time_ms,outer_iterations,newton_iterations,linear_iterations,wall_s,solver_error\n"
             "3,0.375,8,44,7,0.75,0.002\n");
-  EXPECT_EQ(
-      contents_of(results.path() / "coupling.csv"),
-      "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
-      "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,"
-      "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual,gap_kPa,traction_gap_kPa\n"
-      "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0,3e-06,0.25,0.125\n");
+  EXPECT_EQ(contents_of(results.path() / "coupling.csv"),
+            "step,time_ms,iterations,failed_passes,relaxation,columns,displacement_residual,displacement_residual_mm,"
+            "force_residual,fluid_newton_iterations,wall_newton_iterations,fluid_linear_iterations,"
+            "wall_linear_iterations,fluid_s,wall_s,mesh_motion_s,coupling_s,pressure_residual,gap_kPa,traction_gap_kPa,"
+            "domain_gap_mm\n"
+            "3,0.375,8,1,0,12,5e-07,1e-08,2e-06,20,24,0,7,0,0,0.5,0,3e-06,0.25,0.125,0.0625\n");
   EXPECT_EQ(contents_of(results.path() / "flow.csv"),
             "time_ms,inlet_flow_mm3_per_ms,outlet_flow_mm3_per_ms,inlet_pressure_Pa,outlet_pressure_Pa\n");
 }

@@ -311,6 +311,9 @@ double loose_error(Case setup) {
     const StepReport report = parts.advance(b);
     EXPECT_GT(report.coupling->displacement_gap, 0) << "reported as it is";
     EXPECT_GT(report.coupling->gap_pressure, 0);
+    if (setup.partitioned.scheme == "semi-implicit") {
+      EXPECT_GT(report.coupling->domain_gap, 0);
+    }
   }
   const auto displacements = [](std::vector<double> wall) {
     for (std::size_t i = 2; i < wall.size(); i += 3) wall[i] = 0;
@@ -535,6 +538,72 @@ TEST(RobinRobin, TimeSchemesThatRingAreRefused) {
       else
         EXPECT_THROW(CouplingStepper<2>(*scene, loads, setup), InputError) << scheme << ", " << time_scheme;
     }
+}
+
+// A domain that is extrapolated by the second order leaves an error of that order at least, whatever the time scheme.
+TEST(SemiImplicit, ErrorOfTheDomainFallsWithTheSquareOfTheStep) {
+  for (const std::string time_scheme : every_time_scheme) {
+    const auto error = [&](double step) {
+      Case setup = short_pulse("semi-implicit", 1e-9, time_scheme, step);
+      setup.inlet = smooth_pulse();
+      return loose_error(setup);
+    };
+    const double coarse = error(1. / 16), middle = error(1. / 32), fine = error(1. / 64);
+    std::cout << time_scheme << ": errors " << coarse << ", " << middle << ", " << fine << '\n';
+    EXPECT_GT(std::log2(coarse / middle), 1.8) << time_scheme;
+    EXPECT_GT(std::log2(middle / fine), 1.8) << time_scheme;
+    EXPECT_LT(fine, 1e-4) << time_scheme;
+  }
+}
+
+// At the end of a step velocities are one on the interface and forces balance, while the domain is where it was
+// extrapolated to. A restart goes on with the same bits, and says the same of the domain.
+TEST(SemiImplicit, MediaAgreeOnTheExtrapolatedDomain) {
+  Case setup = short_pulse("semi-implicit", 1e-9, "euler", 0.125);
+  setup.inlet = PressureTable{{{0.0, 4.0}, {0.125, 4.0}, {0.125, 0.0}}};
+  const auto scene = build_scene<P2P1AxisymmetricTriangle>(setup, short_artery());
+  const Loads loads(setup);
+  CouplingStepper<2> stepper(*scene, loads, setup);
+  stepper.keep_balances(true);
+  State state = scene->at_rest();
+  for (int step = 0; step < 4; ++step) {
+    State predicted = state;
+    StepData data = loads.next(predicted, *scene->integrator);
+    scene->integrator->predict(predicted, 2, data);
+    const Balance balance = stepper.advance(state).balances.front();
+    std::vector<double> rows;
+    scene->assemble_fluid(balance.at, balance.data, rows);
+    const StepRates& rates = balance.data.rates;
+    double velocity = 0, force = 0, apart = 0, domain = 0;
+    for (const auto& node : scene->interface) {
+      if (node.clamped) continue;
+      for (int k = 0; k < 2; ++k) {
+        const std::size_t f = MixedLayout<2>::vector(node.fluid, k), w = MixedLayout<2>::vector(node.wall, k),
+                          m = VectorLayout<2>::vector(node.fluid, k);
+        const double v = rates.interface.velocity(balance.at.wall[w], rates.wall_reference[w]);
+        velocity = std::max(velocity, std::abs(balance.at.fluid[f] - v));
+        force = std::max(force, std::abs(rows[f] - balance.data.interface_load[w]));
+        apart = std::max(apart, std::abs(balance.at.mesh[m] - predicted.now.wall[w]));
+        domain = std::max(domain, std::abs(balance.at.mesh[m] - balance.at.wall[w]));
+      }
+    }
+    EXPECT_LT(velocity, 1e-8 * largest(balance.at.fluid)) << step;
+    EXPECT_LT(force, 1e-7 * largest(rows)) << step;
+    EXPECT_LT(apart, 1e-14) << step;
+    EXPECT_GT(domain, 1e-5) << step;
+  }
+  EXPECT_NE(stepper.unchecked().find("of the vessel's radius"), std::string::npos)
+      << "the step is as long as the pulse";
+  CouplingStepper<2> restarted(*scene, loads, setup);
+  WrittenMemory memory = memory_of(stepper);
+  restarted.keep(memory.turn());
+  EXPECT_EQ(restarted.unchecked(), stepper.unchecked());
+  State again = state;
+  stepper.advance(state);
+  restarted.advance(again);
+  EXPECT_EQ(again.now.wall, state.now.wall);
+  EXPECT_EQ(again.now.fluid, state.now.fluid);
+  EXPECT_EQ(again.now.mesh, state.now.mesh);
 }
 
 // Nothing has a natural size: with a load that is a million million times smaller fluid and wall agree as well.
