@@ -120,7 +120,7 @@ class CouplingStepper : public Stepper {
   void accept(const std::vector<double>& x, const Pass& pass);
 
   /// Part of the vessel's radius up to which the fluid's domain may miss the wall (docs/coupling.md).
-  static constexpr double small_domain_gap = 0.01;
+  static constexpr double small_domain_gap = 0.005;
   std::string unchecked_domain() const;
 
   /// Whether the step is one pass. Robin-Robin schemes iterate where the load has jumped: else what one pass lacks of the
