@@ -42,7 +42,9 @@ class Facts:
 
 
 def fixed(value: Any, form: Union[str, Callable[[Any], str]], missing: str = "-") -> str:
-    """A value in the given format; a dash for what there is not."""
+    """A value in the given format, zero without a power of ten; a dash for what there is not."""
     if value is None:
         return missing
+    if isinstance(form, str) and form.endswith("e") and value == 0:
+        return "0"
     return format(value, form) if isinstance(form, str) else form(value)

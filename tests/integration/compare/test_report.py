@@ -54,6 +54,10 @@ class OneFile(FolderCase):
         report.figure("line", line_figure, "A line, in `mm`")
         return report
 
+    def test_zero_has_no_power_of_ten(self):
+        shown = Table("t", "T", [Column("error", "error", lambda record: record, ".1e")], [0.0, 1e-9, None])
+        self.assertEqual(shown.rows, [["0"], ["1.0e-09"], ["-"]])
+
     def test_page(self):
         report = self.report()
         page = report.write().read_text()
