@@ -41,7 +41,9 @@ TEST(NetworkElements, HaveExactDerivatives) {
         SCOPED_TRACE(name);
         const NetworkMoment at{lag, 12.5};
         const double flow = 0.9;
-        const auto value = [&](double p, double q) { return element->equation(at, reference, p, q).value; };
+        const auto value = [&, &element = element](double p, double q) {
+          return element->equation(at, reference, p, q).value;
+        };
         const auto here = element->equation(at, reference, drop, flow);
         EXPECT_NEAR((value(drop + h, flow) - value(drop - h, flow)) / (2 * h), here.by_drop, 1e-8);
         EXPECT_NEAR((value(drop, flow + h) - value(drop, flow - h)) / (2 * h), here.by_flow, 1e-8);

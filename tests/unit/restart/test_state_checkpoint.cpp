@@ -221,9 +221,9 @@ TEST(StateCheckpoint, WithANumberThatIsNotFiniteIsRefused) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (const auto& [name, array] : whole.arrays)
       for (std::size_t i = 0; i < array.size(); ++i)
-        EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name][i] = bad; }), "") << name << i;
+        EXPECT_NE(said_of([&, &name = name](Checkpoint& c) { c.arrays[name][i] = bad; }), "") << name << i;
     for (const auto& [name, number] : whole.reals)
-      EXPECT_NE(said_of([&](Checkpoint& c) { c.reals[name] = bad; }), "") << name;
+      EXPECT_NE(said_of([&, &name = name](Checkpoint& c) { c.reals[name] = bad; }), "") << name;
     EXPECT_NE(said_of([&](Checkpoint& c) { c.time = bad; }), "");
   }
 }
@@ -232,10 +232,10 @@ TEST(StateCheckpoint, WithAnArrayMissingTooLongOrUnknownIsRefused) {
   const Checkpoint whole = example();
   for (const auto& [name, array] : whole.arrays) {
     if (name.rfind("table.", 0) == 0) continue;
-    EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays.erase(name); }), "") << name;
-    EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name].push_back(0); }), "") << name;
+    EXPECT_NE(said_of([&, &name = name](Checkpoint& c) { c.arrays.erase(name); }), "") << name;
+    EXPECT_NE(said_of([&, &name = name](Checkpoint& c) { c.arrays[name].push_back(0); }), "") << name;
     if (!array.empty()) {
-      EXPECT_NE(said_of([&](Checkpoint& c) { c.arrays[name].pop_back(); }), "") << name;
+      EXPECT_NE(said_of([&, &name = name](Checkpoint& c) { c.arrays[name].pop_back(); }), "") << name;
     }
   }
   EXPECT_NE(said_of([](Checkpoint& c) { c.arrays["more"] = {1}; }).find("more: is unknown"), std::string::npos);

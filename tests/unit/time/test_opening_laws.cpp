@@ -162,7 +162,7 @@ TEST(OpeningLaws, AnswerTheFlowWithTheirSlope) {
     for (const double k : {0.0, 1.7}) {
       SCOPED_TRACE(name);
       const std::vector<double> reference = behind->start();
-      const auto pressure = [&](double q) { return behind->pressure(k, reference.data(), q); };
+      const auto pressure = [&, &behind = behind](double q) { return behind->pressure(k, reference.data(), q); };
       EXPECT_NEAR(pressure(2) - pressure(1), behind->slope(k), 1e-13);
       EXPECT_NEAR(pressure(5) - pressure(-3), 8 * behind->slope(k), 1e-13);
     }
