@@ -72,6 +72,18 @@ class ClangTidy(unittest.TestCase):
         self.assertIn("common/other/c.cpp:5:", found)
         self.assertNotIn("redefinition", found)
 
+    def test_a_name_that_a_later_header_has_as_well_hides_no_finding(self) -> None:
+        (self.root / "common/mesh/state.hpp").write_text(
+            "#pragma once\nnamespace fsi {\nstruct State {};\nvoid use(State s);\n}\n"
+        )
+        own = (
+            "namespace fsi {\nnamespace {\nstruct State {};\nState made() { return {}; }\n}\nvoid a() { made(); }\n}\n"
+        )
+        found = self.found(a=own, b='#include "mesh/state.hpp"\n' + POINTER, c=POINTER.replace("three", "four"))
+        self.assertIn("common/mesh/b.cpp:3:", found)
+        self.assertIn("common/mesh/c.cpp:2:", found)
+        self.assertNotIn("ambiguous", found)
+
     def test_a_header_is_looked_for_beside_its_source(self) -> None:
         (self.root / "common/other").mkdir()
         (self.root / "common/other/beside.hpp").write_text("#pragma once\ninline int here() { return 1; }\n")
