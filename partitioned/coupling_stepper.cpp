@@ -161,6 +161,7 @@ void CouplingStepper<n>::advance_stage(State& state, StepData& data) {
       march_.check(state.step + 1, data.time, coupling_, problem_->movement());
     if (one_pass() || agreement_.met_by(coupling_)) {
       if (scheme_.loose != Loose::no) loose_march_.add(coupling_.displacement_gap, problem_->movement());
+      coupling_.domain_gap = problem_->domain_gap();
       if (scheme_.extrapolates_domain) domain_gap_ = std::max(domain_gap_, coupling_.domain_gap);
       report_.solver_error = std::max(report_.solver_error, estimated_error(state, data, good));
       accept(x, pass);
@@ -270,7 +271,6 @@ void CouplingStepper<n>::measure(const Pass& pass) {
   coupling_.pressure_residual = problem_->pressure_residual(pass.residual);
   coupling_.gap_pressure = problem_->gap_pressure(pass.residual);
   coupling_.traction_gap = problem_->traction_gap();
-  coupling_.domain_gap = problem_->domain_gap();
 }
 
 template <int n>

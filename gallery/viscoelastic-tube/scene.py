@@ -14,10 +14,16 @@ G = mu + i w eta/2 + G_1 i w tau/(1 + i w tau) of the wall.
 """
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from fsi_compare.studies.gallery.dispersion import incompressible_waves, lack, root, swing_on_the_axis, wave_number
-from fsi_compare.studies.gallery.scene import Number
+from fsi_compare.studies.gallery.dispersion import (
+    draw_swings,
+    incompressible_waves,
+    lack,
+    root,
+    speed_and_attenuation,
+    swing_on_the_axis,
+    wave_number,
+)
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set along=16 --set across=4 --set through=1"
@@ -54,28 +60,13 @@ EXACT = exact_wave_number()
 
 
 def numbers(runs):
+    tolerances = (0.02, 0.03) if runs.quick else (0.003, 0.005)
     found = []
     for run in runs:
         k = wave_number(swing_on_the_axis(run, PERIOD).between(FIRST, LAST), APART)
-        for what, unit, value, exact, tolerance in (
-            ("phase speed", "mm/ms", OMEGA / k.real, OMEGA / EXACT.real, 0.02 if runs.quick else 0.003),
-            ("attenuation", "1/mm", -k.imag, -EXACT.imag, 0.03 if runs.quick else 0.005),
-        ):
-            found.append(Number(what, unit, run.program, float(value), float(exact), tolerance, "dispersion relation"))
+        found += speed_and_attenuation(run, k, EXACT, OMEGA, tolerances)
     return found
 
 
 def draw(runs):
-    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-        swing = swing_on_the_axis(run, PERIOD)
-        axes.plot(swing.z, np.abs(swing.p), style, color=color, label=run.program)
-    inside = swing_on_the_axis(runs.first, PERIOD).between(FIRST, LAST)
-    both = np.stack([np.exp(-1j * EXACT * inside.z), np.exp(1j * EXACT * inside.z)], axis=1)
-    fitted = both @ np.linalg.lstsq(both, inside.p, rcond=None)[0]
-    axes.plot(inside.z[::8], np.abs(fitted[::8]), "o", color="black", mfc="white", label="two waves of the exact k")
-    axes.set_xlabel("place on the axis [mm]")
-    axes.set_ylabel("pressure, amplitude [Pa]")
-    axes.legend()
-    return figure
+    return draw_swings(runs, PERIOD, FIRST, LAST, [EXACT])

@@ -12,17 +12,17 @@ Both exact numbers are those of small waves in a thick compressible tube filled 
 """
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from fsi_compare.studies.gallery.dispersion import (
     compressible_waves,
+    draw_swings,
     incompressible_waves,
     lack,
     root,
+    speed_and_attenuation,
     swing_on_the_axis,
     wave_number,
 )
-from fsi_compare.studies.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
 QUICK_MESH = "geo tube.geo --order 2 --set along=40 --set across=4"
@@ -51,28 +51,13 @@ OTHER = root(lacking, BAR, (1.2 - 0.2j) * BAR)
 
 
 def numbers(runs):
+    tolerances = (0.02, 0.1) if runs.quick else (0.003, 0.01)
     found = []
     for run in runs:
         k = wave_number(swing_on_the_axis(run, PERIOD).between(FIRST, LAST), APART, [OTHER])
-        for what, unit, value, exact, tolerance in (
-            ("phase speed", "mm/ms", OMEGA / k.real, OMEGA / EXACT.real, 0.02 if runs.quick else 0.003),
-            ("attenuation", "1/m", -1000 * k.imag, -1000 * EXACT.imag, 0.1 if runs.quick else 0.01),
-        ):
-            found.append(Number(what, unit, run.program, float(value), float(exact), tolerance, "dispersion relation"))
+        found += speed_and_attenuation(run, k, EXACT, OMEGA, tolerances)
     return found
 
 
 def draw(runs):
-    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
-        swing = swing_on_the_axis(run, PERIOD)
-        axes.plot(swing.z / 1000, np.abs(swing.p), style, color=color, label=run.program)
-    inside = swing_on_the_axis(runs.first, PERIOD).between(FIRST, LAST)
-    waves = np.stack([np.exp(sign * 1j * k * inside.z) for k in (EXACT, OTHER) for sign in (-1, 1)], axis=1)
-    fitted = waves @ np.linalg.lstsq(waves, inside.p, rcond=None)[0]
-    axes.plot(inside.z[::8] / 1000, np.abs(fitted[::8]), "o", color="black", mfc="white", label="four waves, exact k")
-    axes.set_xlabel("place on the axis [m]")
-    axes.set_ylabel("pressure, amplitude [Pa]")
-    axes.legend()
-    return figure
+    return draw_swings(runs, PERIOD, FIRST, LAST, [EXACT, OTHER])

@@ -1,10 +1,8 @@
 """Kind `calibration`: bars are held against the truth, with programs whose errors are known."""
 
 import unittest
-import unittest.mock
 
-from fake_family import install
-from folder_case import FolderCase
+from family_study_case import FamilyStudyCase
 
 STUDY = """\
 title = "Bars"
@@ -20,20 +18,7 @@ ring-in-time = { reference = [0.125, 0.125], trap = "none" }
 """
 
 
-class Calibration(FolderCase):
-    def setUp(self):
-        super().setUp()
-        self.programs = install(self.base / "bin")
-        self.study = self.base / "bars.toml"
-        figure = unittest.mock.patch("fsi_compare.reporting.report.Report.figure")
-        figure.start()
-        self.addCleanup(figure.stop)
-
-    def call_study(self, text):
-        self.study.write_text(text)
-        programs = [f"--{n}={self.programs / ('fsi-' + n)}" for n in ("monolithic", "partitioned")]
-        return self.call("study", self.study, "-o", self.out, *programs)
-
+class Calibration(FamilyStudyCase):
     def test_bars_of_known_errors_hold(self):
         code, out, err = self.call_study(STUDY)
         self.assertEqual(code, 0, err)
@@ -48,14 +33,12 @@ class Calibration(FolderCase):
         self.assertIn("In the median the bar is", (self.out / "report.md").read_text())
 
     def test_mistakes_are_named(self):
-        for old, new, said in (
+        self.assert_named(
+            STUDY,
             ("reference = [0.125, 0.125]", "reference = [2, 0.5]", "no pair of sizes"),
             ("ring-in-time = { reference", "other = { reference", "report.scenes.ring-in-time: is missing"),
             ('trap = "none"', 'snare = "none"', "snare"),
-        ):
-            code, _, err = self.call_study(STUDY.replace(old, new))
-            self.assertEqual(code, 1)
-            self.assertIn(said, err)
+        )
 
 
 if __name__ == "__main__":

@@ -14,8 +14,9 @@ from ..running.context import Context
 from ..running.section import Section
 from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
-from ..verify.family import STEP_RATIO, CaseFacts, Member, Requests, members, read_case
-from ..verify.mesh_family import Recipe, ratio_for, recipe_of_scene
+from ..verify.family import STEP_RATIO, CaseFacts, Member, members
+from ..verify.mesh_family import Recipe, ratio_for
+from ..verify.scene_family import require_scenes, scene_family
 from ..verify.verdict import BAR_WIDENED, CONVERGES, NOT_IN_RANGE
 from .record import Record, Score, records
 
@@ -49,12 +50,9 @@ def check(study: Study) -> None:
 def plans(study: Study) -> List[Plan]:
     """Raises InputError naming the key."""
     section = report_of(study, ("scenes",)).table("scenes", True)
+    require_scenes(study)
     found = []
     for case in study.cases:
-        if case not in study.scenes:
-            raise InputError(
-                study.path, f"cases.{case}", "is no scene", 'name a scene of the gallery: { scene = "NAME" }'
-            )
         if case not in section:
             raise InputError(study.path, f"report.scenes.{case}", "is missing", "say reference = [MESH, STEP] there")
         entry = Section(study.path, f"report.scenes.{case}", section[case], SCENE_KEYS)
@@ -107,17 +105,9 @@ def evaluate(context: Context) -> int:
 
 
 def _scene(context: Context, plan: Plan) -> Tuple[List[Record], List[str]]:
-    study, runner = context.study, context.runner
-    scene = study.scenes[plan.case]
-    maker = runner.mesh_maker
-    if maker is None:
-        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
-    settings = {**study.settings, **study.case_settings.get(plan.case, {})}
-    facts = read_case(scene.case, settings)
-    recipe = recipe_of_scene(scene, maker, study.quick)
-    folder = runner.folder / "scripts" / plan.case
-    requests = Requests(facts, recipe, folder, ["monolithic"], study.time_limit, settings, plan.case)
-    about = families(recipe, facts, plan.levels)
+    of_scene = scene_family(context, plan.case, ["monolithic"])
+    facts, requests = of_scene.facts, of_scene.requests
+    about = families(of_scene.recipe, facts, plan.levels)
     reference = Member(plan.reference[0], 1.0 if facts.static else plan.reference[1])
     wanted = list(dict.fromkeys([m for family in about for m in family.members] + [reference]))
     runs: Mapping[Member, StudyRun] = dict(zip(wanted, context.run([requests.of(m, "monolithic") for m in wanted])))

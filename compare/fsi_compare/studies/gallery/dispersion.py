@@ -5,11 +5,12 @@ Small waves e^(i (w t - k z)) in a liquid and a thick wall around it are sums of
 """
 
 from dataclasses import dataclass
-from typing import Callable, Sequence, Tuple
+from typing import Callable, Iterable, List, Sequence, Tuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from .scene import SceneRun
+from .scene import Number, SceneRun
 
 SERIES = 80  # terms: enough for arguments of moderate size
 
@@ -131,3 +132,35 @@ def wave_number(swing: Swing, apart: float, others: Sequence[complex] = ()) -> c
     here, both = p[n:-n], p[2 * n :] + p[: -2 * n]
     k = complex(np.arccos(np.vdot(here, both) / (2 * np.vdot(here, here))) / h)
     return k if k.real > 0 else -k
+
+
+def speed_and_attenuation(
+    run: SceneRun, k: complex, exact: complex, omega: float, tolerances: Tuple[float, float]
+) -> List[Number]:
+    """Of a wave e^(i (w t - k z)) beside the exact one; k in 1/mm, `omega` in 1/ms. `tolerances`: of the two, relative."""
+    source = "dispersion relation"
+    return [
+        Number("phase speed", "mm/ms", run.program, omega / k.real, omega / exact.real, tolerances[0], source),
+        Number("attenuation", "1/m", run.program, -1000 * k.imag, -1000 * exact.imag, tolerances[1], source),
+    ]
+
+
+def draw_swings(
+    runs: Sequence[SceneRun], period: float, first: float, last: float, numbers: Sequence[complex]
+) -> Figure:
+    """Amplitudes along the axis, and the sum of waves of these numbers, there and back, that fits the first run best between
+    `first` and `last`, in mm."""
+    figure = Figure(figsize=(6.4, 3.6), layout="constrained")
+    axes = figure.add_subplot()
+    for run, style, color in zip(runs, ("-", "--"), ("black", "tab:orange")):
+        swing = swing_on_the_axis(run, period)
+        axes.plot(swing.z, np.abs(swing.p), style, color=color, label=run.program)
+    inside = swing_on_the_axis(next(iter(runs)), period).between(first, last)
+    waves = np.stack([np.exp(sign * 1j * k * inside.z) for k in numbers for sign in (-1, 1)], axis=1)
+    fitted = waves @ np.linalg.lstsq(waves, inside.p, rcond=None)[0]
+    label = f"{2 * len(numbers)} waves of exact k"
+    axes.plot(inside.z[::8], np.abs(fitted[::8]), "o", color="black", mfc="white", label=label)
+    axes.set_xlabel("place on the axis [mm]")
+    axes.set_ylabel("pressure, amplitude [Pa]")
+    axes.legend()
+    return figure

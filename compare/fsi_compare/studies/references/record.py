@@ -69,7 +69,7 @@ def records(scene: Scene, facts: CaseFacts, runs: Runs) -> List[Record]:
     found: List[Record] = []
     for (_, program), of in numbers_of(scene, runs).items():
         own = next((number for member, number in of.items() if member.is_own), None)
-        if own is None or own.tolerance == 0 or own.source in runs:
+        if own is None or own.of_other_driver:
             continue
         real = sizes(runs[program])
         values = [Value(real.get(m.mesh, m.mesh), m.step, n.value, m.looser, m.other) for m, n in of.items()]

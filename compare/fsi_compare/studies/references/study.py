@@ -14,8 +14,8 @@ from ..running.context import Context
 from ..running.section import Section
 from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
-from ..verify.family import Member, Requests, members, read_case
-from ..verify.mesh_family import recipe_of_scene
+from ..verify.family import Member, members, mesh_ratio
+from ..verify.scene_family import require_scenes, scene_family
 from .record import Record, Score, records
 
 SCENE_KEYS = ("levels", "finer")
@@ -38,14 +38,12 @@ def check(study: Study) -> None:
 def plans(study: Study) -> List[Plan]:
     """Raises InputError naming the key."""
     section = report_of(study, ("scenes",)).table("scenes")
+    require_scenes(study)
     for name in section:
         if name not in study.cases:
             raise InputError(study.path, f"report.scenes.{name}", "is no case", "name one of [cases], or leave it out")
     found = []
     for case in study.cases:
-        if case not in study.scenes:
-            remedy = 'name a scene of the gallery: { scene = "NAME" }'
-            raise InputError(study.path, f"cases.{case}", "is no scene", remedy)
         entry = Section(study.path, f"report.scenes.{case}", section.get(case, {}), SCENE_KEYS)
         finer = entry.entries.get("finer", False)
         if not isinstance(finer, bool):
@@ -66,33 +64,20 @@ def evaluate(context: Context) -> int:
 
 
 def _scene(context: Context, plan: Plan) -> Tuple[List[Record], List[str]]:
-    study, runner = context.study, context.runner
-    scene = study.scenes[plan.case]
-    maker = runner.mesh_maker
-    if maker is None:
-        raise InputError("fsi-mesh", "", "is not beside the drivers", "build it with cmake --build --preset release")
-    settings = {**study.settings, **study.case_settings.get(plan.case, {})}
-    facts = read_case(scene.case, settings)
-    recipe = recipe_of_scene(scene, maker, study.quick)
-    names = [program[len("fsi-") :] for program in scene.drivers]
-    folder = runner.folder / "scripts" / plan.case
-    requests = Requests(facts, recipe, folder, names, study.time_limit, settings, plan.case)
-    ratio = recipe.ratio(range(-1 if plan.finer else 0, plan.levels))
-    wanted = members(recipe, facts, ratio, plan.levels, plan.finer)
+    family = scene_family(context, plan.case)
+    recipe, requests = family.recipe, family.requests
+    ratio = mesh_ratio(recipe, plan.levels, plan.finer)
+    wanted = members(recipe, family.facts, ratio, plan.levels, plan.finer)
     done: Dict[str, Dict[Member, StudyRun]] = {}
     lacks: List[str] = []
-    for name, program in zip(names, scene.drivers):
+    for name in requests.methods:
         runs = dict(zip(wanted, context.run([requests.of(member, name) for member in wanted])))
         lacks += [f"{plan.case}, {name}, {m.name}: {r.status}, {r.message}" for m, r in runs.items() if not r.done]
-        done[program] = {member: run for member, run in runs.items() if run.done}
+        done[requests.methods[name].program] = {member: run for member, run in runs.items() if run.done}
     try:
-        return records(scene, facts, done), lacks
+        return records(family.scene, family.facts, done), lacks
     except Exception as error:  # whatever the scene's text does with a coarse run
         return [], [*lacks, f"{plan.case}: its numbers cannot be read: {type(error).__name__}: {error}"]
-
-
-def _order(part: object) -> object:
-    return getattr(part, "order", None)
 
 
 RECORDS: Sequence[Column[Record]] = (
@@ -102,8 +87,8 @@ RECORDS: Sequence[Column[Record]] = (
     Column("driver", "driver", lambda r: r.number.program[len("fsi-") :], left=True),
     Column("value", "value", lambda r: r.number.value, ".6g"),
     Column("bar", "bar", lambda r: r.bar.total if r.bar.given else None, ".1e"),
-    Column("order in the mesh", "order_mesh", lambda r: _order(r.bar.mesh), ".2f"),
-    Column("in the step", "order_step", lambda r: _order(r.bar.step), ".2f"),
+    Column("order in the mesh", "order_mesh", lambda r: r.bar.mesh.order, ".2f"),
+    Column("in the step", "order_step", lambda r: r.bar.step.order, ".2f"),
     Column("known", "known", lambda r: r.number.reference, ".6g"),
     Column("differs by", "off", lambda r: r.off, ".1e"),
     Column("in bars", "in_bars", lambda r: r.in_bars, ".2f"),

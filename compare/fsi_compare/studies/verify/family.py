@@ -139,6 +139,12 @@ def _flow_interval(case: Path, openings: Any) -> Optional[float]:
     return min(found, default=None)
 
 
+def mesh_ratio(recipe: Recipe, levels: int, finer: bool) -> float:
+    """Between the meshes of members()."""
+    below = -1 if finer else 0
+    return recipe.ratio([-k for k in range(below, levels + below)])
+
+
 def members(recipe: Recipe, facts: CaseFacts, ratio: float, levels: int, finer: bool) -> List[Member]:
     """From cheap to dear. `levels` meshes; `finer`: one of them is finer than the user's own. A mesh file alone has no
     coarser ones."""

@@ -6,7 +6,7 @@ from typing import List, Sequence
 from ...base.errors import InputError
 from ..starting.progress import duration
 from .adapting import Adapted, about_adapted
-from .family import CaseFacts, Member, members
+from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
 from .mesh_family import Recipe
 from .quantities import curves_of
@@ -20,8 +20,7 @@ SHAPE = (
 
 
 def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
-    below = 0 if options.coarser else -1
-    ratio = recipe.ratio([-k for k in range(below, options.levels + below)])
+    ratio = mesh_ratio(recipe, options.levels, not options.coarser)
     if recipe.adapts and options.coarser:
         raise InputError("", "--adapt", "makes finer meshes only", "leave --coarser out")
     if not recipe.coarsens and options.coarser:
