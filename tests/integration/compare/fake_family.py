@@ -11,12 +11,14 @@ step are 6 less the tolerance's power of ten. `behaviour.json` beside the progra
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
   "swing"     true: the displacement swings from mesh to mesh
   "nothing"   true: no samples
+  "seconds"   what a run takes at least
 Each call adds its command line to `calls.txt`.
 """
 
 import json
 import math
 import sys
+import time
 import tomllib
 from pathlib import Path
 
@@ -65,6 +67,8 @@ def main(words):
             print(f"{program.name}: error: {message}", file=sys.stderr)
             return code
     place = Path(words[words.index("-o") + 1])
+    if program.name != "fsi-mesh":
+        time.sleep(behaviour.get("seconds", 0))
     if program.name == "fsi-mesh":
         write_mesh(place, mesh_size(words))
     else:

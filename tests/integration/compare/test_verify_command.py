@@ -306,11 +306,19 @@ class DemandedError(VerifyCase):
         self.assertLess(float(best[name]["error"]), 0.7 * float(first[name]["error"]))
 
     def test_out_of_reach_of_the_budget(self):
-        code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.05")
+        """On a machine of any speed: the first family has five runs at least, of which each takes 0.3 s or more."""
+        behave(self.programs, seconds=0.3)
+        code, out, err = self.verify("--error", "0.0001%", "--of", "displacement", "--budget", "0.03")
         self.assertEqual(code, 2)
         self.assertIn("ut of reach", out)
         self.assertIn("of the budget are left", out)
         self.assertFalse((self.out / "found.toml").exists())
+
+    def test_moves_come_to_an_end(self):
+        code, out, err = self.verify("--error", "0.0001%", "--of", "displacement")
+        self.assertEqual(code, 2)
+        self.assertIn("has moved 6 times", out)
+        self.assertIn("0.0001 % are not reached", out)
 
 
 class Trouble(VerifyCase):

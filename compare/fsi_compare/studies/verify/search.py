@@ -65,9 +65,15 @@ class Search:
                 break
             else:
                 target = self._towards(asked)
-            if target is None or not self._move(target, lines):
+            if target is None:
+                lines.append("No other settings are predicted to do better.")
+                break
+            if not self._move(target, lines):
                 break
             judged = self._family()
+        else:
+            if not reached(judged, self.demand.error):
+                lines.append(f"The family has moved {MOST_MOVES} times, which is as often as it may.")
         lines += [f"No error can be given of {one.quantity.name}: {one.bar.advice}." for one in outside(judged)]
         asked = [one for one in judged if one.bar.given]
         if not asked:
