@@ -1,6 +1,7 @@
 """Parts of `fsi-compare verify`: quantities of curves, scripts and words of meshes, costs, demands, case files."""
 
 import math
+import random
 import re
 import tomllib
 import types
@@ -20,7 +21,7 @@ from fsi_compare.studies.verify.doubt import doubt, on_common_points, step_withi
 from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
-from fsi_compare.studies.verify.lean import lean, starting_member
+from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
 from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_words, ratio_for
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
@@ -174,6 +175,36 @@ class LeanFamilies(unittest.TestCase):
         self.assertGreater(bar.step.bar + bar.together, 0.03)
         self.assertAlmostEqual(bar.step.order, 2, delta=1e-3)
         self.assertAlmostEqual(bar.together, 2 * 0.002 * 1.5**2, delta=1e-6)
+
+    def test_cross_costs_half_of_its_centre(self):
+        for dimension_power, most in ((4.2, 0.6), (2.6, 0.9)):
+            found = cross([2.25, 1.5, 1.0], [4.0, 2.0, 1.0])
+            self.assertNotIn((1.0, 1.0), {(m.mesh, m.step) for m in found})
+            self.assertLess(sum(m.mesh**-dimension_power / m.step for m in found), most)
+        np.testing.assert_allclose(between(2.25, 1.0, 1.5), [2.25, 1.5, 1.0], rtol=1e-12)
+        self.assertEqual(between(1.0, 1.0, 1.5), [1.0])
+
+    def test_bar_of_a_cross_holds_with_its_centre_and_without(self):
+        """Mesh and step may help or hinder each other. The bar is that of the centre, whether it has run or not."""
+        chance, given = random.Random(7), 0
+        for _ in range(60):
+            p, q = chance.choice((1.0, 2.0, 3.0)), chance.choice((1.0, 2.0))
+            a, b = chance.uniform(-1, 1), chance.uniform(-1, 1)
+            c = chance.uniform(-0.1, 0.1) * min(abs(a), abs(b))
+            levels = chance.choice((3, 4))
+            meshes = [1.5 ** (levels - 1 - k) for k in range(levels)]
+            family = cross(meshes, [4.0, 2.0, 1.0])
+
+            def y(m):
+                return 3 + 0.01 * (a * m.mesh**p + b * m.step**q + c * m.mesh**p * m.step**q)
+
+            for members, additive in ((family, True), ([*family, Member(1.0, 1.0)], False)):
+                bar = bar_of([Value(m.mesh, m.step, y(m), m.looser) for m in members], 3.0, p, q, "p2p1", additive)
+                if bar.given:
+                    self.assertGreaterEqual(bar.total, abs(y(Member(1.0, 1.0)) - 3))
+                    given += 1
+            self.assertIsNone(bar_of([Value(m.mesh, m.step, y(m), m.looser) for m in family], 3.0, p, q))
+        self.assertGreater(given, 90)  # of 120
 
     def test_begins_coarser_where_that_makes_another_mesh(self):
         recipe = types.SimpleNamespace(coarsens=True, counts=[])

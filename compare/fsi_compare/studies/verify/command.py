@@ -174,8 +174,11 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
     levels = list(range(-1, options.levels + 1))
     ratio = requests.recipe.ratio(levels)
-    start = sample(maker, starting_member(requests.recipe, requests.facts.static, ratio, options.levels, maker.nodes))
+    start = starting_member(requests.recipe, requests.facts.static, ratio, options.levels, maker.nodes)
     search = Search(maker, demand, ratio, options.levels, start)
+    first = search.corner if search.crosses else start
+    if sample(maker, first) != first:
+        search = Search(maker, demand, ratio, options.levels, Member(1.0, 1.0))
     outcome = search.go()
     others = [name.removeprefix("fsi-") for name in programs]
     seconds = by_each_driver(maker, outcome, others)

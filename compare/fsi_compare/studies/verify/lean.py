@@ -1,11 +1,26 @@
-"""Families on the way to a demanded error: the member at their centre is the dearest, and all others together cost about half of
-it. Steps are varied on the next coarser mesh. What a step's error changes by from there to the centre is told by the product of
-both (verdict.py)."""
+"""Families on the way to a demanded error. A cross varies meshes by long steps and steps on a coarse mesh, so that all of it
+together costs about half of what its centre would, which is not run. What either error changes by from there to the centre is told
+by the product of both (verdict.py). Where no mesh is coarser, or each is made from a run on the one before, the centre is run."""
 
+import math
 from typing import Callable, List, Optional, Sequence
 
 from .family import STEP_RATIO, Member
 from .mesh_family import Recipe
+
+
+def cross(meshes: Sequence[float], steps: Sequence[float]) -> List[Member]:
+    """`meshes` and `steps` from coarse to fine, three or more of each, the last ones those of the centre."""
+    column = [Member(mesh, steps[0]) for mesh in meshes]
+    row = [Member(meshes[0], step) for step in steps[1:]]
+    near = Member(meshes[-2], steps[-2])
+    return list(dict.fromkeys([*column, *row, near, Member(near.mesh, near.step, True)]))
+
+
+def between(coarse: float, fine: float, ratio: float) -> List[float]:
+    """Sizes from one to the other, each by the ratio smaller than the one before."""
+    count = round(math.log(coarse / fine) / math.log(ratio))
+    return [fine * ratio ** (count - k) for k in range(count)] + [fine]
 
 
 def lean(meshes: Sequence[float], static: bool) -> List[Member]:

@@ -2,7 +2,7 @@
 
 import shlex
 from dataclasses import replace
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 from ...base.errors import InputError, ProgramError, say_note, say_warning
 from ...base.files import absolute
@@ -106,7 +106,7 @@ class Maker:
         if isinstance(self.requests.recipe, Adapted):
             self.requests.recipe.parents.clear()
 
-    def predicted(self, members: Sequence[Member]) -> float:
+    def predicted(self, members: Iterable[Member]) -> float:
         """Seconds of those that are not there yet, by all drivers, from those that are."""
         found = 0.0
         for driver, family in self.families.items():

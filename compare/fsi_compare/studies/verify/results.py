@@ -70,11 +70,12 @@ class BarsOfRun:
 
 def about(family: FamilyRuns, centre: Member) -> FamilyRuns:
     """The same runs with sizes relative to another member's."""
-    runs = {
-        Member(_same(m.mesh / centre.mesh), _same(m.step / centre.step), m.looser, m.other): run
-        for m, run in family.runs.items()
-    }
-    return FamilyRuns(family.driver, runs)
+    return FamilyRuns(family.driver, {relative(member, centre): run for member, run in family.runs.items()})
+
+
+def relative(member: Member, centre: Member) -> Member:
+    """With sizes relative to another's."""
+    return Member(_same(member.mesh / centre.mesh), _same(member.step / centre.step), member.looser, member.other)
 
 
 def _same(size: float) -> float:
@@ -106,9 +107,14 @@ def judge(
     facts: CaseFacts,
     times: Sequence[float],
     names: Sequence[str],
+    additive: bool = False,
 ) -> List[Judged]:
-    """Of all quantities of the user's own run."""
+    """Of all quantities of the user's own run. `additive`: it may be missing where column and row tell it (verdict.py); the
+    quantities are then those of the coarsest mesh by the own step."""
     own = next((member for member in curves if member.is_own), None)
+    if own is None and additive:
+        row = [member for member in curves if member.step == 1 and not (member.looser or member.other)]
+        own = max(row, key=lambda member: member.mesh) if row else None
     if own is None:
         return []
     curves = on_common_points(curves)
@@ -127,7 +133,7 @@ def judge(
             if quantity.curve in of
         )
         orders = facts.space_order(quantity.is_pressure), facts.time_order
-        bar = bar_of(values, quantity.scale, *orders, facts.element)
+        bar = bar_of(values, quantity.scale, *orders, facts.element, additive)
         advice = doubt(quantity, [of[quantity.curve] for of in curves.values() if quantity.curve in of], facts)
         if bar is not None and advice:
             bar = replace(bar, verdict=NOT_IN_RANGE, advice=advice)

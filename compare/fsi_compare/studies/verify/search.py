@@ -16,10 +16,10 @@ from .demand import Settings, cheapest, direction_of, outside, reached, refinabl
 from .doubt import step_within
 from .family import INDICATOR, STEP_RATIO, Member, members, with_settings
 from .found_case import write_case
-from .lean import lean
+from .lean import between, cross, lean
 from .making import Maker
-from .quantities import curves_of
-from .results import BarsOfRun, Judged, about, judge
+from .quantities import Curve, curves_of
+from .results import BarsOfRun, FamilyRuns, Judged, about, judge, relative
 
 FOUND, MESH = "found.toml", "found.msh"
 MOST_MOVES = 6  # of the family's centre
@@ -51,29 +51,32 @@ class Search:
         self.maker, self.demand, self.ratio, self.levels = maker, demand, ratio, levels
         self.driver = next(iter(maker.families))
         self.centre = start
+        self.corner = self._corner(start)  # where the cross has its coarsest mesh and longest step
+        self.curves: Dict[Member, Dict[str, Curve]] = {}  # of the family
         self.sets: Dict[Path, BarsOfRun] = {}  # of each run that bars were made for, by its folder
 
     def go(self) -> Outcome:
         """Raises InputError where the user's own run fails or nothing is sampled."""
         judged = self._family()
         lines: List[str] = []
-        for move in range(MOST_MOVES):
+        for move in range(MOST_MOVES + 1):
             asked = [one for one in judged if one.bar.given]
-            if refinable(judged) and (move < MOVES_FOR_BARS or not asked):
-                target: Optional[Member] = self._for_bars(judged)
-            elif reached(asked, self.demand.error):
+            lacking = refinable(judged) and (move < MOVES_FOR_BARS or not asked)
+            if not lacking and reached(asked, self.demand.error):
+                judged = self._proved(judged)
+                asked = [one for one in judged if one.bar.given]
+                if reached(asked, self.demand.error):
+                    break
+            if move == MOST_MOVES:
+                lines.append(f"The family has moved {MOST_MOVES} times, which is as often as it may.")
                 break
-            else:
-                target = self._towards(asked)
+            target = self._for_bars(judged) if lacking or not asked else self._towards(asked)
             if target is None:
                 lines.append("No other settings are predicted to do better.")
                 break
             if not self._move(target, lines):
                 break
             judged = self._family()
-        else:
-            if not reached(judged, self.demand.error):
-                lines.append(f"The family has moved {MOST_MOVES} times, which is as often as it may.")
         lines += [f"No error can be given of {one.quantity.name}: {one.bar.advice}." for one in outside(judged)]
         asked = [one for one in judged if one.bar.given]
         if not asked:
@@ -85,8 +88,22 @@ class Search:
         found = self._finish(asked, bool(outside(judged)))
         return replace(found, lines=lines + found.lines, reached=found.reached and not outside(judged))
 
+    @property
+    def crosses(self) -> bool:
+        """Whether families are crosses, whose centre is not among their members."""
+        recipe, facts = self.maker.requests.recipe, self.maker.requests.facts
+        return recipe.coarsens and not isinstance(recipe, Adapted) and not facts.static
+
+    def _corner(self, centre: Member) -> Member:
+        return Member(self._size(centre.mesh * self.ratio ** (self.levels - 1)), _round(centre.step * STEP_RATIO**2))
+
     def _members(self) -> List[Member]:
         recipe, facts, centre = self.maker.requests.recipe, self.maker.requests.facts, self.centre
+        if self.crosses:
+            meshes = between(self.corner.mesh, centre.mesh, self.ratio)
+            steps = between(self.corner.step, centre.step, STEP_RATIO)
+            found = cross([self._size(mesh) for mesh in meshes], [_round(step) for step in steps])
+            return [*found, centre] if centre in self.maker.families[self.driver].runs else found
         coarser = self.levels - 1 if recipe.coarsens else 0
         if isinstance(recipe, Adapted):
             coarser = min(self.levels - 1, recipe.level(centre.mesh))
@@ -98,9 +115,10 @@ class Search:
         return [replace(m, mesh=self._size(m.mesh * centre.mesh), step=_round(m.step * centre.step)) for m in relative]
 
     def _family(self) -> List[Judged]:
+        """Its bars, after its members have run."""
         self.maker.run(self._members())
-        family = about(self.maker.families[self.driver], self.centre)
-        found = judge(family, family.read(), self.maker.requests.facts, self.demand.times, self.demand.names)
+        self.curves = self._kept().read()
+        found = self._judged(self.centre, self.crosses)
         if not found:
             names = " ".join(self.demand.names)
             raise InputError(
@@ -109,8 +127,29 @@ class Search:
                 "no quantity to judge",
                 "see bars.csv of a call without --error",
             )
+        return found
+
+    def _kept(self) -> FamilyRuns:
+        """Runs of earlier crosses tell no more of this one's centre: they are coarser."""
+        runs = self.maker.families[self.driver].runs
+        return FamilyRuns(self.driver, {m: runs[m] for m in self._members()} if self.crosses else runs)
+
+    def _judged(self, centre: Member, additive: bool = False) -> List[Judged]:
+        """Bars of any member, from all of the family."""
+        family = about(self._kept(), centre)
+        curves = {relative(member, centre): of for member, of in self.curves.items()}
+        found = judge(family, curves, self.maker.requests.facts, self.demand.times, self.demand.names, additive)
         self._keep(family.own, found)
         return found
+
+    def _proved(self, judged: List[Judged]) -> List[Judged]:
+        """Bars by a run of the centre itself, unless a cheaper one that has run is good enough."""
+        if all(not one.bar.given for one in judged) or self.centre in self.curves:
+            return judged
+        if not outside(judged) and self._good_enough():
+            return judged
+        self.maker.run([self.centre])
+        return self._family()
 
     def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
         if run is not None:
@@ -163,8 +202,9 @@ class Search:
     def _move(self, target: Member, lines: List[str]) -> bool:
         """The family to another centre; False where that does not fit the budget."""
         costs = learn(about(self.maker.families[self.driver], Member(1.0, 1.0)).runs, self.maker.dimension)
-        before, self.centre = self.centre, target
-        seconds = self.maker.predicted(self._members())
+        before, self.centre = (self.centre, self.corner), target
+        self._follow()
+        seconds = self.maker.predicted(dict.fromkeys([*self._members(), target]))
         memory = f", {costs.memory(target.mesh):.0f} MiB" if costs is not None else ""
         words = f"{self._words(1, 1)}: about {duration(seconds)}{memory} for the family"
         if self._fits(seconds):
@@ -172,8 +212,16 @@ class Search:
             return True
         left = max(0.0, (self.demand.budget or 0.0) - self.maker.seconds)
         lines.append(f"Out of reach: {words}, and {duration(left)} of the budget are left.")
-        self.centre = before
+        self.centre, self.corner = before
         return False
+
+    def _follow(self) -> None:
+        """The cross's corner to the new centre, where it would be further from it than one ratio more than it has to be."""
+        corner = self._corner(self.centre)
+        mesh, step = self.corner.mesh, self.corner.step
+        mesh = mesh if mesh <= corner.mesh * self.ratio * (1 + 1e-6) else corner.mesh
+        step = step if step <= corner.step * STEP_RATIO * (1 + 1e-6) else corner.step
+        self.corner = Member(mesh, step)
 
     def _fits(self, seconds: float) -> bool:
         budget = self.demand.budget
@@ -182,22 +230,22 @@ class Search:
     def _finish(self, asked: Sequence[Judged], lacking: bool) -> Outcome:
         """The cheapest run so far that is good enough, with tolerances that suit the demand. `lacking`: quantities without a bar
         remain; then the centre, which shows most of them."""
-        demand = self.demand.error
-        tolerance = tolerance_factor(asked, demand)
-        found = [self.centre] if lacking else self._good_enough(asked)
-        for final in dict.fromkeys([*found, self.centre]):
-            outcome = self._run(asked, final, tolerance)
+        final = next(iter([] if lacking else self._good_enough()), self.centre)
+        judged = asked if final == self.centre else self._judged(final)
+        for factor in dict.fromkeys([tolerance_factor(asked, self.demand.error), 1.0]):
+            outcome = self._run(judged, final, factor)
             if outcome.reached:
-                return outcome
-        return self._run(asked, self.centre, 1.0)
+                break
+        return outcome
 
-    def _good_enough(self, asked: Sequence[Judged]) -> List[Member]:
-        """The cheapest member whose distance from the centre is within what the demand leaves beside the centre's bar; empty: none.
-        Its values are known, so that nothing is run for it."""
-        done = self.maker.families[self.driver].done
-        for member, run in sorted(done.items(), key=lambda pair: pair[1].seconds):
-            if not (member.looser or member.other) and reached(_shown(asked, run), self.demand.error):
-                return [member]
+    def _good_enough(self) -> List[Member]:
+        """The cheapest member whose own bars are within the demand; empty: none."""
+        done = self._kept().done
+        for member, _ in sorted(done.items(), key=lambda pair: pair[1].seconds):
+            if not (member.looser or member.other):
+                judged = self._judged(member)
+                if judged and reached(judged, self.demand.error):
+                    return [member]
         return []
 
     def _run(self, asked: Sequence[Judged], final: Member, tolerance: float) -> Outcome:
@@ -213,7 +261,7 @@ class Search:
 
 
 def _shown(asked: Sequence[Judged], run: StudyRun) -> List[Judged]:
-    """Bars of a run by those of the centre."""
+    """Bars of a run by those of another."""
     curves = curves_of(run.folder)
     return [shown_by(one, one.quantity.of(curves[one.quantity.curve])) for one in asked if one.quantity.curve in curves]
 

@@ -3,7 +3,8 @@ can be said of it.
 
     y(h, dt) = y0 + a h^p + b dt^q + c h^p dt^q
 
-a and b come from members that differ in one thing only (direction.py). c comes from members refined in both: of four members
+a and b come from members that differ in one thing only (direction.py): a from a column of meshes, all by one step, b from a
+row of steps, all on one mesh. These are the user's own, or cheaper ones. c comes from members refined in both: of four members
 at the corners of a rectangle y11 - y10 - y01 + y00 = c (1 - h^p) (1 - dt^q), which is how much a difference of meshes changes
 when the step does. The parts are added up, not their squares: nothing says that they are independent.
 """
@@ -69,26 +70,35 @@ class Bar:
 
 
 def bar_of(
-    values: Sequence[Value], scale: float, space_order: float, time_order: float, element: str = "p2p1"
+    values: Sequence[Value],
+    scale: float,
+    space_order: float,
+    time_order: float,
+    element: str = "p2p1",
+    additive: bool = False,
 ) -> Optional[Bar]:
-    """None where the user's own member is missing. `scale`: the largest of the curve that the value is of."""
+    """None where the user's own member is missing. `scale`: the largest of the curve that the value is of. `additive`: it need not
+    be there for its bar; the value is then made of column and row, y(1, column) + y(row, 1) - y(row, column), which leaves out
+    c (1 - row^p) (1 - column^q)."""
     table = {(v.mesh, v.step): v.value for v in values if not (v.looser or v.other)}
+    column, row = _step_of_meshes(table), _mesh_of_steps(table)
     own = table.get((1.0, 1.0))
+    if own is None and additive and all(key in table for key in ((1.0, column), (row, 1.0), (row, column))):
+        own = table[1.0, column] + table[row, 1.0] - table[row, column]
     if own is None:
         return None
     loose = [(v.value, table[v.mesh, v.step]) for v in values if v.looser and (v.mesh, v.step) in table]
     solver = SOLVER_FACTOR * max((abs(y - tight) for y, tight in loose), default=0.0) / (LOOSER - 1)
     noise = max(solver, DETECTED * scale)
-    mesh = _along([(m, y) for (m, s), y in table.items() if s == 1.0], space_order, noise)
+    mesh = _along([(m, y) for (m, s), y in table.items() if s == column], space_order, noise)
     others = [v.value for v in values if v.other and (v.mesh, v.step) == (1.0, 1.0)]
     if others and (mesh is NOTHING or mesh.lacking):
         finer = [y for (m, s), y in sorted(table.items()) if s == 1.0 and m < 1]
         mesh = by_elements(own, others[0], finer[0] if finer else None, element == "p1", noise)
     elif mesh is NOTHING:  # all other meshes are missing
         mesh = Part(OUTSIDE, scale, lacking=True)
-    row = _mesh_of_steps(table)
     step = _along([(s, y) for (m, s), y in table.items() if m == row], time_order, noise)
-    together = _together(table, row, mesh, step, noise)
+    together = _together(table, row, column, mesh, step, noise)
     best = own - mesh.error - step.error
     verdict, advice = _judged(mesh, step, together, solver, NEGLIGIBLE * scale)
     return Bar(own, scale, mesh, step, together, solver, verdict, advice, best)
@@ -101,23 +111,39 @@ def _along(points: Sequence[Tuple[float, float]], expected: float, noise: float)
 
 
 def _mesh_of_steps(table: Mapping[Tuple[float, float], float]) -> float:
-    """The mesh whose members tell the error of the step: the user's own, or that on which most steps were tried."""
+    """The row, whose members tell the error of the step: the user's own mesh, or that on which most steps were tried."""
     numbers = {m: sum(1 for other, _ in table if other == m) for m, s in table if s == 1.0}
-    return max(numbers, key=lambda m: (numbers[m] >= 3 and m == 1.0, numbers[m], -abs(m - 1.0)))
+    return _most(numbers)
 
 
-def _together(table: Mapping[Tuple[float, float], float], row: float, mesh: Part, step: Part, noise: float) -> float:
-    """Of the members refined in both the finest. `row`: the mesh that the step's part is of. Where it is coarser than the user's
-    own that part is off by c (row^p - 1), at most what is added here."""
-    corners = [(m, s) for m, s in table if m != row and s != 1.0 and (m, 1.0) in table and (row, s) in table]
+def _step_of_meshes(table: Mapping[Tuple[float, float], float]) -> float:
+    """The column, whose members tell the error of the mesh: the user's own step, or that by which most meshes were tried."""
+    numbers = {s: sum(1 for _, other in table if other == s) for m, s in table if m == 1.0}
+    return _most(numbers)
+
+
+def _most(numbers: Mapping[float, int]) -> float:
+    return max(numbers, key=lambda x: (numbers[x] >= 3 and x == 1.0, numbers[x], -abs(x - 1.0)), default=1.0)
+
+
+def _together(
+    table: Mapping[Tuple[float, float], float], row: float, column: float, mesh: Part, step: Part, noise: float
+) -> float:
+    """Of the members refined in both the finest. Where row and column are not the user's own mesh and step, the sum of both parts
+    is off by c (row^p + column^q - 1)."""
+    corners = [
+        (m, s)
+        for m, s in table
+        if m != row and s != column and (m, column) in table and (row, s) in table and (row, column) in table
+    ]
     if not corners:
         return 0.0
     m, s = min(corners, key=lambda corner: corner[0] * corner[1])
-    mixed = abs(table[m, s] - table[m, 1.0] - table[row, s] + table[row, 1.0])
+    mixed = abs(table[m, s] - table[m, column] - table[row, s] + table[row, column])
     if mixed <= 2 * noise:
         return 0.0
-    share = abs(row**mesh.used - m**mesh.used) * abs(1 - s**step.used)
-    return TOGETHER_FACTOR * mixed * max(1.0, row**mesh.used) / max(share, 0.25)
+    share = abs(row**mesh.used - m**mesh.used) * abs(column**step.used - s**step.used)
+    return TOGETHER_FACTOR * mixed * max(1.0, row**mesh.used + column**step.used - 1) / max(share, 0.25)
 
 
 def _judged(mesh: Part, step: Part, together: float, solver: float, negligible: float) -> Tuple[str, str]:
