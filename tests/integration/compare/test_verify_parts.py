@@ -214,6 +214,8 @@ class LeanFamilies(unittest.TestCase):
             (lambda size: None, 1.0),
         ):
             self.assertEqual(starting_member(recipe, False, 1.5, 3, nodes), Member(mesh, 2.0))
+        within = starting_member(recipe, False, 1.5, 3, lambda size: 300, 0.3)
+        self.assertEqual(within, Member(1.0, 0.25))  # a table of a flow asks for shorter steps
         few = types.SimpleNamespace(coarsens=True, counts=[2.0])
         self.assertEqual(starting_member(few, True, 1.5, 3, lambda size: 1), Member(1.0, 1.0))
 

@@ -15,6 +15,7 @@ from ..starting.folder_lock import locked
 from ..starting.progress import duration
 from ..starting.programs import Program, find_mesh_maker, find_program
 from .adapting import adapted
+from .doubt import step_within
 from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
@@ -174,7 +175,8 @@ def seek(options: argparse.Namespace, maker: Maker, times: Sequence[float], prog
     demand = Demand(options.error, options.budget and 60 * options.budget, options.of, times)
     levels = list(range(-1, options.levels + 1))
     ratio = requests.recipe.ratio(levels)
-    start = starting_member(requests.recipe, requests.facts.static, ratio, options.levels, maker.nodes)
+    facts, longest = requests.facts, step_within(requests.facts)
+    start = starting_member(requests.recipe, facts.static, ratio, options.levels, maker.nodes, longest)
     search = Search(maker, demand, ratio, options.levels, start)
     first = search.corner if search.crosses else start
     if sample(maker, first) != first:

@@ -36,13 +36,22 @@ def lean(meshes: Sequence[float], static: bool) -> List[Member]:
 
 
 def starting_member(
-    recipe: Recipe, static: bool, ratio: float, levels: int, nodes: Callable[[float], Optional[int]]
+    recipe: Recipe,
+    static: bool,
+    ratio: float,
+    levels: int,
+    nodes: Callable[[float], Optional[int]],
+    longest: Optional[float] = None,
 ) -> Member:
-    """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little. Its mesh is the case's own where no
+    """Coarser than the case by a ratio, so that a demand that it exceeds by far costs little, but by steps no longer than
+    `longest`, relative to the case's: longer ones give pressures no bar (doubt.py). Its mesh is the case's own where no
     coarser ones can be made, would have fewer than one cell where the case has some, or stay as they are, since walls and
     curves leave a mesh generator no choice. `nodes`: of the mesh of a size, which is made; None: it cannot be."""
     coarsens = recipe.coarsens and all(count >= ratio**levels for count in recipe.counts)
     if coarsens:
         near, far = nodes(ratio), nodes(ratio**levels)
         coarsens = near is not None and far is not None and near >= far * ratio ** (levels - 1)
-    return Member(ratio if coarsens else 1.0, 1.0 if static else STEP_RATIO)
+    step = 1.0 if static else STEP_RATIO
+    while longest is not None and step > longest * (1 + 1e-9):
+        step /= STEP_RATIO
+    return Member(ratio if coarsens else 1.0, step)
