@@ -12,7 +12,7 @@ from fsi_compare.base.errors import InputError
 from fsi_compare.runs.pressure_waves import PressureWaves
 from fsi_compare.studies.stability import study as stability
 from fsi_compare.studies.running.context import Context
-from fsi_compare.studies.evidence.cross_check import AGREES, DEVIATES, UNCHECKED, WRONG, Cell, difference_of
+from fsi_compare.studies.evidence.cross_check import AGREES, DEVIATES, FAR, UNCHECKED, WRONG, Cell, difference_of
 from fsi_compare.studies.stability.beyond_limit_load import Inflated, limit_load_table
 from fsi_compare.studies.stability.limit_load import TUBE_KEYS, Inflation, apart, read_wall
 from fsi_compare.studies.stability.settings import Settings
@@ -86,9 +86,10 @@ class StabilityCase(FolderCase):
         stability.check(study)
         return study
 
-    def evaluate(self, outcomes):
-        """`outcomes`: (status, factor on the wave, time levels) by method and density; the rest agrees. Exit code, rows
-        of runs.csv by (value, method)."""
+    def evaluate(self, outcomes, displaced={}, says=()):
+        """`outcomes`: (status, factor on the wave, time levels) by method and density; the rest agrees. `displaced`: by the same
+        keys the factor on the wall's displacement; `says`: keys of runs that say that their error is not small. Exit code, rows of
+        runs.csv by (value, method)."""
         study = self.study()
         runs = []
         for i, request in enumerate(study.requests):
@@ -103,13 +104,23 @@ class StabilityCase(FolderCase):
                 )
                 status = NOT_CONVERGED
             elif levels:
-                wave = parabola(0.66)
+                wave, key = parabola(0.66), (request.method.name, value)
                 write_run(
                     folder,
                     lambda t, z: factor * wave(t, z),
                     TIMES[:levels],
                     totals={"steps": levels, "outer_iterations": 9 * levels, "newton_iterations": 3 * levels},
+                    **({"unchecked": "its error is not small"} if key in says else {}),
                 )
+                if displaced:
+                    (folder / "wall_displacement.csv").write_text(
+                        "time_ms,z_mm,radial_mm,axial_mm\n"
+                        + "".join(
+                            f"{t},{z},{displaced.get(key, 1.0) * t * (1 + z)},0\n"
+                            for t in TIMES[:levels]
+                            for z in (0.0, 9.0, 18.0)
+                        )
+                    )
             runs.append(StudyRun(request, folder, status, ENDS.get(status, ""), 1.0, "/opt/bin/fsi-monolithic x.toml"))
         self.out.mkdir(exist_ok=True)
         report = Report(self.out, study.title)
@@ -147,8 +158,8 @@ class Outcomes(StabilityCase):
         self.assertEqual((rows[12.0, "whole"]["outcome"], rows[12.0, "other"]["outcome"]), (WRONG, AGREES))
 
     def test_one_pass_claims_no_agreement(self):
-        code, rows = self.evaluate({("once", 12.0): (DONE, 1.3, 4)})
-        self.assertEqual((code, rows[12.0, "once"]["outcome"]), (0, DEVIATES))
+        code, rows = self.evaluate({("once", 12.0): (DONE, 1.05, 4), ("once", 1.2): (DONE, 1.3, 4)})
+        self.assertEqual((code, rows[12.0, "once"]["outcome"], rows[1.2, "once"]["outcome"]), (0, DEVIATES, FAR))
 
     def test_one_pass_is_measured_by_the_largest_of_all_levels(self):
         z = np.array([0.0, 1.0])
@@ -160,6 +171,35 @@ class Outcomes(StabilityCase):
     def test_one_pass_must_not_say_done_when_nothing_is_right(self):
         code, rows = self.evaluate({("once", 12.0): (DONE, 50.0, 4), ("once", 1.2): (NOT_CONVERGED, 50.0, 3)})
         self.assertEqual((code, rows[12.0, "once"]["outcome"], rows[1.2, "once"]["outcome"]), (2, WRONG, NOT_CONVERGED))
+
+    def test_a_displacement_off_counts_where_methods_do_not_iterate(self):
+        code, rows = self.evaluate({}, displaced={("once", 12.0): 1.04, ("parts", 12.0): 1.04})
+        once, parts = rows[12.0, "once"], rows[12.0, "parts"]
+        self.assertEqual((code, once["outcome"], rows[1.2, "once"]["outcome"]), (0, DEVIATES, AGREES))
+        self.assertAlmostEqual(float(once["displacement_difference"]), 0.04, 12)
+        self.assertLess(float(once["largest_difference"]), 1e-12)
+        self.assertEqual(
+            (parts["outcome"], parts["displacement_difference"]), (AGREES, "")
+        )  # it iterates to the pressure
+        (found,) = [row for row in self.csv("splitting.csv") if row["value"] == "12.0"]
+        self.assertEqual((found["method"], found["outcome"], found["says_so"]), ("once", DEVIATES, "0"))
+        self.assertIn("0 of 2 runs are off by more than 10 %", self.page)
+
+    def test_far_off_is_a_fault_only_where_nothing_is_said(self):
+        off = {("once", 12.0): 1.2, ("once", 1.2): 1.7}
+        code, rows = self.evaluate({}, displaced=off, says=[("once", 1.2)])
+        self.assertEqual((code, rows[12.0, "once"]["outcome"], rows[1.2, "once"]["outcome"]), (0, FAR, FAR))
+        self.assertIn("2 of 2 runs are off by more than 10 %, of which 1 do not say so", self.page)
+        self.assertIn("2 of them by more than 10 %", self.page)
+
+    def test_far_off_and_silent(self):
+        code, rows = self.evaluate({}, displaced={("once", 1.2): 1.7})
+        self.assertEqual((code, rows[1.2, "once"]["outcome"]), (2, WRONG))
+        self.assertIn("off by 7.0e-01", self.page)
+
+    def test_without_such_methods_there_is_no_such_section(self):
+        self.evaluate({("once", 12.0): (REFUSED, 1.0, 0), ("once", 1.2): (REFUSED, 1.0, 0)})
+        self.assertNotIn("What methods leave that do not iterate", self.page)
 
     def test_nothing_to_check_with(self):
         ended = {(name, 12.0): (NOT_CONVERGED, 1.0, 0) for name in ("whole", "other")}
@@ -198,6 +238,7 @@ class Outcomes(StabilityCase):
 class Messages(StabilityCase):
     def test_numbers_and_folders_do_not_tell_messages_apart(self):
         self.assertNotIn("a/b", without_folder(ENDS[NOT_CONVERGED]))
+        self.assertEqual(without_folder("/home/me/x.toml: time.scheme: kPa/mm"), "x.toml: time.scheme: kPa/mm")
 
         class Cell:
             def __init__(self, message, method):

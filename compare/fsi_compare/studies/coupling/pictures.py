@@ -52,7 +52,7 @@ def passes_figure(all_series: List[Series], xlabel: str, settings: Mapping[str, 
     strip.set_yticks(range(len(all_series)), [line.label for line in all_series], fontsize=6.5)
     strip.set_title("failed", loc="left")
     handles = [lines[i] for i in best] + crossed
-    labels = [all_series[i].label for i in best] + [f"pressure off by more than {100 * bound:g} %"] * len(crossed)
+    labels = [all_series[i].label for i in best] + [f"off by more than {100 * bound:g} %"] * len(crossed)
     tolerance = settings.get("partitioned.tolerance", 1e-6)
     return finish(figure, handles, labels, f"Coupling iterations, tolerance {tolerance:g}")
 

@@ -78,6 +78,12 @@ def evaluate(context: Context) -> int:
     runs = chosen(context, "cost")
     if runs:
         report.section("Cost at the same accuracy of the interface condition")
+        loose = [name for name in sweeps.settings_of(context.study).one_pass if _is_among(name, runs)]
+        if loose:
+            report.text(
+                f"But of {', '.join(f'`{name}`' for name in loose)}, which do not iterate, or not on all: theirs is the cost of a "
+                "step of the same length, at which they leave what the sweeps above say."
+            )
         cost_section(context, runs)
     missing = [
         run for run in context.runs if base(run.request.group) in ("passes", "agreement", "cost") and not run.done
@@ -87,7 +93,7 @@ def evaluate(context: Context) -> int:
     for cell in wrong:
         report.text(
             f"**At fault:** {cell.run.request.group}, {cell.run.request.label}: {cell.outcome}"
-            + (f", off by {cell.difference:.1e}" if cell.outcome == WRONG else f", {cell.run.message}")
+            + (f", off by {cell.off:.1e}" if cell.outcome == WRONG else f", {cell.run.message}")
         )
     for run in missing:
         report.text(f"**Missing:** {run.request.group}, {run.request.label}: {run.status}, {run.message}")
@@ -123,6 +129,10 @@ def in_short(passes: Sequence[StudyRun], agreement: Sequence[Agreement], runs: S
         else f"All {len(statuses)} runs came to their end."
     )
     return lines
+
+
+def _is_among(method: str, runs: Sequence[StudyRun]) -> bool:
+    return any(run.request.method.name == method for run in runs)
 
 
 def _span(values: Sequence[float]) -> str:

@@ -1,14 +1,15 @@
 """The schemes over one quantity at a time, every answer held against the monolithic driver's.
 
 `[report.sweeps]`: `bound`, the largest difference from the monolithic pressure that passes for the same answer;
-`one_pass`, schemes that do not iterate, whose difference is relative to the largest pressure of the run."""
+`one_pass`, schemes that do not iterate, or not on all, whose difference is relative to the largest pressure of the run, or the
+displacement's if that is larger."""
 
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence
 
 from ...reporting.column import Column, Facts
 from ...reporting.layout import Table
-from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAULTS, UNCHECKED, WRONG, Cell, cells
+from ..evidence.cross_check import AGREES, BOUND, DEVIATES, FAR, FAULTS, UNCHECKED, WRONG, Cell, cells
 from ..running.commands import with_name
 from ..running.study_file import Study, report_of
 from ..running.study_run import StudyRun
@@ -52,7 +53,7 @@ def varied(run: StudyRun) -> float:
 
 def off(cell: Cell) -> bool:
     """It says done, and its answer is another than the monolithic one."""
-    return cell.run.done and cell.outcome in (DEVIATES, WRONG)
+    return cell.run.done and cell.outcome in (DEVIATES, FAR, WRONG)
 
 
 def schemes(found: Sequence[Cell]) -> List[str]:
@@ -113,6 +114,7 @@ def _cells(group: str) -> List[Column[Cell]]:
         Column(csv="compared_with", value=lambda c: c.against and c.against.request.method.name),
         Column(csv="message", value=lambda c: c.run.message),
         Column(csv="command", value=lambda c: with_name(c.run.command)),
+        Column(csv="displacement_difference", value=lambda c: c.displacement),
     ]
 
 
@@ -124,7 +126,7 @@ def _of_value(value: float) -> Column[Swept]:
 
 
 def _worst(own: Swept) -> Optional[float]:
-    differences = [cell.difference for cell in own.values() if cell.run.done and cell.difference is not None]
+    differences = [cell.off for cell in own.values() if cell.run.done and cell.off is not None]
     return max(differences, default=None)
 
 
@@ -145,7 +147,11 @@ def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Setting
         [
             "Difference: of the pressure of runs that came to their end, the largest of all time levels, "
             "relative to the largest pressure of the level"
-            + (f"; of {', '.join(settings.one_pass)}, one pass a step, of all levels." if settings.one_pass else ".")
+            + (
+                f"; of {', '.join(settings.one_pass)}, which do not iterate, of all levels, or that of the displacement if larger."
+                if settings.one_pass
+                else "."
+            )
         ],
     )
 
@@ -153,7 +159,7 @@ def sweep_table(group: str, label: str, found: Sequence[Cell], settings: Setting
 def cell_text(cell: Cell) -> str:
     if not cell.run.done:
         return cell.run.status
-    shown = f" (off {100 * cell.difference:.2g} %)" if cell.difference is not None and off(cell) else ""
+    shown = f" (off {100 * cell.off:.2g} %)" if cell.off is not None and off(cell) else ""
     return f"{cell.run.passes:.1f}{shown}"
 
 

@@ -212,7 +212,7 @@ ALIKE: Sequence[Column[Alike]] = (
 
 
 def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
-    """Methods that came equally far share a row. Those with one pass a step say nothing about the wall."""
+    """Methods that came equally far share a row. Those that do not iterate say nothing about the wall."""
     loads: Dict[Tuple[str, str], List[Inflated]] = {}
     for run in runs:
         if run.cell.method not in settings.one_pass:
@@ -226,7 +226,7 @@ def limit_load_table(runs: Sequence[Inflated], settings: Settings) -> Table:
         [
             "Methods that differ in nothing shown share a row. Long tube: closed form, widening evenly."
             + (
-                f" Without {', '.join(settings.one_pass)}, one pass a step, which fails at once for other reasons."
+                f" Without {', '.join(settings.one_pass)}, whose own error is in what they reach."
                 if settings.one_pass
                 else ""
             )

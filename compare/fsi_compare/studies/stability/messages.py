@@ -7,6 +7,7 @@ from typing import Dict, List, Sequence
 from ..evidence.cross_check import Cell
 
 SAVED = re.compile(r"\s*\[the state after step [^\]]*\]")  # names a folder
+FOLDERS = re.compile(r"(?<![\w.-])(?:/[^\s/:]+)+/(?=[^\s/:]+\.toml\b)")  # of a case file
 NUMBER = re.compile(r"(?<![\w.-])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 
 
@@ -22,8 +23,8 @@ class Message:
 
 
 def without_folder(message: str) -> str:
-    """A run's message without the part that names its folder."""
-    return SAVED.sub("", message)
+    """A run's message without the part that names its folder, and without the case file's."""
+    return FOLDERS.sub("", SAVED.sub("", message))
 
 
 def distinct(cells: Sequence[Cell]) -> List[Message]:

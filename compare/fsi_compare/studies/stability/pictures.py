@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from ...reporting.pictures import finish
-from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, NOT_FINITE, UNCHECKED, WRONG, Cell
+from ..evidence.cross_check import AGREES, DEVIATES, FAR, FAULTS, NOT_FINITE, UNCHECKED, USABLE, WRONG, Cell
 from ..running.study_file import show
 from ..running.study_run import CRASHED, NOT_CONVERGED, OUT_OF_TIME, REFUSED
 
@@ -19,6 +19,7 @@ MOST_ITERATIONS = 500.0  # darkest cell
 LOOK = {
     UNCHECKED: {"facecolor": "#ffffff", "edgecolor": "#555555", "hatch": "...."},
     DEVIATES: {"facecolor": "#ffffff", "edgecolor": "#555555", "hatch": "----"},
+    FAR: {"facecolor": "#dddddd", "edgecolor": "#333333", "hatch": "----||||"},
     NOT_CONVERGED: {"facecolor": "#f6d5b8", "edgecolor": "#b06a2a", "hatch": "////"},
     OUT_OF_TIME: {"facecolor": "#e3d7ee", "edgecolor": "#6a4c93", "hatch": "\\\\\\\\"},
     REFUSED: {"facecolor": "#ffffff", "edgecolor": "#999999", "hatch": "xxxx"},
@@ -79,9 +80,9 @@ def text_of(cell: Cell) -> str:
         return WORDS[cell.outcome]
     if cell.outcome in (AGREES, UNCHECKED):
         return f"{cell.run.passes:.1f}"
-    if cell.outcome == DEVIATES:
-        assert cell.difference is not None, "it deviates by what was measured"
-        return f"off {100 * cell.difference:.2g} %"
+    if cell.outcome in (DEVIATES, FAR):
+        assert cell.off is not None, "it deviates by what was measured"
+        return f"off {100 * cell.off:.2g} %"
     if cell.outcome == NOT_CONVERGED:
         return f"\N{MULTIPLICATION SIGN} step {cell.levels + 1}"
     return f"time, step {cell.levels + 1}" if cell.outcome == OUT_OF_TIME else "refused"
@@ -115,7 +116,8 @@ def _legend(outcomes: Set[str]) -> Tuple[List[Patch], List[str]]:
     labels = ["converged, 1 iteration a step", "30", "500"]
     names = {
         UNCHECKED: "converged, other driver did not",
-        DEVIATES: "one pass: off by",
+        DEVIATES: "not iterated: off by",
+        FAR: f"the same, more than {100 * USABLE:g} %",
         NOT_CONVERGED: "not converged in step",
         OUT_OF_TIME: "out of time in step",
         REFUSED: "refused",

@@ -8,7 +8,20 @@ from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 from ..starting.progress import duration
 from ...reporting.column import Column
 from ...reporting.layout import Table
-from ..evidence.cross_check import AGREES, DEVIATES, FAULTS, OUTCOMES, UNCHECKED, WRONG, Cell, cells, point_of, quantity
+from ..evidence.cross_check import (
+    AGREES,
+    DEVIATES,
+    FAR,
+    FAULTS,
+    OUTCOMES,
+    UNCHECKED,
+    USABLE,
+    WRONG,
+    Cell,
+    cells,
+    point_of,
+    quantity,
+)
 from ..running.commands import with_name
 from ..running.context import Context
 from ..running.study_file import Study, show
@@ -17,6 +30,7 @@ from .beyond_limit_load import beyond_limit_load
 from .messages import Message, distinct, without_folder
 from .ringing import ringing
 from .settings import Settings, settings_of
+from .splitting import splitting
 
 
 def check(study: Study) -> None:
@@ -28,6 +42,7 @@ def evaluate(context: Context) -> int:
     found = cells(context.runs, settings.references, settings.one_pass, settings.bound)
     _summary(context, found, settings)
     _maps(context, found, settings)
+    splitting(context.report, found, settings)
     ringing(context.report, found, settings)
     beyond_limit_load(context.report, found, settings)
     _messages(context, found)
@@ -62,12 +77,13 @@ def _summary(context: Context, found: Sequence[Cell], settings: Settings) -> Non
         f"with. {count[NOT_CONVERGED]} ended with a message and exit code 2, {count[REFUSED]} were refused as "
         f"bad input, {count[OUT_OF_TIME]} were stopped after {context.study.time_limit:g} s."
     )
-    if count[DEVIATES]:
+    off = count[DEVIATES] + count[FAR]
+    if off:
         report.text(
-            f"{count[DEVIATES]} run{'s' if count[DEVIATES] > 1 else ''} of methods with one pass a step "
-            f"({', '.join(settings.one_pass)}) came to their end further away than that, by up to the stated "
-            "part of the run's largest pressure: they do not iterate until fluid and wall agree, and "
-            "`coupling.csv` states what they lack."
+            f"{off} run{'s' if off > 1 else ''} of methods that do not iterate, or not on all that fluid and wall share "
+            f"({', '.join(settings.one_pass)}), came to their end further away than that, {count[FAR]} of them by more than "
+            f"{100 * USABLE:g} %: of the largest pressure of the run, or of the displacement, whichever is more. They do not "
+            "claim that fluid and wall agree, and `coupling.csv` states what they lack."
         )
     report.table(_by_method(context, found))
 
@@ -76,7 +92,7 @@ def _detail(cell: Cell) -> str:
     command = with_name(cell.run.command)
     if cell.outcome == WRONG:
         assert cell.against is not None, "a wrong run was held against another"
-        return f", off by {cell.difference:.1e} from {cell.against.request.method.label}; `{command}`"
+        return f", off by {cell.off:.1e} from {cell.against.request.method.label}; `{command}`"
     return f": {without_folder(cell.run.message)}; `{command}`"
 
 
@@ -137,6 +153,7 @@ def _maps(context: Context, found: Sequence[Cell], settings: Settings) -> None:
             (m.name, m.label) for m in context.study.methods.values() if m.name in present
         ]
         label, paper = settings.label(name), settings.quantities.get(name, {}).get("paper")
+        paper = None if case in context.study.scenes else paper  # those of the gallery are not the paper's
         stem = name
         if case != cases[name][0]:
             label, stem = f"{label}, {case}", f"{name} {case}"
@@ -206,6 +223,7 @@ def _columns(settings: Settings) -> List[Column[Cell]]:
         Column("time", "process", lambda c: c.run.seconds, duration, "s"),
         Column(csv="folder", value=lambda c: c.run.folder.name),
         Column(csv="command", value=lambda c: with_name(c.run.command)),
+        Column(csv="displacement_difference", value=lambda c: c.displacement),
     ]
 
 
@@ -217,7 +235,7 @@ def _all_runs(found: Sequence[Cell], settings: Settings) -> Table:
         found,
         notes=[
             "Difference: largest over the time levels in common with the other driver's run, relative to "
-            "the largest value of the level; of methods with one pass a step, of all levels."
+            "the largest value of the level; of methods that do not iterate, of all levels."
         ],
     )
 
