@@ -1,5 +1,6 @@
 """The kind `coupling` of fsi-compare study: theory of the added mass, bisection, tables from runs."""
 
+import importlib.util
 import math
 import tempfile
 import unittest
@@ -196,6 +197,39 @@ class Sweeps(FolderCase):
         found = self.cells({("iqn-ils", 1.0): 1.0, ("iqn-ils", 10.0): 1.0}, monolithic=(1.0,))
         self.assertEqual([cell.outcome for cell in found], [AGREES, UNCHECKED])
         self.assertIn("1 has no monolithic run", sweeps.in_words(found, self.SETTINGS))
+
+
+class WindowModel(unittest.TestCase):
+    """scripts/window_model.py: different steps for fluid and wall."""
+
+    @classmethod
+    def setUpClass(cls):
+        script = Path(__file__).resolve().parents[3] / "scripts" / "window_model.py"
+        specification = importlib.util.spec_from_file_location("window_model", script)
+        cls.model = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(cls.model)
+
+    def test_the_midpoint_rule_is_exact_for_its_own_frequency(self):
+        # A midpoint step turns the phase by 2 atan(omega dt/2) (docs/theory.md, section 8).
+        modes = self.model.Modes(0.5, np.array([0.7]))
+        omega, dt = float(modes.frequencies[0]), 0.2
+        turn = 2 * math.atan(omega * dt / 2)
+        march = self.model.march(modes, np.ones(1), lambda t: np.zeros(1), dt, lambda t: 1)
+        for i, (t, d) in zip(range(1, 40), march):
+            self.assertAlmostEqual(t, i * dt, 12)
+            self.assertAlmostEqual(float(d[0]), math.cos(i * turn), 10)
+
+    def test_orders(self):
+        one_mode = self.model.one_mode
+        self.assertAlmostEqual(one_mode(0.5, 0.7, 160, 1, 2) / one_mode(0.5, 0.7, 160, 1), 4, delta=0.02)
+        # a fluid without mass bears nothing, however long its step (errors are summed at the ends of its steps alone); a wall without
+        # mass moves as the fluid lets it
+        self.assertAlmostEqual(one_mode(1.0, 1e-9, 80, 4) / one_mode(1.0, 1e-9, 80, 1), 1, delta=1e-3)
+        self.assertGreater(one_mode(0.02, 1.0, 80, 4), 2 * one_mode(0.02, 1.0, 80, 1))
+
+    def test_a_pulse_starts_from_rest_and_windows_end_at_its_end(self):
+        self.assertLess(self.model.pulse(1 / 16, 4), 0.004)
+        self.assertAlmostEqual(self.model.pulse(1 / 16, 1) / self.model.pulse(1 / 32, 1), 4, delta=0.05)
 
 
 class Commands(unittest.TestCase):
