@@ -34,3 +34,19 @@ def last_swings(times: np.ndarray, values: np.ndarray, period: float, count: int
     """Those of the last `count` periods (ms)."""
     last = times > times[-1] - count * period
     return Swings(times[last], values[last])
+
+
+def free_swing(times: np.ndarray, values: np.ndarray, after: float, apart: float, terms: int = 4) -> complex:
+    """s, in 1/ms, of the fastest of `terms` exponentials e^(s t) that values from `after` (ms) on are a sum of.
+
+    Prony's method by least squares: values `apart` from each other obey one linear recurrence, whose roots are e^(s apart). What
+    is smooth in time and decays is found as one or two real ones, beside the pair of a swing."""
+    step = times[1] - times[0]
+    n = max(1, int(round(apart / step)))
+    v = values[times > after * (1 - 1e-9)]
+    rows = np.stack([v[k * n : len(v) - (terms - k) * n] for k in range(terms + 1)], axis=1)
+    factors = np.linalg.lstsq(rows[:, :-1], rows[:, -1], rcond=None)[0]
+    roots = np.roots(np.concatenate([[1.0], -factors[::-1]])).astype(complex)
+    of_swings = roots[np.abs(np.angle(roots)) < 0.999 * np.pi]  # one that changes its sign at each value is none
+    exponents = np.log(of_swings) / (n * step)
+    return complex(exponents[np.argmax(exponents.imag)])

@@ -1,0 +1,31 @@
+// A quarter of an elastic ring, 950 to 1050 mm, and of the liquid around it up to a rigid wall of 1500 mm, finer towards both.
+// Lengths in mm.
+DefineConstant[ around = 24, through = 2, across = 10 ];
+Point(1) = {0, 0, 0};
+Point(2) = {950, 0, 0};
+Point(3) = {1050, 0, 0};
+Point(4) = {1500, 0, 0};
+Point(5) = {0, 950, 0};
+Point(6) = {0, 1050, 0};
+Point(7) = {0, 1500, 0};
+Line(1) = {2, 3};
+Line(2) = {3, 4};
+Line(3) = {5, 6};
+Line(4) = {6, 7};
+Circle(5) = {2, 1, 5};
+Circle(6) = {3, 1, 6};
+Circle(7) = {4, 1, 7};
+Curve Loop(1) = {1, 6, -3, -5};
+Curve Loop(2) = {2, 7, -4, -6};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve{5, 6, 7} = around + 1;
+Transfinite Curve{1, 3} = through + 1;
+Transfinite Curve{2, 4} = across + 1 Using Bump 0.25;
+Transfinite Surface{1, 2} Alternated;
+Physical Surface("fluid") = {2};
+Physical Surface("wall") = {1};
+Physical Curve("symmetry_x") = {3, 4};
+Physical Curve("symmetry_y") = {1, 2};
+Physical Curve("inner") = {5};
+Physical Curve("rigid") = {7};
