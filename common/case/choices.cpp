@@ -58,6 +58,7 @@ const NameTable<Geometry>& geometries() {
 const NameTable<InflowProfile>& inflow_profiles() {
   static const NameTable<InflowProfile> table("profile", {{"plug", InflowProfile::plug},
                                                           {"parabolic", InflowProfile::parabolic},
+                                                          {"biparabolic", InflowProfile::biparabolic},
                                                           {"womersley", InflowProfile::womersley}});
   return table;
 }

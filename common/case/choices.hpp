@@ -77,7 +77,7 @@ enum class ToleranceOf {
 };
 
 /// The velocity over an opening whose flow is given.
-enum class InflowProfile { plug, parabolic, womersley };
+enum class InflowProfile { plug, parabolic, biparabolic, womersley };
 const NameTable<InflowProfile>& inflow_profiles();
 const NameTable<ToleranceOf>& tolerance_kinds();
 /// mesh_motion.method: "harmonic", "stiffened", "nonlinear-elastic"

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "base/error.hpp"
 #include "fem/elements.hpp"
 #include "fluid/opening_profile.hpp"
 #include "fluid/opening_shape.hpp"
@@ -58,9 +59,26 @@ UnitInflow parabolic_inflow(const InflowOpening<Element>& opening) {
   return unit_inflow(opening, nodes, shape.inward, std::move(w), "");
 }
 
-#define FSI_INSTANTIATE(Element)                                           \
-  template UnitInflow plug_inflow<Element>(const InflowOpening<Element>&); \
-  template UnitInflow parabolic_inflow<Element>(const InflowOpening<Element>&);
+template <class Element>
+UnitInflow biparabolic_inflow(const InflowOpening<Element>& opening) {
+  const OpeningShape shape = shape_of(opening);
+  const auto rectangle = rectangle_of(opening, shape.inward);
+  if (!rectangle)
+    throw InputError(
+        opening.file, "opening." + opening.name + ".profile",
+        "\"biparabolic\" is the profile of a flat rectangle of three dimensions between walls and planes of "
+        "symmetry, and this surface is none",
+        "take profile = \"parabolic\"");
+  const auto nodes = facet_nodes(opening.facets);
+  std::vector<double> w;
+  for (const int a : nodes) w.push_back(opening.sticking[a] ? 0.0 : rectangle->parabolas(opening.nodes[a]));
+  return unit_inflow(opening, nodes, shape.inward, std::move(w), "");
+}
+
+#define FSI_INSTANTIATE(Element)                                                \
+  template UnitInflow plug_inflow<Element>(const InflowOpening<Element>&);      \
+  template UnitInflow parabolic_inflow<Element>(const InflowOpening<Element>&); \
+  template UnitInflow biparabolic_inflow<Element>(const InflowOpening<Element>&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

@@ -42,4 +42,11 @@ UnitInflow plug_inflow(const InflowOpening<Element>& opening);
 template <class Element>
 UnitInflow parabolic_inflow(const InflowOpening<Element>& opening);
 
+/// A parabola along each side of a flat rectangle, (1 - (s/h)^2) (1 - (t/k)^2), as benchmarks prescribe it in ducts, where
+/// it is not the fully developed flow. Where a side is a plane of symmetry the parabola's top is there (docs/theory.md,
+/// section 3.6).
+/// \throws InputError as plug_inflow(), and when the opening is no rectangle (rectangle_of(), fluid/opening_shape.hpp)
+template <class Element>
+UnitInflow biparabolic_inflow(const InflowOpening<Element>& opening);
+
 }  // namespace fsi

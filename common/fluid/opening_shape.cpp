@@ -147,6 +147,51 @@ void find_circle(const InflowOpening<Element>& opening, const std::vector<int>& 
   shape.radius = radius;
 }
 
+/// Of three dimensions.
+template <class Element>
+std::optional<OpeningRectangle> find_rectangle(const InflowOpening<Element>& opening, const Point& inward) {
+  const auto& x = opening.nodes;
+  const auto nodes = facet_nodes(opening.facets);
+  const auto rim = rim_edges(opening);
+  const auto wall = std::find_if(rim.begin(), rim.end(), [&](const RimEdge& edge) {
+    return opening.sticking[edge.from] && opening.sticking[edge.to];
+  });
+  if (wall == rim.end()) return std::nullopt;
+  OpeningRectangle found;
+  found.sides[0].along = (1 / distance(x[wall->from], x[wall->to])) * (x[wall->to] - x[wall->from]);
+  found.sides[1].along = cross(inward, found.sides[0].along);
+  double area = 1;
+  for (auto& side : found.sides) {
+    side.from = side.to = dot(x[nodes.front()], side.along);
+    for (const int a : nodes) {
+      side.from = std::min(side.from, dot(x[a], side.along));
+      side.to = std::max(side.to, dot(x[a], side.along));
+    }
+    area *= side.to - side.from;
+  }
+  double covered = 0;
+  for (const double of_node : nodal_areas<Element>(x, opening.facets)) covered += of_node;
+  if (!(std::abs(covered - area) < OpeningShape::tolerance * area)) return std::nullopt;
+  const double miss = 1e-4 * std::sqrt(area);
+  std::vector<char> on_wall(x.size(), 0);
+  for (auto& side : found.sides)
+    for (const bool last : {false, true}) {
+      const double end = last ? side.to : side.from;
+      std::vector<int> there;
+      for (const int a : nodes)
+        if (std::abs(dot(x[a], side.along) - end) < miss) there.push_back(a);
+      bool& walled = last ? side.last_walled : side.first_walled;
+      walled = std::all_of(there.begin(), there.end(), [&](int a) { return opening.sticking[a] != 0; });
+      if (walled)
+        for (const int a : there) on_wall[a] = 1;
+    }
+  for (const int a : nodes) {
+    if (opening.sticking[a] && !on_wall[a]) return std::nullopt;
+    if (std::abs(dot(x[a] - x[nodes.front()], inward)) > miss) return std::nullopt;
+  }
+  return found;
+}
+
 /// Of triangle meshes, whose facets are edges.
 template <class Element>
 void find_segment(const InflowOpening<Element>& opening, const std::vector<int>& nodes, OpeningShape& shape) {
@@ -197,7 +242,24 @@ OpeningShape shape_of(const InflowOpening<Element>& opening) {
   return shape;
 }
 
-#define FSI_INSTANTIATE(Element) template OpeningShape shape_of<Element>(const InflowOpening<Element>&);
+double OpeningRectangle::Side::parabola(const Point& x) const {
+  if (!first_walled && !last_walled) return 1;
+  const double top = first_walled && last_walled ? 0.5 * (from + to) : first_walled ? to : from;
+  const double s = (dot(x, along) - top) / (first_walled ? top - from : to - top);
+  return 1 - s * s;
+}
+
+template <class Element>
+std::optional<OpeningRectangle> rectangle_of(const InflowOpening<Element>& opening, const Point& inward) {
+  if constexpr (Element::dim == 3)
+    return find_rectangle(opening, inward);
+  else
+    return std::nullopt;
+}
+
+#define FSI_INSTANTIATE(Element)                                          \
+  template OpeningShape shape_of<Element>(const InflowOpening<Element>&); \
+  template std::optional<OpeningRectangle> rectangle_of<Element>(const InflowOpening<Element>&, const Point&);
 FSI_FOR_EACH_ELEMENT(FSI_INSTANTIATE)
 #undef FSI_INSTANTIATE
 

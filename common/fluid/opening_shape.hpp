@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "fluid/inflow_profile.hpp"
@@ -29,5 +31,22 @@ struct OpeningShape {
 /// \throws InputError when the fluid sticks at every node of the opening, or its mean normal is zero
 template <class Element>
 OpeningShape shape_of(const InflowOpening<Element>& opening);
+
+/// A flat rectangle of three dimensions, its sides walls or planes of symmetry.
+struct OpeningRectangle {
+  struct Side {
+    Point along{};                                 ///< unit vector
+    double from = 0, to = 0;                       ///< of the places x . along, mm
+    bool first_walled = true, last_walled = true;  ///< whether the fluid sticks at the ends of these places
+    /// 1 - (s/h)^2 from the middle between walls, or from the plane of symmetry beside one; 1 between such planes.
+    double parabola(const Point& x) const;
+  };
+  std::array<Side, 2> sides;
+  double parabolas(const Point& x) const { return sides[0].parabola(x) * sides[1].parabola(x); }
+};
+
+/// Nothing where the opening is none, or the fluid sticks elsewhere than along whole sides.
+template <class Element>
+std::optional<OpeningRectangle> rectangle_of(const InflowOpening<Element>& opening, const Point& inward);
 
 }  // namespace fsi

@@ -42,8 +42,9 @@ Inflow make_inflow(const Case& setup, const MeshOf<Element>& mesh, const PartOf<
                                 modes == 1 ? "harmonic" : "harmonics");
     return inflow;
   }
-  UnitInflow unit =
-      rate.profile == InflowProfile::plug ? plug_inflow<Element>(place) : parabolic_inflow<Element>(place);
+  UnitInflow unit = rate.profile == InflowProfile::plug          ? plug_inflow<Element>(place)
+                    : rate.profile == InflowProfile::biparabolic ? biparabolic_inflow<Element>(place)
+                                                                 : parabolic_inflow<Element>(place);
   inflow.profile = std::move(unit.velocity);
   inflow.instead = std::move(unit.instead);
   return inflow;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "fem/elements.hpp"
 #include "fluid/opening_profile.hpp"
 #include "opening_meshes.hpp"
@@ -162,6 +163,32 @@ TEST(InflowProfile, SquareDuct) {
   const auto inflow = parabolic_inflow(opening);
   expect_unit_flow(opening, inflow, tilted_inward());
   EXPECT_NEAR(largest(opening, inflow, tilted_inward()), 2.09626, 2e-3);
+}
+
+/// A parabola along each side: twice and a quarter the mean in the middle, also where a plane of symmetry halves the duct.
+TEST(InflowProfile, BiparabolicOnARectangle) {
+  const auto plane = rectangle(0.8, 0.4, 8, 4);
+  const auto check = [](const auto& opening, double area, const auto& shape) {
+    const auto inflow = biparabolic_inflow(opening);
+    EXPECT_EQ(inflow.instead, "");
+    expect_unit_flow(opening, inflow, tilted_inward());
+    const double top = largest(opening, inflow, tilted_inward());
+    EXPECT_NEAR(top * area, 2.25, 1e-3) << "of the flow of quadratic shape functions";
+    for (std::size_t a = 0; a < opening.nodes.size(); ++a)
+      EXPECT_NEAR(along<P2P1Tetrahedron>(inflow.velocity, static_cast<int>(a), tilted_inward()),
+                  top * shape(opening.nodes[a]), 1e-12);
+  };
+  const Point e1 = tilted({1, 0, 0}) - tilted({0, 0, 0}), e2 = tilted({0, 1, 0}) - tilted({0, 0, 0});
+  const auto place = [&](const Point& x, const Point& along) { return dot(x - tilted({0, 0, 0}), along); };
+  const auto parabola = [](double s, double length) { return 4 * s * (length - s) / (length * length); };
+  check(flat_opening<P2P1Tetrahedron>(plane, everywhere), 0.32,
+        [&](const Point& x) { return parabola(place(x, e1), 0.8) * parabola(place(x, e2), 0.4); });
+  check(flat_opening<P2P1Tetrahedron>(plane,
+                                      [](const Point& x) { return x[0] > 1e-9 || x[1] < 1e-9 || x[1] > 0.4 - 1e-9; }),
+        0.32, [&](const Point& x) { return parabola(place(x, e1) + 0.8, 1.6) * parabola(place(x, e2), 0.4); });
+  for (const auto& wrong : {flat_opening<P2P1Tetrahedron>(disk(1.4, 4, 16), everywhere),
+                            flat_opening<P2P1Tetrahedron>(plane, [](const Point& x) { return x[0] < 0.3; })})
+    EXPECT_THROW(biparabolic_inflow(wrong), InputError);
 }
 
 TEST(InflowProfile, WithoutAWalledRimTheParabolaIsAPlug) {
