@@ -140,7 +140,7 @@ TEST_F(Openings, AreRefusedWithOneMessage) {
        "lets no kinetic energy in)"},
       {"flow_rate = 1\nprofile = \"plugg\"",
        "case.toml:12: opening.left.profile: \"plugg\" is unknown; did you mean "
-       "plug? There are plug, parabolic or womersley"},
+       "plug? There are plug, parabolic, biparabolic or womersley"},
   };
   for (const std::string symbol : {"Rp", "R1", "r_p"})
     EXPECT_EQ(complaint(opening("windkessel = { " + symbol + " = 1, C = 1, Rd = 1 }")),
