@@ -58,6 +58,18 @@ class OneFile(FolderCase):
         shown = Table("t", "T", [Column("error", "error", lambda record: record, ".1e")], [0.0, 1e-9, None])
         self.assertEqual(shown.rows, [["0"], ["1.0e-09"], ["-"]])
 
+    def test_name_stays_in_one_line(self):
+        """A hyphen is no place to break it; words are broken."""
+        shown = Table(
+            "t", "T", [Column("program", value=lambda record: record, left=True)], ["fsi-monolithic", "two words"]
+        )
+        report = Report(self.base, "Programs")
+        report.table(shown)
+        page = report.write().read_text()
+        self.assertIn('<td class="l one">fsi-monolithic</td>', page)
+        self.assertIn('<td class="l">two words</td>', page)
+        self.assertIn("td.one { white-space: nowrap; }", page)
+
     def test_page(self):
         report = self.report()
         page = report.write().read_text()
