@@ -1,7 +1,8 @@
 """Stand in for fsi-mesh and both drivers in tests of `fsi-compare verify`: answer at once, with errors that are known.
 
 A mesh is a file with the size of its elements, from `--set size=` or `--set cells=` of a script, half of that of the file
-that `refine` is given, or that of as many nodes as `adapt` is asked for; behind it stand the nodes as gmsh has them. A run has one point, whose values are
+that `refine` is given, or that of as many nodes as `adapt` is asked for; `lumen` makes it of its edges, 6 along the diameter or 1 mm for
+size 1, and `thicken` takes that of its lumen; behind it stand the nodes as gmsh has them. A run has one point, whose values are
 
     displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
 
@@ -96,6 +97,15 @@ def mesh_size(words):
     if words[1] == "adapt":
         assert json.loads((Path(words[3]) / "summary.json").read_text())["indicator"], "a run without error_indicator"
         return math.sqrt(5e3 / float(words[words.index("--nodes") + 1]))
+    if words[1] == "thicken":
+        return size_of(words[2])
+    if words[1] == "lumen":
+        given = dict(zip(words, words[1:]))
+        return (
+            6 / float(given["--edges-per-diameter"])
+            if "--edges-per-diameter" in given
+            else float(given["--edge-length"])
+        )
     given = settings(words)
     if "size" in given:
         return float(given["size"])

@@ -7,7 +7,7 @@ import synthetic  # noqa: F401: the package's folder onto the path
 from folder_case import FolderCase
 
 from fsi_compare.base.errors import InputError
-from fsi_compare.studies.gallery.mesh_chain import links, make_mesh, with_places
+from fsi_compare.studies.gallery.mesh_chain import as_typed, links, make_mesh, with_places
 from fsi_compare.studies.running.runner import recipe
 from fsi_compare.studies.running.study_file import StudyMesh
 
@@ -74,16 +74,35 @@ class MeshChain(FolderCase):
         (self.base / "table.csv").write_text("another")
         self.assertNotEqual(recipe(mesh), before)
 
-    def test_a_chain_makes_no_family(self):
-        case = self.base / "case.toml"
-        case.write_text('[mesh]\nfile = "no.msh"\n[time]\nstep = 1\nend = 2\n')
-        driver = self.base / "fsi-monolithic"
-        driver.write_text("#!/bin/sh\necho fsi-monolithic 1.2.3\n")
-        driver.chmod(0o755)
-        words = ["--monolithic", driver, "--mesh", "geo a.geo | thicken --layer a=1"]
-        code, _, err = self.call("verify", case, "-o", self.out, *words)
-        self.assertEqual(code, 1)
-        self.assertIn("--mesh: a mesh of several commands makes no family of meshes; make its mesh", err)
+    def test_files_between_are_kept_and_found_again(self):
+        kept, words = self.base / "parts", with_places(
+            "surface.py 3mm | lumen --edge 0.6 | thicken a".split(), self.base
+        )
+        other = [*words[:-1], "b"]
+        for chosen in (words, other):
+            self.assertEqual(make_mesh(chosen, self.target, self.maker, "scene.py", kept).code, 0)
+        self.assertEqual(self.target.read_text(), "(thicken (lumen surface of 3mm --edge 0.6 -q) b -q)")
+        made = {path.name: path.stat().st_mtime_ns for path in kept.iterdir()}
+        self.assertEqual(sorted(name.split("-")[0] for name in made), ["lumen", "surface"])  # one of each for both
+        make_mesh(words, self.target, self.maker, "scene.py", kept)
+        self.assertEqual({path.name: path.stat().st_mtime_ns for path in kept.iterdir()}, made)
+        (self.base / "surface.py").write_text(SCRIPT.replace("surface", "another"))
+        make_mesh(words, self.target, self.maker, "scene.py", kept)
+        self.assertEqual(self.target.read_text(), "(thicken (lumen another of 3mm --edge 0.6 -q) a -q)")
+        fails = [word if word != "0.6" else "fail" for word in words]
+        self.assertNotEqual(make_mesh(fails, self.target, self.maker, "scene.py", kept).code, 0)
+        self.assertEqual(len(list(kept.iterdir())), 4)  # nothing of the one that failed
+
+    def test_commands_as_typed(self):
+        words = "surface.py --jitter 0.05 | lumen --edges-per-diameter 5 | thicken --layer wall=100%:2".split()
+        self.assertEqual(
+            as_typed(words, Path("made.msh"), "scene.py"),
+            [
+                "python3 surface.py --jitter 0.05 -o made-1.stl",
+                "fsi-mesh lumen made-1.stl --edges-per-diameter 5 -o made-2.msh",
+                "fsi-mesh thicken made-2.msh --layer wall=100%:2 -o made.msh",
+            ],
+        )
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ from fsi_compare.studies.verify.family import Member, read_case, with_settings
 from fsi_compare.studies.verify.found_case import write_case
 from fsi_compare.studies.verify.geo_sizes import graded_text, read_sizes
 from fsi_compare.studies.verify.lean import between, cross, lean, starting_member
-from fsi_compare.studies.verify.mesh_family import LEVELS, RECOMMENDED, _artery_words, ratio_for
+from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, artery_words
+from fsi_compare.studies.verify.mesh_family import ratio_for
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
 from fsi_compare.studies.verify.tolerances import DEFAULT_SCHEME, GAP_TOLERANCE, NEWTON_TOLERANCE, governing
@@ -273,10 +274,10 @@ class MeshWords(unittest.TestCase):
         self.assertEqual({name: (float(size), float(along)) for name, size, along in found}, LEVELS)
 
     def test_artery_by_numbers_sizes_and_level(self):
-        words = _artery_words(("--lumen-cells", "4", "--axial-cells=24", "--order", "2"), 1.5)
+        words = artery_words(("--lumen-cells", "4", "--axial-cells=24", "--order", "2"), 1.5)
         self.assertEqual(words, ["--order", "2", "--lumen-cells", "6", "--axial-cells", "36"])
-        self.assertEqual(_artery_words(("--size", "0.5"), 2.0), ["--size", "0.25"])
-        self.assertEqual(_artery_words(("--level", "coarse"), 2.0), ["--size", "0.375", "--axial-size", "0.39"])
+        self.assertEqual(artery_words(("--size", "0.5"), 2.0), ["--size", "0.25"])
+        self.assertEqual(artery_words(("--level", "coarse"), 2.0), ["--size", "0.375", "--axial-size", "0.39"])
 
     def test_numbers_of_a_recommended_mesh(self):
         said = "p2p1: cells through lumen 4 (graded 2 to the wall), media 1, adventitia 1, along the axis 24 (graded 8 to the inlet)"

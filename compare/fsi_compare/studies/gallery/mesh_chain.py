@@ -7,13 +7,16 @@ A command is one of fsi-mesh without -o, and without its input where it is not t
 Python, which writes a surface of triangles, .stl, to the file named behind its -o.
 """
 
+import hashlib
+import os
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, List, Optional, Sequence, Tuple
 
 from ...base.errors import InputError
-from ...base.files import is_file
+from ...base.files import TEMPORARY, is_file, make_folder, read_bytes
 from ..starting.processes import End, execute
 
 MARK = "|"  # between two commands
@@ -41,14 +44,20 @@ class Link:
         return [mesh_maker, name, *before, *others, *(["-q"] if quiet else []), "-o", self.made]
 
 
-def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
-    """`target`: of the last; the others' files lie beside it. `source`: who names the words. Raises InputError."""
+def commands_of(words: Sequence[str]) -> List[List[str]]:
+    """The words of each command."""
     parts: List[List[str]] = [[]]
     for word in words:
         if word == MARK:
             parts.append([])
         else:
             parts[-1].append(word)
+    return parts
+
+
+def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
+    """`target`: of the last; the others' files lie beside it. `source`: who names the words. Raises InputError."""
+    parts = commands_of(words)
     found: List[Link] = []
     for number, part in enumerate(parts, 1):
         if not part:
@@ -64,18 +73,65 @@ def links(words: Sequence[str], target: Path, source: str) -> List[Link]:
     return found
 
 
-def make_mesh(words: Sequence[str], target: Path, mesh_maker: Path, source: str) -> End:
-    """Makes `target`; files between are removed. How the last command ended that was started: 0 where all are done."""
+def as_typed(words: Sequence[str], target: Path, source: str) -> List[str]:
+    """The commands as a user would type them. Raises InputError."""
+    return [shlex.join(map(str, link.command("fsi-mesh", ["python3"], False))) for link in links(words, target, source)]
+
+
+def make_mesh(words: Sequence[str], target: Path, mesh_maker: Path, source: str, kept: Optional[Path] = None) -> End:
+    """Makes `target`. How the last command ended that was started: 0 where all are done. Files between are removed, or, with
+    `kept`, stay in that folder and are found again by what they are made of."""
     chain = links(words, target, source)
+    if kept is not None:
+        chain = _with_kept(chain, kept)
     try:
         for link in chain:
-            end = execute(link.command(mesh_maker, [sys.executable, "-E", "-B"], True))
+            last = link is chain[-1]
+            if kept is not None and not last and is_file(link.made):
+                end = End(0, "", 0.0)
+                continue
+            end = _make(link, mesh_maker, kept is not None and not last)
             if end.code:
                 break
     finally:
-        for link in chain[:-1]:
-            link.made.unlink(missing_ok=True)
+        if kept is None:
+            for link in chain[:-1]:
+                link.made.unlink(missing_ok=True)
     return end
+
+
+def _make(link: Link, mesh_maker: Path, whole: bool) -> End:
+    """`whole`: its file has its name only when it is finished."""
+    python = [sys.executable, "-E", "-B"]
+    if not whole:
+        return execute(link.command(mesh_maker, python, True))
+    make_folder(link.made.parent)
+    unfinished = link.made.with_name(f".{link.made.stem}{TEMPORARY}{link.made.suffix}")
+    end = execute(Link(link.words, link.source, unfinished).command(mesh_maker, python, True))
+    if end.code == 0:
+        os.replace(unfinished, link.made)
+    else:
+        unfinished.unlink(missing_ok=True)
+    return end
+
+
+def _with_kept(chain: Sequence[Link], folder: Path) -> List[Link]:
+    """The same with names by what each file is made of, but for the last one's."""
+    found: List[Link] = []
+    words: List[str] = []
+    for link in chain:
+        words += [*link.words, MARK]
+        digest = hashlib.sha256("\0".join([*words, *contents(words)]).encode()).hexdigest()
+        name = f"{Path(link.words[0]).stem}-{digest[:12]}{link.made.suffix}"
+        made = link.made if link is chain[-1] else folder / name
+        found.append(Link(link.words, found[-1].made if found else None, made))
+    return found
+
+
+def contents(words: Sequence[str]) -> List[str]:
+    """What is in the files that are named, by digests."""
+    named = [Path(word) for word in words if word.endswith(READ) and is_file(Path(word))]
+    return [hashlib.sha256(read_bytes(path, "make it again", "make it again")).hexdigest() for path in named]
 
 
 def with_places(words: Sequence[str], folder: Path) -> List[str]:

@@ -9,7 +9,7 @@ from ...reporting.layout import Table
 from ...reporting.report import Report
 from ...results.run import RunResults
 from ...runs.work_units import NOTE, per_step
-from .mesh_chain import links, with_places
+from .mesh_chain import as_typed, with_places
 from .running import Outcome
 from .scene import Number, Scene, SceneRun
 from ...reporting.work_column import work_column
@@ -69,8 +69,7 @@ def _mesh_commands(scene: Scene, place: str, quick: bool) -> List[str]:
         normpath(f"{place}/{word}") if full != word else word
         for word, full in zip(words, with_places(words, scene.folder))
     ]
-    chain = links(named, Path(f"{scene.name}.msh"), place)
-    return [" ".join(map(str, link.command("fsi-mesh", ["python3"], False))) for link in chain]
+    return as_typed(named, Path(f"{scene.name}.msh"), place)
 
 
 def add_still(report: Report, stem: str, run: RunResults, asked: Mapping[str, Any]) -> None:

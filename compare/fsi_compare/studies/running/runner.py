@@ -1,6 +1,5 @@
 """Runs what a study asks for and is not there yet. A study can be killed at any moment and called again."""
 
-import hashlib
 import json
 import math
 import os
@@ -26,7 +25,7 @@ from ...base.files import (
     replacing,
 )
 from ..starting.launch import launched
-from ..gallery.mesh_chain import READ, make_mesh
+from ..gallery.mesh_chain import contents, make_mesh
 from ..starting.processes import End, Job, run_jobs
 from ..starting.programs import Program
 from ...runs.summary import FILE, read_summary
@@ -39,6 +38,7 @@ from .study_progress import StudyProgress
 from .study_run import CRASHED, DONE, NOT_CONVERGED, OUT_OF_TIME, REFUSED, WRONG, StudyRun
 
 AGAIN = "make the run again with --fresh"
+PARTS = "parts"  # of `meshes`: what one command of a mesh has made for the next one
 RECORD = "study_run.json"  # written last: a folder without it is not finished
 LONGEST_NAME = 100  # characters; the digest behind it tells runs apart
 OWN_PLACE = re.compile(r".+-[0-9a-f]{12}(-\d+)?")  # of a run in `runs`, or of a repetition of it
@@ -207,7 +207,8 @@ class Runner:
         make_folder(path.parent)
         unfinished = path.with_name(f".{path.stem}{TEMPORARY}.msh")
         place = f"{self.study.path}: meshes.{mesh.name}"
-        end = make_mesh([mesh.command, *mesh.options], unfinished, self.mesh_maker, place)
+        words = [mesh.command, *mesh.options]
+        end = make_mesh(words, unfinished, self.mesh_maker, place, path.parent / PARTS)
         if end.code:
             raise ProgramError(self.study.path, f"meshes.{mesh.name}", end.message, "change its options")
         os.replace(unfinished, path)
@@ -316,8 +317,7 @@ def is_interrupted(code: int) -> bool:
 
 def recipe(mesh: StudyMesh) -> List[str]:
     """What decides a mesh: its options, and what is in the scripts and meshes that they name."""
-    named = [word for word in (mesh.command, *mesh.options) if word.endswith(READ) and is_file(Path(word))]
-    return [*mesh.options, *(hashlib.sha256(read_bytes(Path(n), AGAIN, AGAIN)).hexdigest() for n in named)]
+    return [*mesh.options, *contents([mesh.command, *mesh.options])]
 
 
 def write_record(folder: Path, record: Dict[str, Any]) -> None:
@@ -338,6 +338,7 @@ def sweep_study(folder: Path) -> None:
         folder,
         folder / "runs",
         folder / "meshes",
+        folder / "meshes" / PARTS,
         *(folder / "runs" / run for run in listed(folder / "runs")),
     ):
         for name in listed(place):

@@ -70,7 +70,7 @@ class Adapted(Recipe):
 
 
 def adapted(base: Recipe, dimension: int) -> Adapted:
-    return Adapted("adapt", base.words, base.geo, base.given, base.file, base, dimension)
+    return Adapted("adapt", base.words, base.geo, base.given, base.file, base=base, dimension=dimension)
 
 
 def about_adapted(recipe: Adapted) -> str:

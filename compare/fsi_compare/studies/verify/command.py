@@ -20,7 +20,7 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import SHAPE, plan, sample, tell_mesh, within_budget
+from .preparing import SHAPE, SURFACE, plan, sample, tell_mesh, tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -47,6 +47,9 @@ EXAMPLES = """\
 examples:
   fsi-compare verify gallery/cooks-membrane/cooks-membrane.toml
   fsi-compare verify tube.toml --mesh "geo tube.geo --order 2" --drivers monolithic,partitioned
+  fsi-compare verify dome.toml --mesh "geo dome.geo | thicken --layer wall=0.3:2"
+  fsi-compare verify vessel.toml --mesh "lumen vessel.stl --opening in=1 --opening out=2 \\
+    --edges-per-diameter 6 | thicken --thickness-ratio 0.2 --layer wall=100%:2"
   fsi-compare verify tube.toml --of "outlet: flow" --times 5,10
 """
 
@@ -58,7 +61,10 @@ def add_parser(commands: Commands, version: str) -> None:
     command.add_argument("case", metavar="CASE.toml", type=Path, help="case file")
     command.add_argument("-o", "--output", metavar="OUTDIR", type=folder, help="default: results/verify/CASE")
     command.add_argument(
-        "--mesh", metavar="WORDS", help="of the fsi-mesh command that makes the case's mesh, without -o"
+        "--mesh",
+        metavar="WORDS",
+        help="of the fsi-mesh command that makes the case's mesh, without -o; several with | between, each of the file of the "
+        "one before",
     )
     command.add_argument(
         "--drivers", metavar="A,B", default="monolithic", help="monolithic, partitioned (default: %(default)s)"
@@ -229,6 +235,8 @@ def write(
     facts = maker.requests.facts
     place = maker.requests.folder
     families = list(maker.families.values())
+    unrefined = tell_unrefined(maker, families)
+    maker.notes += unrefined
     title = printable(str(facts.entries.get("title") or facts.path.stem))
     with together(place) as inside:
         load_matplotlib()
@@ -239,6 +247,6 @@ def write(
         report.written.append(write_json(inside, about, sets, families))
     if not options.quiet:
         print(bars_table(judged).text())
-        print("\n".join([*counts(judged), *(note for note in maker.notes if note == SHAPE)]))
+        print("\n".join([*counts(judged), *(note for note in maker.notes if note in (SHAPE, SURFACE, *unrefined))]))
         say_written(place, [path for path in report.written if path.suffix in (".csv", ".html", ".json", ".md")])
     return 2 if any(family.failures for family in families) else 0

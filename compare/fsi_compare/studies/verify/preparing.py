@@ -1,15 +1,18 @@
 """What is settled before a family is run: its members, the samples it is judged by, whether it fits the budget."""
 
 import argparse
+from pathlib import Path
 from typing import List, Sequence
 
 from ...base.errors import InputError
+from ..gallery.mesh_chain import READ
 from ..starting.progress import duration
 from .adapting import Adapted, about_adapted
 from .family import CaseFacts, Member, members, mesh_ratio
 from .making import Maker
 from .mesh_family import Recipe
 from .quantities import curves_of
+from .results import FamilyRuns
 from .standard import standard_points
 
 
@@ -17,6 +20,9 @@ SHAPE = (
     "Curved surfaces stay where the mesh file has them, however fine the elements become: what the vessel's shape is off by is in "
     'no bar. It is where the meshes are made of the shape: --mesh "geo SCRIPT.geo".'
 )
+
+
+SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
 
 
 def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
@@ -87,5 +93,29 @@ def tell_mesh(maker: Maker, recipe: Recipe) -> None:
         )
         maker.notes.append(SHAPE)
         return
+    if recipe.chain:
+        maker.notes.append(
+            f"Meshes: fsi-mesh {shown(recipe.words)}; of each command what it has of sizes, finer and coarser."
+        )
+        maker.notes += [] if recipe.words[0] == "geo" else [SURFACE]
+        return
     words = [recipe.geo.script.name] if recipe.geo is not None else []
     maker.notes.append(f"Meshes: fsi-mesh {' '.join([recipe.command, *words, *recipe.words])}, finer and coarser.")
+
+
+def shown(words: Sequence[str]) -> str:
+    """Files by their last names."""
+    return " ".join(Path(word).name if word.endswith(READ) else word for word in words)
+
+
+def tell_unrefined(maker: Maker, families: Sequence[FamilyRuns]) -> Sequence[str]:
+    """That layers of the wall have as many elements in all meshes of the family; empty where none has."""
+    sizes = sorted({member.mesh for family in families for member in family.done})
+    kept = maker.requests.recipe.unrefined(sizes, maker.requests.folder) if len(sizes) > 1 else {}
+    if not kept:
+        return []
+    layers = ", ".join(f"{name}: {number}" for name, number in kept.items())
+    return [
+        f"Elements through the wall's layers are as many in all meshes ({layers}): what these leave is in no bar. It is where a "
+        "layer has two or more, --layer NAME=THICKNESS:2."
+    ]

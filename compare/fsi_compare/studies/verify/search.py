@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 from ...base.errors import InputError, printable
+from ..gallery.mesh_chain import MARK, as_typed
+from ..running.study_file import StudyMesh
 from ..running.study_run import StudyRun
 from ..starting.progress import duration
 from .adapting import Adapted
@@ -290,11 +292,19 @@ def write_found(folder: Path, maker: Maker, outcome: Outcome, seconds: Mapping[s
     comments = [
         f"{printable(str(facts.path))} with the settings that fsi-compare verify has found:",
         *outcome.lines,
-        *([f"{MESH}: {printable(shlex.join(['fsi-mesh', made.command, *made.options]))}"] if made is not None else []),
+        *(map(printable, _as_made(made)) if made is not None else []),
         *(f"fsi-{name}: {duration(run.seconds) if run.done else run.status}" for name, run in seconds.items()),
     ]
     write_case(folder / FOUND, entries, facts.path.parent.resolve(), comments)
     return written
+
+
+def _as_made(mesh: StudyMesh) -> List[str]:
+    """The commands of a mesh, as comments."""
+    words = [mesh.command, *mesh.options]
+    if MARK not in words:
+        return [f"{MESH}: {shlex.join(['fsi-mesh', *words])}"]
+    return [f"{MESH}:", *(f"  {line}" for line in as_typed(words, Path(MESH), MESH))]
 
 
 def by_each_driver(maker: Maker, outcome: Outcome, drivers: Sequence[str]) -> Dict[str, StudyRun]:
