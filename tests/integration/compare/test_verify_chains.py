@@ -172,7 +172,7 @@ class Chains(VerifyCase):
         self.assertNotIn("--geo", self.made("adapt")[0])
         text = (self.out / "report.md").read_text()
         self.assertIn("cells are halved", text)
-        self.assertIn("is in no bar", text)
+        self.assertIn("is in no bar. It is where the meshes are made of the shape: by the commands of", text)
 
     def test_scene_of_the_gallery_needs_no_words(self):
         scene = self.base / "vessel"

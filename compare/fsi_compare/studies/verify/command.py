@@ -20,7 +20,7 @@ from .family import CaseFacts, Member, Requests, read_case
 from .lean import starting_member
 from .making import Maker
 from .mesh_family import find_recipe
-from .preparing import SHAPE, SURFACE, plan, sample, tell_mesh, tell_unrefined, within_budget
+from .preparing import PRINTED, plan, sample, tell_mesh, tell_unrefined, within_budget
 from .results import BarsOfRun, Judged, bands, judge
 from .search import Demand, Search, by_each_driver, write_found
 from .tables import bars_table, counts, write_json
@@ -247,6 +247,6 @@ def write(
         report.written.append(write_json(inside, about, sets, families))
     if not options.quiet:
         print(bars_table(judged).text())
-        print("\n".join([*counts(judged), *(note for note in maker.notes if note in (SHAPE, SURFACE, *unrefined))]))
+        print("\n".join([*counts(judged), *(note for note in maker.notes if note in (*PRINTED, *unrefined))]))
         say_written(place, [path for path in report.written if path.suffix in (".csv", ".html", ".json", ".md")])
     return 2 if any(family.failures for family in families) else 0

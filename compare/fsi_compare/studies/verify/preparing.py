@@ -15,14 +15,14 @@ from .quantities import curves_of
 from .results import FamilyRuns
 from .standard import standard_points
 
-
-SHAPE = (
+STAYS = (
     "Curved surfaces stay where the mesh file has them, however fine the elements become: what the vessel's shape is off by is in "
-    'no bar. It is where the meshes are made of the shape: --mesh "geo SCRIPT.geo".'
+    "no bar. It is where the meshes are made of the shape: "
 )
-
-
+SHAPE = STAYS + '--mesh "geo SCRIPT.geo".'
+ADAPTED = STAYS + "by the commands of --mesh, without --adapt."
 SURFACE = "The vessel is the smoothed surface: what that is off by, and what its smoothing and its triangles leave, is in no bar."
+PRINTED = (SHAPE, ADAPTED, SURFACE)  # with the bars, not only in the report
 
 
 def plan(recipe: Recipe, facts: CaseFacts, options: argparse.Namespace) -> List[Member]:
@@ -85,7 +85,7 @@ def tell_mesh(maker: Maker, recipe: Recipe) -> None:
     """What the family's meshes come from, where nobody has said it."""
     if isinstance(recipe, Adapted):
         maker.notes.append(about_adapted(recipe))
-        maker.notes += [] if recipe.remakes else [SHAPE]
+        maker.notes += [] if recipe.remakes else [ADAPTED if recipe.base.chain else SHAPE]
         return
     if recipe.command == "refine":
         maker.notes.append(
