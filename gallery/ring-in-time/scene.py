@@ -19,6 +19,7 @@ INNER, OUTER = 1.43, 1.82  # mm
 LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear modulus in kPa
 DENSITY = 1.2  # mg/mm^3
 PUSH, UNTIL = 0.2, 1.0  # kPa, ms
+PLACES = {"inner wall": 1.43, "media": 1.56, "outer": 1.82}  # mm
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
@@ -61,6 +62,15 @@ def exact(end, steps_per_ms=2000):
         y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         radii.append(y[0])
     return np.arange(len(radii)) * step, np.array(radii)
+
+
+def known_curve(name, times):
+    """The wall's displacement outwards, mm, at the inner wall and at the points whose radii at rest are in PLACES."""
+    point, _, what = name.partition(": ")
+    if what not in ("radial", "displacement x") or point not in PLACES:
+        return None
+    inner = np.interp(times, *exact(times[-1], 1024))
+    return np.sqrt(PLACES[point] ** 2 + inner**2 - INNER**2) - PLACES[point]
 
 
 def inner_radius(run):

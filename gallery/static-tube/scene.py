@@ -17,6 +17,7 @@ DRIVERS = ("fsi-monolithic",)
 
 INNER = 1.43  # mm
 LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear modulus in kPa
+POINTS = {"inner wall": 1.43, "media": 1.56, "adventitia": 1.75, "outer": 1.82}  # mm
 
 
 def pressure(radius):
@@ -40,6 +41,15 @@ def exact_radius(load):
         middle = (low + high) / 2
         low, high = (middle, high) if pressure(middle) < load else (low, middle)
     return (low + high) / 2
+
+
+def known_curve(name, times):
+    """The wall's displacement outwards, mm, at the inner wall and at the points whose radii at rest are in POINTS."""
+    point, _, what = name.partition(": ")
+    if what not in ("radial", "displacement x") or point not in POINTS:
+        return None
+    inner = np.array([exact_radius(0.4 * time) for time in times])
+    return np.sqrt(POINTS[point] ** 2 + inner**2 - INNER**2) - POINTS[point]
 
 
 def inner_radius(run):

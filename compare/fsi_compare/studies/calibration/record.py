@@ -1,7 +1,9 @@
 """One bar against the truth."""
 
-from dataclasses import dataclass
-from typing import List, Mapping, Optional, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Callable, List, Mapping, Optional, Sequence
+
+import numpy as np
 
 from ..running.study_run import StudyRun
 from ..verify.doubt import on_common_points
@@ -11,6 +13,7 @@ from ..verify.results import FamilyRuns, about, judge
 from ..verify.verdict import CONVERGES, Bar
 
 EXACT_TO = 1e-6  # relative: below it the truth is not known
+Known = Callable[[str, np.ndarray], Any]  # exact values of a curve at times, or None
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,7 @@ class Record:
     unit: str
     bar: Bar
     truth: float
+    exact: bool = False  # the truth is the scene's, not a finer run's
 
     @property
     def error(self) -> float:
@@ -54,22 +58,27 @@ def records(
     runs: Mapping[Member, StudyRun],
     reference: StudyRun,
     skipped: Sequence[str],
+    known: Known = lambda name, times: None,
 ) -> List[Record]:
     """Of all quantities of the family about `centre`, whose members are given by their sizes relative to the case; the truth is
-    read from the reference."""
+    read from the reference, or where a curve is known exactly from that, at the reference's times."""
     family = about(FamilyRuns("monolithic", {m: run for m, run in runs.items() if run.done}), centre)
     if family.own is None:
         return []
     far = Member(0.0, 0.0)  # stands for the reference
     together = on_common_points({**family.read(), far: curves_of(reference.folder)})
     truth = together.pop(far)
+    exact = {name: of for name, of in ((name, known(name, of.times)) for name, of in truth.items()) if of is not None}
+    for name, values in exact.items():
+        everywhere = np.ones((1, truth[name].values.shape[1]))
+        truth[name] = replace(truth[name], values=np.asarray(values, dtype=float)[:, None] * everywhere)
     found = []
     for one in judge(family, together, facts, (), ()):
         quantity = one.quantity
         if quantity.curve not in truth or any(word in quantity.name for word in skipped):
             continue
         value = quantity.of(truth[quantity.curve])
-        found.append(Record(scene, size, quantity.name, quantity.unit, one.bar, value))
+        found.append(Record(scene, size, quantity.name, quantity.unit, one.bar, value, quantity.curve in exact))
     return found
 
 

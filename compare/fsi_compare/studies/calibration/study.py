@@ -114,10 +114,11 @@ def _scene(context: Context, plan: Plan) -> Tuple[List[Record], List[str]]:
     lacks = [f"{plan.case}, {member.name}: {run.status}, {run.message}" for member, run in runs.items() if not run.done]
     if not runs[reference].done:
         return [], lacks
+    known = of_scene.scene.known_curve
     found: List[Record] = []
     for family in about:
         of_family = {member: runs[member] for member in family.members}
-        found += records(plan.case, family.size, facts, family.centre, of_family, runs[reference], plan.skipped)
+        found += records(plan.case, family.size, facts, family.centre, of_family, runs[reference], plan.skipped, known)
     return found, lacks
 
 
@@ -128,6 +129,7 @@ RECORDS: Sequence[Column[Record]] = (
     Column("unit", "unit", lambda r: r.unit, left=True),
     Column("value", "value", lambda r: r.bar.value, ".6g"),
     Column("truth", "truth", lambda r: r.truth, ".6g"),
+    Column("truth from", "truth_from", lambda r: "exact" if r.exact else "finer run", left=True),
     Column("true error", "true_error", lambda r: r.error, ".2e"),
     Column("bar", "bar", lambda r: r.bar.total if r.bar.given else None, ".2e"),
     Column("bar / error", "bar_by_error", lambda r: r.ratio if r.bar.given else None, ".2f"),
@@ -157,7 +159,7 @@ def _report(context: Context, found: Sequence[Record], traps: Mapping[str, str],
     report.list([f"**missing**: {one}" for one in missing])
     report.text(
         "Each family is judged as `fsi-compare verify` does. The truth is a run whose elements and steps are a fraction of the "
-        "finest member's. It is no member. A bar holds where the run's value and the truth differ by no more than it."
+        "finest member's, which is no member, or the exact curve where the scene knows it. A bar holds where the run's value and the truth differ by no more than it."
     )
     report.figure(
         "calibration", lambda: scatter(found), "Bar against true error, both relative to the largest of the curve."

@@ -11,6 +11,8 @@ and may hold
   QUICK           entries of the case that make a run of the scene's test, a second or two
   QUICK_MESH      the same for that run's mesh
   STILL           words of RunResults.picture: which field, time, view its picture shows
+  known_curve(name, times)   values at times in ms of a curve that is known exactly, by its name in `fsi-compare verify`
+                  ("inner wall: radial") and in its unit; of a line that has the same value everywhere. None: it is not known
   LONG            True: takes minutes, run when it is named or all are asked for by --long
 """
 
@@ -115,6 +117,11 @@ class Scene:
 
     def numbers(self, runs: SceneRuns) -> List[Number]:
         return list(self.module.numbers(runs))
+
+    def known_curve(self, name: str, times: Any) -> Any:
+        """Exact values at times in ms, (times,); None: they are not known."""
+        known = getattr(self.module, "known_curve", None)
+        return None if known is None else known(name, times)
 
 
 def scene_names(folder: Path = READY) -> List[str]:
