@@ -21,7 +21,7 @@ Curve Loop(1) = {1, 6, -3, -5};
 Curve Loop(2) = {2, 7, -4, -6};
 Plane Surface(1) = {1};
 Plane Surface(2) = {2};
-Transfinite Surface{1, 2} Right;
+Transfinite Surface{1, 2} Left;
 Physical Surface("fluid") = {1};
 Physical Surface("wall") = {2};
 Physical Curve("inlet") = {1};
