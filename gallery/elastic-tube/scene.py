@@ -54,5 +54,5 @@ def draw(runs):
     axes.axhline(EULER, color="gray", linestyle="-.", label="published peak, backward Euler, 0.1 ms")
     axes.set_xlabel("time [ms]")
     axes.set_ylabel("radial displacement in the middle [mm]")
-    figure.legend(loc="outside upper center", ncols=2)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
     return figure
