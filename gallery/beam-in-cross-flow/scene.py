@@ -19,6 +19,7 @@ QUICK_MESH = (
     "geo channel.geo --order 2 --set before=4 --set block=2 --set behind=5 --set up=3 --set above=2 --set wide=2 "
     "--set edge=1 --set beside=1 --set far=1"
 )
+STILL = {"field": "velocity", "cut": True}  # the channel would hide the block
 
 SOURCE = "Richter 2012"
 KNOWN = {  # value, unit, file, column, by which the published value may be off
