@@ -10,6 +10,7 @@ four fifths of the swinging mass: a scheme that treats this added mass wrongly s
 import numpy as np
 from matplotlib.figure import Figure
 
+from fsi_compare.studies.gallery.layered_tube import holding_pressure, place, swing
 from fsi_compare.studies.gallery.scene import Number
 
 MESH = "geo ring.geo --order 2"
@@ -31,48 +32,21 @@ CYLINDER, OUTER = 0.5, 1.82  # mm
 LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear modulus in kPa
 BLOOD, WALL, VISCOSITY = 1.0, 1.2, 3.5e-3  # mg/mm^3, mg/mm^3, kPa ms
 DRIVE, UNTIL = 0.10, 2.0  # kPa, ms
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(16)
-
-
-def static_pressure(radius):
-    """kPa: see the static tube."""
-    total = 0.0
-    for low, high, modulus in LAYERS:
-        at_rest = low + (high - low) * (POINTS + 1) / 2
-        now = np.sqrt(at_rest**2 + radius**2 - RADIUS**2)
-        stretch = now / at_rest
-        total += float(np.sum(WEIGHTS * (high - low) / 2 * modulus * (stretch**2 - stretch**-2) / now / stretch))
-    return total
 
 
 def acceleration(radius, rate, load):
     """Of the inner radius, from the equation of motion (docs/theory.md, section 13.2) with q = a a'."""
-    outer = np.sqrt(radius**2 + OUTER**2 - RADIUS**2)
+    outer = place(OUTER, RADIUS, radius)
     q = radius * rate
     mass = BLOOD * np.log(radius / CYLINDER) + WALL * np.log(outer / radius)
     moved = BLOOD * (radius**-2 - CYLINDER**-2) + WALL * (outer**-2 - radius**-2)
     friction = 2 * VISCOSITY * q * (CYLINDER**-2 - radius**-2)
-    return ((load - static_pressure(radius) - q**2 / 2 * moved - friction) / mass - rate**2) / radius
+    return ((load - holding_pressure(LAYERS, radius) - q**2 / 2 * moved - friction) / mass - rate**2) / radius
 
 
 def exact(end, steps_per_ms=512):
-    """Times in ms and inner radii in mm, by the classical Runge-Kutta method."""
-    step = 1 / steps_per_ms
-    y = np.array([RADIUS, 0.0])
-    radii = [RADIUS]
-    for i in range(round(end * steps_per_ms)):
-        load = DRIVE if (i + 0.5) * step < UNTIL else 0.0  # the jump is the end of a step
-
-        def slope(v, load=load):
-            return np.array([v[1], acceleration(v[0], v[1], load)])
-
-        k1 = slope(y)
-        k2 = slope(y + step / 2 * k1)
-        k3 = slope(y + step / 2 * k2)
-        k4 = slope(y + step * k3)
-        y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        radii.append(y[0])
-    return np.arange(len(radii)) * step, np.array(radii)
+    """Times in ms and inner radii in mm."""
+    return swing(acceleration, RADIUS, DRIVE, UNTIL, end, steps_per_ms)
 
 
 def known_curve(name, times):

@@ -9,6 +9,7 @@ Second order in time shows in how little the swing is damped: the energy table o
 import numpy as np
 from matplotlib.figure import Figure
 
+from fsi_compare.studies.gallery.layered_tube import holding_pressure, place, swing
 from fsi_compare.studies.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
@@ -20,48 +21,21 @@ LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear mo
 DENSITY = 1.2  # mg/mm^3
 PUSH, UNTIL = 0.2, 1.0  # kPa, ms
 PLACES = {"inner wall": 1.43, "media": 1.56, "outer": 1.82}  # mm
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(16)
-
-
-def static_pressure(radius):
-    """kPa: see the static tube."""
-    total = 0.0
-    for low, high, modulus in LAYERS:
-        at_rest = low + (high - low) * (POINTS + 1) / 2
-        now = np.sqrt(at_rest**2 + radius**2 - INNER**2)
-        stretch = now / at_rest
-        total += float(np.sum(WEIGHTS * (high - low) / 2 * modulus * (stretch**2 - stretch**-2) / now / stretch))
-    return total
 
 
 def acceleration(radius, rate, load):
     """Of the inner radius a, from rho (q' ln(b/a) + q^2/2 (1/b^2 - 1/a^2)) + S(a) = p with q = a a' and
     b^2 = a^2 + Ro^2 - Ri^2."""
-    outer = np.sqrt(radius**2 + OUTER**2 - INNER**2)
+    outer = place(OUTER, INNER, radius)
     q = radius * rate
     inertia = DENSITY * q**2 / 2 * (1 / outer**2 - 1 / radius**2)
-    change = (load - static_pressure(radius) - inertia) / (DENSITY * np.log(outer / radius))
+    change = (load - holding_pressure(LAYERS, radius) - inertia) / (DENSITY * np.log(outer / radius))
     return (change - rate**2) / radius
 
 
 def exact(end, steps_per_ms=2000):
-    """Times in ms and radii in mm, by the classical Runge-Kutta method."""
-    step = 1 / steps_per_ms
-    y = np.array([INNER, 0.0])
-    radii = [INNER]
-    for i in range(round(end * steps_per_ms)):
-        load = PUSH if (i + 0.5) * step < UNTIL else 0.0  # the jump is the end of a step
-
-        def slope(v, load=load):
-            return np.array([v[1], acceleration(v[0], v[1], load)])
-
-        k1 = slope(y)
-        k2 = slope(y + step / 2 * k1)
-        k3 = slope(y + step / 2 * k2)
-        k4 = slope(y + step * k3)
-        y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        radii.append(y[0])
-    return np.arange(len(radii)) * step, np.array(radii)
+    """Times in ms and radii in mm."""
+    return swing(acceleration, INNER, PUSH, UNTIL, end, steps_per_ms)
 
 
 def known_curve(name, times):
@@ -70,7 +44,7 @@ def known_curve(name, times):
     if what not in ("radial", "displacement x") or point not in PLACES:
         return None
     inner = np.interp(times, *exact(times[-1], 1024))
-    return np.sqrt(PLACES[point] ** 2 + inner**2 - INNER**2) - PLACES[point]
+    return place(PLACES[point], INNER, inner) - PLACES[point]
 
 
 def inner_radius(run):

@@ -10,6 +10,7 @@ There is no time and no fluid in it: the case has a load in steps, and one drive
 import numpy as np
 from matplotlib.figure import Figure
 
+from fsi_compare.studies.gallery.layered_tube import holding_pressure, place
 from fsi_compare.studies.gallery.scene import Number
 
 MESH = "geo tube.geo --order 2"
@@ -20,26 +21,12 @@ LAYERS = ((1.43, 1.69, 3.0), (1.69, 1.82, 0.3))  # radii at rest in mm, shear mo
 POINTS = {"inner wall": 1.43, "media": 1.56, "adventitia": 1.75, "outer": 1.82}  # mm
 
 
-def pressure(radius):
-    """kPa that holds the inner radius (mm): the integral of (sigma_tt - sigma_rr) / r over the wall, with the
-    difference of stresses mu (l^2 - 1 / l^2) at the stretch l = r / R."""
-    total = 0.0
-    points, weights = np.polynomial.legendre.leggauss(20)
-    for low, high, modulus in LAYERS:
-        at_rest = low + (high - low) * (points + 1) / 2
-        now = np.sqrt(at_rest**2 + radius**2 - INNER**2)
-        stretch = now / at_rest
-        difference = modulus * (stretch**2 - stretch**-2)
-        total += float(np.sum(weights * (high - low) / 2 * difference / now / stretch))  # dr = dR / l
-    return total
-
-
 def exact_radius(load):
     """By bisection."""
     low, high = INNER, 3 * INNER
     for _ in range(60):
         middle = (low + high) / 2
-        low, high = (middle, high) if pressure(middle) < load else (low, middle)
+        low, high = (middle, high) if holding_pressure(LAYERS, middle) < load else (low, middle)
     return (low + high) / 2
 
 
@@ -49,7 +36,7 @@ def known_curve(name, times):
     if what not in ("radial", "displacement x") or point not in POINTS:
         return None
     inner = np.array([exact_radius(0.4 * time) for time in times])
-    return np.sqrt(POINTS[point] ** 2 + inner**2 - INNER**2) - POINTS[point]
+    return place(POINTS[point], INNER, inner) - POINTS[point]
 
 
 def inner_radius(run):
@@ -80,7 +67,7 @@ def draw(runs):
     axes = figure.add_subplot()
     loads, radii = inner_radius(runs.first)
     line = np.linspace(INNER, radii[-1], 60)
-    axes.plot(line, [pressure(radius) for radius in line], "-", color="black", label="exact")
+    axes.plot(line, [holding_pressure(LAYERS, radius) for radius in line], "-", color="black", label="exact")
     axes.plot(radii, loads, "o", color="black", mfc="white", label=runs.first.program)
     axes.set_xlabel("inner radius [mm]")
     axes.set_ylabel("pressure [kPa]")
