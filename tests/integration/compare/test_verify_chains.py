@@ -1,7 +1,9 @@
 """`fsi-compare verify` of meshes that several commands make: which words a family changes, and what it says."""
 
 import json
+import os
 import re
+import subprocess
 import tomllib
 import unittest
 from pathlib import Path
@@ -10,7 +12,7 @@ import fake_family
 from fake_family import A, B, STEP, behave, calls
 from test_verify_command import CASE, VerifyCase
 
-from fsi_compare.studies.verify.chain_sizes import Lumen, apart, sized, times
+from fsi_compare.studies.verify.chain_sizes import GROWTH, Lumen, apart, sized, times
 
 SURFACE = """\
 import sys
@@ -31,6 +33,12 @@ class Words(unittest.TestCase):
     def test_own_mesh_has_the_words_as_they_are(self):
         for text in ("lumen a.stl --edge-length 0.70 --layers 3", "thicken --layer media=0.40", "a.py --edge 0.6"):
             self.assertEqual(changed(text, 1.0), text)
+
+    @unittest.skipUnless(os.environ.get("FSI_COMPARE"), "FSI_COMPARE names the built program, beside which fsi-mesh is")
+    def test_growth_of_layers_is_the_program_s(self):
+        program = Path(os.environ["FSI_COMPARE"]).with_name("fsi-mesh")
+        text = subprocess.run([program, "lumen", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+        self.assertEqual(float(re.search(r"--growth .*=([0-9.]+)\n", text).group(1)), GROWTH)
 
     def test_edges_of_a_lumen(self):
         others = "--opening in=1,0,-12 --cut in=2 --extension in=1 --smoothing 20"

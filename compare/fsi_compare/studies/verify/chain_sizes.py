@@ -21,7 +21,7 @@ from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 from ...base.errors import InputError
 
 LAYER = re.compile(r"([^=:]+)=([^:]+?)(?::(\d+))?")  # of thicken: NAME=THICKNESS[:ELEMENTS]
-GROWTH = 1.2  # of lumen's layers, as meshes/lumen_command.cpp has it: fsi-mesh does not say it of a mesh
+GROWTH = 1.2  # of lumen's layers, the default of meshes/lumen_command.cpp, against which a test holds it
 MULTIPLIED = ("--edges-per-diameter", "--edges-per-curvature")
 DIVIDED = ("--edge-length", "--shortest-edge")
 
