@@ -154,8 +154,9 @@ class Search:
         return self._family()
 
     def _keep(self, run: Optional[StudyRun], judged: Sequence[Judged]) -> None:
+        """The last family to have a run tells most of it."""
         if run is not None:
-            self.sets.setdefault(run.folder, BarsOfRun(self.driver, run, judged))
+            self.sets[run.folder] = BarsOfRun(self.driver, run, judged)
 
     def _best(self, judged: Sequence[Judged], demand: float) -> Optional[Settings]:
         family = about(self.maker.families[self.driver], self.centre)
