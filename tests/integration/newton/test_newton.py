@@ -108,7 +108,7 @@ class Fast(FolderTest):
     """The default linear solver against the direct one on the coarse mesh, from the pulse on while its wave travels."""
 
     def runs(self, case):
-        settings = ("time.end=4", "output.every=0", "output.checkpoint_every=0")
+        settings = ("time.end=2.5", "output.every=0", "output.checkpoint_every=0")
         direct = run(MONOLITHIC, case, self.base / f"{case.stem}-direct", "monolithic.linear_solver=direct", *settings)
         return direct, run(MONOLITHIC, case, self.base / f"{case.stem}-fast", *settings)
 
