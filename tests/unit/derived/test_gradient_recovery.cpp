@@ -183,11 +183,13 @@ double size_of(const Mat3<double>& m) {
 
 // The same body and field, turned or mirrored, have the turned or mirrored gradients, at every node.
 TYPED_TEST(RecoveredGradients, TurnWithTheBody) {
-  const Body body = irregular_body<TypeParam>(TypeParam::dim == 3 ? 4 : 8);
+  const Body body = irregular_body<TypeParam>(TypeParam::dim == 3 ? 3 : 8);
   const auto at_rest = gradients_of<TypeParam>(body);
   double size = 0, difference = 0;
   for (const auto& h : at_rest) size = std::max(size, size_of(h));
-  for (unsigned i = 0; i < 20; ++i) {
+  // A body of revolution has no other map than one reflection.
+  const unsigned turns = TypeParam::axisymmetric ? 2 : (TypeParam::dim == 3 ? 8 : 20);
+  for (unsigned i = 0; i < turns; ++i) {
     const Mat3<double> q = orthogonal<TypeParam>(i);
     Body turned = body;
     for (auto& x : turned.points) x = turn(q, x);
