@@ -24,7 +24,8 @@ struct Pack {
   Lanes lanes;
 
   Pack() = default;
-  Pack(double x) : lanes(Lanes{} + x) {}  // NOLINT: a number stands for a pack of equal lanes
+  // A number stands for a pack of equal lanes. Less zero, not plus zero: that leaves -0 as it is, and so no instruction.
+  Pack(double x) : lanes(x - Lanes{}) {}  // NOLINT
   explicit Pack(Lanes x) : lanes(x) {}
 
   double operator[](int lane) const { return lanes[lane]; }
@@ -34,6 +35,7 @@ struct Pack {
     __builtin_memcpy(&x.lanes, from, sizeof(Lanes));
     return x;
   }
+  void store(double* to) const { __builtin_memcpy(to, &lanes, sizeof(Lanes)); }
 
   Pack& operator+=(Pack x) {
     lanes += x.lanes;
@@ -104,8 +106,24 @@ inline Pack phi_slope(Pack x) {
     return 0.5 * (sum + 1);
   });
 }
+/// Of usual numbers all lanes at once, without a division: r = x^(-1/3) from a guess within 4 %, which a third of the
+/// exponent gives, by two steps of the series (1 - e)^(-1/3) = 1 + e/3 + 2/9 e^2 + 14/81 e^3 + ..., e = 1 - x r^3. Then
+/// x r^2 and one step of Newton's.
 inline Pack cbrt(Pack x) {
-  return each(x, [](double v) { return std::cbrt(v); });
+  if (any(~((x > Pack(1e-60)) & (Pack(1e60) > x)))) return each(x, [](double v) { return std::cbrt(v); });
+  Pack::Mask bits;
+  __builtin_memcpy(&bits, &x.lanes, sizeof(bits));
+  // Of the upper 22 bits, exponent and first ten of the fraction; 0x55555 / 2^20 is a third. The constant, four thirds of
+  // the exponent's bias and a little less, makes the guess too large and too small by as much.
+  bits = (std::int64_t{0x553ef000} << 32) - (((bits >> 42) * 0x55555 >> 20) << 42);
+  Pack r;
+  __builtin_memcpy(&r.lanes, &bits, sizeof(bits));
+  for (int step = 0; step < 2; ++step) {
+    const Pack e = Pack(1.0) - x * (r * r * r);
+    r += r * e * (Pack(1.0 / 3) + e * (Pack(2.0 / 9) + e * Pack(14.0 / 81)));
+  }
+  const Pack square = r * r, root = x * square;
+  return root + (x - root * root * root) * (square * Pack(1.0 / 3));
 }
 
 }  // namespace fsi

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "math/dual.hpp"
+#include "math/transpose.hpp"
 
 namespace fsi::test {
 
@@ -104,6 +106,45 @@ TEST(Dual, Functions) {
       exp(x), [](double a, double) { return std::exp(a); }, [](double a, double) { return std::exp(a); });
   check(
       cbrt(x), [](double a, double) { return std::cbrt(a); }, [](double a, double) { return std::cbrt(a) / (3 * a); });
+}
+
+// The cube root against that of long double, from the smallest number to the largest and below zero. Where a lane holds no
+// usual number all are the C library's, which promises four units of the last place.
+TEST(Pack, CubeRootIsExactToRounding) {
+  EXPECT_EQ(cbrt(Pack(1.0))[0], 1.0);
+  EXPECT_EQ(cbrt(Pack(0.0))[0], 0.0);
+  EXPECT_TRUE(std::isnan(cbrt(Pack(std::nan("")))[0]));
+  std::vector<double> usual, unusual{5e-324, 1e-300, 1e300, -8.0, -1e-70};
+  for (double a = 1e-59; a < 1e59; a *= 1.37) usual.push_back(a);
+  for (double a = 0.5; a < 8; a += 0.001) usual.push_back(a);
+  const auto check = [](double a, double beside, double tolerance) {
+    Pack pack(beside);
+    pack.set(pack_width - 1, a);
+    const Pack roots = cbrt(pack);
+    const long double root = std::cbrt(static_cast<long double>(a));
+    EXPECT_NEAR(static_cast<double>(roots[pack_width - 1] / root), 1, tolerance) << a;
+    EXPECT_EQ(roots[0], beside) << a;
+  };
+  for (const double a : usual) {
+    check(a, 1.0, 2.3e-16);
+    check(a, 0.0, 8.9e-16);
+  }
+  for (const double a : unusual) check(a, 1.0, 8.9e-16);
+}
+
+// A number makes lanes that are equal to the last bit, the sign of zero among them.
+TEST(Pack, LanesOfANumberAreThatNumber) {
+  const Pack minus(-0.0);
+  for (int lane = 0; lane < pack_width; ++lane) EXPECT_TRUE(std::signbit(minus[lane]));
+}
+
+TEST(Pack, TransposeExchangesLanesAndPlaces) {
+  Pack square[pack_width];
+  for (int i = 0; i < pack_width; ++i)
+    for (int lane = 0; lane < pack_width; ++lane) square[i].set(lane, 10 * i + lane);
+  transpose(square);
+  for (int i = 0; i < pack_width; ++i)
+    for (int lane = 0; lane < pack_width; ++lane) EXPECT_EQ(square[i][lane], 10 * lane + i);
 }
 
 // phi(a) = (exp(a) - 1) / a against sums in long double, from the smallest number to the largest that does not overflow.
