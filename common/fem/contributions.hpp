@@ -1,21 +1,28 @@
 #pragma once
 
-#include <vector>
+#include <algorithm>
+#include <array>
 
 #include "fem/interpolation.hpp"
+#include "math/transpose.hpp"
 
 namespace fsi {
+
+/// The scalar of a sum.
+template <class A, class B>
+using Sum = decltype(std::declval<A>() + std::declval<B>());
 
 /// What a weak form returns at a point: the integrand of its residual is
 ///   source . v + flux : grad v + scalar_source q + scalar_flux . grad q
 /// for a vector test function v and a scalar one q, all on the reference domain. Only stabilisation has a scalar flux:
 /// with elements that need none it is not looked at.
-template <class T>
+/// Its parts carry derivatives each for itself: by its type a part says what it does not depend on.
+template <class Source, class Flux = Source, class Scalar = Source>
 struct Integrand {
-  Vec3<T> source;
-  Mat3<T> flux;
-  T scalar_source;
-  Vec3<T> scalar_flux;
+  Vec3<Source> source;
+  Mat3<Flux> flux;
+  Scalar scalar_source;
+  Vec3<Flux> scalar_flux;
 };
 
 /// Residual rows of one pack, [node][component], the scalar test function's row last (zero at nodes without scalars),
@@ -103,21 +110,37 @@ inline void scatter_residual(const ElementRows<Element, T>& rows,
       }
 }
 
+/// Adds to one block of a matrix for each lane its numbers, row-major.
+/// \param position  of the blocks; negative: none
+/// \param number    number(i) returns the i-th of all lanes
+template <int Count, class Number>
+inline void add_to_blocks(const std::array<int, pack_width>& position, Number number, double* blocks) {
+  for (int begin = 0; begin < Count; begin += pack_width) {
+    const int count = std::min(pack_width, Count - begin);
+    Pack x[pack_width];  // once transposed, neighbouring numbers of one block each
+    for (int i = 0; i < pack_width; ++i) x[i] = i < count ? number(begin + i) : Pack(0.0);
+    transpose(x);
+    for (int lane = 0; lane < pack_width; ++lane)
+      if (position[lane] >= 0) {
+        double* to = blocks + static_cast<std::size_t>(position[lane]) * Count + begin;
+        if (count == pack_width)
+          (Pack::load(to) + x[lane]).store(to);
+        else
+          for (int i = 0; i < count; ++i) to[i] += x[lane][i];
+      }
+  }
+}
+
 /// Adds the derivatives with respect to node b's seeds First ... First + Columns - 1 to blocks (a, b) of a matrix whose
 /// blocks have the rows of the mixed layout and `Columns` columns.
 template <class Element, int Seeds, int First, int Columns>
 inline void scatter_blocks(const ElementRows<Element, Dual<Seeds>>& rows,
                            const typename ElementPacks<Element>::ElementPack& pack, int b, double* blocks) {
   constexpr int n = ElementRows<Element, Dual<Seeds>>::rows;
-  for (int a = 0; a < Element::nodes; ++a) {
-    const auto& position = pack.position[a * Element::nodes + b];
-    for (int lane = 0; lane < pack_width; ++lane)
-      if (position[lane] >= 0) {
-        double* to = blocks + static_cast<std::size_t>(position[lane]) * (n * Columns);
-        for (int r = 0; r < n; ++r)
-          for (int s = 0; s < Columns; ++s) to[r * Columns + s] += rows.at[a][r].slope[First + s].lanes[lane];
-      }
-  }
+  for (int a = 0; a < Element::nodes; ++a)
+    add_to_blocks<n * Columns>(
+        pack.position[a * Element::nodes + b],
+        [&](int i) { return rows.at[a][i / Columns].slope[First + i % Columns]; }, blocks);
 }
 
 }  // namespace fsi

@@ -157,13 +157,18 @@ struct AleFluid {
     Vec3<T> strong_residual;  ///< r, where there is stabilisation
     T tau;                    ///< ms, likewise
   };
+  /// The scalar of inertia, and that of the stress, at a point. \tparam R, C, P  of du/dt, of c and of p
+  template <class K, class R, class C>
+  using Inertial = Sum<R, Product<decltype(K::divergence), C>>;
+  template <class K, class R, class C, class P>
+  using Stressed = std::conditional_t<K::stabilised, Sum<Inertial<K, R, C>, P>, Sum<decltype(K::divergence), P>>;
 
   /// \param k           Galerkin or Stabilised
   /// \param rate        du/dt at the point, mm/ms^2
   /// \param convection  c = u - w, mm/ms
-  template <class K, class T, class U>
-  Momentum<T> momentum(const K& k, const Vec3<U>& rate, const Vec3<T>& convection) const {
-    Momentum<T> m;
+  template <class K, class R, class C>
+  Momentum<Inertial<K, R, C>> momentum(const K& k, const Vec3<R>& rate, const Vec3<C>& convection) const {
+    Momentum<Inertial<K, R, C>> m;
     m.inertia = Pack(density) * (rate + k.velocity_gradient * convection);
     if constexpr (K::stabilised) {
       m.strong_residual = m.inertia + k.pressure_gradient;
@@ -174,18 +179,19 @@ struct AleFluid {
 
   /// \param pressure            kPa
   /// \param projected_gradient  pi, kPa/mm
-  template <class K, class T, class U>
-  Integrand<T> integrand(const K& k, const Vec3<U>& rate, const Vec3<T>& convection, const U& pressure,
-                         const Vec3<Pack>& projected_gradient = zero_vector()) const {
+  template <class K, class R, class C, class P>
+  auto integrand(const K& k, const Vec3<R>& rate, const Vec3<C>& convection, const P& pressure,
+                 const Vec3<Pack>& projected_gradient = zero_vector()) const {
+    using T = Stressed<K, R, C, P>;
     const auto& c = convection;
-    const Momentum<T> m = momentum(k, rate, c);
+    const auto m = momentum(k, rate, c);
 
     // Stress, streamline and (optional) divergence stabilisation share the test gradient: one current tensor, pulled
     // back.
     Mat3<T> stress;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        const T viscous = viscosity_at(k) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i));
+        const auto viscous = viscosity_at(k) * (k.velocity_gradient(i, j) + k.velocity_gradient(j, i));
         if constexpr (K::stabilised) {
           stress(i, j) = viscous + (m.tau * m.strong_residual[i]) * c[j];
         } else {
@@ -197,7 +203,8 @@ struct AleFluid {
       if (grad_div) isotropic += Pack(density) * k.divergence / (m.tau * trace(k.metric));
     for (int i = 0; i < 3; ++i) stress(i, i) += isotropic;
 
-    Integrand<T> f;
+    using M = std::decay_t<decltype(k.volume_ratio)>;
+    Integrand<Product<M, Inertial<K, R, C>>, Product<T, M>, Product<M, decltype(K::divergence)>> f;
     f.source = k.volume_ratio * m.inertia;
     f.flux = stress * k.cofactor_gradient;
     f.scalar_source = -(k.volume_ratio * k.divergence);

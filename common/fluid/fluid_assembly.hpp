@@ -101,57 +101,56 @@ AssemblyResult fluid_packs_by_points(const Form& form,
                                      const FluidInput& in, double* residual,
                                      FluidJacobian<Element::components>* jacobian) {
   constexpr int n = Element::components;
-  // Seeds at a point: of the mesh displacement, and of (u, p). Columns of a node: d_m, u, p.
-  constexpr int entries = PointEntries<Element>::count, p_seed = entries, flow_seeds = entries + 1;
-  constexpr int u0 = Domain ? n : 0, columns = u0 + n + 1;
-  struct AtPoint {
-    QuadraturePoint<Element> g;
-    PointTangent<Element, flow_seeds> by_flow;
-    PointTangent<Element, entries> by_domain;
-  };
-  AtPoint points[Element::points];
+  constexpr int u0 = Domain ? n : 0, columns = u0 + n + 1;  // of a node: d_m, u, p
+  QuadraturePoint<Element> g;
+  VectorTangent<Element> by_velocity, by_domain;
+  ScalarTangent<Element> by_pressure;
 
   AssemblyResult result;
   FluidPack<Element> fields;
   ElementRows<Element, Pack> values;
-  ElementRows<Element, Dual<columns>> rows;
+  NodeColumns<Element, columns> derivatives;
   for (const auto& pack : packs) {
     fields.template gather_from<Moving>(in, pack);
     values.set_zero();
     for (int q = 0; q < Element::points; ++q) {
-      auto& [g, by_flow, by_domain] = points[q];
       g = Element::at(pack.geometry, q);
       const Mat3<Pack> grad_d = gradient_of(fields.d, g), grad_u = gradient_of(fields.u, g);
       const Vec3<Pack> rate = value_of(fields.rate, g), c = value_of(fields.convection, g);
       const Pack p = value_of(fields.p, g);
-      {
-        const auto k = form.prepare(grad_d, seed_point_gradient<Element, flow_seeds, 0>(grad_u),
-                                    Vec3<Dual<flow_seeds>>{}, Unstabilised{});
-        result.include(k.volume_ratio, pack.cell.data());
-        const auto f =
-            form.integrand(k, seed_point_value<Element, flow_seeds, 0>(rate, in.fluid_factor),
-                           seed_point_value<Element, flow_seeds, 0>(c), seed_point_value<flow_seeds, p_seed>(p));
-        by_flow.set(f, g.weight);
-        values.add_sources(value_of(f), g);
-        values.add_fluxes(value_of(f), g, g.weight);
-      }
+      const auto prepare = [&](const auto& displacement, const auto& velocity) {
+        using T = std::decay_t<decltype(velocity(0, 0))>;
+        return form.prepare(displacement, velocity, Vec3<T>{}, Unstabilised{});
+      };
+      const auto k = prepare(grad_d, grad_u);
+      result.include(k.volume_ratio, pack.cell.data());
+      for (int i = 0; i < n; ++i)
+        by_velocity.set_gradient(
+            i, form.integrand(prepare(grad_d, seed_gradient_of<Element>(i, grad_u, g)), rate, c, p), g, q);
+      by_velocity.add_values(
+          form.integrand(k, seed_components<Element>(rate, in.fluid_factor), seed_components<Element>(c), p).source, g,
+          q);
+      const auto f = form.integrand(k, rate, c, seed_scalar(p));
+      by_pressure.set(f, g, q);
+      values.add_sources(value_of(f), g);
+      values.add_fluxes(value_of(f), g, g.weight);
       if constexpr (Domain) {
-        const auto k =
-            form.prepare(seed_point_gradient<Element, entries, 0>(grad_d), grad_u, Vec3<Pack>{}, Unstabilised{});
-        by_domain.set(form.integrand(k, rate, seed_point_value<Element, entries, 0>(c, -in.mesh_factor), p), g.weight);
+        for (int i = 0; i < n; ++i)
+          by_domain.set_gradient(
+              i, form.integrand(prepare(seed_gradient_of<Element>(i, grad_d, g), grad_u), rate, c, p), g, q);
+        by_domain.add_values(form.integrand(k, rate, seed_components<Element>(c, -in.mesh_factor), p).source, g, q);
       }
     }
     scatter_residual<Element>(values, pack, residual);
+    by_velocity.sum();
+    by_pressure.sum();
+    if constexpr (Domain) by_domain.sum();
     for (int b = 0; b < Element::nodes; ++b) {
-      rows.set_zero();
-      for (const auto& [g, by_flow, by_domain] : points) {
-        if constexpr (Domain) add_vector_columns<0, 0>(rows, by_domain, g, b);
-        add_vector_columns<0, u0>(rows, by_flow, g, b);
-        add_scalar_column<p_seed, u0 + n>(rows, by_flow, g, b);
-      }
-      scatter_blocks<Element, columns, u0, n + 1>(rows, pack, b, jacobian->fluid.values.data());
-      if constexpr (Domain)
-        scatter_blocks<Element, columns, 0, n>(rows, pack, b, jacobian->shape_derivatives.values.data());
+      if constexpr (Domain) set_vector_columns<0>(derivatives, by_domain, b);
+      set_vector_columns<u0>(derivatives, by_velocity, b);
+      set_scalar_column<u0 + n>(derivatives, by_pressure, b);
+      scatter_columns<u0, n + 1>(derivatives, pack, b, jacobian->fluid.values.data());
+      if constexpr (Domain) scatter_columns<0, n>(derivatives, pack, b, jacobian->shape_derivatives.values.data());
     }
   }
   return result;

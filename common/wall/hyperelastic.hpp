@@ -96,10 +96,10 @@ struct Hyperelastic {
   /// \param acceleration  mm/ms^2
   /// \param pressure      kPa
   /// \param fibres    at the point
-  template <class T>
-  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure,
-                         const FibreData& fibres) const {
-    Integrand<T> f;
+  template <class T, class A, class P>
+  Integrand<A, Sum<T, P>, Sum<T, P>> integrand(const Prepared<T>& k, const Vec3<A>& acceleration, const P& pressure,
+                                               const FibreData& fibres) const {
+    Integrand<A, Sum<T, P>, Sum<T, P>> f;
     f.source = Pack(density) * acceleration;
     if constexpr (has_fibres) {
       f.flux = k.gradient * material.stress(k.strain, fibres) - pressure * k.volume_gradient;
@@ -107,7 +107,7 @@ struct Hyperelastic {
       f.flux = k.isochoric_flux - pressure * k.volume_gradient;
     }
     f.scalar_source = -k.volume_change - Pack(1.0 / bulk_modulus) * pressure;
-    f.scalar_flux = k.stabilisation_flux;
+    for (int i = 0; i < 3; ++i) f.scalar_flux[i] = k.stabilisation_flux[i];
     return f;
   }
 };

@@ -45,14 +45,15 @@ struct UnloadedShape {
     return k;
   }
 
-  template <class T>
-  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure,
-                         const FibreData& fibres) const {
-    Integrand<T> f = forward.integrand(k.forward, acceleration, pressure, fibres);
-    f.source = k.inverse_ratio * f.source;
-    f.flux = k.inverse_ratio * times_transposed(f.flux, k.gradient);
-    f.scalar_source = k.inverse_ratio * f.scalar_source;
-    f.scalar_flux = k.inverse_ratio * (k.gradient * f.scalar_flux);
+  template <class T, class A, class P>
+  Integrand<Product<T, A>, Sum<T, P>, Sum<T, P>> integrand(const Prepared<T>& k, const Vec3<A>& acceleration,
+                                                           const P& pressure, const FibreData& fibres) const {
+    const auto at = forward.integrand(k.forward, acceleration, pressure, fibres);
+    Integrand<Product<T, A>, Sum<T, P>, Sum<T, P>> f;
+    f.source = k.inverse_ratio * at.source;
+    f.flux = k.inverse_ratio * times_transposed(at.flux, k.gradient);
+    f.scalar_source = k.inverse_ratio * at.scalar_source;
+    f.scalar_flux = k.inverse_ratio * (k.gradient * at.scalar_flux);
     return f;
   }
 };

@@ -54,10 +54,10 @@ struct Hyperelastic<VaryingLaw> {
     return scale * transposed_times(f.cofactor_gradient, f.cofactor_gradient * grad_p);
   }
 
-  template <class T>
-  Integrand<T> integrand(const Prepared<T>& k, const Vec3<T>& acceleration, const T& pressure,
-                         const PointConstants& at) const {
-    Integrand<T> f;
+  template <class T, class A, class P>
+  Integrand<A, Sum<T, P>, Sum<T, P>> integrand(const Prepared<T>& k, const Vec3<A>& acceleration, const P& pressure,
+                                               const PointConstants& at) const {
+    Integrand<A, Sum<T, P>, Sum<T, P>> f;
     f.source = Pack(density) * acceleration;
     if (material.is_compressible()) {
       const Response<T> response = material.response(k.gradient, k.deformation, at);
@@ -68,7 +68,7 @@ struct Hyperelastic<VaryingLaw> {
       f.scalar_source = -k.deformation.volume_change;
     }
     f.scalar_source -= (Pack(1.0) / at.bulk_modulus) * pressure;
-    f.scalar_flux = k.stabilisation_flux;
+    for (int i = 0; i < 3; ++i) f.scalar_flux[i] = k.stabilisation_flux[i];
     return f;
   }
 };

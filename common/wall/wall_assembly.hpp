@@ -120,42 +120,46 @@ AssemblyResult layer_packs_by_points(const Form& form,
                                      const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                                      LayerPoints<Element, Form> fibres, const WallInput& in, double* residual,
                                      double* blocks) {
-  constexpr int n = Element::components, p_seed = PointEntries<Element>::count, seeds = p_seed + 1, columns = n + 1;
-  struct AtPoint {
-    QuadraturePoint<Element> g;
-    PointTangent<Element, seeds> tangent;
-  };
-  AtPoint points[Element::points];
+  constexpr int n = Element::components, columns = n + 1;  // of a node: d, p
+  QuadraturePoint<Element> g;
+  VectorTangent<Element> by_displacement;
+  ScalarTangent<Element> by_pressure;
 
   AssemblyResult result;
   WallPack<Element> fields;
   ElementRows<Element, Pack> values;
-  ElementRows<Element, Dual<columns>> rows;
+  NodeColumns<Element, columns> derivatives;
   for (std::size_t index = 0; index < packs.size(); ++index) {
     const auto& pack = packs[index];
     fields.gather_from(in, pack);
     values.set_zero();
     for (int q = 0; q < Element::points; ++q) {
-      auto& [g, tangent] = points[q];
       g = Element::at(pack.geometry, q);
-      const auto k = form.prepare(seed_point_gradient<Element, seeds, 0>(gradient_of(fields.d, g)), Vec3<Dual<seeds>>{},
-                                  Unstabilised{});
-      result.include(value_of(k.volume_ratio), pack.cell.data());
-      const auto f = form.integrand(
-          k, seed_point_value<Element, seeds, 0>(value_of(fields.acceleration, g), in.acceleration_factor),
-          seed_point_value<seeds, p_seed>(value_of(fields.p, g)), fibres_at<Element, Form>(fibres, index, q));
-      tangent.set(f, g.weight);
+      const Mat3<Pack> grad_d = gradient_of(fields.d, g);
+      const Vec3<Pack> acceleration = value_of(fields.acceleration, g);
+      const Pack p = value_of(fields.p, g);
+      const auto fibres_here = fibres_at<Element, Form>(fibres, index, q);
+      const auto k = form.prepare(grad_d, Vec3<Pack>{}, Unstabilised{});
+      result.include(k.volume_ratio, pack.cell.data());
+      for (int i = 0; i < n; ++i) {
+        const auto seeded = form.prepare(seed_gradient_of<Element>(i, grad_d, g), Vec3<Dual<gradient_seeds<Element>>>{},
+                                         Unstabilised{});
+        by_displacement.set_gradient(i, form.integrand(seeded, acceleration, p, fibres_here), g, q);
+      }
+      const auto f = form.integrand(k, seed_components<Element>(acceleration, in.acceleration_factor), seed_scalar(p),
+                                    fibres_here);
+      by_displacement.add_values(f.source, g, q);
+      by_pressure.set(f, g, q);
       values.add_sources(value_of(f), g);
       values.add_fluxes(value_of(f), g, g.weight);
     }
     scatter_residual<Element>(values, pack, residual);
+    by_displacement.sum();
+    by_pressure.sum();
     for (int b = 0; b < Element::nodes; ++b) {
-      rows.set_zero();
-      for (const auto& [g, tangent] : points) {
-        add_vector_columns<0, 0>(rows, tangent, g, b);
-        add_scalar_column<p_seed, n>(rows, tangent, g, b);
-      }
-      scatter_blocks<Element, columns, 0, columns>(rows, pack, b, blocks);
+      set_vector_columns<0>(derivatives, by_displacement, b);
+      set_scalar_column<n>(derivatives, by_pressure, b);
+      scatter_columns<0, columns>(derivatives, pack, b, blocks);
     }
   }
   return result;
