@@ -43,17 +43,14 @@ struct FluidPack {
   }
 };
 
-/// Residual and, by seeding one node after the other, derivatives.
+/// Residual and, by seeding one node after the other, derivatives: first with respect to its velocity and pressure, then
+/// to its mesh displacement. Seeded together each would carry the other's slopes, most of which are zero.
 template <class Element, FluidDerivatives Derivatives, bool Moving, class Form>
 AssemblyResult fluid_packs(const Form& form, const std::vector<typename ElementPacks<Element>::ElementPack>& packs,
                            const FluidInput& in, double* residual, FluidJacobian<Element::components>* jacobian) {
   constexpr int n = Element::components;
   constexpr bool domain = Derivatives == FluidDerivatives::fluid_and_domain;
-  // Seeds of one node, in this order: mesh displacement (if asked for), velocity, pressure.
-  constexpr int seeds = Derivatives == FluidDerivatives::none ? 0 : (domain ? 2 * n + 1 : n + 1);
-  constexpr int domain_seeds = domain ? seeds : 0;
-  constexpr int u0 = domain ? n : 0, p0 = u0 + n;
-  using T = Seeded<seeds>;
+  constexpr int seeds = Derivatives == FluidDerivatives::none ? 0 : n + 1;
 
   AssemblyResult result;
   using Mixed = MixedLayout<n>;
@@ -61,7 +58,7 @@ AssemblyResult fluid_packs(const Form& form, const std::vector<typename ElementP
   const auto &d = fields.d, &u = fields.u, &rate = fields.rate, &convection = fields.convection,
              &projected = fields.projected;
   const auto& p = fields.p;
-  ElementRows<Element, T> rows;
+  ElementRows<Element, Seeded<seeds>> rows;
   for (const auto& pack : packs) {
     fields.template gather_from<Moving>(in, pack);
     constexpr int passes = seeds == 0 ? 1 : Element::nodes;  // derivatives: the unknowns of one node at a time
@@ -70,24 +67,36 @@ AssemblyResult fluid_packs(const Form& form, const std::vector<typename ElementP
           rows, pack.geometry,
           [&](const auto& g) {
             const auto k =
-                form.prepare(seed_gradient<Element, domain_seeds, 0>(gradient_of(d, g), g, b),
-                             seed_gradient<Element, seeds, u0>(gradient_of(u, g), g, b),
-                             seed_gradient<Element, seeds, p0>(gradient_of(p, g), g, b), pack.geometry.metric);
+                form.prepare(gradient_of(d, g), seed_gradient<Element, seeds, 0>(gradient_of(u, g), g, b),
+                             seed_gradient<Element, seeds, n>(gradient_of(p, g), g, b), pack.geometry.metric);
             if (b == 0) result.include(value_of(k.volume_ratio), pack.cell.data());
             return k;
           },
           [&](const auto& k, const auto& g, int) {
-            Vec3<T> c = seed_value<Element, seeds, u0>(value_of(convection, g), g, b);
-            if constexpr (domain)
-              for (int i = 0; i < n; ++i) c[Element::axis[i]].slope[i] = Pack(-in.mesh_factor * g.vectors().value[b]);
-            return form.integrand(k, seed_value<Element, seeds, u0>(value_of(rate, g), g, b, in.fluid_factor), c,
-                                  seed_value<Element, seeds, p0>(value_of(p, g), g, b), value_of(projected, g));
+            return form.integrand(k, seed_value<Element, seeds, 0>(value_of(rate, g), g, b, in.fluid_factor),
+                                  seed_value<Element, seeds, 0>(value_of(convection, g), g, b),
+                                  seed_value<Element, seeds, n>(value_of(p, g), g, b), value_of(projected, g));
           });
       if (b == 0) scatter_residual<Element>(rows, pack, residual);
       if constexpr (seeds > 0)
-        scatter_blocks<Element, seeds, u0, Mixed::entries>(rows, pack, b, jacobian->fluid.values.data());
-      if constexpr (domain)
-        scatter_blocks<Element, seeds, 0, n>(rows, pack, b, jacobian->shape_derivatives.values.data());
+        scatter_blocks<Element, seeds, 0, Mixed::entries>(rows, pack, b, jacobian->fluid.values.data());
+    }
+    if constexpr (domain) {
+      ElementRows<Element, Dual<n>> by_domain;
+      for (int b = 0; b < passes; ++b) {
+        integrate(
+            by_domain, pack.geometry,
+            [&](const auto& g) {
+              return form.prepare(seed_gradient<Element, n, 0>(gradient_of(d, g), g, b), gradient_of(u, g),
+                                  gradient_of(p, g), pack.geometry.metric);
+            },
+            [&](const auto& k, const auto& g, int) {
+              return form.integrand(k, value_of(rate, g),
+                                    seed_value<Element, n, 0>(value_of(convection, g), g, b, -in.mesh_factor),
+                                    value_of(p, g), value_of(projected, g));
+            });
+        scatter_blocks<Element, n, 0, n>(by_domain, pack, b, jacobian->shape_derivatives.values.data());
+      }
     }
   }
   return result;
