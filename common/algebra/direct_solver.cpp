@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "algebra/factorisation_memory.hpp"
+#include "algebra/single_factors.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 
@@ -54,8 +55,10 @@ struct DirectSolver::Implementation {
   bool warned = false;
   mutable std::vector<SuiteSparse_long> integer_work;
   mutable std::vector<double> work;
+  bool wants_single = false;
+  SingleFactors single;
 
-  explicit Implementation(const Options& options) {
+  explicit Implementation(const Options& options) : wants_single(options.single_precision) {
     umfpack_dl_defaults(control);
     control[UMFPACK_ORDERING] = options.ordering == "metis"  ? UMFPACK_ORDERING_METIS
                                 : options.ordering == "best" ? UMFPACK_ORDERING_BEST
@@ -90,6 +93,9 @@ struct DirectSolver::Implementation {
     memory_notice(fmt::format("{}, more than half of the {} available", asked(unknowns), memory_text(room)));
   }
 
+  /// Factors in single precision in place of UMFPACK's, unless they do not serve.
+  void shorten(const SparseMatrix& a);
+
   ~Implementation() {
     if (numeric) umfpack_dl_free_numeric(&numeric);
     if (symbolic) umfpack_dl_free_symbolic(&symbolic);
@@ -101,7 +107,48 @@ const SuiteSparse_long* indices(const std::vector<std::int64_t>& v) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   return reinterpret_cast<const SuiteSparse_long*>(v.data());
 }
+SuiteSparse_long* indices(std::vector<std::int64_t>& v) {
+  return reinterpret_cast<SuiteSparse_long*>(v.data());
+}
 }  // namespace
+
+void DirectSolver::Implementation::shorten(const SparseMatrix& a) {
+  const std::size_t size = static_cast<std::size_t>(a.size());
+  // While they are made, a copy of one factor in double precision is there besides.
+  if (takes_more_than_half(16 * (lower + upper), static_cast<double>(available_memory().bytes))) return;
+  const auto factor = [size](double entries) {
+    SparseMatrix made;
+    made.offsets.resize(size + 1);
+    made.rows.resize(static_cast<std::size_t>(entries));
+    made.values.resize(static_cast<std::size_t>(entries));
+    return made;
+  };
+  std::vector<std::int64_t> row_order(size), column_order(size);
+  std::vector<double> row_scale(size);
+  SuiteSparse_long divide_not = 0;
+  SparseMatrix rows = factor(lower);
+  auto status = umfpack_dl_get_numeric(indices(rows.offsets), indices(rows.rows), rows.values.data(), nullptr, nullptr,
+                                       nullptr, indices(row_order), indices(column_order), nullptr, &divide_not,
+                                       row_scale.data(), numeric);
+  if (status != UMFPACK_OK) return;
+  if (divide_not == 0)
+    for (double& scale : row_scale) scale = 1 / scale;
+  single = SingleFactors(a, row_order, column_order, row_scale);
+  single.set_lower(rows);
+  rows = {};
+  SparseMatrix columns = factor(upper);
+  status = umfpack_dl_get_numeric(nullptr, nullptr, nullptr, indices(columns.offsets), indices(columns.rows),
+                                  columns.values.data(), nullptr, nullptr, nullptr, nullptr, nullptr, numeric);
+  if (status == UMFPACK_OK) {
+    single.set_upper(columns);
+    columns = {};
+    if (single.serve()) {
+      umfpack_dl_free_numeric(&numeric);
+      return;
+    }
+  }
+  single = {};
+}
 
 DirectSolver::DirectSolver() : DirectSolver(Options{}) {}
 DirectSolver::DirectSolver(const Options& options) : implementation_(std::make_unique<Implementation>(options)) {}
@@ -110,11 +157,12 @@ DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
 bool DirectSolver::factorised() const {
-  return implementation_->numeric != nullptr;
+  return implementation_->numeric != nullptr || !implementation_->single.empty();
 }
 
 void DirectSolver::discard() {
   if (implementation_->numeric) umfpack_dl_free_numeric(&implementation_->numeric);
+  implementation_->single = {};
 }
 
 void DirectSolver::factorise(const SparseMatrix& a) {
@@ -152,13 +200,16 @@ void DirectSolver::factorise(const SparseMatrix& a) {
   my.lower = info[UMFPACK_LNZ];
   my.upper = info[UMFPACK_UNZ];
   my.integer_work.resize(static_cast<std::size_t>(a.size()));
-  my.work.resize(static_cast<std::size_t>(a.size()) * 5);
+  if (my.wants_single) my.shorten(a);
+  if (my.numeric) my.work.resize(static_cast<std::size_t>(a.size()) * 5);
 }
 
-void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const {
+void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x,
+                         double tolerance) const {
   const OneDenseThread same_bits_for_any_number;
   const auto& my = *implementation_;
-  assert(my.numeric && static_cast<std::int64_t>(b.size()) == a.size());
+  assert(factorised() && static_cast<std::int64_t>(b.size()) == a.size());
+  if (!my.single.empty()) return my.single.solve(b, tolerance, x);
   x.resize(b.size());
   start_dense_threads();
   double info[UMFPACK_INFO];
@@ -170,6 +221,15 @@ void DirectSolver::solve(const SparseMatrix& a, const std::vector<double>& b, st
 
 long long DirectSolver::factor_nonzeros() const {
   return static_cast<long long>(implementation_->lower + implementation_->upper);
+}
+
+bool DirectSolver::in_single_precision() const {
+  return !implementation_->single.empty();
+}
+
+double DirectSolver::bytes() const {
+  return in_single_precision() ? static_cast<double>(implementation_->single.bytes())
+                               : 16.0 * static_cast<double>(factor_nonzeros());
 }
 
 }  // namespace fsi

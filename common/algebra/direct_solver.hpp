@@ -19,6 +19,8 @@ class DirectSolver {
     std::string ordering = "metis";  ///< "amd", "metis", "best"
     std::string strategy = "auto";   ///< "auto", "unsymmetric", "symmetric"
     int refinement_steps = 0;        ///< of each solve
+    /// Keeps the factors in single precision where that solves this matrix well enough, for solves of a few digits.
+    bool single_precision = false;
   };
 
   DirectSolver();
@@ -33,10 +35,15 @@ class DirectSolver {
   void discard();
 
   /// x = A^-1 b with the last factorised matrix; `a` is read only for iterative refinement and must have its pattern.
-  void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x) const;
+  /// \param tolerance  demanded |b - A x| / |b|; factors in double precision solve to rounding
+  void solve(const SparseMatrix& a, const std::vector<double>& b, std::vector<double>& x, double tolerance = 0) const;
 
   /// Entries of both factors, for reports.
   long long factor_nonzeros() const;
+  /// Whether they are kept in single precision.
+  bool in_single_precision() const;
+  /// Of the factors.
+  double bytes() const;
 
  private:
   struct Implementation;

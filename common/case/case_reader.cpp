@@ -149,6 +149,15 @@ void warn_of_wall_density(const CaseEntry& whole_case, const Case& scene) {
   whole_case.child("structure").child("density").warn_of_unit(quantity::wall_density(), scene.structure->density);
 }
 
+/// Steps of a given length forgive what the solver leaves of one, as long as it is little beside what they change: the next
+/// ones see it. A load step's state is the result, and where errors choose the steps, the solver's must not be seen.
+void choose_newton_stop(const CaseEntry& whole_case, Case& scene) {
+  if (!scene.time || scene.time->adaptive) return;
+  const CaseEntry monolithic = whole_case.child("monolithic");
+  if (monolithic.has("newton_tolerance") || monolithic.has("error_tolerance")) return;
+  scene.monolithic.newton.error_tolerance = MonolithicData::standard_error_tolerance;
+}
+
 std::string contents_of(const std::filesystem::path& file) {
   constexpr std::uint64_t largest = 16 << 20;
   constexpr const char* remedy = "give the path of a case file";
@@ -207,6 +216,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file, cons
   check_output_times(whole_case, scene);
   check_periodic_end(whole_case, scene);
   check_derived_output(whole_case, scene);
+  choose_newton_stop(whole_case, scene);
   warn_of_wall_density(whole_case, scene);
   warn_of_stabilisation(whole_case, scene);
   warn_of_damped_mesh(whole_case, scene);

@@ -96,8 +96,10 @@ std::vector<CaseKey<MonolithicData>> monolithic_keys() {
       leaf("newton_tolerance", optional, "last increment relative to the first of the step, default {}",
            number(at(&M::newton, &NewtonOptions::tolerance), tolerance)),
       leaf("error_tolerance", optional,
-           "estimated error of a step, relative to what it changes, in place of newton_tolerance, default {}: not "
-           "demanded",
+           fmt::format(
+               "estimated error of a step, relative to what it changes, in place of newton_tolerance; default {} in "
+               "runs of fixed steps that name neither, else 0: not demanded",
+               text_for_people(M::standard_error_tolerance)),
            number(at(&M::newton, &NewtonOptions::error_tolerance), tolerance_or_none)),
       leaf("residual_tolerance", optional, "residual relative to the first of the step, default {}: not demanded",
            number(at(&M::newton, &NewtonOptions::residual_tolerance), tolerance_or_none)),

@@ -64,11 +64,26 @@ struct FastSolver<n>::Iterative : CycledMedium {
   void multiply_whole(const std::vector<double>& x, std::vector<double>& y) override { iteration.multiply(x, y); }
 };
 
+namespace {
+
+constexpr std::int64_t single_from = 10000;  // unknowns: smaller factors lie in the processor's cache anyway
+
+/// Newton's method asks for a few digits of each increment of a coupled system; those who make one of it by parts learn
+/// from differences of solutions, and want all digits.
+template <int n>
+DirectSolver::Options precision(const JacobianBlocks<n>& blocks) {
+  DirectSolver::Options options;
+  options.single_precision = blocks.coupled() && blocks.numbering.size >= single_from;
+  return options;
+}
+
+}  // namespace
+
 template <int n>
 FastSolver<n>::FastSolver(const JacobianBlocks<n>& blocks, const FastOptions& options)
     : blocks_(blocks), options_(options) {
   if (blocks.numbering.size < options.direct_below.value_or(FastOptions::standard_direct_below(n)))
-    direct_ = std::make_unique<DirectLinearSolver<n>>(blocks);
+    direct_ = std::make_unique<DirectLinearSolver<n>>(blocks, precision(blocks));
 }
 
 template <int n>

@@ -29,15 +29,15 @@ void DirectLinearSolver<n>::update() {
 }
 
 template <int n>
-LinearReport DirectLinearSolver<n>::solve(const std::vector<double>& b, double, std::vector<double>& x) {
-  solver_.solve(matrix_.matrix(), b, x);
+LinearReport DirectLinearSolver<n>::solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) {
+  solver_.solve(matrix_.matrix(), b, x, tolerance);
   return {};
 }
 
 template <int n>
 LinearStatistics DirectLinearSolver<n>::statistics() const {
   LinearStatistics s;
-  s.memory_mib = (16.0 * solver_.factor_nonzeros() + 24.0 * matrix_.matrix().nonzeros()) / (1 << 20);
+  s.memory_mib = (solver_.bytes() + 24.0 * matrix_.matrix().nonzeros()) / (1 << 20);
   return s;
 }
 

@@ -27,7 +27,8 @@ void gather_jacobian_blocks(Builder& builder, const JacobianBlocks<n>& blocks) {
 template <int n>
 GatheredMatrix gather_jacobian(const JacobianBlocks<n>& blocks);
 
-/// `direct`: sparse LU factorisation of the Jacobian. On the interface it works with one unknown, as the numbering
+/// `direct`: sparse LU factorisation of the Jacobian. With options for single precision also what `fast` has for small
+/// systems. On the interface it works with one unknown, as the numbering
 /// does.
 template <int n>
 class DirectLinearSolver : public LinearSolver {
@@ -38,7 +39,7 @@ class DirectLinearSolver : public LinearSolver {
   const char* preparation() const override { return "factorisation"; }
   bool ready() const override { return solver_.factorised(); }
 
-  LinearReport solve(const std::vector<double>& b, double, std::vector<double>& x) override;
+  LinearReport solve(const std::vector<double>& b, double tolerance, std::vector<double>& x) override;
 
   double keep_contraction() const override { return 0.4; }
 

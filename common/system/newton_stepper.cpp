@@ -82,6 +82,13 @@ NewtonMarch<n>::NewtonMarch(Scene<n>& scene, const Loads& loads, NewtonOptions o
     : scene_(scene), loads_(loads), options_(std::move(options)) {}
 
 template <int n>
+std::vector<StepperChoice> NewtonMarch<n>::stopping() const {
+  if (options_.error_tolerance == 0) return {};
+  return {{"monolithic.error_tolerance", fmt::format("{:g}", options_.error_tolerance),
+           "a step is solved when its error is estimated to be that part of what the step changes"}};
+}
+
+template <int n>
 StepReport NewtonMarch<n>::advance(State& state) {
   report_ = {};
   const int stages = scene_.integrator->stages(state);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scene/loads.hpp"
 #include "system/system.hpp"
@@ -36,6 +37,8 @@ class NewtonMarch : public Stepper {
   virtual void abandon() {}
 
   const NewtonOptions& options() const { return options_; }
+  /// Stepper::choices() on when a step is solved, which the case need not say.
+  std::vector<StepperChoice> stopping() const;
 
   Scene<n>& scene_;
 
@@ -66,6 +69,7 @@ class NewtonStepper : public NewtonMarch<n> {
 
   const System<n>& system() const { return system_; }
 
+  std::vector<StepperChoice> choices() const override { return this->stopping(); }
   void keep(Memory& memory) override;
 
  private:

@@ -26,7 +26,10 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
       choices_{{"partitioned.scheme", choice.name,
                 fmt::format("{}; its Robin condition is {:g} times the membrane's, as {}", choice.reason,
                             stiffness_.factor, stiffness_.reason)}},
-      problem_(scene, setup.partitioned, stiffness_.factor) {}
+      problem_(scene, setup.partitioned, stiffness_.factor) {
+  if (setup.partitioned.tolerance) return;
+  for (auto& choice : this->stopping()) choices_.push_back(std::move(choice));
+}
 
 template <int n>
 StepReport BlockNewtonStepper<n>::advance(State& state) {

@@ -26,7 +26,13 @@ from fsi_compare.studies.verify.artery_sizes import LEVELS, RECOMMENDED, artery_
 from fsi_compare.studies.verify.mesh_family import ratio_for
 from fsi_compare.studies.verify.quantities import Asked, Curve, peak, quantities_of
 from fsi_compare.studies.verify.results import Judged, about
-from fsi_compare.studies.verify.tolerances import DEFAULT_SCHEME, GAP_TOLERANCE, NEWTON_TOLERANCE, governing
+from fsi_compare.studies.verify.tolerances import (
+    DEFAULT_SCHEME,
+    ERROR_TOLERANCE,
+    GAP_TOLERANCE,
+    NEWTON_TOLERANCE,
+    governing,
+)
 from fsi_compare.studies.verify.verdict import NOT_IN_RANGE, Value, bar_of
 
 
@@ -233,6 +239,15 @@ class Tolerances(unittest.TestCase):
             self.assertEqual(monolithic, partitioned)
         self.assertEqual(governing(self.BOTH[1], {}), {"monolithic.newton_tolerance": 1e-3})
 
+    def test_case_without_a_tolerance_stops_by_its_error_in_fixed_steps(self):
+        for program in self.BOTH:
+            self.assertEqual(governing(program, {"time": {"step": 0.5}}), {"monolithic.error_tolerance": 3e-3})
+            self.assertEqual(governing(program, {"time": {"step": "adaptive"}}), {"monolithic.newton_tolerance": 1e-3})
+            named = {"time": {"step": 0.5}, "monolithic": {"newton_tolerance": 1e-5}}
+            self.assertEqual(governing(program, named), {"monolithic.newton_tolerance": 1e-5})
+            off = {"time": {"step": 0.5}, "monolithic": {"error_tolerance": 0}}
+            self.assertEqual(governing(program, off), {"monolithic.newton_tolerance": 1e-3})
+
     def test_demanded_error_and_residual(self):
         newton = {"newton_tolerance": 1e-5, "error_tolerance": 1e-3, "residual_tolerance": 1e-8}
         self.assertEqual(
@@ -260,8 +275,11 @@ class Tolerances(unittest.TestCase):
     def test_defaults_are_those_of_the_drivers(self):
         data = (SOURCES / "common/case/case.hpp").read_text()
         newton = re.search(r"standard_newton\(\) \{\s*NewtonOptions options;\s*options\.tolerance = (\S+);", data)
-        gap = re.search(r"standard_tolerance = (\S+);", data)
-        self.assertEqual((float(newton[1]), float(gap[1])), (NEWTON_TOLERANCE, GAP_TOLERANCE))
+        gap = re.search(r" standard_tolerance = (\S+);", data)
+        error = re.search(r"standard_error_tolerance = (\S+);", data)
+        self.assertEqual(
+            (float(error[1]), float(newton[1]), float(gap[1])), (ERROR_TOLERANCE, NEWTON_TOLERANCE, GAP_TOLERANCE)
+        )
         choice = (SOURCES / "partitioned/scheme_choice.cpp").read_text()
         self.assertIn(f'return {{"{DEFAULT_SCHEME}", "the case names none"}};', choice)
 

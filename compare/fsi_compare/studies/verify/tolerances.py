@@ -2,14 +2,15 @@
 
 | driver and scheme | stops by |
 |---|---|
-| monolithic | `monolithic.error_tolerance`, else `newton_tolerance`; `residual_tolerance` besides, where demanded |
+| monolithic | `monolithic.error_tolerance` where demanded, else `newton_tolerance` where named; where neither is, the former in runs of fixed steps, else the latter; `residual_tolerance` besides, where demanded |
 | partitioned, `block-newton` (its default) | `partitioned.tolerance` where the case names it, else as the monolithic driver |
 | partitioned, any other scheme | `partitioned.tolerance`; `force_tolerance` besides, where demanded |
 """
 
 from typing import Any, Dict, Mapping
 
-NEWTON_TOLERANCE = 1e-3  # unless a case names one: as common/case/case.hpp has it
+ERROR_TOLERANCE = 3e-3  # unless a case names one: as common/case/case.hpp has it
+NEWTON_TOLERANCE = 1e-3  # the same
 GAP_TOLERANCE = 1e-6  # the same
 DEFAULT_SCHEME = "block-newton"
 
@@ -26,9 +27,15 @@ def governing(program: str, entries: Mapping[str, Any]) -> Dict[str, float]:
             error = {"partitioned.tolerance": float(coupling["tolerance"])}
             return {**error, **_demanded("monolithic", newton, "residual_tolerance")}
     found = _demanded("monolithic", newton, "error_tolerance")
+    if not found and not {"error_tolerance", "newton_tolerance"} & set(newton) and _has_fixed_steps(entries):
+        found = {"monolithic.error_tolerance": ERROR_TOLERANCE}
     if not found:
         found = {"monolithic.newton_tolerance": float(newton.get("newton_tolerance", NEWTON_TOLERANCE))}
     return {**found, **_demanded("monolithic", newton, "residual_tolerance")}
+
+
+def _has_fixed_steps(entries: Mapping[str, Any]) -> bool:
+    return "time" in entries and _section(entries, "time").get("step") != "adaptive"
 
 
 def _section(entries: Mapping[str, Any], name: str) -> Mapping[str, Any]:

@@ -1,0 +1,146 @@
+#include "algebra/panel_matrix.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace fsi {
+
+namespace {
+
+constexpr int widest_panel = 64;
+constexpr double stored_zeros = 0.2;  // of a panel's entries, at most: they cost less than another panel does
+
+/// Rows of column j behind `last`.
+void rows_behind(const CompactColumns<float>& columns, int j, int last, std::vector<int>& rows) {
+  rows.clear();
+  for (std::int64_t k = columns.offsets[j]; k < columns.offsets[j + 1]; ++k)
+    if (columns.rows[k] > last) rows.push_back(columns.rows[k]);
+}
+
+/// to += columns of a block times the numbers at x.
+void add_columns(const float* block, int rows, int width, const float* x, float* to) {
+  int j = 0;
+  for (; j + 3 < width; j += 4) {
+    const float *b0 = block + static_cast<std::size_t>(j) * rows, *b1 = b0 + rows, *b2 = b1 + rows, *b3 = b2 + rows;
+    const float x0 = x[j], x1 = x[j + 1], x2 = x[j + 2], x3 = x[j + 3];
+    for (int i = 0; i < rows; ++i) to[i] += b0[i] * x0 + b1[i] * x1 + b2[i] * x2 + b3[i] * x3;
+  }
+  for (; j < width; ++j) {
+    const float* b = block + static_cast<std::size_t>(j) * rows;
+    for (int i = 0; i < rows; ++i) to[i] += b[i] * x[j];
+  }
+}
+
+/// y -= columns of a block, each times the numbers at x.
+void subtract_products(const float* block, int rows, int width, const float* x, float* y) {
+  int j = 0;
+  for (; j + 3 < width; j += 4) {
+    const float *b0 = block + static_cast<std::size_t>(j) * rows, *b1 = b0 + rows, *b2 = b1 + rows, *b3 = b2 + rows;
+    float s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3)
+    for (int i = 0; i < rows; ++i) {
+      s0 += b0[i] * x[i];
+      s1 += b1[i] * x[i];
+      s2 += b2[i] * x[i];
+      s3 += b3[i] * x[i];
+    }
+    y[j] -= s0;
+    y[j + 1] -= s1;
+    y[j + 2] -= s2;
+    y[j + 3] -= s3;
+  }
+  for (; j < width; ++j) {
+    const float* b = block + static_cast<std::size_t>(j) * rows;
+    float sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (int i = 0; i < rows; ++i) sum += b[i] * x[i];
+    y[j] -= sum;
+  }
+}
+
+}  // namespace
+
+PanelMatrix::PanelMatrix(const CompactColumns<float>& columns) {
+  const int size = columns.size();
+  std::vector<int> rows, next, both;  // below the panel so far, of the next column, of both
+  for (int first = 0; first < size;) {
+    rows_behind(columns, first, first, rows);
+    std::size_t entries = rows.size();
+    int end = first + 1;
+    for (; end < size && end - first < widest_panel; ++end) {
+      rows_behind(columns, end, end, next);
+      both.clear();
+      std::set_union(std::upper_bound(rows.begin(), rows.end(), end), rows.end(), next.begin(), next.end(),
+                     std::back_inserter(both));
+      const auto width = static_cast<std::size_t>(end - first) + 1;
+      const std::size_t stored = both.size() * width + width * (width - 1) / 2;
+      if (static_cast<double>(stored) > (1 + stored_zeros) * static_cast<double>(entries + next.size()) + 2.0 * width)
+        break;
+      rows.swap(both);
+      entries += next.size();
+    }
+    add_panel(columns, first, end, {std::lower_bound(rows.begin(), rows.end(), end), rows.end()});
+    first = end;
+  }
+}
+
+void PanelMatrix::add_panel(const CompactColumns<float>& columns, int first, int end,
+                            const std::vector<int>& rows_below) {
+  Panel panel{first, end - first, static_cast<int>(rows_below.size()), rows_.size(), triangles_.size(), blocks_.size()};
+  const auto width = static_cast<std::size_t>(panel.width);
+  rows_.insert(rows_.end(), rows_below.begin(), rows_below.end());
+  triangles_.resize(triangles_.size() + width * width);
+  blocks_.resize(blocks_.size() + width * rows_below.size());
+  for (int j = first; j < end; ++j) {
+    float* triangle = triangles_.data() + panel.triangle + (j - first) * width;
+    float* block = blocks_.data() + panel.block + (j - first) * rows_below.size();
+    auto at = rows_below.begin();
+    for (std::int64_t k = columns.offsets[j]; k < columns.offsets[j + 1]; ++k) {
+      const int row = columns.rows[k];
+      if (row <= j) continue;
+      if (row < end) {
+        triangle[row - first] = columns.values[k];
+      } else {
+        at = std::lower_bound(at, rows_below.end(), row);
+        block[at - rows_below.begin()] = columns.values[k];
+      }
+    }
+  }
+  panels_.push_back(panel);
+  gathered_.resize(std::max(gathered_.size(), rows_below.size()));
+}
+
+void PanelMatrix::solve(float* y) const {
+  float* sums = gathered_.data();
+  for (const Panel& panel : panels_) {
+    float* own = y + panel.first;
+    const float* triangle = triangles_.data() + panel.triangle;
+    for (int j = 0; j < panel.width; ++j, triangle += panel.width)
+      for (int i = j + 1; i < panel.width; ++i) own[i] -= triangle[i] * own[j];
+    const int* rows = rows_.data() + panel.row_list;
+    std::fill(sums, sums + panel.rows, 0.0F);
+    add_columns(blocks_.data() + panel.block, panel.rows, panel.width, own, sums);
+    for (int i = 0; i < panel.rows; ++i) y[rows[i]] -= sums[i];
+  }
+}
+
+void PanelMatrix::solve_transposed(float* y) const {
+  float* below = gathered_.data();
+  for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
+    float* own = y + panel->first;
+    const int* rows = rows_.data() + panel->row_list;
+    for (int i = 0; i < panel->rows; ++i) below[i] = y[rows[i]];
+    subtract_products(blocks_.data() + panel->block, panel->rows, panel->width, below, own);
+    for (int j = panel->width - 2; j >= 0; --j) {
+      const float* triangle = triangles_.data() + panel->triangle + static_cast<std::size_t>(j) * panel->width;
+      for (int i = j + 1; i < panel->width; ++i) own[j] -= triangle[i] * own[i];
+    }
+  }
+}
+
+std::size_t PanelMatrix::bytes() const {
+  return panels_.size() * sizeof(Panel) + rows_.size() * sizeof(int) +
+         (triangles_.size() + blocks_.size() + gathered_.size()) * sizeof(float);
+}
+
+}  // namespace fsi
