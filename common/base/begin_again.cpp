@@ -8,23 +8,40 @@
 
 namespace fsi {
 
+namespace {
+
+/// For OPENBLAS_CORETYPE; null: what OpenBLAS takes by itself.
+char* dense_kernels() {
+  static char of_512_bits[] = "OPENBLAS_CORETYPE=SkylakeX", of_256_bits[] = "OPENBLAS_CORETYPE=Haswell";
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    return of_512_bits;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? of_256_bits : nullptr;
+}
+
+}  // namespace
+
 void begin_again_with_settings(const char* const* argv, char* const* environment) noexcept {
   static char spins[] = "GOMP_SPINCOUNT=1000", dense[] = "OPENBLAS_NUM_THREADS=1";
   std::array<char*, 1024> with{};
   std::size_t count = 0;
-  bool waits = false, starts_dense = false;
+  char* const kernels = dense_kernels();
+  bool waits = false, starts_dense = false, names_kernels = kernels == nullptr;
   const auto begins = [](const char* entry, const char* name) {
     return std::strncmp(entry, name, std::strlen(name)) == 0;
   };
   for (; environment != nullptr && environment[count] != nullptr; ++count) {
-    if (count + 3 >= with.size()) return;
+    if (count + 4 >= with.size()) return;
     with[count] = environment[count];
     waits = waits || begins(with[count], "OMP_WAIT_POLICY=") || begins(with[count], "GOMP_SPINCOUNT=");
     starts_dense = starts_dense || begins(with[count], "OPENBLAS_NUM_THREADS=");
+    names_kernels = names_kernels || begins(with[count], "OPENBLAS_CORETYPE=");
   }
-  if (waits && starts_dense) return;
+  if (waits && starts_dense && names_kernels) return;
   if (!waits) with[count++] = spins;
   if (!starts_dense) with[count++] = dense;
+  if (!names_kernels) with[count++] = kernels;
   std::array<char, 4096> file{};  // by its name: "/proc/self/exe" would be the name that ps shows
   if (readlink("/proc/self/exe", file.data(), file.size() - 1) > 0)
     execve(file.data(), const_cast<char* const*>(argv), with.data());

@@ -8,6 +8,8 @@ namespace fsi {
 ///   its core (docs/performance.md). Not where OMP_WAIT_POLICY is set.
 /// - OPENBLAS_NUM_THREADS: 1. OpenBLAS would start a thread per core at once, each with 128 MiB of addresses, which most
 ///   runs never use. DirectSolver starts those it needs.
+/// - OPENBLAS_CORETYPE: kernels for the vectors that the processor has. OpenBLAS goes by a list of models, and takes those
+///   of twenty years ago for one that is newer than the list, which multiply matrices at a quarter of the speed.
 ///
 /// Allocates nothing, so that it can be called before libraries are ready.
 /// \param argv         as main() has it, ended by a null pointer

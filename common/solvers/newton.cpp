@@ -18,21 +18,43 @@ constexpr double rounding_margin = 4;         // residuals up to so many times t
 const char* const failure_at_start = "the start holds an inverted element or a value that is not finite";
 const char* const failure_at_limit = "the iteration limit was reached";
 
-/// Moves by the increment, halving the step until the residual is at most `bound`, or until it exists and the iterate comes
-/// closer to the solution by the natural measure: |J^-1 R|, J being a new Jacobian, has fallen by a fourth of the step at
-/// least ([Deuflhard2011], section 3.3). For where a thin wall bends, residuals grow with the square of a good increment,
-/// and a step on which they fall is none to speak of. The step length goes to the iteration, 0 when even the shortest would
-/// not do (the iterate is then where it was). A whole step across which something opens or closes is taken, if `may_switch`,
-/// though the residual grows: with the derivatives behind it the next one comes back, where a shorter one would creep up to
-/// the place where they jump. \returns the residual
-double backtrack(NewtonProblem& problem, double bound, double increment, int max_halvings, bool may_switch,
-                 NewtonIteration& iteration) {
+/// Which residuals are nothing but rounding. To say so takes as long as two products with the Jacobian: few iterations ask.
+class Rounding {
+ public:
+  explicit Rounding(NewtonProblem& problem) : problem_(problem) {}
+  /// From now on that of another iterate.
+  void renew() { bound_ = unknown; }
+  bool is_all_of(double residual) {
+    if (bound_ == unknown) bound_ = rounding_margin * problem_.rounding();
+    return residual <= bound_;
+  }
+  /// Whether an iteration that left this part of the residual is worth a question: not where the part is what kept Jacobians
+  /// leave. Should that be all rounding, the next iteration leaves more.
+  static bool is_likely(double left) { return !(left > 1e-3 && left < 0.4); }
+
+ private:
+  static constexpr double unknown = -1;
+
+  NewtonProblem& problem_;
+  double bound_ = unknown;
+};
+
+/// Moves by the increment, halving the step until the residual has not grown, or is all rounding, or until it exists and the
+/// iterate comes closer to the solution by the natural measure: |J^-1 R|, J being a new Jacobian, has fallen by a fourth of
+/// the step at least ([Deuflhard2011], section 3.3). For where a thin wall bends, residuals grow with the square of a good
+/// increment, and a step on which they fall is none to speak of. The step length goes to the iteration, 0 when even the
+/// shortest would not do (the iterate is then where it was). A whole step across which something opens or closes is taken, if
+/// `may_switch`, though the residual grows: with the derivatives behind it the next one comes back, where a shorter one would
+/// creep up to the place where they jump. \returns the residual
+double backtrack(NewtonProblem& problem, double last_residual, Rounding& rounding, double increment, int max_halvings,
+                 bool may_switch, NewtonIteration& iteration) {
   constexpr double looseness = 0.1;  // of distances
   double step = 1, residual = 0;
   problem.move(step);
   for (int halvings = 0;; ++halvings) {
     residual = problem.evaluate();
-    bool good = residual <= bound;  // no, if it does not exist
+    bool good = residual <= last_residual;  // no, if it does not exist
+    if (!good && std::isfinite(residual)) good = rounding.is_all_of(residual);
     if (halvings == 0 && may_switch && problem.outdated()) good = std::isfinite(residual);
     if (!good && iteration.linearised && std::isfinite(residual)) {
       good = problem.distance(looseness) <= (1 - 0.25 * step) * increment;
@@ -119,7 +141,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     report.failure = failure_at_start;
     return report;
   }
-  double reference = options.reference, rounding = 0;
+  double reference = options.reference;
+  Rounding rounding(problem);
   const double keep_contraction = options.keep_contraction > 0 ? options.keep_contraction : problem.keep_contraction();
   const bool keep = options.mode != NewtonMode::full;
   int kept_iterations = 0, switches = 0;
@@ -131,7 +154,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     iteration.linearised = renew;
     if (renew) problem.linearise();
     if (renew && options.observe_system) options.observe_system(report.count() + 1);
-    if (renew || report.count() == 0) rounding = rounding_margin * problem.rounding();
+    if (renew) rounding.renew();
     forcing = forcing_term(options, renew, ratio, forcing);
     const double increment = problem.solve(forcing);
     iteration.linear_iterations = problem.linear_iterations();
@@ -144,8 +167,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
       report.failure = reason.empty() ? "the linear solver returned a value that is not finite" : reason;
       return report;
     }
-    const double new_residual = backtrack(problem, std::max(residual, rounding), increment, options.max_halvings,
-                                          switches < most_switches, iteration);
+    const double new_residual =
+        backtrack(problem, residual, rounding, increment, options.max_halvings, switches < most_switches, iteration);
     if (iteration.step == 0) {
       if (renew) {
         report.failure = "no step along Newton's direction lowers the residual";
@@ -167,9 +190,11 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (outdated) ++switches;
     const bool small = iteration.step == 1 && !outdated &&
                        (accurate || problem.negligible(increment, rounding_increment) ||
-                        (options.stop_at_rounding && new_residual <= rounding));
+                        (options.stop_at_rounding && Rounding::is_likely(new_residual / residual) &&
+                         rounding.is_all_of(new_residual)));
     const bool solved = options.residual_tolerance == 0 ||
-                        new_residual <= std::max(rounding, options.residual_tolerance * report.first_residual);
+                        new_residual <= options.residual_tolerance * report.first_residual ||
+                        rounding.is_all_of(new_residual);
     if (small && solved) {
       const double error = estimated_error(problem.relative_increment(), new_residual / residual);
       report.error = std::isfinite(error) ? error : 0;  // infinite: nobody knows what the solution changes
@@ -179,8 +204,8 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (renew) kept_iterations = 0;
     ++kept_iterations;
     renew = !keep || outdated ||
-            (new_residual > rounding &&
-             (new_residual > keep_contraction * residual || kept_iterations >= options.keep_iterations));
+            ((new_residual > keep_contraction * residual || kept_iterations >= options.keep_iterations) &&
+             !rounding.is_all_of(new_residual));
     ratio = new_residual / residual;
     residual = new_residual;
   }

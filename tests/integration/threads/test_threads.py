@@ -1,9 +1,11 @@
 """How many threads a run takes, and what that costs beside other jobs."""
 
 import os
+import re
 import resource
 import subprocess
 import unittest
+from pathlib import Path
 
 from programs import MONOLITHIC, NEO_HOOKEAN, FolderTest, driver_command, execute, make_mesh, summary
 
@@ -52,6 +54,20 @@ class Threads(FolderTest):
                 loop.wait()
         print(f"two threads slept {asleep} times, and {spinning} times where they were to spin")
         self.assertGreater(asleep, 3 * spinning)
+
+    def test_dense_kernels_are_for_the_vectors_of_the_processor(self):
+        """OpenBLAS takes kernels of 128 bits on processors that are newer than itself."""
+        flags = Path("/proc/cpuinfo").read_text()
+        if not re.search(r"^flags.*\bavx2\b.*\bfma\b|^flags.*\bfma\b.*\bavx2\b", flags, re.MULTILINE):
+            self.skipTest("this processor has no vectors of 256 bits")
+        environment = {key: value for key, value in os.environ.items() if key != "OPENBLAS_CORETYPE"}
+
+        def kernels(**more):
+            return execute(MONOLITHIC, "--version", env={**environment, "OPENBLAS_VERBOSE": "2", **more}).stderr
+
+        wide = "SkylakeX" if re.search(r"^flags.*\bavx512vl\b", flags, re.MULTILINE) else "Haswell"
+        self.assertIn(f"Core: {wide}", kernels())
+        self.assertIn("Core: Nehalem", kernels(OPENBLAS_CORETYPE="Nehalem"))  # of the user
 
     def test_environment_of_the_user_holds(self):
         """Who names the waiting himself is obeyed: the program does not start itself again."""
