@@ -9,11 +9,10 @@ namespace fsi {
 namespace {
 
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
-constexpr double kept_forcing = 0.5;          // linear tolerance over the contraction that a kept Jacobian showed
-constexpr double first_kept_forcing = 0.05;   // before it has shown any: kept ones contract by 5 to 20
-constexpr double smallest_forcing = 1e-6;     // more digits of one increment never pay
-constexpr int most_switches = 6;              // of whole steps that are taken across them
-constexpr double rounding_margin = 4;         // residuals up to so many times their rounding error are all rounding
+constexpr double kept_forcing = 0.05;      // loosest linear tolerance with a kept Jacobian, which contracts by 5 to 20
+constexpr double smallest_forcing = 1e-6;  // more digits of one increment never pay
+constexpr int most_switches = 6;           // of whole steps that are taken across them
+constexpr double rounding_margin = 4;      // residuals up to so many times their rounding error are all rounding
 
 const char* const failure_at_start = "the start holds an inverted element or a value that is not finite";
 const char* const failure_at_limit = "the iteration limit was reached";
@@ -78,8 +77,8 @@ double backtrack(NewtonProblem& problem, double last_residual, Rounding& roundin
 /// Jacobian's own error, a factor of each iteration, and solving much tighter than that is wasted.
 double forcing_term(const NewtonOptions& options, bool renewed, double ratio, double last_forcing) {
   if (options.linear_tolerance > 0) return options.linear_tolerance;
-  double eta = renewed ? options.largest_forcing : std::min(options.largest_forcing, first_kept_forcing);
-  if (ratio < 1) eta = std::min(eta, renewed ? 0.9 * ratio * ratio : kept_forcing * ratio);
+  double eta = renewed ? options.largest_forcing : std::min(options.largest_forcing, kept_forcing);
+  if (ratio < 1) eta = std::min(eta, renewed ? 0.9 * ratio * ratio : ratio);
   const double safeguard = 0.9 * last_forcing * last_forcing;
   if (renewed && safeguard > 0.1) eta = std::min(options.largest_forcing, std::max(eta, safeguard));
   return std::max(eta, smallest_forcing);
