@@ -295,7 +295,7 @@ inline void set_vector_columns(NodeColumns<Element, Columns>& to, const VectorTa
   const int first = table.along[b][0], second = table.along[b][1];
   const double *s = table.slope[b][0], *t = table.slope[b][1];
   for (int k = 0; k < Element::components; ++k) {
-    Pack linear[Rows::count][vertices];
+    Pack linear[Rows::count][vertices];  // sums times l_i, of the moments by node b's slopes as in set_column()
     for (int row = 0; row < Rows::count; ++row) {
       const auto& moment = tangent.moment[row][k];
       for (int i = 0; i < vertices; ++i) {

@@ -23,8 +23,6 @@ namespace {
 template <class Element>
 class PointTangents : public testing::Test {
  protected:
-  static constexpr int n = Element::components;
-
   static auto curved_mesh() {
     auto mesh = irregular_mesh<Element>(Element::dim == 3 ? 1 : 2);
     curve<Element>(mesh, 0.05);
@@ -32,12 +30,12 @@ class PointTangents : public testing::Test {
   }
 
   const Submesh<Element::dim, Element::order> part = whole(curved_mesh());
-  const FunctionSpace<n> space = function_space<Element>(part);
+  const FunctionSpace<Element::components> space = function_space<Element>(part);
   const ElementPacks<Element> packs{part.nodes, part.cells, all_cells(part), *space.graph()};
-  const std::vector<double> mixed = random_field(part.nodes, n + 1, 0.2, 0.05, 1),
-                            mixed_before = random_field(part.nodes, n + 1, 0.2, 0.05, 2),
-                            moved = random_field(part.nodes, n, 0.1, 0.02, 3),
-                            moved_before = random_field(part.nodes, n, 0.1, 0.02, 4);
+  const std::vector<double> mixed = random_field(part.nodes, Element::components + 1, 0.2, 0.05, 1),
+                            mixed_before = random_field(part.nodes, Element::components + 1, 0.2, 0.05, 2),
+                            moved = random_field(part.nodes, Element::components, 0.1, 0.02, 3),
+                            moved_before = random_field(part.nodes, Element::components, 0.1, 0.02, 4);
 
   static void expect_equal(const std::vector<double>& a, const std::vector<double>& b) {
     EXPECT_GT(largest(a), 0);
@@ -61,11 +59,11 @@ TYPED_TEST(PointTangents, OfTheFluidAreThoseByNodes) {
     loop(this->packs.of_thread(0), residual.data(), jacobian);
     return std::tuple{residual, jacobian.fluid.values, jacobian.shape_derivatives.values};
   };
-  const auto by_points = assembled([&](const auto& packs, double* residual, auto& jacobian) {
-    detail::fluid_packs_by_points<Element, true, true>(form, packs, in, residual, &jacobian);
+  const auto by_points = assembled([&](const auto& of_thread, double* residual, auto& jacobian) {
+    detail::fluid_packs_by_points<Element, true, true>(form, of_thread, in, residual, &jacobian);
   });
-  const auto by_nodes = assembled([&](const auto& packs, double* residual, auto& jacobian) {
-    detail::fluid_packs<Element, FluidDerivatives::fluid_and_domain, true>(form, packs, in, residual, &jacobian);
+  const auto by_nodes = assembled([&](const auto& of_thread, double* residual, auto& jacobian) {
+    detail::fluid_packs<Element, FluidDerivatives::fluid_and_domain, true>(form, of_thread, in, residual, &jacobian);
   });
   this->expect_equal(std::get<0>(by_nodes), std::get<0>(by_points));
   this->expect_equal(std::get<1>(by_nodes), std::get<1>(by_points));
@@ -83,11 +81,11 @@ TYPED_TEST(PointTangents, OfTheWallAreThoseByNodes) {
     loop(this->packs.of_thread(0), residual.data(), jacobian.values.data());
     return std::pair{residual, jacobian.values};
   };
-  const auto by_points = assembled([&](const auto& packs, double* residual, double* blocks) {
-    detail::layer_packs_by_points<Element>(form, packs, nullptr, in, residual, blocks);
+  const auto by_points = assembled([&](const auto& of_thread, double* residual, double* blocks) {
+    detail::layer_packs_by_points<Element>(form, of_thread, nullptr, in, residual, blocks);
   });
-  const auto by_nodes = assembled([&](const auto& packs, double* residual, double* blocks) {
-    detail::layer_packs<Element, true>(form, packs, nullptr, in, residual, blocks);
+  const auto by_nodes = assembled([&](const auto& of_thread, double* residual, double* blocks) {
+    detail::layer_packs<Element, true>(form, of_thread, nullptr, in, residual, blocks);
   });
   this->expect_equal(by_nodes.first, by_points.first);
   this->expect_equal(by_nodes.second, by_points.second);
