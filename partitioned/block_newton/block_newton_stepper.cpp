@@ -28,7 +28,7 @@ BlockNewtonStepper<n>::BlockNewtonStepper(Scene<n>& scene, const Loads& loads, c
                             stiffness_.factor, stiffness_.reason)}},
       problem_(scene, setup.partitioned, stiffness_.factor) {
   if (setup.partitioned.tolerance) return;
-  for (auto& choice : this->stopping()) choices_.push_back(std::move(choice));
+  for (auto& stop : this->stopping()) choices_.push_back(std::move(stop));
 }
 
 template <int n>

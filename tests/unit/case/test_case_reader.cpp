@@ -232,6 +232,22 @@ TEST(CaseReader, ReadsAStaticWall) {
   EXPECT_EQ(scene.structure->layers.count("w"), 1u);
 }
 
+// By the estimated error where later steps see what one leaves, by increments elsewhere and where the case says so.
+TEST(CaseReader, ChoosesWhenAStepIsSolved) {
+  const std::string flow =
+      "[mesh]\nlevel = \"coarse\"\n[fluid]\ndensity = 1\nviscosity = 1\n[inlet]\npressure = 1\n[time]\nend = 1\n";
+  const auto demanded = [&](const std::string& more) {
+    return parse_case(flow + more, "case.toml").monolithic.newton.error_tolerance;
+  };
+  EXPECT_EQ(demanded("step = 0.5\n"), MonolithicData::standard_error_tolerance);
+  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nmax_iterations = 9\n"), MonolithicData::standard_error_tolerance);
+  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nnewton_tolerance = 1e-5\n"), 0);
+  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0.1\n"), 0.1);
+  EXPECT_EQ(demanded("step = 0.5\n[monolithic]\nerror_tolerance = 0\n"), 0);
+  EXPECT_EQ(demanded("step = \"adaptive\"\n"), 0);
+  EXPECT_EQ(read_case(fs::path(FSI_CASE_FILES) / "neo-hookean.toml").monolithic.newton.error_tolerance, 0);
+}
+
 TEST(CaseReader, OverridesEntries) {
   const auto scene =
       parse_case(minimal_fluid, "case.toml",

@@ -38,11 +38,14 @@ class Scalar : public NewtonProblem {
   double relative_increment() const override {
     return std::abs(increment_) / std::max(std::abs(x - before), 0.01 * std::abs(x));
   }
-  double rounding() override { return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x); }
+  double rounding() override {
+    ++questions_of_rounding;
+    return std::numeric_limits<double>::epsilon() * std::abs(jacobian_ * x);
+  }
 
   double x;
   double before = 0;  // the last solution
-  int evaluations = 0, linearisations = 0;
+  int evaluations = 0, linearisations = 0, questions_of_rounding = 0;
 
  private:
   Function f_, slope_;
@@ -108,6 +111,22 @@ TEST(Newton, StartAtTheSolutionToRoundingIsConverged) {
     EXPECT_TRUE(report.converged) << report.failure;
     EXPECT_NEAR(problem.x, std::sqrt(2.0), 1e-15);
   }
+}
+
+// The question costs as much as products with the Jacobian: iterations that contract as kept Jacobians do do without.
+TEST(Newton, AsksForRoundingWhereTheResidualMayHaveComeDownToIt) {
+  NewtonOptions options;
+  options.tolerance = 1e-6;
+  Scalar kept([](double x) { return x + 0.1 * x * x - 1; }, [](double x) { return 1 + 0.2 * x; }, 0.5);
+  ASSERT_TRUE(newton(kept, options).converged);
+  EXPECT_GT(kept.evaluations, 3);
+  EXPECT_EQ(kept.questions_of_rounding, 0);
+  Scalar linear([](double x) { return 3 * x - 1; }, [](double) { return 3.0; },
+                2);  // solved at once, and that is known
+  const auto report = newton(linear, options);
+  ASSERT_TRUE(report.converged);
+  EXPECT_EQ(report.count(), 1);
+  EXPECT_EQ(linear.questions_of_rounding, 1);
 }
 
 TEST(Newton, KeepsAJacobianWhileItContractsAndRenewsItWhenNot) {
