@@ -9,7 +9,9 @@ namespace fsi {
 namespace {
 
 constexpr double rounding_increment = 1e-14;  // relative to the iterate
+constexpr double tiny_increment = 1e-8;       // likewise: what is left of the residual may be rounding
 constexpr double kept_forcing = 0.05;      // loosest linear tolerance with a kept Jacobian, which contracts by 5 to 20
+constexpr double doubted_forcing = 1e-3;   // where residuals have said too little of errors
 constexpr double smallest_forcing = 1e-6;  // more digits of one increment never pay
 constexpr int most_switches = 6;           // of whole steps that are taken across them
 constexpr double rounding_margin = 4;      // residuals up to so many times their rounding error are all rounding
@@ -28,7 +30,7 @@ class Rounding {
     return residual <= bound_;
   }
   /// Whether an iteration that left this part of the residual is worth a question: not where the part is what kept Jacobians
-  /// leave. Should that be all rounding, the next iteration leaves more.
+  /// leave and the increment is none of the last digits. Should that be all rounding, the next iteration leaves more.
   static bool is_likely(double left) { return !(left > 1e-3 && left < 0.4); }
 
  private:
@@ -146,7 +148,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
   const bool keep = options.mode != NewtonMode::full;
   int kept_iterations = 0, switches = 0;
   double ratio = 1, forcing = 0;  // of the last two residuals; of the last linear solve
-  bool renew = !keep || !problem.linearised() || problem.outdated();
+  bool renew = !keep || !problem.linearised() || problem.outdated(), grown = false;
   ErrorWatch watch;
   while (report.count() < options.max_iterations) {
     NewtonIteration iteration;
@@ -155,6 +157,7 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (renew && options.observe_system) options.observe_system(report.count() + 1);
     if (renew) rounding.renew();
     forcing = forcing_term(options, renew, ratio, forcing);
+    if (grown && options.linear_tolerance == 0) forcing = std::min(forcing, doubted_forcing);
     const double increment = problem.solve(forcing);
     iteration.linear_iterations = problem.linear_iterations();
     if (!std::isfinite(increment) && !renew) {
@@ -183,13 +186,18 @@ NewtonReport newton(NewtonProblem& problem, const NewtonOptions& options) {
     if (reference == 0) reference = increment;
 
     bool accurate = iteration.increment <= options.tolerance * reference;
+    // Increments that grow while residuals fall, as where a wall bends and linear systems are solved to a tenth, show that
+    // residuals say little of errors: then both must be small, and linear solves have more digits from there on.
+    if (report.count() > 1) grown = grown || iteration.increment > report.iterations[report.count() - 2].increment;
     if (const double change = problem.relative_increment(); options.error_tolerance > 0 && std::isfinite(change))
-      accurate = watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance;
+      accurate =
+          watch.estimate(change, new_residual / residual, renew) <= options.error_tolerance && (accurate || !grown);
     const bool outdated = problem.outdated();
     if (outdated) ++switches;
+    const bool tiny = problem.negligible(increment, tiny_increment);
     const bool small = iteration.step == 1 && !outdated &&
-                       (accurate || problem.negligible(increment, rounding_increment) ||
-                        (options.stop_at_rounding && Rounding::is_likely(new_residual / residual) &&
+                       (accurate || (tiny && problem.negligible(increment, rounding_increment)) ||
+                        (options.stop_at_rounding && (tiny || Rounding::is_likely(new_residual / residual)) &&
                          rounding.is_all_of(new_residual)));
     const bool solved = options.residual_tolerance == 0 ||
                         new_residual <= options.residual_tolerance * report.first_residual ||

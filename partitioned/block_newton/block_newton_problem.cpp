@@ -222,7 +222,8 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
   fluid_.begin_increment();
   wall_.begin_increment();
   double first = 0, relative = 1;
-  double accuracy = 0, left_out = 0.05;  // of a residual, what a correction leaves for want of shape derivatives
+  double accuracy = 0, last_demanded = 0;
+  double left_out = 0.05;  // of a residual, what a correction leaves for want of shape derivatives
   for (int passes = 0; passes < most_passes_;) {
     find_lack();
     const double size = std::hypot(norm(lack_.fluid), norm(lack_.wall), as_force(lack_.gap));
@@ -230,7 +231,7 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
     if (passes == 0) first = size;
     const double contraction = size / first / relative;
     relative = size / first;
-    if (!std::isfinite(relative) || (passes > 0 && contraction > stalled)) return false;
+    if (!std::isfinite(relative)) return false;
     // What is demanded over what there is, of the residual and, once there are increments, of the gap beside them.
     double demanded = tolerance / relative;
     if (passes > 0) {
@@ -238,8 +239,11 @@ bool BlockNewtonProblem<n>::solve_jointly(double tolerance) {
       const double force = std::max(tolerance * space_.norm(loads_), least_force);
       demanded = std::min({demanded, ratio(gap, space_.norm(lack_.gap)), ratio(force, as_force(lack_.gap))});
       if (demanded >= 1) return true;
+      // The gap may fall where it is none of the residual to speak of.
+      if (contraction > stalled && last_demanded > stalled * demanded) return false;
       left_out = contraction > 2 * accuracy ? std::clamp(contraction, 1e-3, 0.2) : 0.2 * left_out;
     }
+    last_demanded = demanded;
     accuracy = std::max(0.8 * demanded, 0.5 * left_out);
     const int iterations = correct_jointly(media, accuracy, std::min(most_directions, most_passes_ - passes));
     if (iterations == 0) return false;

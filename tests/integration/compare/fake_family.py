@@ -6,7 +6,7 @@ size 1, and `thicken` takes that of its lumen; behind it stand the nodes as gmsh
 
     displacement_x_mm = (1 + A h^3 + B dt^2) sin(t / 4),    pressure_Pa = 100 + 10 h^2,
 
-where the tolerance that a driver stops by adds 1e-3 of itself: the monolithic one by `monolithic.newton_tolerance`, and so the
+where the tolerance that a driver stops by adds 1e-3 of itself: the monolithic one by `monolithic.error_tolerance`, and so the
 partitioned one, unless the case names `partitioned.tolerance` or another scheme than `block-newton`. Newton's iterations of a
 step are 6 less the tolerance's power of ten. `behaviour.json` beside the programs:
   "end"       {WORD: [exit code, message]}: a run whose command line holds WORD ends so
@@ -120,7 +120,10 @@ def tolerance_of(name, entries, given):
         gap = entry("partitioned", "tolerance", None)
         if gap is not None or entry("partitioned", "scheme", "block-newton") != "block-newton":
             return float(1e-6 if gap is None else gap)
-    return float(entry("monolithic", "newton_tolerance", 1e-3))
+    error, newton = (entry("monolithic", key, None) for key in ("error_tolerance", "newton_tolerance"))
+    if error is None and newton is None:
+        return 3e-3
+    return float(error or newton or 1e-3)
 
 
 def run(words, place, name, behaviour):

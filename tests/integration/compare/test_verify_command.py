@@ -112,7 +112,7 @@ class Verified(unittest.TestCase):
 
     def test_solver_has_a_part_where_its_tolerance_shows(self):
         rows = {row["driver"]: row for row in self.case.csv("bars.csv") if "x, largest" in row["quantity"]}
-        solver = 3 * 1e-3 * 9e-3 / 9  # three times what the tolerance of the case leaves
+        solver = 3 * 1e-3 * 27e-3 / 9  # three times what the tolerance of the case leaves
         for driver in ("monolithic", "partitioned"):  # both stop by Newton's, for the case names no scheme
             self.assertAlmostEqual(float(rows[driver]["error_solver"]), solver, delta=0.01 * solver)
 
@@ -279,8 +279,8 @@ class DemandedError(VerifyCase):
         members = [tuple(round(float(row[name]), 6) for name in ("mesh", "step")) for row in self.csv("members.csv")]
         plain = [key for key, row in zip(members, self.csv("members.csv")) if "looser" not in row["member"]]
         self.assertEqual(len(plain), len(set(plain)))  # each once, whatever way has led to it
-        newton = found["monolithic"]["newton_tolerance"]  # the other driver has it, too: it stops by the same
-        self.assertIn(f"monolithic.newton_tolerance={newton}", family[0])
+        newton = found["monolithic"]["error_tolerance"]  # the other driver has it, too: it stops by the same
+        self.assertIn(f"monolithic.error_tolerance={newton}", family[0])
         self.assertNotIn("partitioned", found)
         self.assertIn(f"# found.msh: fsi-mesh geo {self.geo.resolve()}", (self.out / "found.toml").read_text())
 
