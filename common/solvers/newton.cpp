@@ -80,7 +80,7 @@ double backtrack(NewtonProblem& problem, double last_residual, Rounding& roundin
 double forcing_term(const NewtonOptions& options, bool renewed, double ratio, double last_forcing) {
   if (options.linear_tolerance > 0) return options.linear_tolerance;
   double eta = renewed ? options.largest_forcing : std::min(options.largest_forcing, kept_forcing);
-  if (ratio < 1) eta = std::min(eta, renewed ? 0.9 * ratio * ratio : ratio);
+  if (ratio < 1) eta = std::min(eta, renewed ? 0.9 * ratio * ratio : 0.5 * ratio);
   const double safeguard = 0.9 * last_forcing * last_forcing;
   if (renewed && safeguard > 0.1) eta = std::min(options.largest_forcing, std::max(eta, safeguard));
   return std::max(eta, smallest_forcing);
