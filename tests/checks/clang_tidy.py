@@ -1,10 +1,10 @@
 """clang_tidy.py CLANG_TIDY ROOT BUILD COMPILER: fails on any finding of .clang-tidy in the programs' and libraries' sources
 and the headers they include. BUILD holds compile_commands.json, made for COMPILER.
 
-Most of the time goes to headers, which are searched anew for each source. So sources are put behind each other into one
-text, whose headers are searched once. Where they do not compile as one text, because two of them give one name to different
-things, those that the compiler stumbles over make a text of their own. The analyser looks at each source by itself: in a
-longer text it finds less.
+Much of the time goes to headers, which are searched anew for each source. So sources are put behind each other into few
+texts, whose headers are searched once. Where they do not compile as one text, because two of them give one name to different
+things, those that the compiler stumbles over make texts of their own. The analyser looks at each source by itself, with the
+flags of its own: in a longer text it finds less.
 """
 
 from __future__ import annotations
@@ -16,13 +16,16 @@ import shlex
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
 FOLDERS = ("common", "monolithic", "partitioned", "meshes")
-LARGEST_TEXT = 200_000  # characters: texts of about equal size keep all cores busy to the end
+# Characters. The headers of a text take as long as 150,000 of the sources, so that few texts are cheap; the many short jobs
+# behind them keep all cores busy to the end.
+LARGEST_TEXT = 600_000
 # The analyser follows this many steps through a function; with its own 225000 the whole takes three times as long.
 STEPS = 20_000
 INCLUDE = re.compile(r"\s*#\s*include\s*(\S+)")
@@ -49,22 +52,47 @@ def compiler_flags(build: Path, compiler: str) -> dict[str, list[str]]:
     return flags
 
 
-def groups(root: Path, flags: dict[str, list[str]]) -> list[list[Path]]:
-    """The compiled sources by flags, in lists that make texts of at most LARGEST_TEXT; largest first.
+def options(words: Iterable[str]) -> list[tuple[str, ...]]:
+    """The words of a command, with a value that is a word of its own beside its option."""
+    found: list[tuple[str, ...]] = []
+    rest = iter(words)
+    for word in rest:
+        found.append((word, next(rest)) if word in ("-isystem", "-idirafter", "-Xclang") else (word,))
+    return found
 
-    The order of the flags, and what they say of warnings, is no matter: compiler_flags silences all.
+
+def text_kind(words: list[str]) -> tuple[tuple[str, ...], ...]:
+    """Flags that sources must share to stand in one text.
+
+    Not their order, nor what they say of warnings, which compiler_flags silences all, and of optimisation. Nor where headers
+    are found and what other libraries' headers are told (-DSPDLOG_..., for one): sources that do not include them do not mind.
     """
-    found: dict[tuple[str, ...], list[list[Path]]] = {}
-    for source in sorted(path for folder in FOLDERS for path in (root / folder).rglob("*.cpp")):
-        if str(source) not in flags:
-            continue  # of an option that this build does without, such as MPI
-        words = {word for word in flags[str(source)] if not word.startswith("-W")}
-        lists = found.setdefault(tuple(sorted(words)), [[]])
+    own = [option for option in options(words) if not re.match(r"-W|-O|-I|-isystem|-D(?!FSI_)", option[0])]
+    return tuple(sorted(set(own)))
+
+
+def text_flags(flags: dict[str, list[str]], sources: list[Path]) -> list[str]:
+    """What any of the sources of a text is compiled with."""
+    every = dict.fromkeys(option for source in sources for option in options(flags[str(source)]))
+    return [word for option in every for word in option]
+
+
+def sources_of(root: Path, flags: dict[str, list[str]]) -> list[Path]:
+    """Those that are compiled; not those of an option that this build does without, such as MPI."""
+    found = (path for folder in FOLDERS for path in (root / folder).rglob("*.cpp"))
+    return sorted(path for path in found if str(path) in flags)
+
+
+def groups(flags: dict[str, list[str]], sources: list[Path]) -> list[list[Path]]:
+    """The sources in lists that make texts of at most LARGEST_TEXT; largest first."""
+    found: dict[tuple[tuple[str, ...], ...], list[list[Path]]] = {}
+    for source in sources:
+        lists = found.setdefault(text_kind(flags[str(source)]), [[]])
         if lists[-1] and sum(path.stat().st_size for path in lists[-1] + [source]) > LARGEST_TEXT:
             lists.append([])
         lists[-1].append(source)
-    everything = [sources for lists in found.values() for sources in lists]
-    return sorted(everything, key=lambda sources: -sum(path.stat().st_size for path in sources))
+    everything = [group for lists in found.values() for group in lists]
+    return sorted(everything, key=lambda group: -sum(path.stat().st_size for path in group))
 
 
 def text_of(sources: list[Path]) -> tuple[str, list[tuple[Path, int]]]:
@@ -128,31 +156,75 @@ def analysed(clang_tidy: str, root: Path, flags: list[str], source: Path) -> str
 
 def stumbling(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> list[Path]:
     """Sources that are to stand apart, since all do not compile as one text; none: they do. The one check is the cheapest
-    there is. Where the compiler stumbles in a header it says whose name is in the way, else half of the sources go."""
-    said = written(clang_tidy, root, flags, sources, "-*,readability-misleading-indentation")
+    there is."""
+    if len(sources) == 1:
+        return []
+    said = written(clang_tidy, root, [*flags, "-ferror-limit=0"], sources, "-*,readability-misleading-indentation")
     if "[clang-diagnostic-error]" not in said:
         return []
-    for kind in ("error", "note"):
-        files = set(re.findall(rf"^(\S+?):\d+:\d+: {kind}: ", said, re.MULTILINE))
-        apart = [source for source in sources if str(source.relative_to(root)) in files]
-        if apart and len(apart) < len(sources):
-            return apart
-    return sources[len(sources) // 2 :]
+    apart = in_the_way(said, {str(source.relative_to(root)): source for source in sources})
+    return apart if 0 < len(apart) < len(sources) else sources[len(sources) // 2 :]
 
 
-def check_text(clang_tidy: str, root: Path, flags: list[str], sources: list[Path]) -> str:
-    """What all but the analyser finds in the sources, as one text or as few as compile; empty: nothing is wrong."""
-    apart = stumbling(clang_tidy, root, flags, sources) if len(sources) > 1 else []
-    if not apart:
-        return written(clang_tidy, root, flags, sources, "-clang-analyzer-*")
-    parts = [[source for source in sources if source not in apart], apart]
-    each = [check_text(clang_tidy, root, flags, part) for part in parts]
-    return "\n".join(found for found in each if found)
+def in_the_way(said: str, sources: dict[str, Path]) -> list[Path]:
+    """Of the sources that the compiler names in its errors, as few as will do.
+
+    Who defines a name again goes. Of those that an ambiguous name belongs to, and of those in any other error, the one named
+    most often goes; but not for errors of sources that have an ambiguous name, from which the others follow.
+    """
+    again: list[Path] = []
+    ambiguous: list[list[Path]] = []
+    others: list[list[Path]] = []
+    conflict: list[Path] = []
+    for name, kind, message in re.findall(r"^(\S+?):\d+:\d+: (error|note): (.*)", said, re.MULTILINE):
+        source = sources.get(name)
+        if kind == "error":
+            conflict = []
+            if source and "redefinition" in message:
+                again.append(source)
+            else:
+                (ambiguous if "ambiguous" in message else others).append(conflict)
+        if source and source not in conflict:
+            conflict.append(source)
+    apart = list(dict.fromkeys(again))
+    known = {source for conflict in ambiguous for source in conflict}
+    left = [*ambiguous, *(conflict for conflict in others if not known & set(conflict))]
+    while left := [conflict for conflict in left if conflict and not set(conflict) & set(apart)]:
+        named = Counter(source for conflict in left for source in conflict)
+        apart.append(named.most_common(1)[0][0])
+    return apart
+
+
+def parted(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources: list[Path]) -> list[list[Path]]:
+    """The sources in two lists: those that compile as one text, and those that are to stand apart from them."""
+    together = sources
+    while apart := stumbling(clang_tidy, root, text_flags(flags, together), together):
+        together = [source for source in together if source not in apart]
+    return [together, [source for source in sources if source not in together]]
+
+
+def texts_of(
+    clang_tidy: str, root: Path, flags: dict[str, list[str]], pool: ThreadPoolExecutor | None = None
+) -> list[list[Path]]:
+    """All sources, in lists that compile as one text each. What stands apart from several of them shares texts again."""
+    texts: list[list[Path]] = []
+    left = sources_of(root, flags)
+    while left:
+        part = partial(parted, clang_tidy, root, flags)
+        pairs = list(pool.map(part, groups(flags, left)) if pool else map(part, groups(flags, left)))
+        texts += [together for together, _ in pairs]
+        left = sorted(source for _, apart in pairs for source in apart)
+    return texts
+
+
+def check_text(clang_tidy: str, root: Path, flags: dict[str, list[str]], sources: list[Path]) -> str:
+    """What all but the analyser finds in the sources as one text; empty: nothing is wrong."""
+    return written(clang_tidy, root, text_flags(flags, sources), sources, "-clang-analyzer-*")
 
 
 def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], texts: list[list[Path]]) -> list[Callable[[], str]]:
     """What is to be done, each job for one core: the long ones first. Each gives its findings."""
-    long = [partial(check_text, clang_tidy, root, flags[str(sources[0])], sources) for sources in texts]
+    long = [partial(check_text, clang_tidy, root, flags, sources) for sources in texts]
     short = [partial(analysed, clang_tidy, root, flags[str(source)], source) for sources in texts for source in sources]
     return [*long, *short]
 
@@ -160,10 +232,10 @@ def jobs(clang_tidy: str, root: Path, flags: dict[str, list[str]], texts: list[l
 def main() -> int:
     clang_tidy, root, build, compiler = sys.argv[1], Path(sys.argv[2]).resolve(), Path(sys.argv[3]), sys.argv[4]
     flags = compiler_flags(build, compiler)
-    texts = groups(root, flags)
-    if not texts:
+    if not sources_of(root, flags):
         raise SystemExit(f"clang_tidy.py: error: no source files in {root}")
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        texts = texts_of(clang_tidy, root, flags, pool)
         found = [result for result in pool.map(lambda job: job(), jobs(clang_tidy, root, flags, texts)) if result]
     print("\n".join(found))
     if found:

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from clang_tidy import compiler_flags, groups, jobs, text_of
+from clang_tidy import compiler_flags, groups, jobs, sources_of, text_flags, text_of, texts_of
 
 HERE = Path(__file__).resolve().parent
 GOOD = '#include "mesh/header.hpp"\nint one(int x) { return twice(x); }\n'
@@ -39,9 +39,11 @@ class ClangTidy(unittest.TestCase):
             commands.append({"directory": str(self.root), "file": str(file), "command": command})
         (self.root / "compile_commands.json").write_text(json.dumps(commands))
         flags = compiler_flags(self.root, compiler)
-        texts = groups(self.root, flags)
-        self.assertEqual(len(texts), 1)
+        self.assertEqual(len(groups(flags, sources_of(self.root, flags))), 1)
         program = os.environ.get("CLANG_TIDY", "clang-tidy")
+        texts = texts_of(program, self.root, flags)
+        self.assertEqual(sorted(source for text in texts for source in text), sources_of(self.root, flags))
+        self.texts = [[source.stem for source in text] for text in texts]
         return "\n".join(found for job in jobs(program, self.root, flags, texts) if (found := job()))
 
     def test_nothing_is_found_in_a_clean_tree(self) -> None:
@@ -84,6 +86,13 @@ class ClangTidy(unittest.TestCase):
         self.assertIn("common/mesh/c.cpp:2:", found)
         self.assertNotIn("ambiguous", found)
 
+    def test_only_the_source_that_is_in_the_way_of_others_stands_apart(self) -> None:
+        (self.root / "common/mesh/state.hpp").write_text("#pragma once\nnamespace fsi {\nstruct State {};\n}\n")
+        own = "namespace fsi {\nnamespace {\nstruct State {};\n}\nint a() { return sizeof(State); }\n}\n"
+        other = '#include "mesh/state.hpp"\nnamespace fsi {{\nvoid {}(State& s) {{ s = State(); }}\n}}\n'
+        self.assertEqual(self.found(a=own, **{name: other.format(name) for name in "bcd"}), "")
+        self.assertEqual(self.texts, [["b", "c", "d"], ["a"]])
+
     def test_a_header_is_looked_for_beside_its_source(self) -> None:
         (self.root / "common/other").mkdir()
         (self.root / "common/other/beside.hpp").write_text("#pragma once\ninline int here() { return 1; }\n")
@@ -115,8 +124,20 @@ class ClangTidy(unittest.TestCase):
         for file in files:
             file.write_text(GOOD)
         flags = {str(file): ["c++"] for file in files}
-        flags[str(files[1])] = ["c++", "-DOTHER"]
-        self.assertEqual(sorted(groups(self.root, flags)), [[files[0], files[2]], [files[1]]])
+        for other in ("-DFSI_OTHER", "-frounding-math"):
+            flags[str(files[1])] = ["c++", other]
+            self.assertEqual(sorted(groups(flags, sources_of(self.root, flags))), [[files[0], files[2]], [files[1]]])
+
+    def test_sources_that_know_other_libraries_share_a_text(self) -> None:
+        files = [self.root / f"common/mesh/{name}.cpp" for name in "abc"]
+        for file in files:
+            file.write_text(GOOD)
+        flags = {str(file): ["c++", "-isystem", "one", "-O3"] for file in files}
+        flags[str(files[1])] = ["c++", "-isystem", "two", "-isystem", "one", "-O2", "-DTHEIRS"]
+        self.assertEqual(groups(flags, sources_of(self.root, flags)), [files])
+        self.assertEqual(
+            text_flags(flags, files), ["c++", "-isystem", "one", "-O3", "-isystem", "two", "-O2", "-DTHEIRS"]
+        )
 
     def test_lines_keep_their_places(self) -> None:
         file = self.root / "common/mesh/a.cpp"

@@ -14,30 +14,30 @@ namespace fsi {
 
 namespace {
 
-enum class State : char { undecided, coarse, fine };
+enum class Colour : char { undecided, coarse, fine };
 
 /// Chooses coarse nodes among the undecided candidates: an independent set, every candidate covered. The choice
 /// advances as a front (the next node is one two edges away from a coarse node), which packs coarse nodes densely and
 /// evenly. \param covers  covers(coarse, fine): the fine node may interpolate from the coarse one
 template <class Candidate, class Covers>
-void colour_nodes(const NodeGraph& graph, std::vector<State>& state, Candidate candidate, Covers covers) {
+void colour_nodes(const NodeGraph& graph, std::vector<Colour>& colour, Candidate candidate, Covers covers) {
   std::vector<int> front;
   std::size_t next = 0;
   const auto choose = [&](int node) {
-    state[node] = State::coarse;
+    colour[node] = Colour::coarse;
     for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
       const int neighbour = graph.columns[at];
-      if (state[neighbour] != State::undecided || !covers(node, neighbour)) continue;
-      state[neighbour] = State::fine;
+      if (colour[neighbour] != Colour::undecided || !covers(node, neighbour)) continue;
+      colour[neighbour] = Colour::fine;
       for (int b = graph.offsets[neighbour]; b < graph.offsets[neighbour + 1]; ++b)
-        if (state[graph.columns[b]] == State::undecided) front.push_back(graph.columns[b]);
+        if (colour[graph.columns[b]] == Colour::undecided) front.push_back(graph.columns[b]);
     }
   };
   for (int start = 0; start < graph.rows(); ++start) {
-    if (state[start] == State::undecided && candidate(start)) choose(start);
+    if (colour[start] == Colour::undecided && candidate(start)) choose(start);
     while (next < front.size()) {
       const int node = front[next++];
-      if (state[node] == State::undecided && candidate(node)) choose(node);
+      if (colour[node] == Colour::undecided && candidate(node)) choose(node);
     }
   }
 }
@@ -171,21 +171,21 @@ Coarsening extend_interface(const NodeGraph& strong, const NodeMarks& marks, con
   const auto remaining = [&](int i) { return !given[i] && (options.scalar_part || !marks.prescribed[i]); };
   if (options.kind == CoarseningKind::colouring) {
     std::vector<int> coarse_at(nodes, -1);
-    std::vector<State> state(nodes, State::undecided);
-    for (int i : interface_nodes) state[i] = State::fine;
+    std::vector<Colour> colour(nodes, Colour::undecided);
+    for (int i : interface_nodes) colour[i] = Colour::fine;
     for (std::size_t c = 0; c < seeds.size(); ++c) coarse_at[seeds[c]] = static_cast<int>(c);
     for (int i : interface_nodes) {
       if (coarse_at[i] < 0) continue;
-      state[i] = State::coarse;
+      colour[i] = Colour::coarse;
       if (!mixed) continue;
       for (int at = strong.offsets[i]; at < strong.offsets[i + 1]; ++at)
-        if (state[strong.columns[at]] == State::undecided) state[strong.columns[at]] = State::fine;
+        if (colour[strong.columns[at]] == Colour::undecided) colour[strong.columns[at]] = Colour::fine;
     }
     const auto covers = [&](int, int fine) { return !given[fine]; };
-    colour_nodes(strong, state, free, covers);
-    colour_nodes(strong, state, remaining, covers);
+    colour_nodes(strong, colour, free, covers);
+    colour_nodes(strong, colour, remaining, covers);
     for (int i = 0; i < nodes; ++i)
-      if (!given[i] && state[i] == State::coarse) {
+      if (!given[i] && colour[i] == Colour::coarse) {
         coarse_at[i] = static_cast<int>(seeds.size());
         seeds.push_back(i);
       }
