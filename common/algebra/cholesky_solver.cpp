@@ -7,16 +7,38 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "algebra/dense_threads.hpp"
 #include "algebra/factorisation_memory.hpp"
+#include "algebra/panel_matrix.hpp"
+#include "algebra/single_cholesky.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 
 namespace fsi {
 
+namespace {
+
+constexpr double largest_residual = 1e-5;  // of a factor in single precision
+
+Supernodes supernodes(const cholmod_factor& factor) {
+  return {static_cast<int>(factor.nsuper),
+          static_cast<const std::int64_t*>(factor.super),
+          static_cast<const std::int64_t*>(factor.pi),
+          static_cast<const std::int64_t*>(factor.px),
+          static_cast<const std::int64_t*>(factor.s),
+          static_cast<const double*>(factor.x)};
+}
+
+}  // namespace
+
 struct CholeskySolver::Implementation {
   cholmod_common common;
+  std::optional<SingleCholesky> single;  ///< in place of `factor`
+  double residual = 0;                   ///< of its solutions
   cholmod_factor* factor = nullptr;
   // Storage of solves: solution, and two arrays of CHOLMOD's own.
   mutable cholmod_dense *solution = nullptr, *work = nullptr, *extra = nullptr;
@@ -30,11 +52,14 @@ struct CholeskySolver::Implementation {
     common.final_ll = 1;
   }
   ~Implementation() {
+    free_double();
+    cholmod_l_finish(&common);
+  }
+  void free_double() {
     cholmod_l_free_dense(&solution, &common);
     cholmod_l_free_dense(&work, &common);
     cholmod_l_free_dense(&extra, &common);
     cholmod_l_free_factor(&factor, &common);
-    cholmod_l_finish(&common);
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -58,7 +83,32 @@ CholeskySolver::CholeskySolver(CholeskySolver&&) noexcept = default;
 CholeskySolver& CholeskySolver::operator=(CholeskySolver&&) noexcept = default;
 
 bool CholeskySolver::factorised() const {
-  return implementation_->factor != nullptr;
+  return implementation_->factor != nullptr || implementation_->single;
+}
+
+double CholeskySolver::residual() const {
+  return implementation_->residual;
+}
+
+void CholeskySolver::reduce_precision(const SparseMatrix& a) {
+  auto& my = *implementation_;
+  if (!my.factor || !my.factor->is_super || !my.factor->is_ll) return;
+  SingleCholesky single(supernodes(*my.factor), static_cast<const std::int64_t*>(my.factor->Perm));
+  const std::vector<double> ones(my.factor->n, 1.0);
+  const std::vector<double> b = product(a, ones);
+  std::vector<double> x(b.size());
+  single.solve(b.data(), 1, x.data());
+  x = product(a, x);
+  double left = 0, whole = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    left += (b[i] - x[i]) * (b[i] - x[i]);
+    whole += b[i] * b[i];
+  }
+  const double residual = std::sqrt(left / whole);
+  if (!(residual <= largest_residual)) return;
+  my.residual = residual;
+  my.single = std::move(single);
+  my.free_double();
 }
 
 void CholeskySolver::factorise(const SparseMatrix& a) {
@@ -66,6 +116,8 @@ void CholeskySolver::factorise(const SparseMatrix& a) {
   const Activity activity("factorising a matrix");
   auto& my = *implementation_;
   cholmod_l_free_factor(&my.factor, &my.common);
+  my.single.reset();
+  my.residual = 0;
   // CHOLMOD takes a pivot that is no number for a positive one.
   if (!std::all_of(a.values.begin(), a.values.end(), [](double value) { return std::isfinite(value); })) my.refuse();
   cholmod_sparse view{};
@@ -95,6 +147,13 @@ void CholeskySolver::factorise(const SparseMatrix& a) {
 }
 
 void CholeskySolver::solve(const std::vector<double>& b, int count, std::vector<double>& x) const {
+  const auto& my = *implementation_;
+  x.resize(b.size());
+  if (my.single) return my.single->solve(b.data(), count, x.data());
+  solve_in_double(b, count, x);
+}
+
+void CholeskySolver::solve_in_double(const std::vector<double>& b, int count, std::vector<double>& x) const {
   const OneDenseThread same_bits_for_any_number;
   auto& my = *implementation_;
   assert(my.factor && b.size() == my.factor->n * static_cast<std::size_t>(count));
@@ -113,6 +172,7 @@ void CholeskySolver::solve(const std::vector<double>& b, int count, std::vector<
 }
 
 double CholeskySolver::bytes() const {
+  if (implementation_->single) return static_cast<double>(implementation_->single->bytes());
   const auto* factor = implementation_->factor;
   if (!factor) return 0;
   return factor->is_super ? static_cast<double>(factor->xsize * sizeof(double) + factor->ssize * sizeof(std::int64_t))

@@ -22,6 +22,12 @@ class CholeskySolver {
   /// \throws ConvergenceError when it is not positive definite, OutOfMemory before what will not fit
   void factorise(const SparseMatrix& a);
   bool factorised() const;
+  /// Keeps the factor in single precision: half the memory, and less than half of a solve's time. Only where a known solution
+  /// comes out with a residual of at most 1e-5; else it stays as it is.
+  /// \param a  what was factorised
+  void reduce_precision(const SparseMatrix& a);
+  /// |b - A x| / |b| that solutions have, as far as known: of the known one. Zero of a factor in double precision.
+  double residual() const;
 
   /// x = A^-1 b for `count` right-hand sides, one behind the other.
   void solve(const std::vector<double>& b, int count, std::vector<double>& x) const;
@@ -31,6 +37,8 @@ class CholeskySolver {
 
  private:
   struct Implementation;
+  void solve_in_double(const std::vector<double>& b, int count, std::vector<double>& x) const;
+
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -60,8 +60,8 @@ void subtract_products(const float* block, int rows, int width, const float* x, 
 
 }  // namespace
 
-PanelMatrix::PanelMatrix(const CompactColumns<float>& columns) {
-  const int size = columns.size();
+PanelMatrix::PanelMatrix(const CompactColumns<float>& columns) : size_(columns.size()) {
+  const int size = size_;
   std::vector<int> rows, next, both;  // below the panel so far, of the next column, of both
   for (int first = 0; first < size;) {
     rows_behind(columns, first, first, rows);
@@ -84,13 +84,47 @@ PanelMatrix::PanelMatrix(const CompactColumns<float>& columns) {
   }
 }
 
+PanelMatrix::PanelMatrix(const Supernodes& supernodes)
+    : size_(supernodes.groups > 0 ? static_cast<int>(supernodes.first_column[supernodes.groups]) : 0) {
+  for (int s = 0; s < supernodes.groups; ++s) {
+    const auto begin = static_cast<int>(supernodes.first_column[s]),
+               end = static_cast<int>(supernodes.first_column[s + 1]);
+    const std::int64_t* rows = supernodes.rows + supernodes.first_row[s];
+    const std::int64_t row_count = supernodes.first_row[s + 1] - supernodes.first_row[s];
+    const double* values = supernodes.values + supernodes.first_value[s];
+    for (int first = begin; first < end; first += widest_panel) {
+      const int width = std::min(widest_panel, end - first), below = first - begin + width;
+      const auto rows_below = static_cast<std::size_t>(row_count - below);
+      const Panel& panel = append(first, width, static_cast<int>(rows_below));
+      std::transform(rows + below, rows + row_count, rows_.begin() + static_cast<std::ptrdiff_t>(panel.row_list),
+                     [](std::int64_t row) { return static_cast<int>(row); });
+      for (int j = 0; j < width; ++j) {
+        const double* column = values + (first - begin + j) * row_count;
+        const double pivot = column[first - begin + j];
+        float* triangle = triangles_.data() + panel.triangle + static_cast<std::size_t>(j) * width;
+        float* block = blocks_.data() + panel.block + static_cast<std::size_t>(j) * rows_below;
+        for (int i = j + 1; i < width; ++i) triangle[i] = static_cast<float>(column[first - begin + i] / pivot);
+        for (std::size_t i = 0; i < rows_below; ++i) block[i] = static_cast<float>(column[below + i] / pivot);
+      }
+    }
+  }
+}
+
+PanelMatrix::Panel& PanelMatrix::append(int first, int width, int rows_below) {
+  panels_.push_back({first, width, rows_below, rows_.size(), triangles_.size(), blocks_.size()});
+  const auto w = static_cast<std::size_t>(width), below = static_cast<std::size_t>(rows_below);
+  rows_.resize(rows_.size() + below);
+  triangles_.resize(triangles_.size() + w * w);
+  blocks_.resize(blocks_.size() + w * below);
+  gathered_.resize(std::max(gathered_.size(), below));
+  return panels_.back();
+}
+
 void PanelMatrix::add_panel(const CompactColumns<float>& columns, int first, int end,
                             const std::vector<int>& rows_below) {
-  Panel panel{first, end - first, static_cast<int>(rows_below.size()), rows_.size(), triangles_.size(), blocks_.size()};
+  const Panel& panel = append(first, end - first, static_cast<int>(rows_below.size()));
   const auto width = static_cast<std::size_t>(panel.width);
-  rows_.insert(rows_.end(), rows_below.begin(), rows_below.end());
-  triangles_.resize(triangles_.size() + width * width);
-  blocks_.resize(blocks_.size() + width * rows_below.size());
+  std::copy(rows_below.begin(), rows_below.end(), rows_.begin() + static_cast<std::ptrdiff_t>(panel.row_list));
   for (int j = first; j < end; ++j) {
     float* triangle = triangles_.data() + panel.triangle + (j - first) * width;
     float* block = blocks_.data() + panel.block + (j - first) * rows_below.size();
@@ -106,34 +140,36 @@ void PanelMatrix::add_panel(const CompactColumns<float>& columns, int first, int
       }
     }
   }
-  panels_.push_back(panel);
-  gathered_.resize(std::max(gathered_.size(), rows_below.size()));
 }
 
-void PanelMatrix::solve(float* y) const {
+void PanelMatrix::solve(float* y, int count) const {
   float* sums = gathered_.data();
   for (const Panel& panel : panels_) {
-    float* own = y + panel.first;
-    const float* triangle = triangles_.data() + panel.triangle;
-    for (int j = 0; j < panel.width; ++j, triangle += panel.width)
-      for (int i = j + 1; i < panel.width; ++i) own[i] -= triangle[i] * own[j];
     const int* rows = rows_.data() + panel.row_list;
-    std::fill(sums, sums + panel.rows, 0.0F);
-    add_columns(blocks_.data() + panel.block, panel.rows, panel.width, own, sums);
-    for (int i = 0; i < panel.rows; ++i) y[rows[i]] -= sums[i];
+    for (float* x = y; x != y + static_cast<std::size_t>(count) * size_; x += size_) {
+      float* own = x + panel.first;
+      const float* triangle = triangles_.data() + panel.triangle;
+      for (int j = 0; j < panel.width; ++j, triangle += panel.width)
+        for (int i = j + 1; i < panel.width; ++i) own[i] -= triangle[i] * own[j];
+      std::fill(sums, sums + panel.rows, 0.0F);
+      add_columns(blocks_.data() + panel.block, panel.rows, panel.width, own, sums);
+      for (int i = 0; i < panel.rows; ++i) x[rows[i]] -= sums[i];
+    }
   }
 }
 
-void PanelMatrix::solve_transposed(float* y) const {
+void PanelMatrix::solve_transposed(float* y, int count) const {
   float* below = gathered_.data();
   for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
-    float* own = y + panel->first;
     const int* rows = rows_.data() + panel->row_list;
-    for (int i = 0; i < panel->rows; ++i) below[i] = y[rows[i]];
-    subtract_products(blocks_.data() + panel->block, panel->rows, panel->width, below, own);
-    for (int j = panel->width - 2; j >= 0; --j) {
-      const float* triangle = triangles_.data() + panel->triangle + static_cast<std::size_t>(j) * panel->width;
-      for (int i = j + 1; i < panel->width; ++i) own[j] -= triangle[i] * own[i];
+    for (float* x = y; x != y + static_cast<std::size_t>(count) * size_; x += size_) {
+      float* own = x + panel->first;
+      for (int i = 0; i < panel->rows; ++i) below[i] = x[rows[i]];
+      subtract_products(blocks_.data() + panel->block, panel->rows, panel->width, below, own);
+      for (int j = panel->width - 2; j >= 0; --j) {
+        const float* triangle = triangles_.data() + panel->triangle + static_cast<std::size_t>(j) * panel->width;
+        for (int i = j + 1; i < panel->width; ++i) own[j] -= triangle[i] * own[i];
+      }
     }
   }
 }

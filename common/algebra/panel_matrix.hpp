@@ -16,6 +16,17 @@ struct CompactColumns {
   int size() const { return static_cast<int>(offsets.size()) - 1; }
 };
 
+/// A sparse lower triangular matrix as supernodal factorisations leave it ([Chen2008]): groups of neighbouring columns that
+/// have the same rows. Group s has columns first_column[s] to first_column[s + 1], the row numbers from first_row[s] to
+/// first_row[s + 1], of which its own columns come first, and, column by column, a value for each row from first_value[s] on;
+/// those above the diagonal are no part of the matrix. Each list has one number for each group and one more.
+struct Supernodes {
+  int groups = 0;
+  const std::int64_t *first_column = nullptr, *first_row = nullptr, *first_value = nullptr;
+  const std::int64_t* rows = nullptr;
+  const double* values = nullptr;
+};
+
 /// A sparse unit lower triangular matrix L in single precision, by panels: neighbouring columns that have (nearly) the same
 /// rows below are stored as one dense block, with a list of these rows ([Chen2008]: supernodes). A solve then
 /// reads four bytes an entry, in the order in which they lie in memory. One thread at a time.
@@ -24,11 +35,13 @@ class PanelMatrix {
   PanelMatrix() = default;
   /// \param columns  L by columns; entries on or above the diagonal are left out
   explicit PanelMatrix(const CompactColumns<float>& columns);
+  /// L of a matrix whose diagonal is not one: each column is divided by its diagonal entry.
+  explicit PanelMatrix(const Supernodes& supernodes);
 
-  /// y = L^-1 y, of as many numbers as rows.
-  void solve(float* y) const;
+  /// y = L^-1 y for `count` vectors, one behind the other, each of as many numbers as rows.
+  void solve(float* y, int count = 1) const;
   /// y = L^-T y
-  void solve_transposed(float* y) const;
+  void solve_transposed(float* y, int count = 1) const;
 
   std::size_t bytes() const;
 
@@ -40,7 +53,10 @@ class PanelMatrix {
   };
 
   void add_panel(const CompactColumns<float>& columns, int first, int end, const std::vector<int>& rows_below);
+  /// Appends a panel of these columns, with zeros. \param rows_below  how many
+  Panel& append(int first, int width, int rows_below);
 
+  int size_ = 0;  ///< rows
   std::vector<Panel> panels_;
   std::vector<int> rows_;
   std::vector<float> triangles_;  ///< between a panel's own columns, each of `width` numbers

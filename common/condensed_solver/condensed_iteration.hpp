@@ -23,6 +23,9 @@ class CondensedIteration {
   /// \returns iterations
   using InnerSolver = std::function<int(const std::vector<double>& right, double scale, double tolerance,
                                         std::vector<double>& solution)>;
+  /// rows = what velocities and pressures, in the order of the layout, contribute to their own equations while the mesh stands
+  /// still; in single precision, say.
+  using ProductAtRest = std::function<void(const std::vector<double>& solution, std::vector<double>& rows)>;
   /// \param inner  per entry of the mesh motion: it is sought here
   using MakeExtension =
       std::function<std::unique_ptr<MeshExtension<n>>(const JacobianBlocks<n>& blocks, std::vector<char> inner)>;
@@ -37,10 +40,12 @@ class CondensedIteration {
   /// The block matrices hold new values.
   void update();
 
-  /// \param tolerance  demanded |b - J x| / |b|
-  /// \param x          overwritten
+  /// \param tolerance        demanded |b - J x| / |b|
+  /// \param x                overwritten
+  /// \param product_at_rest  where there is one, a few digits of the first correction's residual are taken from it: that
+  ///                         spares the product with the whole Jacobian, more than all the rest of an iteration's products
   LinearReport solve(const std::vector<double>& b, double tolerance, const InnerSolver& inner_solver,
-                     std::vector<double>& x);
+                     std::vector<double>& x, const ProductAtRest& product_at_rest = {});
 
   /// The steps of a correction, for an iteration over several systems: what velocities and pressures are to answer of a
   /// residual, and what becomes of their answer, in the order of the layout, the mesh with it.
@@ -59,10 +64,17 @@ class CondensedIteration {
   /// Of a correction's mesh motion, over that of its velocities and pressures, and at most. What it lacks is a residual
   /// of the mesh equations, and the next correction's. So a solution of Newton's method holds them as well as the others.
   static constexpr double extension_share = 0.01, loosest_extension = 1e-3;
+  /// Of linear solves whose residual may be computed in single precision.
+  static constexpr double quick_from = 1e-3;
 
   void count_extension();
   /// Of rows, which all processes have some of.
   double norm_of_all(const std::vector<double>& x) const;
+
+  /// |b - J correction| / norm_b where `product_at_rest` is worth the digits of `tolerance`, else infinite. The mesh's own
+  /// equations, which factors solve to six digits, are left out.
+  double quick_residual(const std::vector<double>& b, double norm_b, double tolerance,
+                        const ProductAtRest& product_at_rest);
 
   /// correction = approximate solution for the residual: velocities and pressures by the inner solver, then the mesh.
   void correct(double tolerance, const InnerSolver& inner_solver, LinearReport& report);
@@ -81,6 +93,7 @@ class CondensedIteration {
   int extension_version_ = 0;       ///< of the operator that it was made of
   bool shape_derivatives_ = false;  ///< they are not all zero (as they are at rest)
   std::vector<double> right_, solution_, residual_, jacobian_times_x_, correction_;
+  std::vector<double> lack_;  ///< of velocities and pressures
   std::vector<double> mesh_, mesh_right_, fluid_rows_;
 };
 

@@ -30,7 +30,9 @@ struct FastSolver<n>::Iterative : CycledMedium {
 
   static std::unique_ptr<MeshExtension<n>> make_extension(const JacobianBlocks<n>& blocks, std::vector<char> inner) {
     if (blocks.mesh_tangent) return std::make_unique<TangentExtension<n>>(*blocks.mesh_tangent, std::move(inner));
-    return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), HarmonicExtensionOptions{},
+    HarmonicExtensionOptions options;
+    options.single_precision = true;  // few digits are asked for: CondensedIteration::extension_share
+    return std::make_unique<HarmonicExtension<n>>(*blocks.mesh_laplacian, std::move(inner), options,
                                                   blocks.fluid_frames);
   }
 
@@ -187,7 +189,8 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
     it.matrix.give(it.single_solution, scale, solution);
     return solved.iterations;
   };
-  return it.iteration.solve(b, tolerance, inner, x);
+  return it.iteration.solve(b, tolerance, inner, x,
+                            [&](const auto& in, auto& out) { it.matrix.multiply_at_rest(in, out); });
 }
 
 template <int n>

@@ -51,19 +51,17 @@ class InterfaceShapeDerivatives {
           static_cast<float>(value);
     });
   }
+  /// y -= what these add to the rows of velocities x, n numbers a velocity node.
+  void subtract_product(const std::vector<double>& x, std::vector<double>& y) const {
+    for_each_number([&](const Coupling& c, int i, int k, double value) {
+      y[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.row], i)] -=
+          value * x[VectorLayout<n>::vector(layout_.velocity_of_fluid[c.column], k)];
+    });
+  }
   /// Calls visit(position of the block, row in it, column in it, value to add).
   template <class Visit>
   void for_each(Visit visit) const {
-    for (const Coupling& c : couplings_) {
-      const double* block = blocks_.shape_derivatives->block(c.shape);
-      for (int k = 0; k < n; ++k) {
-        if (!follows(c.column, k)) continue;
-        const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
-                              blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
-        for (int i = 0; i < n; ++i)
-          if (layout_.is_free(false, c.row, i)) visit(c.momentum, i, k, factor * block[VectorLayout<n>::vector(i, k)]);
-      }
-    }
+    for_each_number([&](const Coupling& c, int i, int k, double value) { visit(c.momentum, i, k, value); });
   }
 
  private:
@@ -71,6 +69,21 @@ class InterfaceShapeDerivatives {
   struct Coupling {
     int row, column, shape, momentum;
   };
+
+  /// Calls visit(coupling, row in the block, column in it, value to add).
+  template <class Visit>
+  void for_each_number(Visit visit) const {
+    for (const Coupling& c : couplings_) {
+      const double* block = blocks_.shape_derivatives->block(c.shape);
+      for (int k = 0; k < n; ++k) {
+        if (!follows(c.column, k)) continue;
+        const double factor = blocks_.numbering.mesh[VectorLayout<n>::vector(c.column, k)].factor /
+                              blocks_.numbering.fluid[MixedLayout<n>::vector(c.column, k)].factor;
+        for (int i = 0; i < n; ++i)
+          if (layout_.is_free(false, c.row, i)) visit(c, i, k, factor * block[VectorLayout<n>::vector(i, k)]);
+      }
+    }
+  }
 
   /// The node's displacement has the unknown of its velocity.
   bool follows(int node, int k) const {

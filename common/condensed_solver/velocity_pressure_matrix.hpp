@@ -92,6 +92,18 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
     }
   }
 
+  /// y = F x without shape derivatives, in double precision and not padded, as far as single precision goes.
+  void multiply_at_rest(const std::vector<double>& x, std::vector<double>& y) const {
+    double largest = 0;  // which x is scaled by: the range of single precision is short
+    for (const double value : x) largest = std::max(largest, std::abs(value));
+    const double scale = largest > 0 ? largest : 1;
+    take(x, 1 / scale, single_x_);
+    single_y_.resize(size());
+    multiply(single_x_, single_y_);
+    give(single_y_, scale, y);
+    shape_derivatives_->subtract_product(x, y);
+  }
+
   /// Blocks begin ... end - 1 of A times x.
   Nodal momentum_product(int begin, int end, const float* x) const {
     return momentum_.product(begin, end, x);
@@ -212,6 +224,7 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
   std::vector<float> gradient_;  ///< `lanes` numbers a block
   std::vector<int> continuity_offsets_, continuity_velocities_, continuity_pressures_;
   std::vector<float> divergence_, compressibility_;  ///< B, `lanes` numbers a block, and C
+  mutable std::vector<float> single_x_, single_y_;   ///< of multiply_at_rest()
 };
 
 }  // namespace fsi

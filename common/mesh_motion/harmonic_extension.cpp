@@ -14,7 +14,9 @@ namespace fsi {
 
 namespace {
 
-constexpr int chunk_rows = 2048;  // of a partial sum: fixed, so that sums do not depend on the number of threads
+constexpr double several = 10;        // times the residual of a known solution: what others have at most
+constexpr int most_corrections = 20;  // of a solution by factors in single precision
+constexpr int chunk_rows = 2048;      // of a partial sum: fixed, so that sums do not depend on the number of threads
 
 /// m scalar products of vectors that hold m numbers a row.
 template <int m>
@@ -56,7 +58,21 @@ HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std:
   assert(inner_.size() == static_cast<std::size_t>(laplacian.graph->rows()) * n);
   values_.resize(inner_.size());
   rows_ = values_;
+  find_nodes_beside_given();
   build_groups();
+}
+
+template <int n>
+void HarmonicExtension<n>::find_nodes_beside_given() {
+  const NodeGraph& graph = *laplacian_.graph;
+  const auto has_given = [&](int node) {
+    const char* inner = inner_.data() + VectorLayout<n>::vector(node, 0);
+    return std::find(inner, inner + n, char{0}) != inner + n;
+  };
+  for (int node = 0; node < graph.rows(); ++node) {
+    const auto begin = graph.columns.begin() + graph.offsets[node];
+    if (std::any_of(begin, graph.columns.begin() + graph.offsets[node + 1], has_given)) beside_given_.push_back(node);
+  }
 }
 
 template <int n>
@@ -172,6 +188,7 @@ void HarmonicExtension<n>::factorise(Group& group) {
     a.offsets.push_back(static_cast<std::int64_t>(a.rows.size()));
   }
   group.solver.factorise(a);
+  if (options_.single_precision) group.solver.reduce_precision(a);
 }
 
 template <int n>
@@ -180,9 +197,8 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
   iterations_ = 0;
 #pragma omp parallel for schedule(static) if (inner_.size() > 50000)
   for (std::size_t i = 0; i < inner_.size(); ++i) values_[i] = inner_[i] ? 0 : field[i];
-  if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
-  multiply_components<n>(laplacian_, values_, rows_);
-  if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);
+  apply_operator_to_given();
+  double expected = 0;  // of the residual, by factors in single precision
   for (Group& group : groups_) {
     if (group.entry.empty()) continue;
     if (group.iterative) {
@@ -193,13 +209,42 @@ void HarmonicExtension<n>::solve(const std::vector<double>& right, std::vector<d
       if (converged) continue;
       if (!group.solver.factorised()) factorise(group);
     }
-    solve_directly(group, right, field);
+    for (std::size_t c = 0; c < group.offset.size(); ++c)
+      for (const std::size_t entry : group.entry) field[entry + group.offset[c]] = 0;
+    add_solution(group, right, field);
+    expected = std::max(expected, group.solver.residual());
   }
+  if (tolerance < several * expected) refine(right, field, tolerance, residual(right));
 }
 
 template <int n>
-void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<double>& right,
-                                          std::vector<double>& field) {
+void HarmonicExtension<n>::apply_operator() {
+  if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
+  multiply_components<n>(laplacian_, values_, rows_);
+  if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);
+}
+
+template <int n>
+void HarmonicExtension<n>::apply_operator_to_given() {
+  const NodeGraph& graph = *laplacian_.graph;
+  if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
+  std::fill(rows_.begin(), rows_.end(), 0.0);
+#pragma omp parallel for schedule(static) if (beside_given_.size() > 5000)
+  for (std::size_t i = 0; i < beside_given_.size(); ++i) {
+    const int node = beside_given_[i];
+    double* row = rows_.data() + VectorLayout<n>::vector(node, 0);
+    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
+      const double* numbers = laplacian_.block(at);
+      const double* value = values_.data() + VectorLayout<n>::vector(graph.columns[at], 0);
+      for (int k = 0; k < n; ++k) row[k] += numbers[k] * value[k];
+    }
+  }
+  if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);
+}
+
+template <int n>
+void HarmonicExtension<n>::add_solution(const Group& group, const std::vector<double>& right,
+                                        std::vector<double>& field) {
   const std::size_t rows = group.entry.size(), count = group.offset.size();
   right_.resize(rows * count);
   for (std::size_t c = 0; c < count; ++c)
@@ -209,7 +254,36 @@ void HarmonicExtension<n>::solve_directly(const Group& group, const std::vector<
     }
   group.solver.solve(right_, static_cast<int>(count), solution_);
   for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] = solution_[c * rows + i];
+    for (std::size_t i = 0; i < rows; ++i) field[group.entry[i] + group.offset[c]] += solution_[c * rows + i];
+}
+
+template <int n>
+void HarmonicExtension<n>::refine(const std::vector<double>& right, std::vector<double>& field, double tolerance,
+                                  double reference) {
+  double last = reference;
+  for (int k = 0; k < most_corrections; ++k) {
+    values_ = field;
+    apply_operator();
+    const double left = residual(right);
+    if (left <= tolerance * reference || !(left < 0.5 * last)) return;
+    last = left;
+    for (const Group& group : groups_)
+      if (group.solver.residual() > 0) add_solution(group, right, field);
+  }
+}
+
+template <int n>
+double HarmonicExtension<n>::residual(const std::vector<double>& right) const {
+  double sum = 0;
+  for (const Group& group : groups_) {
+    if (!(group.solver.residual() > 0)) continue;
+    for (const std::size_t offset : group.offset)
+      for (const std::size_t entry : group.entry) {
+        const double lack = right[entry + offset] - rows_[entry + offset];
+        sum += lack * lack;
+      }
+  }
+  return std::sqrt(sum);
 }
 
 /// Preconditioned conjugate gradients, one of their own for each component, in step. beta = z . (r - r_old) / rho_old

@@ -261,6 +261,60 @@ TEST(CholeskySolver, TakesNewMatricesAndIsMoved) {
   EXPECT_LT(largest_difference(a, b, x), 1e-13);
 }
 
+/// Of a cube of 18^3 unknowns, which has supernodes wider than a panel.
+TEST(CholeskySolver, InSinglePrecisionSolvesToSixDigitsInHalfTheMemory) {
+  const auto a = laplacian_of_a_cube(18, 0.1);
+  const auto rows = static_cast<std::size_t>(a.size());
+  CholeskySolver solver, exact;
+  solver.factorise(a);
+  exact.factorise(a);
+  EXPECT_EQ(solver.residual(), 0);
+  solver.reduce_precision(a);
+  EXPECT_GT(solver.residual(), 1e-9);
+  EXPECT_LT(solver.residual(), 3e-6);
+  EXPECT_LT(solver.bytes(), 0.6 * exact.bytes());
+  for (const int count : {1, 3, 2}) {
+    auto b = random_vector(rows * static_cast<std::size_t>(count), 4);
+    for (std::size_t i = 0; i < rows; ++i) b[i] *= 1e40;  // beyond the range of single precision
+    std::vector<double> x, reference;
+    solver.solve(b, count, x);
+    exact.solve(b, count, reference);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      double error = 0, whole = 0;
+      for (std::size_t i = k * rows; i < (k + 1) * rows; ++i) {
+        error += (x[i] - reference[i]) * (x[i] - reference[i]) / (k == 0 ? 1e80 : 1);
+        whole += reference[i] * reference[i] / (k == 0 ? 1e80 : 1);
+      }
+      EXPECT_LT(std::sqrt(error / whole), 1e-5) << count << ' ' << k;
+      EXPECT_GT(std::sqrt(error / whole), 1e-9) << count << ' ' << k;  // or it would not be what is tested here
+    }
+  }
+  solver.factorise(a);
+  EXPECT_EQ(solver.residual(), 0);
+}
+
+/// A matrix next to singular, to whose solution the digits that are rounded off matter.
+TEST(CholeskySolver, StaysInDoublePrecisionWhereSingleDoesNotServe) {
+  auto a = laplacian_of_a_cube(14, 0);
+  for (std::int64_t column = 0; column < a.size(); ++column) {  // rows sum up to 1e-9: a constant is next to its kernel
+    double sum = 0;
+    std::int64_t diagonal = -1;
+    for (auto k = a.offsets[column]; k < a.offsets[column + 1]; ++k) {
+      if (a.rows[k] == column)
+        diagonal = k;
+      else
+        sum += a.values[k];
+    }
+    a.values[diagonal] = 1e-9 - sum;
+  }
+  CholeskySolver solver;
+  solver.factorise(a);
+  const double bytes = solver.bytes();
+  solver.reduce_precision(a);
+  EXPECT_EQ(solver.bytes(), bytes);
+  EXPECT_EQ(solver.residual(), 0);
+}
+
 TEST(CholeskySolver, RefusesWhatIsNotPositiveDefinite) {
   for (const int size : {4, 14}) {
     CholeskySolver solver;

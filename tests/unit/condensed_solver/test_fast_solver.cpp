@@ -77,7 +77,9 @@ TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
     const auto report = solver.solve(artery().b(), tolerance, x);
     jacobian.multiply(x, product);
     EXPECT_LE(relative_difference(product, artery().b()), tolerance);
-    EXPECT_NEAR(relative_difference(product, artery().b()), report.relative_residual, 1e-12);
+    // Loose ones are found in single precision, and without the mesh's own equations.
+    const double digits = tolerance >= 1e-3 ? 1e-7 : 1e-12;
+    EXPECT_NEAR(relative_difference(product, artery().b()), report.relative_residual, digits) << tolerance;
     EXPECT_GT(report.iterations, last);
     last = report.iterations;
   }

@@ -118,9 +118,14 @@ TEST(HarmonicExtension, FramesMixComponents) {
     }
   HarmonicExtension<3> by_factors(problem.laplacian, problem.inner, direct(), &frames),
       by_iteration(problem.laplacian, problem.inner, iterative(), &frames);
-  auto first = problem.field, second = problem.field;
+  auto in_single = direct();
+  in_single.single_precision = true;
+  HarmonicExtension<3> by_single_factors(problem.laplacian, problem.inner, in_single, &frames);
+  auto first = problem.field, second = problem.field, third = problem.field;
   by_factors.solve(problem.right, first);
   by_iteration.solve(problem.right, second);
+  by_single_factors.solve(problem.right, third);
+  EXPECT_LT(largest_difference(first, third), 1e-10);
   EXPECT_FALSE(by_factors.iterates());
   EXPECT_TRUE(by_iteration.iterates());
   EXPECT_LT(by_iteration.iterations(), 30);
@@ -146,6 +151,25 @@ TEST(HarmonicExtension, ComponentsMayBeGivenOneByOne) {
   for (char& inner : problem.inner)
     if (random() > 0.8) inner = 0;
   expect_both_ways_agree(problem);
+}
+
+/// Components that share a matrix, and one with a matrix of its own.
+TEST(HarmonicExtension, FactorsInSinglePrecisionSolveToWhatIsDemanded) {
+  const Problem problem(18, 2.5);
+  auto options = direct();
+  HarmonicExtension<3> exact(problem.laplacian, problem.inner, options);
+  options.single_precision = true;
+  HarmonicExtension<3> extension(problem.laplacian, problem.inner, options);
+  EXPECT_LT(extension.memory_mib(), 0.6 * exact.memory_mib());
+  auto reference = problem.field;
+  exact.solve(problem.right, reference);
+  for (const double tolerance : {1e-3, 1e-7, 1e-12}) {
+    auto field = problem.field;
+    extension.solve(problem.right, field, tolerance);
+    EXPECT_LT(problem.residual(field), std::min(tolerance, 1e-4)) << tolerance;
+    EXPECT_LT(largest_difference(field, reference), std::min(10 * tolerance, 1e-4)) << tolerance;
+    EXPECT_EQ(problem.residual(field) > 1e-10, tolerance == 1e-3) << tolerance;
+  }
 }
 
 TEST(HarmonicExtension, TheIterationStartsFromTheGivenField) {
