@@ -58,20 +58,27 @@ HarmonicExtension<n>::HarmonicExtension(const BlockMatrix<1, n>& laplacian, std:
   assert(inner_.size() == static_cast<std::size_t>(laplacian.graph->rows()) * n);
   values_.resize(inner_.size());
   rows_ = values_;
-  find_nodes_beside_given();
+  find_couplings_to_given();
   build_groups();
 }
 
 template <int n>
-void HarmonicExtension<n>::find_nodes_beside_given() {
+void HarmonicExtension<n>::find_couplings_to_given() {
   const NodeGraph& graph = *laplacian_.graph;
   const auto has_given = [&](int node) {
     const char* inner = inner_.data() + VectorLayout<n>::vector(node, 0);
     return std::find(inner, inner + n, char{0}) != inner + n;
   };
+  coupling_offsets_ = {0};
   for (int node = 0; node < graph.rows(); ++node) {
-    const auto begin = graph.columns.begin() + graph.offsets[node];
-    if (std::any_of(begin, graph.columns.begin() + graph.offsets[node + 1], has_given)) beside_given_.push_back(node);
+    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at)
+      if (has_given(graph.columns[at])) {
+        couplings_.push_back({graph.columns[at], {}});
+        blocks_.push_back(at);
+      }
+    if (static_cast<int>(couplings_.size()) == coupling_offsets_.back()) continue;
+    beside_given_.push_back(node);
+    coupling_offsets_.push_back(static_cast<int>(couplings_.size()));
   }
 }
 
@@ -82,6 +89,8 @@ void HarmonicExtension<n>::update() {
 
 template <int n>
 void HarmonicExtension<n>::build_groups() {
+  for (std::size_t c = 0; c < couplings_.size(); ++c)
+    std::copy_n(laplacian_.block(blocks_[c]), n, couplings_[c].numbers);
   groups_.clear();
   for (int k = 0; k < n; ++k) {
     const bool mixed = is_mixed(k);
@@ -226,17 +235,14 @@ void HarmonicExtension<n>::apply_operator() {
 
 template <int n>
 void HarmonicExtension<n>::apply_operator_to_given() {
-  const NodeGraph& graph = *laplacian_.graph;
   if (frames_) frames_->template to_space<VectorLayout<n>>(values_);
   std::fill(rows_.begin(), rows_.end(), 0.0);
 #pragma omp parallel for schedule(static) if (beside_given_.size() > 5000)
   for (std::size_t i = 0; i < beside_given_.size(); ++i) {
-    const int node = beside_given_[i];
-    double* row = rows_.data() + VectorLayout<n>::vector(node, 0);
-    for (int at = graph.offsets[node]; at < graph.offsets[node + 1]; ++at) {
-      const double* numbers = laplacian_.block(at);
-      const double* value = values_.data() + VectorLayout<n>::vector(graph.columns[at], 0);
-      for (int k = 0; k < n; ++k) row[k] += numbers[k] * value[k];
+    double* row = rows_.data() + VectorLayout<n>::vector(beside_given_[i], 0);
+    for (int c = coupling_offsets_[i]; c < coupling_offsets_[i + 1]; ++c) {
+      const double* value = values_.data() + VectorLayout<n>::vector(couplings_[c].column, 0);
+      for (int k = 0; k < n; ++k) row[k] += couplings_[c].numbers[k] * value[k];
     }
   }
   if (frames_) frames_->template to_frames<VectorLayout<n>>(rows_);

@@ -84,8 +84,8 @@ class HarmonicExtension : public MeshExtension<n> {
   template <class Visit>
   void for_row(const Group& group, std::size_t row, Visit visit) const;
   void factorise(Group& group);
-  /// Fills beside_given_.
-  void find_nodes_beside_given();
+  /// Fills beside_given_ and what goes with it, but for numbers.
+  void find_couplings_to_given();
   /// rows_ = A values_, in the frames.
   void apply_operator();
   /// The same where inner values are zero.
@@ -105,7 +105,16 @@ class HarmonicExtension : public MeshExtension<n> {
   HarmonicExtensionOptions options_;
   const NodalFrames<n>* frames_;
   std::vector<Group> groups_;
-  std::vector<int> beside_given_;  ///< nodes that have a neighbour, or are one, of which some component is given
+  /// A node of which some component is given, and the numbers by which another one's rows, or its own, know it: a copy, for
+  /// they lie far apart in the matrix.
+  struct Coupling {
+    int column;
+    double numbers[n];
+  };
+  std::vector<int> beside_given_;      ///< nodes whose rows have such couplings
+  std::vector<int> coupling_offsets_;  ///< per such node, into the list that follows
+  std::vector<Coupling> couplings_;
+  std::vector<int> blocks_;  ///< of the matrix, that these are copies of
   int iterations_ = 0;
   std::vector<double> values_, rows_, right_, solution_;
 };
