@@ -49,6 +49,11 @@ struct FastSolver<n>::Iterative : CycledMedium {
     y.resize(matrix.size());
     preconditioner.apply(x, y);
   }
+  void cycle(const std::vector<float>& x, std::vector<float>& y, std::vector<float>& product) override {
+    y.resize(matrix.size());
+    product.resize(matrix.size());
+    preconditioner.apply(x, y, product);
+  }
   void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
     layout.take(of_system, mine);
   }
@@ -183,8 +188,7 @@ LinearReport FastSolver<n>::iterate(const std::vector<double>& b, double toleran
   const auto inner = [&](const std::vector<double>& right, double scale, double wanted, std::vector<double>& solution) {
     // Scaled to one, so that small residuals do not leave the range of single precision.
     it.matrix.take(right, 1 / scale, it.single_right);
-    const auto solved = it.gmres.solve([&](const auto& in, auto& out) { it.matrix.multiply(in, out); },
-                                       [&](const auto& in, auto& out) { it.preconditioner.apply(in, out); },
+    const auto solved = it.gmres.solve([&](const auto& r, auto& z, auto& y) { it.preconditioner.apply(r, z, y); },
                                        it.single_right, it.single_solution, wanted, options_.restart);
     it.matrix.give(it.single_solution, scale, solution);
     return solved.iterations;

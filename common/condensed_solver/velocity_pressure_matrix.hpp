@@ -77,6 +77,11 @@ class VelocityPressureMatrix : public VelocityPressureBlocks<n> {
       const Nodal sum = momentum_product(momentum_.offsets[v], momentum_.offsets[v + 1], x.data());
       store(sum + gradient_product(v, pressure), y.data() + static_cast<std::size_t>(v) * lanes);
     }
+    multiply_continuity(x, y);
+  }
+  /// The pressures' rows of it.
+  void multiply_continuity(const std::vector<float>& x, std::vector<float>& y) const {
+    const float* pressure = x.data() + velocity_size();
     float* rows = y.data() + velocity_size();
 #pragma omp parallel for schedule(static) if (layout_.pressures > 500)
     for (int p = 0; p < layout_.pressures; ++p) {

@@ -20,6 +20,11 @@ class CycledMedium {
   virtual void multiply(const std::vector<float>& x, std::vector<float>& y) const = 0;
   /// y, resized, is about J^-1 x.
   virtual void cycle(const std::vector<float>& x, std::vector<float>& y) = 0;
+  /// Besides, product = J y: a cycle may know half of it.
+  virtual void cycle(const std::vector<float>& x, std::vector<float>& y, std::vector<float>& product) {
+    cycle(x, y);
+    multiply(y, product);
+  }
 
   /// Of a vector of the system, equations or unknowns, those of velocities and pressures.
   virtual void order(const std::vector<double>& of_system, std::vector<double>& mine) const = 0;

@@ -66,6 +66,8 @@ class LowRankCycle : public CycledMedium {
     }
   }
 
+  using CycledMedium::cycle;
+
   void order(const std::vector<double>& of_system, std::vector<double>& mine) const override {
     medium_.order(of_system, mine);
   }

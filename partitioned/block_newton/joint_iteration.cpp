@@ -96,34 +96,25 @@ void JointIteration<n>::load_wall(const Parts& z, float sign, std::vector<float>
 }
 
 template <int n>
-void JointIteration<n>::multiply(const std::vector<float>& x, std::vector<float>& y, const Seconds& seconds) {
-  split(x, in_);
-  out_.datum.resize(in_.datum.size());
-  {
-    const Stopwatch watch(seconds.fluid);
-    fluid_->multiply(in_.fluid, out_.fluid);
-  }
-  {
-    const Stopwatch watch(seconds.wall);
-    wall_->multiply(in_.wall, out_.wall);
-  }
+void JointIteration<n>::add_interface_terms(const Parts& z, Parts& products) const {
+  products.datum.resize(z.datum.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    const Vector fluid = vector_at(in_.fluid, link.fluid, link.fluid_axes);
-    const Vector wall = vector_at(in_.wall, link.wall, link.wall_axes);
+    const Vector fluid = vector_at(z.fluid, link.fluid, link.fluid_axes);
+    const Vector wall = vector_at(z.wall, link.wall, link.wall_axes);
     Vector force;
     for (int k = 0; k < n; ++k) {
-      force[k] = -link.impedance * in_.datum[i * n + k];
-      out_.datum[i * n + k] = weight_of_gap * link.impedance * (wall[k] - fluid[k]);
+      force[k] = -link.impedance * z.datum[i * n + k];
+      products.datum[i * n + k] = weight_of_gap * link.impedance * (wall[k] - fluid[k]);
     }
-    add_to(force, link.fluid, link.fluid_axes, link.fluid_free, out_.fluid);
+    add_to(force, link.fluid, link.fluid_axes, link.fluid_free, products.fluid);
   }
-  load_wall(in_, -1, out_.wall);
-  join(out_, y);
+  load_wall(z, -1, products.wall);
 }
 
 template <int n>
-void JointIteration<n>::pass(const std::vector<float>& r, std::vector<float>& z, const Seconds& seconds) {
+void JointIteration<n>::pass(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& y,
+                             const Seconds& seconds) {
   split(r, in_);
   out_.datum.resize(in_.datum.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -137,14 +128,16 @@ void JointIteration<n>::pass(const std::vector<float>& r, std::vector<float>& z,
   }
   {
     const Stopwatch watch(seconds.fluid);
-    fluid_->cycle(in_.fluid, out_.fluid);
+    fluid_->cycle(in_.fluid, out_.fluid, products_.fluid);
   }
   load_wall(out_, 1, in_.wall);
   {
     const Stopwatch watch(seconds.wall);
-    wall_->cycle(in_.wall, out_.wall);
+    wall_->cycle(in_.wall, out_.wall, products_.wall);
   }
   join(out_, z);
+  add_interface_terms(out_, products_);
+  join(products_, y);
 }
 
 template <int n>
@@ -152,9 +145,8 @@ int JointIteration<n>::solve(Parts& right, double tolerance, int most_iterations
                              const Seconds& seconds) {
   for (float& value : right.datum) value *= weight_of_gap;
   join(right, right_);
-  const auto report = gmres_.solve([&](const auto& in, auto& out) { multiply(in, out, seconds); },
-                                   [&](const auto& in, auto& out) { pass(in, out, seconds); }, right_, solution_,
-                                   tolerance, most_iterations);
+  const auto report = gmres_.solve([&](const auto& residual, auto& z, auto& y) { pass(residual, z, y, seconds); },
+                                   right_, solution_, tolerance, most_iterations);
   split(solution_, solution);
   return report.iterations;
 }

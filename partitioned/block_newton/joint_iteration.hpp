@@ -59,15 +59,17 @@ class JointIteration {
   void split(const std::vector<float>& x, Parts& parts) const;
   /// wall += C (z_f - x)
   void load_wall(const Parts& z, float sign, std::vector<float>& wall) const;
-  void multiply(const std::vector<float>& x, std::vector<float>& y, const Seconds& seconds);
-  void pass(const std::vector<float>& r, std::vector<float>& z, const Seconds& seconds);
+  /// z = the pass's answer to r, y = the matrix times z.
+  void pass(const std::vector<float>& r, std::vector<float>& z, std::vector<float>& y, const Seconds& seconds);
+  /// Adds what the interface's terms make of z to the products of the media's own Jacobians; the datum's are set.
+  void add_interface_terms(const Parts& z, Parts& products) const;
 
   const Scene<n>& scene_;
   const Numbering &fluid_numbering_, &wall_numbering_;
   CycledMedium *fluid_ = nullptr, *wall_ = nullptr;
   std::vector<Link> links_;
   SingleGmres gmres_;
-  Parts in_, out_;
+  Parts in_, out_, products_;
   std::vector<float> right_, solution_;
 };
 

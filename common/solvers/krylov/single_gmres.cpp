@@ -57,6 +57,16 @@ void SingleGmres::orthogonalise(int count, std::vector<float>& w, std::vector<do
 
 SingleGmres::Report SingleGmres::solve(const Operator& a, const Operator& inverse, const std::vector<float>& b,
                                        std::vector<float>& x, double tolerance, int max_iterations) {
+  return solve(
+      [&](const auto& in, auto& z, auto& y) {
+        inverse(in, z);
+        a(z, y);
+      },
+      b, x, tolerance, max_iterations);
+}
+
+SingleGmres::Report SingleGmres::solve(const PreconditionedOperator& both, const std::vector<float>& b,
+                                       std::vector<float>& x, double tolerance, int max_iterations) {
   assert(max_iterations >= 0);
   Report report;
   tolerance = std::max(tolerance, smallest_tolerance);
@@ -82,9 +92,8 @@ SingleGmres::Report SingleGmres::solve(const Operator& a, const Operator& invers
   while (report.iterations < max_iterations) {
     const int k = report.iterations++;
     std::vector<float>& z = vector(directions_, k);
-    inverse(basis_[k], z);
     std::vector<float>& w = vector(basis_, k + 1);
-    a(z, w);
+    both(basis_[k], z, w);
     orthogonalise(k + 1, w, column);
     const double subdiagonal = column[k + 1];
     double size_of_column = 0;

@@ -12,6 +12,9 @@ namespace fsi {
 class SingleGmres {
  public:
   using Operator = std::function<void(const std::vector<float>& x, std::vector<float>& y)>;
+  /// z = M^-1 x and y = A z, for who finds both together more cheaply.
+  using PreconditionedOperator =
+      std::function<void(const std::vector<float>& x, std::vector<float>& z, std::vector<float>& y)>;
   static constexpr double smallest_tolerance = 1e-4;  ///< of one call
 
   struct Report {
@@ -25,6 +28,8 @@ class SingleGmres {
   /// \param max_iterations  at most this many directions; no restart
   Report solve(const Operator& a, const Operator& inverse, const std::vector<float>& b, std::vector<float>& x,
                double tolerance, int max_iterations);
+  Report solve(const PreconditionedOperator& both, const std::vector<float>& b, std::vector<float>& x, double tolerance,
+               int max_iterations);
 
   std::size_t bytes() const;
 

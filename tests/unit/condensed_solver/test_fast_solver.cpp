@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/threads.hpp"
 #include "condensed_solver/fast_solver.hpp"
+#include "condensed_solver/velocity_pressure_preconditioner.hpp"
 #include "fast_solutions.hpp"
 #include "fem/p1_tetrahedron.hpp"
 #include "fem/p1_triangle.hpp"
@@ -14,6 +17,7 @@
 #include "mesh/mid_edge_nodes.hpp"
 #include "support/linear_systems.hpp"
 #include "support/partly_fixed.hpp"
+#include "support/random.hpp"
 #include "system/jacobian_product.hpp"
 
 namespace fsi::test {
@@ -82,6 +86,37 @@ TEST(FastSolver, LooseTolerancesAreMetWithFewerIterations) {
     EXPECT_NEAR(relative_difference(product, artery().b()), report.relative_residual, digits) << tolerance;
     EXPECT_GT(report.iterations, last);
     last = report.iterations;
+  }
+}
+
+/// Half of the product of F with the preconditioner's answer is known from its last sweep.
+TEST(FastSolver, ThePreconditionerKnowsTheProductWithItsAnswer) {
+  VelocityPressureLayout<3> layout(artery().blocks());
+  VelocityPressureMatrix<3> matrix(artery().blocks(), layout);
+  matrix.fill();
+  for (const auto& [sweeps, coarse_from] :
+       {std::pair(1, 1e30), std::pair(2, 1e30), std::pair(1, 0.0), std::pair(2, 0.0)}) {
+    VelocityPressurePreconditioner<3>::Options options;
+    options.momentum_sweeps = sweeps;
+    options.coarse_from = coarse_from;
+    VelocityPressurePreconditioner<3> preconditioner(matrix, options);
+    preconditioner.set_up();
+    EXPECT_EQ(preconditioner.has_wall_levels(), coarse_from == 0);
+    std::vector<double> right(layout.size());
+    Random random(5);
+    for (double& value : right) value = random();
+    std::vector<float> r, z(matrix.size()), alone(z), product(z), expected(z);
+    matrix.take(right, 1, r);
+    preconditioner.apply(r, alone);
+    preconditioner.apply(r, z, product);
+    EXPECT_EQ(z, alone);
+    matrix.multiply(z, expected);
+    double apart = 0, whole = 0;
+    for (std::size_t i = 0; i < product.size(); ++i) {
+      apart += std::pow(product[i] - expected[i], 2);
+      whole += std::pow(expected[i], 2);
+    }
+    EXPECT_LT(std::sqrt(apart / whole), 3e-6) << sweeps << ' ' << coarse_from;
   }
 }
 

@@ -114,8 +114,14 @@ TEST(JointIteration, CyclesKnowTheJacobian) {
     apart = std::max(apart, std::abs(product[i] - expected[i]));
   }
   EXPECT_LT(apart, 1e-5f * size);
-  // A cycle answers to the product by about the vector itself.
-  medium->cycle(product, answer);
+  // A cycle answers to the product by about the vector itself, and knows the product with its answer.
+  std::vector<float> of_answer;
+  medium->cycle(product, answer, of_answer);
+  expected.assign(answer.size(), 0.0F);
+  medium->multiply(answer, expected);
+  apart = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) apart = std::max(apart, std::abs(of_answer[i] - expected[i]));
+  EXPECT_LT(apart, 1e-5f * size);
   double left = 0, all = 0;
   for (std::size_t i = 0; i < single.size(); ++i) {
     left += std::pow(answer[i] - single[i], 2);
