@@ -48,7 +48,9 @@ class Calibration(FamilyStudyCase):
         row = rows["tip: displacement x, at the end"]
         self.assertEqual((row["truth_from"], float(row["truth"])), ("exact", float(np.sin(1))))
         # 4 cells and steps of 0.5 ms: what the fake driver makes of both, and of its tolerance
-        self.assertAlmostEqual(float(row["true_error"]), np.sin(1) * (A * 2**3 + B + 1e-3 * ERROR_TOLERANCE), places=9)
+        self.assertAlmostEqual(
+            float(row["true_error"]), np.sin(1) * (A * 2**3 + B + 1e-3 * ERROR_TOLERANCE), places=9
+        )
         self.assertGreater(float(row["bar"]), float(row["true_error"]))
         self.assertEqual(rows["tip: pressure, at the end"]["truth_from"], "finer run")
 

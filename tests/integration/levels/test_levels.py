@@ -24,6 +24,12 @@ sys.path.insert(0, str(SOURCES / "compare"))
 from fsi_compare.studies.starting.programs import find_program  # noqa: E402
 
 
+# What hides instructions from the C library, or asks for a level: on a machine whose level is lowered it would reach the
+# programs that are tried here.
+for name in ("FSI_LEVEL", "GLIBC_TUNABLES"):
+    os.environ.pop(name, None)
+
+
 def levels_of_processor():
     """As the dynamic loader has them, which looks for libraries by level."""
     text = subprocess.run(["/lib64/ld-linux-x86-64.so.2", "--help"], capture_output=True, text=True, timeout=60).stdout
@@ -63,7 +69,7 @@ class Starter(unittest.TestCase):
             make_build(self.prefix, level)
 
     def start(self, *words, program=None, hidden=(), **environment):
-        known = {name: value for name, value in os.environ.items() if name not in ("FSI_LEVEL", "GLIBC_TUNABLES")}
+        known = dict(os.environ)
         if hidden:
             known["GLIBC_TUNABLES"] = "glibc.cpu.hwcaps=" + ",".join(HIDE[level] for level in hidden)
         command = [program or self.program, *words]
