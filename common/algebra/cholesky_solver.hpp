@@ -22,8 +22,8 @@ class CholeskySolver {
   /// \throws ConvergenceError when it is not positive definite, OutOfMemory before what will not fit
   void factorise(const SparseMatrix& a);
   bool factorised() const;
-  /// Keeps the factor in single precision: half the memory, and less than half of a solve's time. Only where a known solution
-  /// comes out with a residual of at most 1e-5; else it stays as it is.
+  /// Keeps the factor in single precision, in half the memory. Only where a known solution comes out with a residual of at most
+  /// 1e-5; else, and where the factor has no supernodes, it stays as it is.
   /// \param a  what was factorised
   void reduce_precision(const SparseMatrix& a);
   /// |b - A x| / |b| that solutions have, as far as known: of the known one. Zero of a factor in double precision.
